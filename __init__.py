@@ -1,0 +1,28 @@
+"""Kulman: a drafting machine in software for the theory of mechanisms and machines."""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .scales import KulmanError as KulmanError
+    from .variants import load_task as load_task
+    from .variants import sheet as sheet
+    from .variants import solve as solve
+
+__version__ = "0.1.0"
+__all__ = ["KulmanError", "__version__", "load_task", "sheet", "solve"]
+
+_HOMES = {"KulmanError": "scales", "load_task": "variants", "sheet": "variants", "solve": "variants"}
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name where it lives only when it is asked for (PEP 562), so that `list` imports no numpy."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(f".{_HOMES[name]}", __name__), name)
+
+
+def __dir__() -> list[str]:
+    """List the public names, loaded or not."""
+    return sorted(__all__)

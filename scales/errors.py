@@ -1,0 +1,62 @@
+"""The errors everybody raises: a key, the data that explain it, and the exit status they mean."""
+
+from __future__ import annotations
+
+import tomllib
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+LANGUAGES = ("uk", "ru", "en")
+
+
+@cache
+def messages(language: str) -> dict[str, str]:
+    """Return the templates of all messages in `language`, by key."""
+    text = files(__package__).joinpath("messages", f"{language}.toml").read_text(encoding="utf-8")
+    return tomllib.loads(text)
+
+
+class KulmanError(Exception):
+    """A problem that a user can mend: `key` names the message, `data` fills it in.
+
+    Parameters
+    ----------
+    key : str
+        Key of the template in `scales/messages/*.toml`.
+    **data
+        What the template names: `file`, `row`, `column`, `name`, `expected`, ...
+    """
+
+    status = 2
+
+    def __init__(self, key: str, /, **data: Any) -> None:
+        super().__init__(key)
+        self.key = key
+        self.data = data
+
+    def text(self, language: str = "en") -> str:
+        """Return the message as one line in `language`."""
+        line = messages(language)[self.key].format(**self.data)
+        return " ".join(line.split())
+
+    def __str__(self) -> str:
+        """Return the message in English."""
+        return self.text()
+
+
+class InputError(KulmanError, ValueError):
+    """What was asked or given cannot be used; nothing has been written."""
+
+
+class PositionError(KulmanError, ArithmeticError):
+    """The mechanism has no plan in this position: it is singular or cannot be assembled.
+
+    `status_word` is the status that JSON and batches use, `singular` or `no-assembly`.
+    """
+
+    status = 3
+
+    def __init__(self, key: str, /, *, status_word: str, **data: Any) -> None:
+        super().__init__(key, **data)
+        self.status_word = status_word
