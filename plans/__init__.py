@@ -1,0 +1,1 @@
+"""Constructions: the board, and what is built on it."""
