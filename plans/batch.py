@@ -1,0 +1,112 @@
+"""Many positions, variants or sizes at once: the exact board on numpy arrays, in chunks that fit the cache."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .board import Program
+from .exact import ILL, NAN, RIGHT, SINGULAR, STATUSES, TANGENT, ExactBoard, Status
+
+CHUNK = 8192
+_CODE = {status: code for code, status in enumerate(STATUSES)}
+
+
+class ArrayBoard(ExactBoard):
+    """N positions on arrays of shape (N,): a status per position in `codes`, NaN only where a position fails."""
+
+    def __init__(self, givens: Mapping[str, Any], size: int) -> None:
+        super().__init__(givens)
+        self.codes = np.zeros(size, np.int8)
+
+    @staticmethod
+    def _sqrt(square: Any) -> Any:
+        return np.sqrt(square)
+
+    @staticmethod
+    def _complex(real: Any, imag: Any) -> Any:
+        if not np.ndim(real) and not np.ndim(imag):
+            return complex(real, imag)
+        points = np.empty(np.broadcast_shapes(np.shape(real), np.shape(imag)), complex)
+        points.real, points.imag = real, imag
+        return points
+
+    def _turn(self, angle: Any) -> Any:
+        return self._complex(*(_without_rounding(part(angle)) for part in (np.cos, np.sin)))
+
+    def _mark(self, where: Any, status: Status) -> None:
+        np.maximum(self.codes, np.where(where, np.int8(_CODE[status]), np.int8(0)), out=self.codes)
+
+    def _lines_sine(self, sine: Any) -> Any:
+        size = np.abs(sine)
+        if size.min() >= ILL:  # false for NaN as well
+            return sine
+        self._mark(size < ILL, "ill-conditioned")
+        self._mark(size < SINGULAR, "singular")
+        return np.where(size < SINGULAR, NAN, sine)
+
+    def _half_chord(self, radius: Any, distance: Any) -> Any:
+        square = (radius - distance) * (radius + distance)
+        if not np.min(square) >= ILL * ILL * np.max(radius) ** 2:
+            out = square < -TANGENT * radius * radius
+            self._mark(square < ILL * ILL * radius * radius, "ill-conditioned")
+            self._mark(out, "no-assembly")
+            square = np.where(out, NAN, np.maximum(square, 0.0))
+        return np.sqrt(square)
+
+    def _arm(self, moment: Any, force: Any) -> Any:
+        size = np.sqrt(force.real * force.real + force.imag * force.imag)
+        return np.abs(moment) / np.where(size > 0.0, size, NAN)
+
+
+def _without_rounding(component: Any) -> Any:
+    size = np.abs(component)
+    return component if size.min() > RIGHT else np.where(size > RIGHT, component, 0.0)
+
+
+def batch(
+    program: Program, givens: Mapping[str, Any], wanted: Sequence[str], chunk: int = CHUNK
+) -> tuple[dict[str, NDArray[Any]], NDArray[np.int8]]:
+    """Run `program` for N positions and keep the `wanted` names.
+
+    Parameters
+    ----------
+    givens : mapping of str to float or float64 array of shape (N,)
+        Values in SI; at least one array.
+    wanted : sequence of str
+        Names to keep; steps that they do not need are not done.
+    chunk : int
+        Positions at a time.
+
+    Returns
+    -------
+    results : dict of str to array of shape (N,)
+        float64 for scalars, complex128 for vectors and points.
+    codes : int8 array of shape (N,)
+        Index into `STATUSES`.
+    """
+    arrays = {name: np.asarray(value, float) for name, value in givens.items() if np.ndim(value)}
+    fixed = {name: float(value) for name, value in givens.items() if not np.ndim(value)}
+    size = len(next(iter(arrays.values())))
+    program = program.needed_for(wanted)
+    drops = program.last_uses(wanted)
+    results: dict[str, NDArray[Any]] = {}
+    codes = np.empty(size, np.int8)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        for start in range(0, size, chunk):
+            part = slice(start, min(start + chunk, size))
+            board = ArrayBoard({**fixed, **{name: array[part] for name, array in arrays.items()}}, part.stop - start)
+            for step, dead in zip(program, drops, strict=True):
+                board.step(step.verb, step.name, *step.operands, law=step.law)
+                for name in dead:
+                    del board.values[name]
+            for name in wanted:
+                value = board.values[name]
+                if name not in results:
+                    results[name] = np.empty(size, np.result_type(value))
+                results[name][part] = value
+            codes[part] = board.codes
+    return results, codes

@@ -1,0 +1,159 @@
+"""The board: the verbs of ruler, compass and set square, each one step on names.
+
+A construction speaks to a board in verbs whose operands are names of marks, directions and quantities. Every verb goes
+through one funnel, `step`, so that a board of another kind (recording, exact, with a shaky hand, with a student's
+values, with one rule broken, tracing) is one class with one method.
+
+A name with a dot, `velocity.B`, is a mark of that plan; a name that begins with an underscore is an intermediate value;
+marks of the mechanism itself are bare letters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import chain as concatenate
+
+POSITION = "position"
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step of a construction: what is done, the name it makes, the names it needs, and the law of a calculation."""
+
+    verb: str
+    name: str
+    operands: tuple[str, ...]
+    law: str = ""
+
+    @property
+    def plan(self) -> str:
+        """The plan on which the step draws: that of the mark it makes, or of the mark it reads from."""
+        mark = self.operands[0] if self.verb == "read" else self.name
+        plan, dot, _ = mark.rpartition(".")
+        return plan if dot else POSITION
+
+
+class Board:
+    """Verbs for constructions; a kind of board says what a step does."""
+
+    def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
+        """Do one step: make `name` from `operands`."""
+        raise NotImplementedError
+
+    def place(self, name: str, x: str, y: str) -> None:
+        """Mark the point with the coordinates `x`, `y`."""
+        self.step("place", name, x, y)
+
+    def pole(self, name: str) -> None:
+        """Choose the pole of a plan: its origin."""
+        self.step("pole", name)
+
+    def turn(self, name: str, angle: str) -> None:
+        """Lay off `angle` with the protractor: the unit direction at that angle."""
+        self.step("turn", name, angle)
+
+    def direction(self, name: str, start: str, end: str, length: str) -> None:
+        """Take the unit direction from `start` to `end`, which are `length` apart."""
+        self.step("direction", name, start, end, length)
+
+    def normal(self, name: str, vector: str) -> None:
+        """Turn a direction or a vector by +90 degrees with the set square."""
+        self.step("normal", name, vector)
+
+    def lay(self, name: str, start: str, direction: str, length: str) -> None:
+        """Lay off `length` (signed) from `start` along the unit `direction`."""
+        self.step("lay", name, start, direction, length)
+
+    def back(self, name: str, start: str, direction: str, length: str) -> None:
+        """Lay off `length` (signed) from `start` against the unit `direction`."""
+        self.step("back", name, start, direction, length)
+
+    def chain(self, name: str, start: str, vector: str) -> None:
+        """Hang `vector` on `start`: tip to tail."""
+        self.step("chain", name, start, vector)
+
+    def meet(self, name: str, p: str, u: str, q: str, w: str) -> None:
+        """Mark where the line through `p` along `u` meets the line through `q` along `w` (unit directions)."""
+        self.step("meet", name, p, u, q, w)
+
+    def arc(self, name: str, centre: str, radius: str, q: str, w: str, side: str) -> None:
+        """Mark where the arc about `centre` crosses the line through `q` along `w`, on the side +1 or -1 of the two."""
+        self.step("arc", name, centre, radius, q, w, side)
+
+    def divide(self, name: str, start: str, end: str, part: str, whole: str) -> None:
+        """Divide start-end in the ratio part : whole, counted from `start` (theorem of similarity on a line)."""
+        self.step("divide", name, start, end, part, whole)
+
+    def read(self, name: str, tail: str, tip: str) -> None:
+        """Read a vector off the plan: the quantity `name` from `tail` to `tip`."""
+        self.step("read", name, tail, tip)
+
+    def moment(self, name: str, arm: str, force: str, at: str, about: str) -> None:
+        """Take the moment of `force`, applied at `at`, about `about`; the arm is measured on the drawing."""
+        self.step("moment", name, force, at, about)
+        self.step("arm", arm, name, force)
+
+    def calc(self, name: str, law: str, *names: str) -> None:
+        """Calculate `name` by a law of `laws.py`."""
+        self.step("calc", name, *names, law=law)
+
+
+class RecordingBoard(Board):
+    """A board that notes the steps and computes nothing."""
+
+    def __init__(self) -> None:
+        self.steps: list[Step] = []
+
+    def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
+        """Note the step."""
+        self.steps.append(Step(verb, name, operands, law))
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """A construction as it was recorded: straight steps on names, in order."""
+
+    steps: tuple[Step, ...]
+
+    def __iter__(self) -> Iterator[Step]:
+        """Go through the steps in order."""
+        return iter(self.steps)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All names that the steps make, in order."""
+        return tuple(step.name for step in self.steps)
+
+    @property
+    def plans(self) -> tuple[str, ...]:
+        """The plans that are drawn, in order."""
+        return tuple(dict.fromkeys(step.plan for step in self.steps if step.verb != "calc"))
+
+    def on(self, plan: str) -> tuple[Step, ...]:
+        """Return the steps drawn on `plan`."""
+        return tuple(step for step in self.steps if step.plan == plan)
+
+    def needed_for(self, wanted: Iterable[str]) -> Program:
+        """Keep only the steps that `wanted` needs."""
+        needed, kept = set(wanted), []
+        for step in reversed(self.steps):
+            if step.name in needed:
+                needed.update(step.operands)
+                kept.append(step)
+        return Program(tuple(reversed(kept)))
+
+    def last_uses(self, wanted: Iterable[str]) -> tuple[tuple[str, ...], ...]:
+        """Return for each step the names that nothing needs after it, `wanted` apart."""
+        seen, dead = set(wanted), []
+        for step in reversed(self.steps):
+            names = tuple(dict.fromkeys(concatenate(step.operands, (step.name,))))
+            dead.append(tuple(name for name in names if name not in seen))
+            seen.update(names)
+        return tuple(reversed(dead))
+
+    def run(self, board: Board) -> None:
+        """Do every step again on `board`."""
+        step = board.step
+        for s in self.steps:
+            step(s.verb, s.name, *s.operands, law=s.law)

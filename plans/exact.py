@@ -1,0 +1,154 @@
+"""Exact boards: the same steps on Python floats and complex numbers for one position, on numpy arrays for many.
+
+Both do the same operations in the same order, only ones that are rounded alike everywhere (no product of two complex
+numbers, which numpy fuses; no modulus by `hypot`): N positions at once equal one at a time to the last bit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from .board import Board, Program
+from .laws import LAWS, cross, dot
+
+SINGULAR = 1e-13  # sine of the angle of two lines below which they count as parallel
+ILL = 1e-3  # sine below which three digits and more are lost: the position is called ill-conditioned
+TANGENT = 4 * 2.0**-52  # part of r^2 within which an arc touches a line
+
+Status = Literal["ok", "ill-conditioned", "singular", "no-assembly"]
+STATUSES: tuple[Status, ...] = ("ok", "ill-conditioned", "singular", "no-assembly")
+NAN = float("nan")
+
+
+@dataclass(frozen=True, slots=True)
+class Trouble:
+    """Where a construction fails: the step's name, its sine (of two lines) or its gap in metres (of an arc)."""
+
+    status: Status
+    name: str
+    sine: float = 0.0
+    gap: float = 0.0
+
+
+POLE = 0j
+RIGHT = 2.0**-50  # component of a unit direction that is rounding: the direction is at a multiple of 90 degrees
+
+
+class ExactBoard(Board):
+    """One position on Python numbers: `values` by name, and `trouble`, the first step that cannot be done.
+
+    What hangs on a failed step becomes NaN; what does not is computed all the same.
+    """
+
+    def __init__(self, givens: Mapping[str, Any]) -> None:
+        self.values: dict[str, Any] = {"zero": 0.0, **givens}
+        self.sines: dict[str, float] = {}
+        self.trouble: Trouble | None = None
+
+    def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
+        """Do the step with numbers."""
+        values = self.values
+        operate = LAWS[law] if law else getattr(self, "_" + verb)
+        self._name = name
+        values[name] = operate(*[values[operand] for operand in operands])
+
+    # What differs between one position and many.
+
+    @staticmethod
+    def _sqrt(square: Any) -> Any:
+        return math.sqrt(square) if square >= 0.0 else NAN
+
+    @staticmethod
+    def _complex(real: Any, imag: Any) -> Any:
+        return complex(real, imag)
+
+    def _turn(self, angle: Any) -> Any:
+        # numpy's cosine may differ from the C library's in the last bit, so that one position asks numpy, too
+        import numpy as np
+
+        cosine, sine = float(np.cos(angle)), float(np.sin(angle))
+        return complex(cosine if abs(cosine) > RIGHT else 0.0, sine if abs(sine) > RIGHT else 0.0)
+
+    def _fail(self, status: Status, sine: float = 0.0, gap: float = 0.0) -> None:
+        if self.trouble is None:
+            self.trouble = Trouble(status, self._name, sine, gap)
+
+    def _lines_sine(self, sine: Any) -> Any:
+        """Note the sine of two lines; parallel lines do not meet."""
+        self.sines[self._name] = abs(sine)
+        if abs(sine) < SINGULAR:
+            self._fail("singular", sine)
+            return NAN
+        return sine
+
+    def _half_chord(self, radius: Any, distance: Any) -> Any:
+        """Half the chord that a circle cuts from a line at `distance` from its centre, factored against cancellation."""
+        square = (radius - distance) * (radius + distance)
+        if square < -TANGENT * radius * radius:
+            self._fail("no-assembly", gap=distance - radius)
+            return NAN
+        half = self._sqrt(max(square, 0.0))
+        self.sines[self._name] = half / radius if radius else 0.0
+        return half
+
+    def _arm(self, moment: Any, force: Any) -> Any:
+        size = self._sqrt(dot(force, force))
+        return abs(moment) / size if size > 0.0 else NAN
+
+    # The verbs, the same for one and for many.
+
+    def _place(self, x: Any, y: Any) -> Any:
+        return self._complex(x, y)
+
+    def _pole(self) -> Any:
+        return POLE
+
+    def _direction(self, start: Any, end: Any, length: Any) -> Any:
+        return (end - start) * (1.0 / length)
+
+    def _normal(self, vector: Any) -> Any:
+        return vector * 1j
+
+    def _lay(self, start: Any, direction: Any, length: Any) -> Any:
+        return self._chain(start, direction * length)
+
+    def _back(self, start: Any, direction: Any, length: Any) -> Any:
+        return self._chain(start, direction * -length)
+
+    def _chain(self, start: Any, vector: Any) -> Any:
+        return vector if start is POLE else start + vector
+
+    def _meet(self, p: Any, u: Any, q: Any, w: Any) -> Any:
+        sine = self._lines_sine(cross(u, w))
+        return p + u * (cross(self._read(p, q), w) / sine)
+
+    def _arc(self, centre: Any, radius: Any, q: Any, w: Any, side: Any) -> Any:
+        to_centre = centre - q
+        half = self._half_chord(radius, abs(cross(w, to_centre)))
+        return q + w * (dot(w, to_centre) + side * half)
+
+    def _divide(self, start: Any, end: Any, part: Any, whole: Any) -> Any:
+        return start + (end - start) * (part / whole)
+
+    def _read(self, tail: Any, tip: Any) -> Any:
+        return tip if tail is POLE else tip - tail
+
+    def _moment(self, force: Any, at: Any, about: Any) -> Any:
+        return cross(self._read(about, at), force)
+
+    @property
+    def status(self) -> Status:
+        """Status of the position."""
+        if self.trouble is not None:
+            return self.trouble.status
+        return "ill-conditioned" if min(self.sines.values(), default=1.0) < ILL else "ok"
+
+
+def run(program: Program, givens: Mapping[str, Any]) -> ExactBoard:
+    """Run `program` for one position; `givens` are floats in SI."""
+    board = ExactBoard(givens)
+    program.run(board)
+    return board

@@ -1,0 +1,62 @@
+"""The laws by which a plan's segments become quantities, and quantities segments.
+
+Each law takes and gives floats, complex vectors, or arrays of them. A sheet, a note and a page name a law by its key.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+Law = Callable[..., Any]
+
+
+def dot(u: Any, w: Any) -> Any:
+    """Return the scalar product of two plane vectors given as complex numbers."""
+    product = u.real * w.real
+    product += u.imag * w.imag  # in place where these are arrays
+    return product
+
+
+def cross(u: Any, w: Any) -> Any:
+    """Return the vector product (z component) of two plane vectors given as complex numbers."""
+    product = u.real * w.imag
+    product -= u.imag * w.real
+    return product
+
+
+def _sum(first: Any, *rest: Any) -> Any:
+    for value in rest:
+        first = first + value
+    return first
+
+
+LAWS: dict[str, Law] = {
+    # omega = sense * speed, counter-clockwise positive
+    "signed": lambda speed, sense: speed * sense,
+    # v = omega * l, along the normal to the crank
+    "circular_speed": lambda omega, length: omega * length,
+    # a^n = omega^2 * l, towards the pivot
+    "centripetal": lambda omega, length: omega * omega * length,
+    # a^n_BA = v_BA^2 / l_AB, from B to A
+    "normal_part": lambda v, length: dot(v, v) / length,
+    # omega = v_BA / l_AB, epsilon = a^t_BA / l_AB, with the sense in which the vector turns B about A
+    "turning": lambda v, normal, length: dot(v, normal) / length,
+    # F_i = -m * a_S
+    "inertia_force": lambda mass, a: a * -mass,
+    # M_i = -J_S * epsilon
+    "inertia_moment": lambda inertia, epsilon: -inertia * epsilon,
+    # a moment as a pair of forces on the arm l
+    "couple": lambda moment, length: moment / length,
+    "along": lambda size, direction: size * direction,
+    "opposite": lambda vector: vector * -1.0,
+    # sum of moments = 0, solved for a force on the arm l
+    "moment_equation": lambda length, *moments: _sum(*moments) / length,
+    # sum of moments = 0, solved for a moment
+    "closing_moment": lambda *moments: -_sum(*moments),
+    "sum": _sum,
+    # M = F * l
+    "crank_moment": lambda force, length: force * length,
+    # difference of two values in per cent of the first
+    "difference": lambda value, other: (value - other) / value * 100.0,
+}

@@ -1,0 +1,117 @@
+"""Structure of a mechanism: mobility W, and Assur groups in order of attachment to the driver.
+
+Source: Artobolevsky, Theory of mechanisms and machines: W = 3n - 2p_1 - p_2 (Chebyshev); a group has W = 0 and cannot be
+split into smaller ones. Kinds of class II groups: 1 RRR, 2 RRP, 3 RPR, 4 PRP, 5 RPP.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+
+from ...scales.errors import InputError
+from .mechanism import FRAME, Mechanism, Pair, Revolute
+
+KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """An Assur group: its links, its pairs within, its pairs with what came before.
+
+    For a dyad `links` is (first, second), `inner` has one pair, `outer` that of the first link and that of the second,
+    in the order of the letters of `kind`.
+    """
+
+    links: tuple[int, ...]
+    inner: tuple[Pair, ...]
+    outer: tuple[Pair, ...]
+    kind: str
+
+    @property
+    def group_class(self) -> int:
+        """Class by Artobolevsky: II for a dyad, III for a triad."""
+        return 2 if len(self.links) == 2 else 3
+
+    @property
+    def order(self) -> int:
+        """Order: the number of outer pairs."""
+        return len(self.outer)
+
+    @property
+    def view(self) -> int | None:
+        """Kind 1 to 5 of a class II group."""
+        return KINDS.index(self.kind) + 1 if self.kind in KINDS else None
+
+    @property
+    def name(self) -> str:
+        """The group's links as a word, such as `23`."""
+        return "".join(str(number) for number in self.links)
+
+
+@dataclass(frozen=True, slots=True)
+class Structure:
+    """Numbers of the mobility formula and the groups in order of attachment."""
+
+    moving: int
+    lower: int
+    higher: int
+    mobility: int
+    driver: int
+    groups: tuple[Group, ...]
+
+
+def letter(pair: Pair) -> str:
+    """Return R for a revolute pair, P for a prismatic one."""
+    return "R" if isinstance(pair, Revolute) else "P"
+
+
+def analyse(mechanism: Mechanism) -> Structure:
+    """Count the mobility and split the mechanism into its Assur groups.
+
+    Raises
+    ------
+    InputError
+        When W is not 1, or links are left that form no group.
+    """
+    moving, lower = len(mechanism.links), len(mechanism.pairs)
+    mobility = 3 * moving - 2 * lower
+    if mobility != 1:
+        raise InputError("mobility", w=mobility, n=moving, p=lower)
+    known = {FRAME, mechanism.driver.link}
+    left = [link.number for link in mechanism.links if link.number not in known]
+    groups = []
+    while left:
+        group = next(_groups(mechanism.pairs, known, left), None)
+        if group is None:
+            raise InputError("no-group", links=", ".join(map(str, left)))
+        groups.append(group)
+        known.update(group.links)
+        left = [number for number in left if number not in group.links]
+    return Structure(moving, lower, 0, mobility, mechanism.driver.link, tuple(groups))
+
+
+def _groups(pairs: tuple[Pair, ...], known: set[int], left: list[int]) -> Iterator[Group]:
+    """Smallest sets of unknown links with 3/2 pairs a link, none of which leads to another unknown link."""
+    for size in range(2, len(left) + 1, 2):
+        for links in combinations(left, size):
+            inner = tuple(pair for pair in pairs if set(pair.links) <= set(links))
+            outer = tuple(pair for pair in pairs if len(set(pair.links) & set(links)) == 1 and set(pair.links) & known)
+            if 2 * (len(inner) + len(outer)) == 3 * size and len({_within(p, links) for p in outer}) == len(outer):
+                yield _dyad(links, inner, outer) if size == 2 else Group(links, inner, outer, "III" if size == 4 else "?")
+
+
+def _within(pair: Pair, links: tuple[int, ...]) -> int:
+    return next(number for number in pair.links if number in links)
+
+
+def _dyad(links: tuple[int, ...], inner: tuple[Pair, ...], outer: tuple[Pair, ...]) -> Group:
+    """Order the two links so that the letters read as one of the five kinds."""
+    by_link = {_within(pair, links): pair for pair in outer}
+    for first, second in (links, links[::-1]):
+        pairs = (by_link[first], inner[0], by_link[second])
+        kind = "".join(map(letter, pairs))
+        if kind in KINDS:
+            return Group((first, second), inner, (pairs[0], pairs[2]), kind)
+    raise InputError("no-group", links=", ".join(map(str, links)))
