@@ -1,0 +1,67 @@
+"""Numbers as people write them: decimal comma or point, a typographic minus, thousands apart by spaces."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from .errors import InputError
+
+# Ordinary, no-break, figure, thin and narrow no-break space: all of them come out of word processors.
+SPACES = " \u00a0\u2007\u2009\u202f"
+_GROUPED = rf"[0-9]{{1,3}}(?:[{SPACES}][0-9]{{3}})+(?![0-9])"
+_NUMBER = re.compile(rf"[+\-\u2212\u2013]?(?:(?:{_GROUPED}|[0-9]+)(?:[.,][0-9]*)?|[.,][0-9]+)(?:[eE][+\-\u2212]?[0-9]+)?")
+_PLAIN = str.maketrans({"\u2212": "-", "\u2013": "-", ",": ".", **dict.fromkeys(SPACES)})
+_LONGEST = 40
+
+
+def quote(text: object) -> str:
+    """Return `text` fit for one line of a message: short, and without control characters."""
+    line = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in str(text)[: _LONGEST + 1])
+    return line if len(line) <= _LONGEST else line[: _LONGEST - 1] + "…"
+
+
+def split_number(text: str) -> tuple[float, str]:
+    """Return the number that `text` begins with, and the rest of it without the spaces around.
+
+    A comma is always a decimal comma (`1,500` is one and a half), spaces part only whole groups of three digits.
+
+    Raises
+    ------
+    InputError
+        When there is no number, or none that a float can hold (`nan`, `inf`, `1e400`).
+
+    >>> split_number("55,5мм")
+    (55.5, 'мм')
+    >>> split_number("−1 500 Н")
+    (-1500.0, 'Н')
+    """
+    stripped = text.strip()
+    if not stripped:
+        raise InputError("number_empty")
+    found = _NUMBER.match(stripped)
+    if found is None:
+        raise InputError("number_bad", text=quote(stripped))
+    rest = stripped[found.end() :].strip()
+    # A second number ("55 5", "1,500.5") would otherwise be taken for a unit.
+    if rest[:1].isdigit() and not rest.startswith("1/") or rest[:1] in {".", ","}:
+        raise InputError("number_bad", text=quote(stripped))
+    plain = found.group().translate(_PLAIN)
+    value = float(plain)
+    if not math.isfinite(value):
+        raise InputError("number_infinite", text=quote(stripped))
+    if value == 0.0 and any(digit in "123456789" for digit in re.split("[eE]", plain)[0]):
+        raise InputError("number_infinite", text=quote(stripped))
+    return value, rest
+
+
+def parse_number(text: str) -> float:
+    """Return the number that is all of `text`.
+
+    >>> parse_number("0,05")
+    0.05
+    """
+    value, rest = split_number(text)
+    if rest:
+        raise InputError("number_bad", text=quote(text.strip()))
+    return value
