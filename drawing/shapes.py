@@ -1,0 +1,166 @@
+"""What can stand on a sheet: a closed union of shapes in millimetres, y up, points as complex numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import Literal, TypeAlias, assert_never
+
+Fill: TypeAlias = bool | Literal["white", "black"]
+Anchor: TypeAlias = Literal["left", "middle", "right"]
+HeadPlace: TypeAlias = Literal["tip", "middle", "none"]
+
+
+class Pen(Enum):
+    """A line by its meaning; its width belongs to the format of the sheet (`pens.py`)."""
+
+    MAIN = "main"
+    THIN = "thin"
+    DASHED = "dashed"
+    AXIS = "axis"
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A straight line from `a` to `b`."""
+
+    a: complex
+    b: complex
+    pen: Pen = Pen.MAIN
+    role: str = ""
+    name: str = ""
+    colour: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Polyline:
+    """A broken line or an area; `fill=True` fills it with the colour of its line."""
+
+    points: tuple[complex, ...]
+    pen: Pen = Pen.MAIN
+    closed: bool = False
+    fill: Fill = False
+    role: str = ""
+    name: str = ""
+    colour: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A circle about `centre`."""
+
+    centre: complex
+    radius: float
+    pen: Pen = Pen.MAIN
+    fill: Fill = False
+    role: str = ""
+    name: str = ""
+    colour: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """An arc about `centre` from the angle `start` through `sweep`, radians, counter-clockwise positive."""
+
+    centre: complex
+    radius: float
+    start: float
+    sweep: float
+    pen: Pen = Pen.THIN
+    role: str = ""
+    name: str = ""
+    colour: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Head:
+    """An arrowhead of the sheet's one size: its tip, and the direction in which it points."""
+
+    tip: complex
+    direction: complex
+    colour: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """One line of text in the markup of `text.py`.
+
+    `at` lies on the baseline, at the end or middle that `anchor` names; `height` is the height of a capital letter in
+    mm; `angle` turns the text about `at` (radians); `squeeze` below 1 makes the letters narrower.
+    """
+
+    at: complex
+    markup: str
+    height: float = 3.5
+    anchor: Anchor = "left"
+    angle: float = 0.0
+    role: str = "label"
+    name: str = ""
+    colour: str | None = None
+    squeeze: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Vector:
+    """A quantity drawn to the scale `mu` (units per millimetre), from `tail` to `tip`.
+
+    `value` is the full-precision magnitude in `unit`; a zero vector is drawn as a dot.
+    """
+
+    tail: complex
+    tip: complex
+    quantity: str
+    value: float
+    unit: str
+    mu: float
+    pen: Pen = Pen.MAIN
+    title: str = ""
+    head: HeadPlace = "tip"
+    colour: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Arrow:
+    """An arrow that only shows a direction; its length means nothing."""
+
+    tail: complex
+    tip: complex
+    pen: Pen = Pen.THIN
+    name: str = ""
+    title: str = ""
+    head: HeadPlace = "tip"
+    colour: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Shapes that belong together: a link, an arm, a dimension, a point, a curve, a view."""
+
+    shapes: tuple[Shape, ...]
+    role: str
+    name: str = ""
+    title: str = ""
+
+
+Shape: TypeAlias = Line | Polyline | Circle | Arc | Head | Text | Vector | Arrow | Group
+
+
+def shifted(shape: Shape, by: complex) -> Shape:
+    """Return `shape` moved by the vector `by` (mm)."""
+    match shape:
+        case Line(a=a, b=b):
+            return replace(shape, a=a + by, b=b + by)
+        case Polyline(points=points):
+            return replace(shape, points=tuple(point + by for point in points))
+        case Circle(centre=centre) | Arc(centre=centre):
+            return replace(shape, centre=centre + by)
+        case Head(tip=tip):
+            return replace(shape, tip=tip + by)
+        case Text(at=at):
+            return replace(shape, at=at + by)
+        case Vector(tail=tail, tip=tip) | Arrow(tail=tail, tip=tip):
+            return replace(shape, tail=tail + by, tip=tip + by)
+        case Group(shapes=shapes):
+            return replace(shape, shapes=tuple(shifted(part, by) for part in shapes))
+        case _:
+            assert_never(shape)
