@@ -1,0 +1,114 @@
+"""Quantities: what a user wants to know of a construction, by name, with units and the plan each is read from."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..scales.scale import Scale
+from .board import POSITION, Program
+
+UNITS = {
+    "V": "m/s",
+    "a": "m/s^2",
+    "omega": "rad/s",
+    "epsilon": "rad/s^2",
+    "F": "N",
+    "R": "N",
+    "M": "N*m",
+    "h": "m",
+    "l": "m",
+    "delta": "%",
+}
+POINTS = ("place", "lay", "arc", "divide")
+READ_OFF = ("read", "chain")
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A result in SI: a signed scalar, a vector with components (`value` is its magnitude), or a point (no `value`).
+
+    `mm` is the segment that shows it on its plan at the scale factor `scale`; what is undefined is None.
+    """
+
+    name: str
+    value: float | None
+    unit: str
+    x: float | None = None
+    y: float | None = None
+    mm: float | None = None
+    scale: str | None = None
+    kind: str = "scalar"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the quantity as the command line's JSON has it."""
+        item: dict[str, Any] = {"unit": self.unit}
+        if self.kind != "point":
+            item = {"value": self.value, **item}
+        if self.kind != "scalar":
+            item |= {"x": self.x, "y": self.y}
+        if self.scale is not None:
+            item |= {"mm": self.mm, "scale": self.scale}
+        return item
+
+
+def unit_of(name: str) -> str:
+    """Return the SI unit of a quantity by its name."""
+    if name.startswith("h_lever"):
+        return "m/s"  # an arm on the turned velocity plan
+    return UNITS.get(name.partition("_")[0], "m")
+
+
+def shown_on(program: Program) -> dict[str, str]:
+    """Return for each quantity the first plan that shows it as a segment."""
+    plans: dict[str, str] = {}
+    for step in program:
+        if step.verb == "read":
+            plans.setdefault(step.name, step.plan)
+        elif step.verb == "chain":
+            plans.setdefault(step.operands[1], step.plan)
+        elif step.verb == "arm":
+            plans.setdefault(step.name, "lever" if step.name.startswith("h_lever") else POSITION)
+    return plans
+
+
+def quantities(program: Program, values: Mapping[str, Any], lengths: Mapping[str, float]) -> dict[str, Quantity]:
+    """Collect the quantities of a finished exact run, in order of construction, the given `lengths` first."""
+    found = {name: Quantity(name, float(size), "m") for name, size in lengths.items()}
+    for step in program:
+        if step.name.startswith("_") or "." in step.name:
+            continue
+        if step.verb in ("read", "calc", "arm"):
+            found[step.name] = _quantity(step.name, values[step.name])
+        elif step.verb in POINTS:
+            point = values[step.name]
+            found[step.name] = Quantity(step.name, None, "m", _finite(point.real), _finite(point.imag), kind="point")
+    return found
+
+
+def _quantity(name: str, value: Any) -> Quantity:
+    unit = unit_of(name)
+    if isinstance(value, complex):
+        size = None if cmath.isnan(value) else math.hypot(value.real, value.imag)
+        return Quantity(name, size, unit, _finite(value.real), _finite(value.imag), kind="vector")
+    return Quantity(name, _finite(value), unit)
+
+
+def _finite(value: float) -> float | None:
+    return float(value) + 0.0 if math.isfinite(value) else None  # + 0.0 turns -0.0 into 0.0
+
+
+def measured(items: Mapping[str, Quantity], plans: Mapping[str, str], scales: Mapping[str, Scale]) -> dict[str, Quantity]:
+    """Return the quantities with the millimetres that show them; `scales` are by plan."""
+    out = {}
+    for name, item in items.items():
+        plan = POSITION if name.startswith("l_") else plans.get(name, "")
+        scale = scales.get(plan)
+        if scale is not None and item.kind != "point":
+            mm = None if item.value is None else scale.drawn(abs(item.value))
+            item = replace(item, mm=mm, scale=scale.symbol)
+        out[name] = item
+    return out
