@@ -222,7 +222,7 @@ def _name_table() -> bytes:
 
 def _checksum(data: bytes) -> int:
     padded = data + b"\0" * (-len(data) % 4)
-    return sum(struct.unpack(f">{len(padded) // 4}L", padded)) & 0xFFFFFFFF
+    return int(sum(struct.unpack(f">{len(padded) // 4}L", padded))) & 0xFFFFFFFF
 
 
 def _closure(source: Font, characters: Iterable[str]) -> tuple[list[tuple[int, int]], dict[int, int]]:
