@@ -10,7 +10,9 @@ from .errors import InputError
 # Ordinary, no-break, figure, thin and narrow no-break space: all of them come out of word processors.
 SPACES = " \u00a0\u2007\u2009\u202f"
 _GROUPED = rf"[0-9]{{1,3}}(?:[{SPACES}][0-9]{{3}})+(?![0-9])"
-_NUMBER = re.compile(rf"[+\-\u2212\u2013]?(?:(?:{_GROUPED}|[0-9]+)(?:[.,][0-9]*)?|[.,][0-9]+)(?:[eE][+\-\u2212]?[0-9]+)?")
+_NUMBER = re.compile(
+    rf"[+\-\u2212\u2013]?(?:(?:{_GROUPED}|[0-9]+)(?:[.,][0-9]*)?|[.,][0-9]+)(?:[eE][+\-\u2212]?[0-9]+)?"
+)
 _PLAIN = str.maketrans({"\u2212": "-", "\u2013": "-", ",": ".", **dict.fromkeys(SPACES)})
 _LONGEST = 40
 
@@ -38,20 +40,20 @@ def split_number(text: str) -> tuple[float, str]:
     """
     stripped = text.strip()
     if not stripped:
-        raise InputError("number_empty")
+        raise InputError("number-empty")
     found = _NUMBER.match(stripped)
     if found is None:
-        raise InputError("number_bad", text=quote(stripped))
+        raise InputError("number-bad", text=quote(stripped))
     rest = stripped[found.end() :].strip()
     # A second number ("55 5", "1,500.5") would otherwise be taken for a unit.
-    if rest[:1].isdigit() and not rest.startswith("1/") or rest[:1] in {".", ","}:
-        raise InputError("number_bad", text=quote(stripped))
+    if (rest[:1].isdigit() and not rest.startswith("1/")) or rest[:1] in {".", ","}:
+        raise InputError("number-bad", text=quote(stripped))
     plain = found.group().translate(_PLAIN)
     value = float(plain)
     if not math.isfinite(value):
-        raise InputError("number_infinite", text=quote(stripped))
+        raise InputError("number-infinite", text=quote(stripped))
     if value == 0.0 and any(digit in "123456789" for digit in re.split("[eE]", plain)[0]):
-        raise InputError("number_infinite", text=quote(stripped))
+        raise InputError("number-infinite", text=quote(stripped))
     return value, rest
 
 
@@ -63,5 +65,5 @@ def parse_number(text: str) -> float:
     """
     value, rest = split_number(text)
     if rest:
-        raise InputError("number_bad", text=quote(text.strip()))
+        raise InputError("number-bad", text=quote(text.strip()))
     return value

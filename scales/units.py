@@ -160,7 +160,7 @@ def unit(text: str) -> Unit:
     Raises
     ------
     InputError
-        `unit_unknown`, or `unit_unknown_like` with the unit that was probably meant.
+        `unit-unknown`, or `unit-unknown-like` with the unit that was probably meant.
 
     >>> unit("кг м²").name, unit("об/хв").name, unit("с⁻¹").name, unit("м·с^-1/мм").name
     ('kg*m^2', 'rpm', '1/s', '(m/s)/mm')
@@ -233,8 +233,8 @@ def _unknown(text: str) -> InputError:
     like = [known for known in _SPELLINGS if known.lower() == folded.lower()]
     like = like or get_close_matches(folded, [known for known in _SPELLINGS if len(known) > 1], n=1, cutoff=0.6)
     if like:
-        return InputError("unit_unknown_like", text=quote(text), like=_SPELLINGS[like[0]])
-    return InputError("unit_unknown", text=quote(text), known=", ".join(_COMMON))
+        return InputError("unit-unknown-like", text=quote(text), like=_SPELLINGS[like[0]])
+    return InputError("unit-unknown", text=quote(text), known=", ".join(_COMMON))
 
 
 def parse(text: str, expected: Unit, default: Unit | None = None) -> float:
@@ -267,7 +267,7 @@ def parse(text: str, expected: Unit, default: Unit | None = None) -> float:
     elif default is not None or expected == ONE:
         written = default or ONE
     else:
-        raise InputError("unit_missing", text=quote(text.strip()), expected=expected.name)
+        raise InputError("unit-missing", text=quote(text.strip()), expected=expected.name)
     return converted(value, written, expected)
 
 
@@ -280,12 +280,12 @@ def converted(value: float, written: Unit, expected: Unit) -> float:
     if dimension != expected.dimension:
         unturned = expected.dimension._replace(angle=0)
         if dimension != unturned or not expected.dimension.angle or not dimension.time:
-            raise InputError("unit_wrong", text=quote(written), expected=expected.name)
+            raise InputError("unit-wrong", text=quote(written), expected=expected.name)
         if written == unit("1/min"):
             written = RPM
     result = written.to_si(value)
     if not math.isfinite(result):
-        raise InputError("number_infinite", text=quote(f"{value} {written}"))
+        raise InputError("number-infinite", text=quote(f"{value} {written}"))
     return result
 
 
@@ -303,7 +303,7 @@ def format_unit(written: Unit | str, language: str, *, raised: bool = False) -> 
     ('(м/с²)/мм', 'с⁻¹', '1/s')
     """
     spelled = unit(written) if isinstance(written, str) else written
-    words = {name: getattr(symbol, language) for name, symbol in SYMBOLS.items()}
+    words = {name: str(getattr(symbol, language)) for name, symbol in SYMBOLS.items()}
 
     def power(exponent: int) -> str:
         return f"^{{{exponent}}}".replace("-", "−") if raised else str(exponent).translate(_RAISED)

@@ -1,0 +1,215 @@
+"""Checking the mechanism of a task: every name is known and of the right dimension, every pair joins what it says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..plans.linkages.mechanism import FRAME, ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
+from ..scales.errors import InputError
+from ..scales.numbers import quote
+from ..scales.units import ONE, Dimension, Unit, unit
+from .checks import NAME, Checker, Field, Read, array_of, link_number, name, one_of, record, rows
+from .checks_givens import literal
+from .task import unknown
+from .toml_places import Path
+
+_RAD_S, _N, _KG, _KG_M2 = unit("rad/s"), unit("N"), unit("kg"), unit("kg*m^2")
+_M, _RAD = unit("m"), unit("rad")
+
+
+@dataclass(slots=True)
+class Names:
+    """The values that a mechanism may name, and what it turned out to use.
+
+    `literals` are constants by value and dimension, `distances` the names that must be greater than zero.
+    """
+
+    dimensions: dict[str, Dimension]
+    literals: dict[tuple[float, Dimension], str] = field(default_factory=dict)
+    distances: set[str] = field(default_factory=set)
+    signs: set[str] = field(default_factory=set)
+
+    def value(self, wanted: Unit) -> Read:
+        """Return a reader of a value of the dimension of `wanted`: a name, or a literal with its unit."""
+
+        def read(checker: Checker, path: Path, raw: object) -> str | None:
+            if isinstance(raw, str) and NAME.fullmatch(raw):
+                if raw not in self.dimensions:
+                    checker.fault(path, unknown("value-unknown", raw, self.dimensions))
+                    return None
+                found, written = raw, self.dimensions[raw]
+            else:
+                setting = literal(checker, path, raw)
+                if setting is None:
+                    return None
+                found, written = self.constant(setting.value, setting.dimension), setting.dimension
+            if written != wanted.dimension:
+                checker.fault(path, InputError("value-wrong", text=quote(raw), expected=wanted.name))
+                return None
+            if wanted == ONE:
+                self.signs.add(found)
+            return found
+
+        return read
+
+    def constant(self, value: float, dimension: Dimension) -> str:
+        """Return the name of a literal; zero has the name that the plans know."""
+        if value == 0.0:
+            return ZERO
+        return self.literals.setdefault((value, dimension), f"_constant_{len(self.literals) + 1}")
+
+    @property
+    def constants(self) -> dict[str, float]:
+        """The literals by their names."""
+        return {constant: value for (value, _), constant in self.literals.items()}
+
+
+def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | None:
+    """Read `[mechanism]`; `None` when a part of it is at fault."""
+    before = len(checker.faults)
+    number = names.value
+    kinds = {
+        "link": Field(_rows(lambda c, p, r: _link(c, p, r, names))),
+        "pair": Field(_rows(lambda c, p, r: _pair(c, p, r, names))),
+        "driver": Field(lambda c, p, r: record(c, p, r, _driver_fields(number))),
+        "load": Field(_rows(lambda c, p, r: record(c, p, r, _load_fields(number))), required=False),
+    }
+    read = record(checker, ("mechanism",), raw, kinds)
+    if len(checker.faults) > before:
+        return None
+    mechanism = Mechanism(
+        tuple(read["link"]),
+        tuple(read["pair"]),
+        Driver(**read["driver"]),
+        tuple(Load(**x) for x in read.get("load", ())),
+    )
+    _joined(checker, mechanism)
+    return mechanism if len(checker.faults) == before else None
+
+
+def _rows(read: Callable[[Checker, Path, object], Any]) -> Read:
+    """Return a reader of an array of tables, one at a time."""
+    return lambda checker, path, raw: [read(checker, row_path, row) for row_path, row in rows(checker, path, raw)]
+
+
+def _driver_fields(number: Callable[[Unit], Read]) -> dict[str, Field]:
+    places = {"link": Field(link_number), "pivot": Field(name), "point": Field(name)}
+    return places | {"angle": Field(number(_RAD)), "speed": Field(number(_RAD_S)), "sense": Field(number(ONE))}
+
+
+def _load_fields(number: Callable[[Unit], Read]) -> dict[str, Field]:
+    places = {"name": Field(name), "link": Field(link_number), "point": Field(name)}
+    return places | {"magnitude": Field(number(_N)), "direction": Field(number(_RAD))}
+
+
+def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | None:
+    """Read one link; a point on a local axis lies at a distance, which must be greater than zero."""
+
+    def points(checker: Checker, path: Path, raw: object) -> dict[str, tuple[str, str]] | None:
+        if not isinstance(raw, dict) or not raw:
+            checker.wrong_type(path, "type-table")
+            return None
+        lettered = {name(checker, (*path, key), key): place(checker, (*path, key), at) for key, at in raw.items()}
+        for at in lettered.values():
+            if at and ZERO in at:
+                names.distances.update(at)
+        return None if None in lettered or None in lettered.values() else lettered  # type: ignore[return-value]
+
+    place = array_of(names.value(_M), 2)
+    fields = {
+        "number": Field(link_number),
+        "points": Field(points),
+        "centre": Field(name, required=False),
+        "mass": Field(names.value(_KG), required=False),
+        "inertia": Field(names.value(_KG_M2), required=False),
+    }
+    read = record(checker, path, raw, fields)
+    if not {"number", "points"} <= read.keys():
+        return None
+    if read.get("centre", next(iter(read["points"]))) not in read["points"]:
+        checker.fault((*path, "centre"), unknown("point-unknown", read["centre"], read["points"]))
+    if "centre" not in read and ("mass" in read or "inertia" in read):
+        checker.fault(path, InputError("key-missing", name="centre"))
+    return Link(**read)
+
+
+def _pair(checker: Checker, path: Path, raw: object, names: Names) -> Pair | None:
+    """Read one pair of the kind that it names."""
+    joins = {"point": Field(name), "links": Field(array_of(link_number, 2))}
+    place = Field(array_of(names.value(_M), 2))
+    kinds: dict[str, tuple[type[Pair], dict[str, Field]]] = {
+        "revolute": (Revolute, {**joins, "at": Field(place.read, required=False)}),
+        "prismatic": (
+            Prismatic,
+            {
+                **joins,
+                "through": place,
+                "direction": Field(names.value(_RAD)),
+                "offset": Field(names.value(_M), required=False),
+                "branch": Field(names.value(ONE), required=False),
+            },
+        ),
+    }
+    kind = raw.get("kind") if isinstance(raw, dict) else None
+    if not isinstance(raw, dict) or not isinstance(kind, str) or kind not in kinds:
+        checker.fault((*path, "kind"), InputError("pair-kind", text=quote(kind), known=", ".join(kinds)))
+        return None
+    made, fields = kinds[kind]
+    before = len(checker.faults)
+    read = record(checker, path, raw, {"kind": Field(one_of("pair-kind", lambda: tuple(kinds))), **fields})
+    if len(checker.faults) > before:
+        return None
+    del read["kind"]
+    return made(**read)
+
+
+def _joined(checker: Checker, mechanism: Mechanism) -> None:
+    """Check that links, pairs, driver and loads speak of the same numbers and letters."""
+    links: dict[int, Mapping[str, object]] = {}
+    for i, link in enumerate(mechanism.links):
+        if link.number == FRAME or link.number in links:
+            checker.fault(("mechanism", "link", i, "number"), InputError("link-number", number=link.number))
+        links[link.number] = link.points
+    for i, pair in enumerate(mechanism.pairs):
+        _pair_joined(checker, ("mechanism", "pair", i), pair, links)
+    driver = mechanism.driver
+    path: Path = ("mechanism", "driver")
+    _on_link(checker, path, "pivot", driver.pivot, driver.link, links)
+    _on_link(checker, path, "point", driver.point, driver.link, links)
+    seen: set[str] = set()
+    for i, load in enumerate(mechanism.loads):
+        path = ("mechanism", "load", i)
+        _on_link(checker, path, "point", load.point, load.link, links)
+        if load.name in seen:
+            checker.fault((*path, "name"), InputError("id-twice", name=load.name))
+        seen.add(load.name)
+
+
+def _pair_joined(checker: Checker, path: Path, pair: Pair, links: Mapping[int, Mapping[str, object]]) -> None:
+    """Check one pair: two different links, its point on both of them, a place where one of them is the frame."""
+    if pair.links[0] == pair.links[1]:
+        checker.fault((*path, "links"), InputError("pair-same", number=pair.links[0]))
+        return
+    if isinstance(pair, Revolute):
+        for number in pair.links:
+            if number != FRAME:
+                _on_link(checker, path, "point", pair.point, number, links)
+        if (pair.at is None) == (FRAME in pair.links):
+            checker.fault(path, InputError("key-missing" if pair.at is None else "pair-at", name="at"))
+    else:
+        _on_link(checker, path, "point", pair.point, pair.links[0], links)
+        if pair.links[1] != FRAME and pair.links[1] not in links:
+            checker.fault((*path, "links"), unknown("link-unknown", str(pair.links[1]), map(str, links)))
+
+
+def _on_link(
+    checker: Checker, path: Path, key: str, point: str, number: int, links: Mapping[int, Mapping[str, object]]
+) -> None:
+    """Check that `point`, named by `key`, is lettered on link `number`."""
+    if number not in links:
+        at = (*path, "links") if (*path, "links") in checker.places else (*path, "link")
+        checker.fault(at, unknown("link-unknown", str(number), map(str, links)))
+    elif point not in links[number]:
+        checker.fault((*path, key), unknown("point-unknown", point, links[number]))

@@ -1,0 +1,286 @@
+"""The one reader of task files: bundled ones by id, one's own by path; every fault with its line and column."""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+import tomllib
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib.resources import files
+from pathlib import Path as FilePath
+from typing import Any
+
+from ..scales.errors import LANGUAGES, InputError, messages
+from ..scales.numbers import quote
+from .checks import Checker, Field, array_of, label, one_of, record, text
+from .checks_givens import Settings, read_choices, read_givens, read_variants
+from .checks_mechanism import Names, read_mechanism
+from .task import Bound, Given, LocatedError, Task, unknown
+from .toml_places import Path, Places
+
+LARGEST_FILE = 1_000_000
+
+
+class TaskFileError(InputError):
+    """The faults of a task file; as one line it shows the first and says how many more there are."""
+
+    def __init__(self, file: str, faults: tuple[InputError, ...]) -> None:
+        """Collect `faults` of `file`, in the order of its lines."""
+        super().__init__(faults[0].key, **faults[0].data)
+        self.file = file
+        self.faults = faults
+
+    def text(self, language: str = "en") -> str:
+        """Return the first fault as one line in `language`, and the number of the others."""
+        line = self.faults[0].text(language)
+        if len(self.faults) == 1:
+            return line
+        more = messages(language)["and-more"].format(n=len(self.faults) - 1, file=self.file)
+        return f"{line} {more}"
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """What `list` shows of a task."""
+
+    id: str
+    title: dict[str, str]
+    source: str
+    variants: tuple[str, ...]
+    plans: tuple[str, ...]
+    givens: dict[str, str]
+
+
+def bundled() -> tuple[str, ...]:
+    """Return the ids of the tasks that come with the program."""
+    folder = files(__package__) / "tasks"
+    return tuple(sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml")))
+
+
+def summary(task: str) -> Summary:
+    """Return what `list` shows of a bundled task, without checking it once more."""
+    raw = tomllib.loads(_bundled_text(task))
+    givens = {name: given.get("unit") or "|".join(given["choices"]) for name, given in raw["givens"].items()}
+    variants = tuple(row["id"] for row in raw["variant"])
+    return Summary(raw["id"], raw["title"], raw["source"], variants, tuple(raw["plans"]), givens)
+
+
+def load_task(task: str | os.PathLike[str]) -> Task:
+    """Return the bundled task of this id, or the task in a TOML file.
+
+    Raises
+    ------
+    InputError
+        No such task or file, a file that cannot be read, or (`TaskFileError`) one with faults.
+    """
+    if isinstance(task, str) and task in bundled():
+        return _load_bundled(task)
+    found, faults = read_file(task)
+    if found is None:
+        raise TaskFileError(_shown(task), faults)
+    return found
+
+
+def read_file(task: str | os.PathLike[str]) -> tuple[Task | None, tuple[InputError, ...]]:
+    """Read a task file of one's own: the task, or all its faults.
+
+    Raises
+    ------
+    InputError
+        When there is no such file, or it cannot be read as a text.
+    """
+    shown = _shown(task)
+    return read_text(_file_text(task, shown), shown)
+
+
+def read_text(toml: str, file: str) -> tuple[Task | None, tuple[InputError, ...]]:
+    """Read a task from the text of a file that messages call `file`: the task, or all its faults."""
+    try:
+        raw = tomllib.loads(toml)
+        checker = Checker(file, Places(toml))
+    except RecursionError as error:
+        raise LocatedError(file, InputError("toml-nested")) from error
+    except ValueError as error:
+        return None, (_syntax(toml, file, str(error)),)
+    found = _task(checker, raw)
+    if checker.faults:
+        return None, tuple(fault for _, _, fault in sorted(checker.faults, key=lambda fault: fault[:2]))
+    return found, ()
+
+
+@cache
+def _load_bundled(task: str) -> Task:
+    """Return a bundled task; its `file` is `None`."""
+    name = f"{task}.toml"
+    found, faults = read_text(_bundled_text(task), name)
+    if found is None:
+        raise TaskFileError(name, faults)
+    return replace(found, file=None)
+
+
+def _bundled_text(task: str) -> str:
+    return (files(__package__) / "tasks" / f"{task}.toml").read_text(encoding="utf-8")
+
+
+def _shown(task: str | os.PathLike[str]) -> str:
+    """Return a path as messages show it, without control characters."""
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in os.fspath(task))
+
+
+def _file_text(task: str | os.PathLike[str], shown: str) -> str:
+    """Return the text of a regular file of at most 1 MB."""
+    path = FilePath(task)
+    try:
+        state = path.stat()
+    except (OSError, ValueError) as error:
+        if isinstance(task, str) and not re.search(r"[./\\]", task):
+            raise unknown("task-unknown", task, bundled()) from error
+        raise InputError("file-missing", file=_short(shown)) from error
+    if not stat.S_ISREG(state.st_mode):
+        raise InputError("file-not-regular", file=shown)
+    if state.st_size > LARGEST_FILE:
+        raise InputError("file-large", file=shown, n=LARGEST_FILE // 1_000_000)
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError("file-unreadable", file=shown) from error
+    if not data.strip():
+        raise InputError("file-empty", file=shown)
+    try:
+        decoded = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise LocatedError(f"{shown}:{line}", InputError("file-encoding")) from error
+    if "\0" in decoded:
+        raise LocatedError(f"{shown}:{decoded.count(chr(10), 0, decoded.index(chr(0))) + 1}", InputError("file-binary"))
+    return decoded
+
+
+def _short(shown: str) -> str:
+    """Return a path with its middle left out when it is longer than a line."""
+    return shown if len(shown) <= 200 else f"{shown[:100]}…{shown[-90:]}"
+
+
+def _syntax(toml: str, file: str, reason: str) -> InputError:
+    """Return the fault that tomllib found, at its place."""
+    lines = toml.replace("\r\n", "\n").split("\n")
+    found = re.search(r"\(at line ([0-9]+), column ([0-9]+)\)", reason)
+    line, column = (int(found[1]), int(found[2])) if found else (len(lines), len(lines[-1]) + 1)
+    written = lines[line - 1] if line <= len(lines) else ""
+    if re.match("Cannot (overwrite|declare|mutate)|Duplicate", reason):
+        column = len(written) - len(written.lstrip()) + 1
+        cause = InputError("toml-twice", text=quote(written.split("=")[0].strip()))
+    else:
+        cause = InputError("toml-bad", text=quote(written.strip()))
+    return LocatedError(f"{file}:{line}:{column}", cause)
+
+
+def _plans() -> tuple[str, ...]:
+    """Return the plans that a task may ask for."""
+    from ..plans.linkages.chain import PLANS
+
+    return PLANS
+
+
+def notations() -> tuple[str, ...]:
+    """Return the names of the notations that come with the program."""
+    folder = files("kulman.drawing") / "notations"
+    return tuple(sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml")))
+
+
+def _notation(checker: Checker, path: Path, raw: object) -> str | None:
+    """Read the name of a notation."""
+    return text(checker, path, raw) if not notations() else one_of("notation-unknown", notations)(checker, path, raw)
+
+
+def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
+    """Read `[scales]`: choosers such as `"pa=80 mm"` or `"15 N/mm"`."""
+    if not isinstance(raw, dict):
+        checker.wrong_type(path, "type-table")
+        return {}
+    for name in raw:
+        if not re.fullmatch(r"mu_[A-Za-z0-9_]+", name):
+            checker.fault((*path, name), InputError("scale-name", text=quote(name)))
+    read = {name: text(checker, (*path, name), chooser) for name, chooser in raw.items()}
+    return {name: chooser for name, chooser in read.items() if chooser}
+
+
+def _raw(checker: Checker, path: Path, raw: object) -> Any:
+    """Leave a part of the file to its own reader."""
+    return raw
+
+
+_FIELDS = {
+    "id": Field(label),
+    "source": Field(text),
+    "notation": Field(_notation),
+    "plans": Field(array_of(one_of("plan-unknown", _plans))),
+    "title": Field(lambda c, p, r: record(c, p, r, {language: Field(text) for language in LANGUAGES})),
+    "givens": Field(_raw),
+    "choices": Field(_raw, required=False),
+    "mechanism": Field(_raw),
+    "scales": Field(_scales, required=False),
+    "variant": Field(_raw),
+}
+
+
+def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
+    """Read a task out of parsed TOML; the faults go to `checker`."""
+    head = record(checker, (), raw, _FIELDS)
+    givens = read_givens(checker, raw["givens"]) if "givens" in raw else {}
+    choices = read_choices(checker, raw.get("choices", {}), givens)
+    names = _names(checker, givens, choices)
+    mechanism = read_mechanism(checker, raw["mechanism"], names) if "mechanism" in raw else None
+    givens = {key: _bounded(given, names) for key, given in givens.items()}
+    variants = read_variants(checker, raw["variant"], givens) if "variant" in raw else {}
+    _signs(checker, names, choices)
+    if checker.faults or mechanism is None:
+        return None
+    return Task(
+        id=head["id"],
+        title=head["title"],
+        source=head["source"],
+        notation=head["notation"],
+        plans=head["plans"],
+        givens=givens,
+        choices={
+            key: {word: {name: s.value for name, s in settings.items()} for word, settings in words.items()}
+            for key, words in choices.items()
+        },
+        constants=names.constants,
+        mechanism=mechanism,
+        scales=head.get("scales", {}),
+        variants=variants,
+        file=checker.file,
+    )
+
+
+def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Names:
+    """Return the values that the mechanism may name: givens and what choices set, no name twice."""
+    names = Names({key: given.unit.dimension for key, given in givens.items() if given.unit is not None})
+    for choice, words in choices.items():
+        first = next(iter(words), "")
+        for key, setting in words.get(first, {}).items():
+            if key in names.dimensions:
+                checker.fault(("choices", choice, first, key), InputError("id-twice", name=key))
+            names.dimensions[key] = setting.dimension
+    return names
+
+
+def _bounded(given: Given, names: Names) -> Given:
+    """Return a given that is a distance on a link as one that must be greater than zero."""
+    return replace(given, bound=Bound.POSITIVE) if given.name in names.distances else given
+
+
+def _signs(checker: Checker, names: Names, choices: Settings) -> None:
+    """Check that senses and branches are +1 or -1."""
+    for choice, words in choices.items():
+        for word, settings in words.items():
+            for key, setting in settings.items():
+                if key in names.signs and abs(setting.value) != 1.0:
+                    checker.fault(("choices", choice, word, key), InputError("sign-bad", text=f"{setting.value:g}"))
+    for (value, _), constant in names.literals.items():
+        if constant in names.signs and abs(value) != 1.0:
+            checker.fault(("mechanism",), InputError("sign-bad", text=f"{value:g}"))

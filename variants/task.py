@@ -1,0 +1,175 @@
+"""A task: a mechanism, its givens and choices, and its variants, as read from one TOML file."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from enum import Enum
+from numbers import Real
+
+from ..plans.linkages.mechanism import ZERO, Mechanism
+from ..scales.errors import InputError
+from ..scales.numbers import quote
+from ..scales.units import Unit, parse
+
+# Beyond these a square of a square no longer fits into a float; no drawing has such links or forces.
+SMALLEST, LARGEST = 1e-30, 1e30
+
+
+class Bound(Enum):
+    """What values a given may take; the members are the keys of the messages for the others."""
+
+    FREE = ""
+    POSITIVE = "not-positive"
+    NOT_NEGATIVE = "negative"
+
+
+class LocatedError(InputError):
+    """An error with its place before it: `file:line:column`, or the option that it came from."""
+
+    def __init__(self, place: str, cause: InputError) -> None:
+        """Put `place` before the message of `cause`."""
+        super().__init__(cause.key, **cause.data)
+        self.place = place
+        self.cause = cause
+
+    def text(self, language: str = "en") -> str:
+        """Return the place and the message as one line in `language`."""
+        return f"{self.place}: {self.cause.text(language)}"
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """One given: a quantity with its unit, or a choice between words."""
+
+    name: str
+    unit: Unit | None = None
+    choices: tuple[str, ...] = ()
+    default: float | str | None = None
+    bound: Bound = Bound.FREE
+
+    def read(self, value: object) -> float | str:
+        """Return what was written for this given: a chosen word, or a number in SI.
+
+        Parameters
+        ----------
+        value : str or real number
+            A quantity (`"55,5 мм"`), a number in the given's own unit, or one of the choices.
+        """
+        if self.unit is None:
+            if value not in self.choices or not isinstance(value, str):
+                raise InputError("choice-unknown", text=quote(value), known=", ".join(self.choices))
+            return value
+        if isinstance(value, str):
+            number = parse(value, self.unit, self.unit)
+        elif isinstance(value, Real) and not isinstance(value, bool):
+            number = _finite(value, self.unit)
+        else:
+            raise InputError("type-quantity", expected=self.unit.name)
+        if number != 0.0 and not SMALLEST <= abs(number) <= LARGEST:
+            raise InputError("number-infinite", text=quote(value))
+        if (self.bound is Bound.POSITIVE and number <= 0) or (self.bound is Bound.NOT_NEGATIVE and number < 0):
+            raise InputError(self.bound.value, text=quote(value))
+        return number
+
+
+def _finite(value: Real, unit: Unit) -> float:
+    """Return a number of `unit` in SI."""
+    try:
+        number = unit.to_si(float(value))
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise InputError("number-infinite", text=quote(value))
+    return number
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One row of the task's table: the givens that it states, in SI, and those that the source does not print."""
+
+    id: str
+    values: Mapping[str, float | str]
+    reconstructed: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A task of a textbook as data.
+
+    `choices` says which values each word of a choice sets, `constants` holds the literals of the mechanism;
+    `file` is what was read, as the user named it, `None` for a bundled task.
+    """
+
+    id: str
+    title: Mapping[str, str]
+    source: str
+    notation: str
+    plans: tuple[str, ...]
+    givens: Mapping[str, Given]
+    choices: Mapping[str, Mapping[str, Mapping[str, float]]]
+    constants: Mapping[str, float]
+    mechanism: Mechanism
+    scales: Mapping[str, str]
+    variants: Mapping[str, Variant]
+    file: str | None = None
+
+    def variant(self, variant_id: str | None = None) -> Variant:
+        """Return a variant, the first one without an id."""
+        if variant_id is None:
+            return next(iter(self.variants.values()))
+        if str(variant_id) not in self.variants:
+            raise unknown("variant-unknown", str(variant_id), self.variants, task=self.id)
+        return self.variants[str(variant_id)]
+
+    def resolve(
+        self, variant_id: str | None = None, settings: Mapping[str, str | float] | None = None
+    ) -> dict[str, float | str]:
+        """Return every given of a variant: numbers in SI, choices as words.
+
+        Parameters
+        ----------
+        variant_id : str, optional
+            Without it the first variant.
+        settings : mapping, optional
+            Givens that replace those of the variant: quantities as text, or numbers in the given's own unit.
+
+        Raises
+        ------
+        InputError
+            An unknown variant or given, or a value that its given cannot take.
+        """
+        row = self.variant(variant_id).values
+        resolved = {name: row.get(name, given.default) for name, given in self.givens.items()}
+        for name, value in (settings or {}).items():
+            if name not in self.givens:
+                raise unknown("given-unknown", name, self.givens, task=self.id)
+            try:
+                resolved[name] = self.givens[name].read(value)
+            except InputError as error:
+                raise LocatedError(name, error) from error
+        return {name: value for name, value in resolved.items() if value is not None}
+
+    def values(
+        self, variant_id: str | None = None, settings: Mapping[str, str | float] | None = None
+    ) -> dict[str, float]:
+        """Return every value that the mechanism names, in SI: givens, what the choices set, and constants."""
+        values = {ZERO: 0.0, **self.constants}
+        for name, value in self.resolve(variant_id, settings).items():
+            if isinstance(value, str):
+                values.update(self.choices[name][value])
+            else:
+                values[name] = value
+        return values
+
+
+def unknown(key: str, text: str, known: Iterable[str], **data: str) -> InputError:
+    """Return the error for a name that is not in `known`: with the name that was meant, or with all there are."""
+    names = list(known)
+    like = difflib.get_close_matches(text, names, n=1, cutoff=0.6)
+    if like:
+        return InputError(f"{key}-like", text=quote(text), like=like[0], **data)
+    shown = ", ".join(names[:20]) + (", …" if len(names) > 20 else "")
+    return InputError(key, text=quote(text), known=shown or "—", **data)
