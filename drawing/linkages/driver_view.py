@@ -1,0 +1,51 @@
+"""The driver drawn apart with its forces, the arm of R_21 and the balancing moment."""
+
+from __future__ import annotations
+
+import math
+from cmath import phase
+
+from ..symbols import fixed_pivot, force_arrow, link, revolute, turning_arrow
+from ..view import Canvas, View
+from .group_view import force_arm, loads
+from .scene import Scene
+
+
+def driver_view(scene: Scene) -> View:
+    """Draw the crank with R_21, R_01, M_bal and the arm h_21 measured from the pivot."""
+    canvas = Canvas(scene.style)
+    driver, words, style = scene.solved.mechanism.driver, scene.words, scene.style
+    o, a = scene.mm(driver.pivot), scene.mm(driver.point)
+    e = (a - o) / abs(a - o)
+    canvas.add(link(o, a, str(driver.link), style))
+    canvas.add(fixed_pivot(o, driver.pivot, style), revolute(a, driver.point, style))
+    forces = [(f"R_{d.rod.number}{driver.link}", d.A) for d in scene.dyads if d.before == driver.link]
+    for name, point in (*forces, *loads(scene, driver.link)):
+        if scene.direction(name) == 0 or point == driver.pivot:
+            continue
+        arrow, ray = force_arrow(scene.mm(point), scene.direction(name), name, [-e], style)
+        canvas.add(arrow)
+        canvas.label(words.symbol(name, bar=True), (scene.mm(point) + ray * 0.4 * style.force, scene.mm(point) + ray * style.force))
+        force_arm(canvas, scene, name, f"h_{name.removeprefix('R_')}", scene.mm(point), o)
+    name = f"R_0{driver.link}"
+    if scene.direction(name) != 0:
+        arrow, ray = force_arrow(o, scene.direction(name), name, [e, -1j], style)
+        canvas.add(arrow)
+        canvas.label(words.symbol(name, bar=True), (o + ray * 0.4 * style.force, o + ray * style.force))
+    width, height, base = style.pivot
+    foot = o - 1j * (height + style.pair)
+    canvas.keep_clear(foot - base / 2 - 1j * style.hatch[0], foot + base / 2)
+    _balance(canvas, scene, o, e)
+    for point in (driver.pivot, driver.point):
+        canvas.label(words.mark(point), scene.mm(point), clear=style.pair + 0.8)
+    key = "heading.driver"
+    return canvas.finish("driver", (*scene.heading(key, "position"), words["said.arrows"]))
+
+
+def _balance(canvas: Canvas, scene: Scene, o: complex, e: complex) -> None:
+    value = scene.solved.values.get("M_bal")
+    if not value or value != value:
+        return
+    sense, radius = math.copysign(1.0, value), 0.62 * scene.style.force
+    canvas.add(turning_arrow(o, radius, phase(e), 2.2, sense, "M_bal"))
+    canvas.label(scene.words.symbol("M_bal"), o + e * radius, clear=1.4)

@@ -1,0 +1,63 @@
+"""Zhukovsky's lever: the turned velocity plan with all forces hung on it, and every arm."""
+
+from __future__ import annotations
+
+from ..shapes import Circle, Group, Line, Pen
+from ..symbols import force_arrow
+from ..view import Canvas, View
+from .group_view import force_arm
+from .scene import Scene
+
+
+def lever_view(scene: Scene) -> View:
+    """Draw the lever: forces keep their directions, couples hang as pairs, arms run from the pole."""
+    canvas = Canvas(scene.style)
+    words, style, driver = scene.words, scene.style, scene.solved.mechanism.driver
+    steps = scene.solved.program.on("lever")
+    marks = [step.name for step in steps if step.verb == "normal"]
+    p = scene.mm("lever.p")
+    lines = _lines(scene, marks)
+    canvas.add(*(Line(a, b, Pen.THIN, role="lever", name=name) for a, b, name in lines))
+    canvas.add(Group((Circle(p, style.node, Pen.MAIN, fill="white"),), "point", "lever.p"))
+    canvas.label(words.mark("lever.p"), p, clear=1.0, priority=1)
+    rays = {mark: [(q - scene.mm(mark)) for a, b, _ in lines for q in (a, b) if scene.mm(mark) in (a, b)] for mark in marks}
+    taken = {mark: [ray for ray in rays[mark] if abs(ray) > 1e-6] for mark in marks}
+    for name, mark in _hung(scene):
+        e = scene.direction(name)
+        if e == 0:
+            continue
+        arrow, ray = force_arrow(scene.mm(mark), e, name, taken[mark], style)
+        canvas.add(arrow)
+        far = arrow.tip if abs(arrow.tip - scene.mm(mark)) > abs(arrow.tail - scene.mm(mark)) else arrow.tail
+        canvas.label(words.symbol(name.removeprefix("_"), bar=True), (far - ray * 0.55 * style.force, far), clear=0.9)
+        if name != "_F_bal":
+            force_arm(canvas, scene, name, _arm_of(name), scene.mm(mark), p)
+    canvas.label(f"{words.mark('velocity.p')}{words.mark('velocity.' + driver.point)} = {scene.segment('V_' + driver.point)}",
+                 (p, scene.mm(f"lever.{driver.point}")), clear=0.9)
+    middle = sum(scene.mm(mark) for mark in marks) / len(marks)
+    for mark in marks:
+        canvas.add(Group((Circle(scene.mm(mark), 0.3, Pen.THIN, fill="black"),), "point", mark))
+        canvas.label(words.mark(f"velocity.{mark.removeprefix('lever.')}"), scene.mm(mark), prefer=scene.mm(mark) - middle, priority=1)
+    return canvas.finish("lever", (*scene.heading("heading.lever", "lever"), words["said.lever"]))
+
+
+def _lines(scene: Scene, marks: list[str]) -> list[tuple[complex, complex, str]]:
+    """Return the lines of the turned velocity plan: from the pole, and between the ends of each rod."""
+    p = scene.mm("lever.p")
+    lines = [(p, scene.mm(mark), mark) for mark in marks]
+    lines += [(scene.mm(f"lever.{d.A}"), scene.mm(f"lever.{d.B}"), d.AB) for d in scene.dyads]
+    return [line for line in lines if abs(line[1] - line[0]) > 1e-6]
+
+
+def _hung(scene: Scene) -> list[tuple[str, str]]:
+    """Return (force, mark) of all that hangs on the lever, the balancing force last."""
+    hung = [(step.operands[0], step.operands[1]) for step in scene.solved.program if step.verb == "moment" and step.operands[2] == "lever.p"]
+    return [*hung, ("_F_bal", f"lever.{scene.solved.mechanism.driver.point}")]
+
+
+def _arm_of(force: str) -> str:
+    """Return the arm's name: of `F_i2` it is `h_lever_F_i2`, of the couple `F_i2_couple_B` `h_lever_M_i2_B`."""
+    if "_couple_" in force:
+        moment, _, point = force.partition("_couple_")
+        return f"h_lever_M{moment.removeprefix('F')}_{point}"
+    return f"h_lever_{force}"

@@ -1,0 +1,101 @@
+"""A plan of velocities, accelerations or forces: the recorded steps, drawn."""
+
+from __future__ import annotations
+
+from ...plans.board import Step
+from ..shapes import Circle, Group, Line, Pen
+from ..view import Canvas, View
+from .scene import Scene
+
+PAST = 6.0  # mm by which a construction line runs past the point that it finds
+SHORT = 2.0  # mm below which a vector cannot be drawn as an arrow
+
+
+def plan_view(scene: Scene, plan: str, key: str, **fill: str) -> View:
+    """Draw a plan from the steps that made it: construction lines, vectors, letters."""
+    canvas = Canvas(scene.style)
+    steps = scene.solved.program.on(plan)
+    vectors = vectors_of(steps)
+    _construction(canvas, scene, steps)
+    _vectors(canvas, scene, vectors)
+    _letters(canvas, scene, plan, [tip for _, _, tip in vectors])
+    return canvas.finish(plan, (*scene.heading(key, plan, **fill), *_said(scene, vectors)))
+
+
+def vectors_of(steps: tuple[Step, ...]) -> list[tuple[str, str, str]]:
+    """Return (quantity, tail, tip) of the vectors that the steps draw."""
+    vectors = []
+    for step in steps:
+        if step.verb == "read":
+            vectors.append((step.name, *step.operands))
+        elif step.verb == "chain":
+            vectors.append((step.operands[1], step.operands[0], step.name))
+    return vectors
+
+
+def _construction(canvas: Canvas, scene: Scene, steps: tuple[Step, ...]) -> None:
+    """Draw the two lines of each meeting, both running past the point where they meet."""
+    for step in steps:
+        if step.verb != "meet":
+            continue
+        p, u, q, w = step.operands
+        end = scene.mm(step.name)
+        for i, (start, direction) in enumerate(((p, u), (q, w))):
+            e, tail = scene.solved.point(direction), scene.mm(start)
+            along = ((end - tail) / e).real
+            ends = (tail, end + e * PAST) if along > 0 else (tail, end - e * PAST)
+            if abs(along) < PAST:
+                ends = (end - e * 2 * PAST, end + e * 2 * PAST)
+            canvas.add(Line(*ends, Pen.DASHED, role="construction", name=f"{step.name}_{i + 1}"))
+
+
+def _vectors(canvas: Canvas, scene: Scene, vectors: list[tuple[str, str, str]]) -> None:
+    named: dict[frozenset[complex], None] = {}
+    for quantity, tail, tip in vectors:
+        vector = scene.vector(quantity, tail, tip)
+        canvas.add(vector)
+        ends = frozenset((_rounded(vector.tail), _rounded(vector.tip)))
+        if abs(vector.tip - vector.tail) < SHORT:
+            continue  # said in words under the heading
+        side = 1j * (vector.tip - vector.tail) if ends in named else 0j
+        named[ends] = None
+        canvas.label(scene.words.symbol(quantity, bar=True), (vector.tail, vector.tip), prefer=side, clear=0.9)
+
+
+def _letters(canvas: Canvas, scene: Scene, plan: str, tips: list[str]) -> None:
+    """Letter the pole and every mark at which a vector ends; marks that coincide share one letter box."""
+    steps = scene.solved.program.on(plan)
+    poles = [step.name for step in steps if step.verb == "pole"]
+    marks = list(dict.fromkeys([*poles, *tips]))
+    middle = sum(scene.mm(mark) for mark in marks) / len(marks)
+    at: dict[complex, list[str]] = {}
+    for mark in marks:
+        at.setdefault(_rounded(scene.mm(mark)), []).append(mark)
+    for mark in poles:
+        canvas.add(Group((Circle(scene.mm(mark), scene.style.node, Pen.MAIN, fill="white"),), "point", mark))
+    for place, names in at.items():
+        letter = ", ".join(scene.words.mark(name) for name in names)
+        canvas.label(letter, place, prefer=place - middle, clear=1.0, priority=1)
+    for name in marks:
+        if name not in poles:
+            canvas.add(Group((Circle(scene.mm(name), 0.3, Pen.THIN, fill="black"),), "point", name))
+
+
+def _said(scene: Scene, vectors: list[tuple[str, str, str]]) -> list[str]:
+    """Say in words what is too short for an arrow."""
+    lines = []
+    for quantity, tail, tip in dict.fromkeys(vectors):
+        length = abs(scene.mm(tip) - scene.mm(tail))
+        if length < 1e-6:
+            lines.append(scene.words["said.zero"].format(vector=scene.words.symbol(quantity, bar=True)))
+        elif length < SHORT:
+            lines.append(
+                scene.words["said.short"].format(
+                    vector=scene.words.symbol(quantity, bar=True), mm=scene.words.number(length, 2)
+                )
+            )
+    return lines
+
+
+def _rounded(point: complex) -> complex:
+    return complex(round(point.real, 3), round(point.imag, 3))

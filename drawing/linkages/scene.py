@@ -1,0 +1,61 @@
+"""What every view of a linkage needs: the solved mechanism, scale factors, words, and sizes of the format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ...plans.board import POSITION
+from ...plans.linkages.rrp import Dyad
+from ...plans.linkages.solved import Solved
+from ...scales.scale import Scale
+from ..shapes import Vector
+from ..style import Style
+from ..words import Words, segment_decimals
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A solved mechanism on a certain format, in certain words; `scales` are by plan."""
+
+    solved: Solved
+    dyads: tuple[Dyad, ...]
+    scales: Mapping[str, Scale]
+    words: Words
+    style: Style
+    givens: Mapping[str, tuple[float, str]]  # what the task printed: value and unit by name
+
+    def mm(self, mark: str) -> complex:
+        """Return a mark in mm from the origin of its plan."""
+        plan = mark.rpartition(".")[0] or POSITION
+        return self.solved.point(mark) * (1.0 / self.scales[plan].mu)
+
+    def direction(self, name: str) -> complex:
+        """Return the unit direction of a vector, or 0 when it is zero."""
+        size = self.solved.size(name)
+        return complex(self.solved.values[name]) / size if size > 0.0 else 0j
+
+    def defined(self, name: str) -> bool:
+        """Whether a value exists and is a number."""
+        value = self.solved.values.get(name)
+        return value is not None and value == value  # noqa: PLR0124 (NaN)
+
+    def vector(self, name: str, tail: str, tip: str) -> Vector:
+        """Return the vector `name` of a plan from one mark to another."""
+        scale = self.scales[tail.rpartition(".")[0] or POSITION]
+        a, b = self.mm(tail), self.mm(tip)
+        size = self.solved.size(name) if name in self.solved.values else abs(b - a) * scale.mu
+        return Vector(a, b, name, size, scale.unit, scale.mu, title=name)
+
+    def segment(self, name: str) -> str:
+        """Return the printed millimetres of a quantity that a plan shows."""
+        item = self.solved.quantities[name]
+        value = item.value or 0.0
+        plan = self.solved.shown_on[name]
+        places, _ = segment_decimals(value, self.scales[plan].mu)
+        return self.words.number(abs(value) / self.scales[plan].mu, places)
+
+    def heading(self, key: str, *plans: str, **fill: str) -> tuple[str, ...]:
+        """Return the heading lines of a view: its name and the scale factors of `plans`."""
+        scales = dict.fromkeys(self.words.scale(self.scales[plan]) for plan in plans)
+        return (self.words[key].format(**fill), *scales)

@@ -1,0 +1,143 @@
+"""Symbols of links and pairs (GOST 2.770), hatching, arms with right-angle marks, dimensions, turning arrows."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from cmath import rect
+
+from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape
+from .style import Style
+
+
+def revolute(at: complex, name: str, style: Style) -> Group:
+    """Return a revolute pair: a white circle on which the links stop."""
+    return Group((Circle(at, style.pair, Pen.MAIN, fill="white"),), "pair", name)
+
+
+def link(a: complex, b: complex, name: str, style: Style, at_a: bool = True, at_b: bool = True) -> Group:
+    """Return a link from pair to pair; its line stops at their circles."""
+    e = (b - a) / abs(b - a)
+    start = a + e * style.pair if at_a else a
+    end = b - e * style.pair if at_b else b
+    return Group((Line(start, end, Pen.MAIN),), "link", name)
+
+
+def hatching(a: complex, b: complex, below: complex, style: Style) -> tuple[Shape, ...]:
+    """Return strokes at 45 degrees along the line a-b, on the side of the unit vector `below`."""
+    stroke, pitch = style.hatch
+    e = (b - a) / abs(b - a)
+    count = max(2, round(abs(b - a) / pitch))
+    lean = (below - e) * (stroke / math.sqrt(2.0))
+    feet = (a + e * (abs(b - a) * (k + 0.5) / count) for k in range(count))
+    return tuple(Line(foot - lean * 0.0, foot + lean, Pen.THIN, role="hatch") for foot in feet)
+
+
+def fixed_pivot(at: complex, name: str, style: Style) -> Group:
+    """Return a pivot on the frame: circle, triangle, base line, hatching under it."""
+    width, height, base = style.pivot
+    foot = at - 1j * (height + style.pair)
+    sides = (rect(style.pair, -2.15), rect(style.pair, -0.99))
+    legs = tuple(
+        Line(at + side, foot + x * width / 2, Pen.MAIN) for side, x in zip(sides, (-1, 1), strict=True)
+    )
+    ground = (foot - base / 2, foot + base / 2)
+    strokes = hatching(*ground, -1j, style)
+    circle = Circle(at, style.pair, Pen.MAIN, fill="white")
+    return Group((*legs, Line(*ground, Pen.MAIN), *strokes, circle), "pivot", name)
+
+
+def slider(at: complex, u: complex, name: str, style: Style, guides: bool = True) -> tuple[Shape, ...]:
+    """Return a slider along the unit vector `u` and, under it, the guide with hatching on its far side."""
+    length, height = style.slider
+    below = -1j * u if (1j * u).imag >= -1e-12 else 1j * u
+    corners = tuple(at + u * (sx * length / 2) + 1j * u * (sy * height / 2) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    block = Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "link", name)
+    if not guides:
+        return (block,)
+    a, b = (at + below * (height / 2) + u * (s * length * 1.1) for s in (-1, 1))
+    guide = Group((Line(a, b, Pen.MAIN), *hatching(a, b, below, style)), "guide", name)
+    return guide, block
+
+
+def centre_of_mass(at: complex, name: str, style: Style) -> Group:
+    """Return a centre of mass: a small filled circle."""
+    return Group((Circle(at, style.centre, Pen.MAIN, fill="black"),), "centre", name)
+
+
+def right_angle(at: complex, u: complex, w: complex, size: float) -> Polyline:
+    """Return the mark of a right angle at `at` between the unit directions `u` and `w`."""
+    return Polyline((at + u * size, at + (u + w) * size, at + w * size), Pen.THIN, role="right-angle")
+
+
+def arm(about: complex, foot: complex, name: str, along: complex, style: Style) -> Group:
+    """Return an arm as a dimension: from the centre of moments to the foot on the line of the force.
+
+    `along` is the unit direction of the force's line.
+    """
+    reach = abs(foot - about)
+    parts: list[Shape] = [Line(about, foot, Pen.THIN)]
+    if reach > 2.2 * style.arrow:
+        e = (foot - about) / reach
+        parts += [Head(foot, e), Head(about, -e)]
+    if reach > 4.0:
+        parts.append(right_angle(foot, (about - foot) / reach, along, min(2.0, reach / 3)))
+    return Group(tuple(parts), "arm", name)
+
+
+def turning_arrow(centre: complex, radius: float, middle: float, spread: float, sense: float, name: str) -> Group:
+    """Return an arc with an arrowhead that shows a sense of turning (+1 counter-clockwise) about `centre`."""
+    start = middle - sense * spread / 2
+    end = start + sense * spread
+    tip = centre + rect(radius, end)
+    # an arrowhead on a small circle points along the chord of its own length, not along the tangent at its tip
+    lean = min(0.5, 1.5 / radius)
+    direction = rect(1.0, end + sense * (math.pi / 2 - lean))
+    return Group((Arc(centre, radius, start, sense * spread, Pen.THIN), Head(tip, direction)), "arrow", name)
+
+
+def angle_dimension(centre: complex, radius: float, start: float, sweep: float, name: str, style: Style) -> Group:
+    """Return a dimensioned angle: an arc between two arrowheads, or the plain arc where they have no room."""
+    parts: list[Shape] = [Arc(centre, radius, start, sweep, Pen.THIN)]
+    if abs(sweep) * radius > 2.5 * style.arrow:
+        lean = style.arrow / 2 / radius
+        sign = math.copysign(1.0, sweep)
+        end = start + sweep
+        parts.append(Head(centre + rect(radius, end), rect(sign, end + math.pi / 2 - sign * lean)))
+        parts.append(Head(centre + rect(radius, start), rect(-sign, start + math.pi / 2 + sign * lean)))
+    return Group(tuple(parts), "dimension", name)
+
+
+def clear_ray(direction: complex, taken: list[complex]) -> tuple[complex, bool]:
+    """Choose where an arrow along `direction` stands at its point: on the ray it points along, or on the opposite one.
+
+    Returns
+    -------
+    ray : complex
+        The side of the point on which the arrow lies, unit.
+    outward : bool
+        True when its tail is at the point, false when its tip is.
+    """
+
+    def room(ray: complex) -> float:
+        return min((abs(cmath.phase(other / ray)) for other in taken), default=math.pi)
+
+    outward, inward = room(direction), room(-direction)
+    return (direction, True) if outward >= inward - 0.2 else (-direction, False)
+
+
+def force_arrow(
+    at: complex, direction: complex, name: str, taken: list[complex], style: Style, gap: float = 0.0
+) -> tuple[Arrow, complex]:
+    """Return an arrow of a force at a point (its length means nothing) and the ray on which it lies.
+
+    A force whose two rays are both taken stands beyond the first arrow there.
+    """
+    ray, outward = clear_ray(direction, taken)
+    start = gap
+    while any(abs(cmath.phase(other / ray)) < 0.02 and abs(other) > start + 0.5 * style.force for other in taken):
+        start += style.force + 2.0
+    near, far = at + ray * start, at + ray * (start + style.force)
+    taken.append(ray * (start + style.force))
+    tail, tip = (near, far) if outward else (far, near)
+    return Arrow(tail, tip, Pen.MAIN, name=name), ray

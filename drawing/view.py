@@ -1,0 +1,148 @@
+"""A view: one figure of a sheet, drawn about its own origin, lettered without collisions, under its heading."""
+
+from __future__ import annotations
+
+from cmath import rect
+from dataclasses import dataclass, field
+from typing import assert_never
+
+from .labels import Obstacles, Request, place
+from .page import extent
+from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
+from .style import Style
+from .text import lay_out
+
+Box = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """A finished figure: its shapes and the box that they fill, mm."""
+
+    name: str
+    shapes: tuple[Shape, ...]
+    box: Box
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height."""
+        return self.box[2] - self.box[0], self.box[3] - self.box[1]
+
+    def at(self, x: float, y: float) -> Group:
+        """Return the view as a group whose lower left corner stands at x, y."""
+        by = complex(x - self.box[0], y - self.box[1])
+        return Group(tuple(shifted(shape, by) for shape in self.shapes), "view", self.name)
+
+
+@dataclass(slots=True)
+class Canvas:
+    """Where a view is drawn; letters are asked for here and placed when all lines are known."""
+
+    style: Style
+    shapes: list[Shape] = field(default_factory=list)
+    _requests: list[Request] = field(default_factory=list)
+    _markup: list[tuple[str, float]] = field(default_factory=list)
+    _boxes: list[Box] = field(default_factory=list)
+
+    def add(self, *shapes: Shape) -> None:
+        """Draw shapes."""
+        self.shapes.extend(shapes)
+
+    def keep_clear(self, *points: complex) -> None:
+        """Let no letter stand in the box of these points."""
+        xs, ys = [p.real for p in points], [p.imag for p in points]
+        self._boxes.append((min(xs), min(ys), max(xs), max(ys)))
+
+    def label(
+        self,
+        markup: str,
+        anchor: complex | tuple[complex, complex],
+        *,
+        prefer: complex = 0j,
+        clear: float = 1.0,
+        height: float | None = None,
+        priority: int = 0,
+    ) -> None:
+        """Ask for a letter beside a node, or beside a line from one point to another."""
+        height = height or self.style.label
+        layout = lay_out(markup, height)
+        size = layout.width, layout.top - layout.bottom
+        self._requests.append(Request(str(len(self._requests)), *size, anchor, clear, prefer, priority))
+        self._markup.append((markup, height))
+
+    def finish(self, name: str, heading: tuple[str, ...] = ()) -> View:
+        """Place the letters, write the heading lines above, and close the view."""
+        placed = place(self._requests, _obstacles(self.shapes, self._boxes, self.style))
+        for request, (markup, height) in zip(self._requests, self._markup, strict=True):
+            corner = placed.corners[request.name]
+            at = corner - 1j * lay_out(markup, height).bottom
+            self.shapes.append(Text(at, markup, height, role="label"))
+        self.shapes += [Line(*ends, Pen.THIN, role="leader") for ends in placed.leaders.values()]
+        x0, y0, x1, y1 = extent(self.shapes)
+        lines, y1 = _heading(heading, self.style.heading, (x0 + x1) / 2, y1)
+        self.shapes += lines
+        x0, _, x1, _ = extent(self.shapes)
+        return View(name, tuple(self.shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
+
+
+def _heading(lines: tuple[str, ...], height: float, middle: float, top: float) -> tuple[list[Shape], float]:
+    """Write centred lines above `top`; return them and the new top."""
+    texts: list[Shape] = []
+    y = top + 0.5 * height if lines else top
+    for line in reversed(lines):
+        layout = lay_out(line, height)
+        y -= layout.bottom
+        texts.append(Text(complex(middle, y), line, height, "middle", role="heading"))
+        y += layout.top + 0.35 * height
+    return texts, y
+
+
+def _obstacles(shapes: list[Shape], boxes: list[Box], style: Style) -> Obstacles:
+    main: list[tuple[complex, complex]] = []
+    thin: list[tuple[complex, complex]] = []
+    circles: list[tuple[complex, float]] = []
+    solid = list(boxes)
+    for shape in shapes:
+        _gather(shape, main, thin, circles, solid, style)
+    return Obstacles(main, thin, circles, solid)
+
+
+def _gather(
+    shape: Shape,
+    main: list[tuple[complex, complex]],
+    thin: list[tuple[complex, complex]],
+    circles: list[tuple[complex, float]],
+    boxes: list[Box],
+    style: Style,
+) -> None:
+    match shape:
+        case Line(a=a, b=b, pen=pen):
+            (main if pen is Pen.MAIN else thin).append((a, b))
+        case Polyline(points=points, pen=pen, closed=closed):
+            ends = points[1:] + points[:1] if closed else points[1:]
+            (main if pen is Pen.MAIN else thin).extend(zip(points, ends, strict=False))
+        case Circle(centre=centre, radius=radius):
+            circles.append((centre, radius))
+        case Arc(centre=centre, radius=radius, start=start, sweep=sweep, pen=pen):
+            points = tuple(centre + rect(radius, start + sweep * k / 8) for k in range(9))
+            (main if pen is Pen.MAIN else thin).extend(zip(points, points[1:], strict=False))
+        case Head(tip=tip, direction=direction):
+            boxes.append(_head_box(tip, direction, style.arrow))
+        case Text():
+            boxes.append(extent((shape,)))
+        case Vector(tail=tail, tip=tip, pen=pen) | Arrow(tail=tail, tip=tip, pen=pen):
+            (main if pen is Pen.MAIN else thin).append((tail, tip))
+            if abs(tip - tail) > 0.01:
+                boxes.append(_head_box(tip, tip - tail, style.arrow))
+        case Group(shapes=parts):
+            for part in parts:
+                _gather(part, main, thin, circles, boxes, style)
+        case _:
+            assert_never(shape)
+
+
+def _head_box(tip: complex, direction: complex, length: float) -> Box:
+    along = direction / abs(direction) * length
+    half = abs(along) * 0.18
+    xs, ys = (tip.real, (tip - along).real), (tip.imag, (tip - along).imag)
+    return min(xs) - half, min(ys) - half, max(xs) + half, max(ys) + half

@@ -1,0 +1,91 @@
+"""A mechanism solved in one position: structure, construction, values and quantities together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ...scales.errors import PositionError
+from ..board import POSITION, Program
+from ..exact import Status, Trouble, run
+from ..quantities import Quantity, quantities, shown_on
+from .chain import PLANS, board_givens, construct
+from .mechanism import ZERO, Mechanism
+from .structure import Structure
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """One position of a mechanism; `values` holds every name of the construction, `quantities` the results in SI."""
+
+    mechanism: Mechanism
+    structure: Structure
+    program: Program
+    values: Mapping[str, Any]
+    quantities: Mapping[str, Quantity]
+    sines: Mapping[str, float]
+    status: Status
+    trouble: Trouble | None
+
+    def point(self, mark: str) -> complex:
+        """Return a mark of any plan, SI."""
+        return complex(self.values[mark])
+
+    def size(self, name: str) -> float:
+        """Return the magnitude of a value."""
+        value = self.values[name]
+        return math.hypot(value.real, value.imag)
+
+    @property
+    def shown_on(self) -> dict[str, str]:
+        """The first plan that shows each quantity as a segment."""
+        return shown_on(self.program)
+
+    @property
+    def scale_of_plan(self) -> dict[str, str]:
+        """Symbol of the scale factor of every plan; a group and its links share one."""
+        symbols = {POSITION: "mu_l", "velocity": "mu_V", "acceleration": "mu_a", "lever": "mu_V"}
+        symbols[f"forces_{self.structure.driver}"] = f"mu_F_{self.structure.driver}"
+        for group in self.structure.groups:
+            symbols |= {f"forces_{links}": f"mu_F_{group.name}" for links in (group.name, *map(str, group.links))}
+        return {plan: symbol for plan, symbol in symbols.items() if plan in self.program.plans}
+
+    def worst_sine(self) -> tuple[str, float]:
+        """Return the worst intersection: the name of its mark and the sine of its angle."""
+        return min(self.sines.items(), key=lambda item: item[1], default=("", 1.0))
+
+    def error(self) -> PositionError | None:
+        """Return why the position has no plan, or None."""
+        trouble = self.trouble
+        if trouble is None:
+            return None
+        if trouble.status == "no-assembly":
+            return PositionError("no-assembly", status_word="no-assembly", point=trouble.name, gap=f"{trouble.gap * 1e3:.4g}")
+        plan, dot, point = trouble.name.rpartition(".")
+        return PositionError("singular", status_word="singular", point=point, plan=plan if dot else POSITION)
+
+
+def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> Solved:
+    """Solve one position of `mechanism`.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Links, pairs, driver, loads.
+    values : mapping of str to float
+        Its numbers in SI by name.
+    plans : iterable of str
+        Plans wanted, of `chain.PLANS`; those they need are built too, no others.
+
+    Returns
+    -------
+    Solved
+        With status `singular` or `no-assembly` when the position has no plan; what is undefined is None.
+    """
+    structure, program = construct(mechanism, plans)
+    board = run(program, board_givens(mechanism, values))
+    lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if x != ZERO}
+    items = quantities(program, board.values, lengths)
+    return Solved(mechanism, structure, program, board.values, items, board.sines, board.status, board.trouble)
