@@ -117,7 +117,7 @@ def _forces(board: RecordingBoard, mechanism: Mechanism, dyads: list[tuple[Modul
             reactions.append(passed)
         elif dyad.before in forces:
             forces[dyad.before].append(passed)
-    driver.forces(board, mechanism, tuple(reactions))
+    driver.forces(board, mechanism, (*reactions, *forces[mechanism.driver.link]))
 
 
 def _lever(board: RecordingBoard, mechanism: Mechanism, dyads: list[tuple[ModuleType, rrp.Dyad]]) -> None:

@@ -36,21 +36,20 @@ def acceleration(board: Board, mechanism: Mechanism) -> None:
     board.read(f"a_{driver.point}", "acceleration.p", f"acceleration.{driver.point}")
 
 
-def forces(board: Board, mechanism: Mechanism, reactions: tuple[tuple[str, str], ...]) -> None:
+def forces(board: Board, mechanism: Mechanism, hung: tuple[tuple[str, str], ...]) -> None:
     """Balance the crank: R_01 closes its force plan, M_bal its moments about the pivot.
 
-    `reactions` are (force on the crank, its point) from the groups attached to it.
+    `hung` are (force on the crank, its point): reactions of the groups attached to it, inertia force and loads.
     """
     driver = mechanism.driver
     plan = f"forces_{driver.link}"
     board.pole(f"{plan}.0")
-    hung = [*reactions, *((load.name, load.point) for load in mechanism.loads_on(driver.link))]
     for i, (force, _) in enumerate(hung):
         board.chain(f"{plan}.{i + 1}", f"{plan}.{i}", force)
     board.read(f"R_0{driver.link}", f"{plan}.{len(hung)}", f"{plan}.0")
     moments = []
     for force, at in hung:
-        arm = f"h_{force.removeprefix('R_')}"
+        arm = f"h_{driver.link}" if force == f"F_i{driver.link}" else f"h_{force.removeprefix('R_')}"
         board.moment(f"_M_{force}_{driver.pivot}", arm, force, at, driver.pivot)
         moments.append(f"_M_{force}_{driver.pivot}")
     board.calc("M_bal", "closing_moment", *moments)

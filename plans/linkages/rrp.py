@@ -129,7 +129,7 @@ def forces(board: Board, d: Dyad, loads: dict[int, list[tuple[str, str]]], coupl
     moments = []
     for force, at in loads[j]:
         if at != d.B:
-            arm = f"h_{j}" if force == f"F_i{j}" else f"h_{force}"
+            arm = f"h_{j}" if force == f"F_i{j}" else f"h_{force.removeprefix('R_')}"
             board.moment(f"_M_{force}_{d.B}", arm, force, at, d.B)
             moments.append(f"_M_{force}_{d.B}")
     # R^t stands at A on the arm l_AB and turns about B against the sense in which it points along the normal

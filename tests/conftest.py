@@ -1,0 +1,17 @@
+"""What the tests of the numbers share: random mechanisms, 500 by default and 10,000 with the marker `soak`."""
+
+from __future__ import annotations
+
+import pytest
+from kulman.tests.mechanisms import Solved, general_slider_crank, random_slider_cranks, solved
+
+SEED = 20160101
+
+
+@pytest.fixture(
+    scope="session",
+    params=[pytest.param(500, id="500"), pytest.param(10_000, id="10000", marks=pytest.mark.soak)],
+)
+def cranks(request: pytest.FixtureRequest) -> Solved:
+    """Random slider-cranks: offset, oblique guide off the pivot, O off the origin, both branches, both senses."""
+    return solved(general_slider_crank(), random_slider_cranks(SEED, request.param))
