@@ -6,7 +6,7 @@ import os
 import re
 import stat
 import tomllib
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from pathlib import Path as FilePath
@@ -17,6 +17,7 @@ from ..scales.numbers import quote
 from .checks import Checker, Field, array_of, label, one_of, record, text
 from .checks_givens import Settings, read_choices, read_givens, read_variants
 from .checks_mechanism import Names, read_mechanism
+from .shelf import bundled, bundled_text
 from .task import Bound, Given, LocatedError, Task, unknown
 from .toml_places import Path, Places
 
@@ -39,32 +40,6 @@ class TaskFileError(InputError):
             return line
         more = messages(language)["and-more"].format(n=len(self.faults) - 1, file=self.file)
         return f"{line} {more}"
-
-
-@dataclass(frozen=True, slots=True)
-class Summary:
-    """What `list` shows of a task."""
-
-    id: str
-    title: dict[str, str]
-    source: str
-    variants: tuple[str, ...]
-    plans: tuple[str, ...]
-    givens: dict[str, str]
-
-
-def bundled() -> tuple[str, ...]:
-    """Return the ids of the tasks that come with the program."""
-    folder = files(__package__) / "tasks"
-    return tuple(sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml")))
-
-
-def summary(task: str) -> Summary:
-    """Return what `list` shows of a bundled task, without checking it once more."""
-    raw = tomllib.loads(_bundled_text(task))
-    givens = {name: given.get("unit") or "|".join(given["choices"]) for name, given in raw["givens"].items()}
-    variants = tuple(row["id"] for row in raw["variant"])
-    return Summary(raw["id"], raw["title"], raw["source"], variants, tuple(raw["plans"]), givens)
 
 
 def load_task(task: str | os.PathLike[str]) -> Task:
@@ -114,14 +89,10 @@ def read_text(toml: str, file: str) -> tuple[Task | None, tuple[InputError, ...]
 def _load_bundled(task: str) -> Task:
     """Return a bundled task; its `file` is `None`."""
     name = f"{task}.toml"
-    found, faults = read_text(_bundled_text(task), name)
+    found, faults = read_text(bundled_text(task), name)
     if found is None:
         raise TaskFileError(name, faults)
     return replace(found, file=None)
-
-
-def _bundled_text(task: str) -> str:
-    return (files(__package__) / "tasks" / f"{task}.toml").read_text(encoding="utf-8")
 
 
 def _shown(task: str | os.PathLike[str]) -> str:
