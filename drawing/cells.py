@@ -1,0 +1,74 @@
+"""Text in a cell: as large as fits, wrapped, shrunk, and at last made narrower; it never touches a line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from ..scales.errors import InputError
+from .shapes import Anchor, Text
+from .text import Box, escape, lay_out
+
+SIDE, EDGE = 1.0, 0.65  # clear of the lines of the cell, mm; half of the widest line is 0.4
+CLEAR = 0.45  # what the ink of a high or deep letter may leave of it
+PITCH = 1.5  # from baseline to baseline, in heights of a capital
+FALL = 0.3  # of p and y below the baseline, in heights of a capital
+NARROWEST = 40  # per cent of a letter's own width
+
+
+def fitted(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor = "middle", name: str = "") -> list[Text]:
+    """Return the lines of `plain` text that fill `cell`, in the largest of `heights` that fits.
+
+    Raises
+    ------
+    InputError
+        The text is too long even for the smallest and narrowest letters.
+    """
+    words = plain.split()
+    if not words:
+        return []
+    wide, high = cell[2] - cell[0] - 2 * SIDE, cell[3] - cell[1] - 2 * EDGE
+    for height in heights:
+        lines = _wrapped(words, height, wide)
+        if lines and _depth(len(lines), height) <= high:
+            return _placed(lines, cell, height, anchor, name)
+    height = heights[-1]
+    for percent in range(98, NARROWEST - 1, -2):
+        lines = _wrapped(words, height, wide * 100 / percent)
+        if lines and (len(lines) == 1 or _depth(len(lines), height) <= high):
+            return [replace(line, squeeze=percent / 100) for line in _placed(lines, cell, height, anchor, name)]
+    raise InputError("stamp-too-long", field=name, text=" ".join(words))
+
+
+def _depth(lines: int, height: float) -> float:
+    """Return the height of a block of lines, from the capitals of the first to the tails of the last."""
+    return ((lines - 1) * PITCH + 1 + FALL) * height
+
+
+def _wrapped(words: list[str], height: float, wide: float) -> list[str]:
+    """Return lines no wider than `wide`, or nothing when one word is wider than that."""
+    lines: list[str] = []
+    for word in words:
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lay_out(escape(word), height).width > wide:
+            return []
+        if lines and lay_out(escape(longer), height).width <= wide:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines
+
+
+def _placed(lines: list[str], cell: Box, height: float, anchor: Anchor, name: str) -> list[Text]:
+    """Return lines centred in the height of the cell, one under the other."""
+    x0, y0, x1, y1 = cell
+    x = {"left": x0 + SIDE, "middle": (x0 + x1) / 2, "right": x1 - SIDE}[anchor]
+    y = (y0 + y1 + _depth(len(lines), height)) / 2 - height
+    if len(lines) == 1:
+        ink = lay_out(escape(lines[0]), height)
+        if y + ink.top > y1 - CLEAR or y + ink.bottom < y0 + CLEAR:  # a capital with a breve, a deep bracket
+            y = (y0 + y1 - ink.top - ink.bottom) / 2
+    return [
+        Text(complex(x, y - row * PITCH * height), escape(line), height, anchor, role="stamp", name=name)
+        for row, line in enumerate(lines)
+    ]

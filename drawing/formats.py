@@ -1,0 +1,86 @@
+"""Formats of the sheet, the frame inside them, and the places that views must leave free."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..scales.errors import InputError
+from .pens import Norm
+from .text import Box
+
+BLOCK = {"gost": (185.0, 55.0), "iso": (180.0, 36.0)}  # the title block of a first sheet, mm
+FOLLOWING = {"gost": (185.0, 15.0), "iso": (180.0, 36.0)}
+TURNED = (70.0, 14.0)  # the additional block with the designation turned round (column 26)
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """A trimmed sheet of `width` x `height` mm."""
+
+    name: str
+    width: float
+    height: float
+
+    @property
+    def letters(self) -> str:
+        """Return the name as the sheet prints it: A3, upright or not."""
+        return self.name[:2]
+
+    @property
+    def upright(self) -> bool:
+        """Tell whether the short side lies at the bottom."""
+        return self.width < self.height
+
+
+FORMATS = {
+    item.name: item
+    for item in (  # from the smallest: the first that holds everything is the one to take
+        Format("A4", 210.0, 297.0),
+        Format("A3", 420.0, 297.0),
+        Format("A3-portrait", 297.0, 420.0),
+        Format("A2", 594.0, 420.0),
+        Format("A1", 841.0, 594.0),
+    )
+}
+
+
+def format_named(name: str) -> Format:
+    """Return the format called `name`; small letters and a Cyrillic А are understood.
+
+    Raises
+    ------
+    InputError
+        There is no such format.
+    """
+    wanted = name.strip().upper().replace("А", "A").replace("-PORTRAIT", "-portrait")
+    if wanted not in FORMATS:
+        raise InputError("format-unknown", format=name, expected=", ".join(FORMATS))
+    return FORMATS[wanted]
+
+
+def drawing_area(sheet: Format, norm: Norm = "gost") -> Box:
+    """Return the box inside the frame: 20 mm for binding, the rest after GOST 2.301 or ISO 5457."""
+    margin = 10.0 if norm == "iso" else 5.0
+    return 20.0, margin, sheet.width - margin, sheet.height - margin
+
+
+def block_box(sheet: Format, norm: Norm = "gost", first: bool = True) -> Box:
+    """Return the box of the title block, in the bottom right corner of the frame."""
+    _, y0, x1, _ = drawing_area(sheet, norm)
+    width, height = (BLOCK if first else FOLLOWING)[norm]
+    return x1 - width, y0, x1, y0 + height
+
+
+def turned_box(sheet: Format) -> Box:
+    """Return the box of column 26: top left, or upright in the top right corner of a tall sheet above A4."""
+    x0, _, x1, y1 = drawing_area(sheet)
+    long, short = TURNED
+    if sheet.upright and sheet.height > 297.0:
+        return x1 - short, y1 - long, x1, y1
+    return x0, y1 - short, x0 + long, y1
+
+
+def reserved_boxes(sheet: Format, norm: Norm = "gost", first: bool = True) -> tuple[Box, ...]:
+    """Return the boxes inside the frame in which no view may stand."""
+    block = block_box(sheet, norm, first)
+    return (block, turned_box(sheet)) if norm == "gost" and first else (block,)

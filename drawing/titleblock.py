@@ -1,0 +1,188 @@
+"""Frame and title block of a sheet: forms 1 and 2a after GOST 2.104, or the block of ISO 7200."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib.resources import files
+from math import pi
+
+from .cells import fitted
+from .formats import Format, block_box, drawing_area, turned_box
+from .pens import Norm
+from .shapes import Group, Line, Pen, Polyline, Shape, Text, shifted
+from .text import Box
+
+T, t = Pen.MAIN, Pen.THIN
+CAPTION = (2.5,)
+
+
+@dataclass(frozen=True, slots=True)
+class Stamp:
+    """What the title block says; an empty field stays blank on the sheet."""
+
+    title: str = ""
+    designation: str = ""
+    organisation: str = ""
+    group: str = ""
+    student: str = ""
+    teacher: str = ""
+    date: str = ""
+    document_type: str = ""
+    sheet: int = 1
+    sheets: int = 1
+    scale: str = ""
+    language: str = "uk"
+
+
+# From the bottom left corner of the block: level and ends of horizontal lines, place and ends of vertical ones, mm.
+# The bottom and the right side of every block are lines of the frame.
+_ROW_LINES = (25, 20, 15, 10, 5)
+FORM_1: tuple[tuple[float, float, float, float, Pen], ...] = (
+    (0, 55, 185, 55, T),
+    *((0, y, 65, y, t) for y in (50, 45, 40)),
+    (65, 40, 185, 40, T),
+    (0, 35, 65, 35, T),
+    (135, 35, 185, 35, T),
+    (0, 30, 65, 30, T),
+    *((0, y, 65, y, t) for y in _ROW_LINES),
+    (135, 20, 185, 20, T),
+    (65, 15, 185, 15, T),
+    (0, 0, 0, 55, T),
+    (7, 30, 7, 55, T),
+    *((x, 0, x, 55, T) for x in (17, 40, 55, 65)),
+    (135, 0, 135, 40, T),
+    *((x, 20, x, 35, t) for x in (140, 145)),
+    *((x, 20, x, 40, T) for x in (150, 167)),
+    (155, 15, 155, 20, T),
+)
+FORM_2A: tuple[tuple[float, float, float, float, Pen], ...] = (
+    (0, 15, 185, 15, T),
+    (0, 10, 65, 10, t),
+    (0, 5, 65, 5, T),
+    (175, 8, 185, 8, T),
+    *((x, 0, x, 15, T) for x in (0, 7, 17, 40, 55, 65, 175)),
+)
+CHANGES = (("change", 0, 7), ("row_sheet", 7, 17), ("document_no", 17, 40), ("signature", 40, 55), ("date", 55, 65))
+ROLES = (("drawn", 25), ("checked", 20), ("technical", 15), ("norms", 5), ("approved", 0))
+
+
+@cache
+def words(language: str) -> dict[str, str]:
+    """Return the captions of title blocks in `language`, by key."""
+    text = files(__package__).joinpath("texts", f"titleblock.{language}.toml").read_text(encoding="utf-8")
+    table: dict[str, str] = tomllib.loads(text)["titleblock"]
+    return table
+
+
+def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm = "gost", first: bool = True) -> tuple[Shape, ...]:
+    """Return edge, frame, title block and what stands round them; following sheets get the small block.
+
+    Raises
+    ------
+    InputError
+        A field is too long for its cell, or the font lacks one of its characters.
+    """
+    edge = rectangle((0.0, 0.0, sheet.width, sheet.height), t, "edge")
+    frame = rectangle(drawing_area(sheet, norm), T, "frame")
+    x0, y0, _, _ = block_box(sheet, norm, first)
+    if norm == "iso":
+        from .isoblock import centring_marks, iso_block
+
+        return edge, frame, centring_marks(sheet), at_corner(iso_block(stamp), "iso-7200", x0, y0)
+    parts, name = (_form_1(stamp), "form-1") if first else (_form_2a(stamp), "form-2a")
+    around = [_below(sheet, stamp), _turned(sheet, stamp)] if first else [_below(sheet, stamp)]
+    return edge, frame, at_corner(parts, name, x0, y0), *around
+
+
+def rectangle(box: Box, pen: Pen, role: str) -> Polyline:
+    """Return the outline of a box."""
+    x0, y0, x1, y1 = box
+    corners = (complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1))
+    return Polyline(corners, pen, closed=True, role=role)
+
+
+def ruled(lines: Iterable[tuple[float, float, float, float, Pen]]) -> list[Shape]:
+    """Return the lines of a table of ends and pens."""
+    return [Line(complex(x0, y0), complex(x1, y1), pen, role="cell") for x0, y0, x1, y1, pen in lines]
+
+
+def at_corner(parts: Iterable[Shape], name: str, x0: float, y0: float) -> Group:
+    """Return a title block whose bottom left corner lies at (x0, y0), its outer corner mitred."""
+    moved = [shifted(part, complex(x0, y0)) for part in parts]
+    lines = [part for part in moved if isinstance(part, Line)]
+    corner = complex(x0, max(line.a.imag for line in lines))
+    return Group((*moved, Polyline((corner - 1j, corner, corner + 1), T, role="corner")), "titleblock", name)
+
+
+def _changes(caption: dict[str, str], y: float) -> list[Text]:
+    cells = ((caption[key], (float(x0), y, float(x1), y + 5.0), key) for key, x0, x1 in CHANGES)
+    return [text for plain, cell, key in cells for text in fitted(plain, cell, CAPTION, name=key)]
+
+
+def _form_1(stamp: Stamp) -> list[Shape]:
+    """Return form 1, 185 x 55 mm, filled in."""
+    caption = words(stamp.language)
+    filled: list[Shape] = [*_changes(caption, 30.0), *_people(caption, stamp)]
+    name_cell = (65.0, 22.0 if stamp.document_type else 15.0, 135.0, 40.0)
+    below_name = (65.0, 15.0, 135.0, 22.5)
+    owner = ", ".join(part for part in (stamp.organisation, stamp.group) if part)
+    for key, plain, cell, heights in (
+        ("designation", stamp.designation, (65.0, 40.0, 185.0, 55.0), (7.0, 5.0, 3.5, 2.5)),
+        ("title", stamp.title, name_cell, (5.0, 3.5, 2.5)),
+        ("document_type", stamp.document_type, below_name, (3.5, 2.5)),
+        ("organisation", owner, (135.0, 0.0, 185.0, 15.0), (5.0, 3.5, 2.5)),
+        ("letter", caption["letter"], (135.0, 35.0, 150.0, 40.0), CAPTION),
+        ("letter_value", caption["letter_value"], (135.0, 20.0, 140.0, 35.0), (3.5, 2.5)),
+        ("mass", caption["mass"], (150.0, 35.0, 167.0, 40.0), CAPTION),
+        ("scale_caption", caption["scale"], (167.0, 35.0, 185.0, 40.0), CAPTION),
+        ("scale", stamp.scale, (167.0, 20.0, 185.0, 35.0), (5.0, 3.5, 2.5)),
+        ("sheet", f"{caption['sheet']} {stamp.sheet}", (135.0, 15.0, 155.0, 20.0), CAPTION),
+        ("sheets", f"{caption['sheets']} {stamp.sheets}", (155.0, 15.0, 185.0, 20.0), CAPTION),
+    ):
+        filled += fitted(plain, cell, heights, name=key)
+    return [*ruled(FORM_1), *filled]
+
+
+def _people(caption: dict[str, str], stamp: Stamp) -> list[Text]:
+    """Return the rows of roles, names and the date."""
+    texts: list[Text] = []
+    for key, y in ROLES:
+        texts += fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
+    for key, plain, level in (("student", stamp.student, 25.0), ("teacher", stamp.teacher, 20.0)):
+        texts += fitted(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
+    return texts + fitted(stamp.date, (55.0, 25.0, 65.0, 30.0), CAPTION, name="date_value")
+
+
+def _form_2a(stamp: Stamp) -> list[Shape]:
+    """Return form 2a, 185 x 15 mm, for the sheets after the first."""
+    caption = words(stamp.language)
+    filled: list[Shape] = [*_changes(caption, 0.0)]
+    filled += fitted(stamp.designation, (65.0, 0.0, 175.0, 15.0), (7.0, 5.0, 3.5, 2.5), name="designation")
+    filled += fitted(caption["row_sheet"], (175.0, 8.0, 185.0, 15.0), CAPTION, name="sheet_caption")
+    filled += fitted(str(stamp.sheet), (175.0, 0.0, 185.0, 8.0), (3.5, 2.5), name="sheet")
+    return [*ruled(FORM_2A), *filled]
+
+
+def _below(sheet: Format, stamp: Stamp) -> Group:
+    """Return the words under the frame: who copied it, and the format."""
+    caption = words(stamp.language)
+    right = drawing_area(sheet)[2]
+    copied = Text(complex(right - 120, 1.3), caption["copied"], 2.5, role="stamp", name="copied")
+    size = Text(complex(right - 50, 1.3), caption["format"].format(sheet.letters), 2.5, role="stamp", name="format")
+    return Group((copied, size), "margin")
+
+
+def _turned(sheet: Format, stamp: Stamp) -> Group:
+    """Return column 26: the designation turned round, for whoever looks through a pile of folded sheets."""
+    x0, y0, x1, y1 = turned_box(sheet)
+    tall = y1 - y0 > x1 - x0
+    near, far = (x0, x1) if tall else (x1, x0)
+    bend = complex(near, y0)
+    lines = Polyline((complex(far, y0), bend, complex(near, y1)), T, role="cell")
+    middle, turn, angle = complex((x0 + x1) / 2, (y0 + y1) / 2), (-1j if tall else -1), (-pi / 2 if tall else pi)
+    texts = fitted(stamp.designation, (-35.0, -7.0, 35.0, 7.0), (7.0, 5.0, 3.5, 2.5), name="designation_turned")
+    turned = (replace(text, at=middle + text.at * turn, angle=angle) for text in texts)
+    return Group((lines, *turned), "titleblock", "column-26")
