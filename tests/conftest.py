@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from kulman.tests.mechanisms import Solved, general_slider_crank, random_slider_cranks, solved
-
-SEED = 20160101
+from kulman.tests.mechanisms import SEED, Solved, general_slider_crank, random_slider_cranks, solved
 
 
 @pytest.fixture(

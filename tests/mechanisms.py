@@ -15,6 +15,7 @@ from kulman.plans.linkages.chain import board_givens, construct
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
 from numpy.typing import NDArray
 
+SEED = 20160101
 ORIGIN = (ZERO, ZERO)
 GENERAL_LENGTHS = ("x_O", "y_O", "l_OA", "l_AB", "l_AS2", "l_AC", "x_g", "y_g", "e")
 
