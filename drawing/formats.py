@@ -54,7 +54,7 @@ def format_named(name: str) -> Format:
     """
     wanted = name.strip().upper().replace("А", "A").replace("-PORTRAIT", "-portrait")
     if wanted not in FORMATS:
-        raise InputError("format-unknown", format=name, expected=", ".join(FORMATS))
+        raise InputError("format-unknown", text=name, known=", ".join(FORMATS))
     return FORMATS[wanted]
 
 

@@ -53,7 +53,7 @@ def iso_block(stamp: Stamp) -> list[Shape]:
     for key, (x0, y0, x1, y1) in CELLS:
         parts += fitted(caption[f"iso_{key}"], (x0, y1 - 4.6, x1, y1), (2.5,), "left", f"{key}_caption")
         value = (x0, y0, x1, y1 - 3.6)
-        parts += fitted(values.get(key, ""), value, (5.0, 3.5, 2.5), "left", key)
+        parts += fitted(values.get(key, ""), value, (3.5, 2.5), "left", key)
     return parts
 
 

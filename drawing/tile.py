@@ -37,7 +37,7 @@ def tiles(page: Page, paper: str = "A4") -> list[Tile]:
         `paper` is not a paper for tiles.
     """
     if paper not in PAPERS:
-        raise InputError("tile-unknown", paper=paper, expected=", ".join(PAPERS))
+        raise InputError("tile-unknown", text=paper, known=", ".join(PAPERS))
     wide, high = (side - 2 * MARGIN for side in PAPERS[paper])
     columns, rows = _count(page.width, wide), _count(page.height, high)
     found = []

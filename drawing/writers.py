@@ -46,7 +46,7 @@ def writer_for(path: Path) -> Writer:
     """
     writer = WRITERS.get(path.suffix.lower())
     if writer is None:
-        raise InputError("suffix-unknown", file=str(path), expected=", ".join(WRITERS))
+        raise InputError("output-suffix", file=str(path), known=", ".join(WRITERS))
     return writer
 
 
@@ -103,13 +103,13 @@ def replacing(path: Path) -> Iterator[BinaryIO]:
     try:
         stream = beside.open("xb")
     except OSError as problem:
-        raise InputError("file-unwritable", file=str(path), reason=problem.strerror or "") from None
+        raise InputError("output-refused", file=str(path), reason=problem.strerror or "") from None
     try:
         with stream:
             yield stream
         os.replace(beside, path)
     except OSError as problem:
-        raise InputError("file-unwritable", file=str(path), reason=problem.strerror or "") from None
+        raise InputError("output-refused", file=str(path), reason=problem.strerror or "") from None
     finally:
         with suppress(OSError):
             beside.unlink()
