@@ -153,7 +153,7 @@ def _plans(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) 
 
 def _notation(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
     """Refuse a notation that nobody has written."""
-    from .variants.reader import notations
+    from .drawing.words import notations
     from .variants.task import unknown
 
     if value is not None and value not in notations():
@@ -166,16 +166,14 @@ def _outputs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]
     from .drawing.writers import WRITERS
 
     for number, value in enumerate(values):
-        shown, path = quote(value), Path(value)
-        try:
-            folder_missing, is_folder = not path.parent.is_dir(), path.is_dir()
-        except ValueError as error:
-            raise InputError("output-suffix", file=shown, known=", ".join(WRITERS)) from error
-        if is_folder:
-            raise InputError("output-is-folder", file=shown)
+        shown, path = quote(value) or param.opts[0], Path(value)
         if path.suffix.lower() not in WRITERS:
             raise InputError("output-suffix", file=shown, known=", ".join(WRITERS))
-        if folder_missing:
+        if "\0" in value:
+            raise InputError("output-name", file=shown)
+        if path.is_dir():
+            raise InputError("output-is-folder", file=shown)
+        if not path.parent.is_dir():
             raise InputError("output-folder-missing", file=shown, folder=quote(path.parent))
         if not os.access(path if path.exists() else path.parent, os.W_OK):
             raise InputError("output-refused", file=shown, reason=os.strerror(13))

@@ -51,12 +51,15 @@ def record(checker: Checker, path: Path, raw: object, fields: Mapping[str, Field
     if not isinstance(raw, dict):
         checker.wrong_type(path, "type-table")
         return {}
+    missing = [name for name, wanted in fields.items() if wanted.required and name not in raw]
     for name in raw:
         if name not in fields:
-            checker.fault((*path, name), unknown("key-unknown", name, fields))
-    for name, wanted in fields.items():
-        if wanted.required and name not in raw:
-            checker.fault(path, InputError("key-missing", name=name))
+            error = unknown("key-unknown", name, fields)
+            checker.fault((*path, name), error)
+            # A misspelt key is one fault, not an unknown key and a missing one.
+            missing = [other for other in missing if other != error.data.get("like")]
+    for name in missing:
+        checker.fault(path, InputError("key-missing", name=name))
     read = {name: wanted.read(checker, (*path, name), raw[name]) for name, wanted in fields.items() if name in raw}
     return {name: value for name, value in read.items() if value is not None}
 

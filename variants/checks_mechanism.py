@@ -196,8 +196,10 @@ def _pair_joined(checker: Checker, path: Path, pair: Pair, links: Mapping[int, M
         for number in pair.links:
             if number != FRAME:
                 _on_link(checker, path, "point", pair.point, number, links)
-        if (pair.at is None) == (FRAME in pair.links):
-            checker.fault(path, InputError("key-missing" if pair.at is None else "pair-at", name="at"))
+        if pair.at is None and FRAME in pair.links:
+            checker.fault(path, InputError("key-missing", name="at"))
+        if pair.at is not None and FRAME not in pair.links:
+            checker.fault((*path, "at"), InputError("pair-at", name="at"))
     else:
         _on_link(checker, path, "point", pair.point, pair.links[0], links)
         if pair.links[1] != FRAME and pair.links[1] not in links:

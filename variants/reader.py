@@ -8,10 +8,10 @@ import stat
 import tomllib
 from dataclasses import replace
 from functools import cache
-from importlib.resources import files
 from pathlib import Path as FilePath
 from typing import Any
 
+from ..scales.choose import chooser
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.numbers import quote
 from .checks import Checker, Field, array_of, label, one_of, record, text
@@ -103,6 +103,8 @@ def _shown(task: str | os.PathLike[str]) -> str:
 def _file_text(task: str | os.PathLike[str], shown: str) -> str:
     """Return the text of a regular file of at most 1 MB."""
     path = FilePath(task)
+    if not shown.strip():
+        raise unknown("task-unknown", shown, bundled())
     try:
         state = path.stat()
     except (OSError, ValueError) as error:
@@ -138,6 +140,11 @@ def _syntax(toml: str, file: str, reason: str) -> InputError:
     """Return the fault that tomllib found, at its place."""
     lines = toml.replace("\r\n", "\n").split("\n")
     found = re.search(r"\(at line ([0-9]+), column ([0-9]+)\)", reason)
+    endless = re.search(r"[0-9_]{4000}", toml)  # Python refuses to read such a number, and tomllib does not say where
+    if endless and not found:
+        before = toml[: endless.start()].split("\n")
+        place = f"{file}:{len(before)}:{len(before[-1]) + 1}"
+        return LocatedError(place, InputError("number-infinite", text=quote(endless[0])))
     line, column = (int(found[1]), int(found[2])) if found else (len(lines), len(lines[-1]) + 1)
     written = lines[line - 1] if line <= len(lines) else ""
     if re.match("Cannot (overwrite|declare|mutate)|Duplicate", reason):
@@ -155,15 +162,11 @@ def _plans() -> tuple[str, ...]:
     return PLANS
 
 
-def notations() -> tuple[str, ...]:
-    """Return the names of the notations that come with the program."""
-    folder = files("kulman.drawing") / "notations"
-    return tuple(sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml")))
+def _notations() -> tuple[str, ...]:
+    """Return the notations that a task may name."""
+    from ..drawing.words import notations
 
-
-def _notation(checker: Checker, path: Path, raw: object) -> str | None:
-    """Read the name of a notation."""
-    return text(checker, path, raw) if not notations() else one_of("notation-unknown", notations)(checker, path, raw)
+    return notations()
 
 
 def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
@@ -171,11 +174,14 @@ def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     if not isinstance(raw, dict):
         checker.wrong_type(path, "type-table")
         return {}
-    for name in raw:
-        if not re.fullmatch(r"mu_[A-Za-z0-9_]+", name):
-            checker.fault((*path, name), InputError("scale-name", text=quote(name)))
-    read = {name: text(checker, (*path, name), chooser) for name, chooser in raw.items()}
-    return {name: chooser for name, chooser in read.items() if chooser}
+    read = {name: text(checker, (*path, name), said) for name, said in raw.items()}
+    said = {name: chosen for name, chosen in read.items() if chosen}
+    for name, chosen in said.items():
+        try:
+            chooser(name, chosen)
+        except InputError as error:
+            checker.fault((*path, name), error)
+    return said
 
 
 def _raw(checker: Checker, path: Path, raw: object) -> Any:
@@ -186,7 +192,7 @@ def _raw(checker: Checker, path: Path, raw: object) -> Any:
 _FIELDS = {
     "id": Field(label),
     "source": Field(text),
-    "notation": Field(_notation),
+    "notation": Field(one_of("notation-unknown", _notations)),
     "plans": Field(array_of(one_of("plan-unknown", _plans))),
     "title": Field(lambda c, p, r: record(c, p, r, {language: Field(text) for language in LANGUAGES})),
     "givens": Field(_raw),

@@ -168,7 +168,7 @@ class Task:
 def unknown(key: str, text: str, known: Iterable[str], **data: str) -> InputError:
     """Return the error for a name that is not in `known`: with the name that was meant, or with all there are."""
     names = list(known)
-    like = difflib.get_close_matches(text, names, n=1, cutoff=0.6)
+    like = difflib.get_close_matches(text, names, n=1, cutoff=0.6) if 2 < len(text) < 100 else []
     if like:
         return InputError(f"{key}-like", text=quote(text), like=like[0], **data)
     shown = ", ".join(names[:20]) + (", …" if len(names) > 20 else "")
