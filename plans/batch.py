@@ -59,7 +59,9 @@ class ArrayBoard(ExactBoard):
 
     def _arm(self, moment: Any, force: Any) -> Any:
         size = np.sqrt(force.real * force.real + force.imag * force.imag)
-        return np.abs(moment) / np.where(size > 0.0, size, NAN)
+        if not size.min() > 0.0:
+            size = np.where(size == 0.0, np.where(moment == 0.0, 1.0, NAN), size)
+        return np.abs(moment) / size
 
 
 def _without_rounding(component: Any) -> Any:

@@ -96,7 +96,9 @@ class ExactBoard(Board):
 
     def _arm(self, moment: Any, force: Any) -> Any:
         size = self._sqrt(dot(force, force))
-        return abs(moment) / size if size > 0.0 else NAN
+        if size == 0.0:
+            return 0.0 if moment == 0.0 else NAN  # a moment without a force is a couple: it has no arm
+        return abs(moment) / size
 
     # The verbs, the same for one and for many.
 

@@ -58,5 +58,5 @@ LAWS: dict[str, Law] = {
     # M = F * l
     "crank_moment": lambda force, length: force * length,
     # difference of two values in per cent of the first
-    "difference": lambda value, other: (value - other) / value * 100.0,
+    "difference": lambda value, other: (value - other) / (value + (value == 0.0)) * 100.0,  # two zeros do not differ
 }
