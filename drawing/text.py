@@ -15,7 +15,7 @@ from ..scales.errors import InputError
 from .font import SIZE, font
 from .shapes import Text
 
-SCRIPT = 0.7  # size of sub- and superscripts; a script of a script is no smaller, or nobody could read it
+SCRIPT = 5 / 7  # size of sub- and superscripts; a script of a script is no smaller, or nobody could read it
 DROP, LIFT = 0.35, 0.62  # of a script's baseline, in heights of its parent
 GAP = 0.22  # between text and a bar or an underline, and between two underlines, in heights
 RULES = {"bar": 0, "u": 1, "uu": 2}

@@ -70,8 +70,8 @@ class Canvas:
         self._requests.append(Request(str(len(self._requests)), *size, anchor, clear, prefer, priority))
         self._markup.append((markup, height))
 
-    def finish(self, name: str, heading: tuple[str, ...] = ()) -> View:
-        """Place the letters, write the heading lines above, and close the view."""
+    def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:
+        """Place the letters, write the heading lines and smaller notes above, and close the view."""
         placed = place(self._requests, _obstacles(self.shapes, self._boxes, self.style))
         for request, (markup, height) in zip(self._requests, self._markup, strict=True):
             corner = placed.corners[request.name]
@@ -79,13 +79,14 @@ class Canvas:
             self.shapes.append(Text(at, markup, height, role="label"))
         self.shapes += [Line(*ends, Pen.THIN, role="leader") for ends in placed.leaders.values()]
         x0, y0, x1, y1 = extent(self.shapes)
-        lines, y1 = _heading(heading, self.style.heading, (x0 + x1) / 2, y1)
-        self.shapes += lines
+        for texts, height in ((notes, self.style.text), (heading, self.style.heading)):
+            lines, y1 = heading_shapes(texts, height, (x0 + x1) / 2, y1)
+            self.shapes += lines
         x0, _, x1, _ = extent(self.shapes)
         return View(name, tuple(self.shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
 
 
-def _heading(lines: tuple[str, ...], height: float, middle: float, top: float) -> tuple[list[Shape], float]:
+def heading_shapes(lines: tuple[str, ...], height: float, middle: float, top: float) -> tuple[list[Shape], float]:
     """Write centred lines above `top`; return them and the new top."""
     texts: list[Shape] = []
     y = top + 0.5 * height if lines else top

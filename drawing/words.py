@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -145,36 +144,3 @@ def _plain(value: float, digits: int) -> str:
     """Return a small number without an exponent."""
     decimals = digits - 1 - math.floor(math.log10(abs(value)))
     return f"{value:.{min(decimals, 30)}f}".rstrip("0").rstrip(".")
-
-
-def decimals_for(value: float, digits: int = 4) -> int:
-    """Return how many decimals show `value` with so many significant digits."""
-    if value == 0.0 or not math.isfinite(value):
-        return 0
-    return max(0, digits - 1 - math.floor(math.log10(abs(value))))
-
-
-def agreeing(law: Callable[..., float], inputs: list[float], digits: int = 4) -> tuple[list[int], int]:
-    """Return decimals for the inputs and the result of an equation so that its printed numbers recompute.
-
-    The result has `digits` significant digits; the inputs get more than that only as far as rounding them would
-    change the result's last printed digit.
-    """
-    result = law(*inputs)
-    decimals = decimals_for(result, digits)
-    wanted = round(result, decimals)
-    for extra in range(10):
-        shown = [decimals_for(value, digits + extra) for value in inputs]
-        if round(law(*(round(v, d) for v, d in zip(inputs, shown, strict=True))), decimals) == wanted:
-            return shown, decimals
-    return shown, decimals
-
-
-def segment_decimals(value: float, mu: float, digits: int = 4) -> tuple[int, int]:
-    """Return decimals for a segment in mm and for its value so that mm * mu is the value to its last printed digit."""
-    decimals = decimals_for(value, digits)
-    wanted = round(abs(value), decimals)
-    for places in range(2, 9):
-        if round(round(abs(value) / mu, places) * mu, decimals) == wanted:
-            return places, decimals
-    return places, decimals

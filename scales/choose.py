@@ -6,12 +6,23 @@ that fits. What a user has fixed has one rung.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from .errors import InputError
 from .scale import SEGMENTS, rounded, steps
+from .units import parse, unit
 
 RUNGS = 16
+CRANK = {"V": 1, "a": 2}
+UNITS = {"l": "m", "V": "m/s", "a": "m/s^2", "F": "N"}
+# a segment by its letters on the plan, and the quantity that it shows: pa is V_A, p'a' is a_A, OA is l_OA
+SEGMENT_OF = {
+    "a": re.compile(r"[pπ]['′]?([a-z])(\d*)['′](\d*)"),
+    "V": re.compile(r"p([a-z])(\d*)"),
+    "l": re.compile(r"([A-Z]\d*[A-Z]\d*)"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,28 +59,92 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Round:
-    """The finest mu of the customary series at which quantity `quantity` is at most `millimetres` long."""
+    """The finest mu of the customary series at which the longest segment of the plan is at most `millimetres` long."""
 
-    quantity: str
+    symbol: str
     millimetres: float
+    firm: bool = False
 
     def ladder(self, value: Callable[[str], float]) -> tuple[float, ...]:
-        """Return the series from that mu on."""
-        return steps(value(self.quantity) / self.millimetres)[:RUNGS]
+        """Return the series from that mu on; `value` of the symbol itself is the largest quantity drawn to it."""
+        return steps(value(self.symbol) / self.millimetres)[:RUNGS]
 
 
 @dataclass(frozen=True, slots=True)
 class CrankScale:
-    """mu_V = omega_1 * mu_l and mu_a = omega_1^2 * mu_l: the crank's segment shows its velocity and acceleration."""
+    """mu_V = omega_1 * mu_l and mu_a = omega_1^2 * mu_l: the segment of the crank shows its velocity, its acceleration.
 
-    base: Segment | Fixed | Round
+    Such a scale factor goes with mu_l and is not rounded, so that pa = OA exactly.
+    """
+
     power: int
+    firm: bool = False
 
-    def ladder(self, value: Callable[[str], float]) -> tuple[float, ...]:
-        """Return the ladder of the length scale times omega_1 or its square, not rounded: pa = OA exactly."""
-        factor = abs(value("omega_1")) ** self.power
-        return tuple(mu * factor for mu in self.base.ladder(value))
+    def ladder(self, value: Callable[[str], float], base: tuple[float, ...] = ()) -> tuple[float, ...]:
+        """Return the ladder of mu_l times omega_1 or its square."""
+        return tuple(mu * value("omega_1") ** self.power for mu in base)
 
 
 Chooser = Fixed | Segment | Round | CrankScale
 Choosers = Mapping[str, Chooser]
+
+
+def chooser(symbol: str, text: str, firm: bool = False) -> Chooser:
+    """Read how the scale factor `symbol` is chosen.
+
+    Parameters
+    ----------
+    text : str
+        `15 N/mm` or `0.05` (a given mu), `pa=80 mm` (a chosen segment), `round` or `round 120 mm`
+        (the customary series, the longest segment at most so long), `crank` (the crank scale).
+    firm : bool
+        Said by the user: no other scale factor will do.
+
+    Raises
+    ------
+    InputError
+        When the text is none of these.
+    """
+    kind = symbol.split("_")[1] if "_" in symbol else ""
+    if kind not in UNITS:
+        raise InputError("scale-symbol", text=symbol)
+    name, equals, rest = text.partition("=")
+    if equals:
+        millimetres = _positive(parse(rest, unit("mm"), unit("mm")) * 1e3, text)
+        return Segment(_shown_by(symbol, name.strip()), millimetres, firm)
+    word, _, rest = text.strip().partition(" ")
+    if word == "round":
+        return Round(symbol, _positive(parse(rest, unit("mm"), unit("mm")) * 1e3, text) if rest else 100.0, firm)
+    if text.strip() == "crank" and kind in CRANK:
+        return CrankScale(CRANK[kind], firm)
+    per_mm = unit(f"({UNITS[kind]})/mm")
+    return Fixed(_positive(parse(text, per_mm, per_mm) / 1e3, text), firm)
+
+
+def segment_symbol(segment: str) -> str:
+    """Return the scale factor that a chosen segment fixes: `pa` mu_V, `p'a'` mu_a, `OA` mu_l.
+
+    Raises
+    ------
+    InputError
+        When the letters name no segment.
+    """
+    kind = next((kind for kind, letters in SEGMENT_OF.items() if letters.fullmatch(segment)), None)
+    if kind is None:
+        raise InputError("scale-segment", text=segment)
+    return f"mu_{kind}"
+
+
+def _shown_by(symbol: str, segment: str) -> str:
+    """Return the quantity that a segment of a plan shows."""
+    kind = symbol.split("_")[1]
+    letters = SEGMENT_OF[kind].fullmatch(segment) if kind in SEGMENT_OF else None
+    if letters is None:
+        raise InputError("scale-segment", text=segment)
+    return f"{kind}_{''.join(letters.groups()).upper()}"
+
+
+def _positive(mu: float, text: str) -> float:
+    if not 1e-30 < mu < 1e30:
+        raise InputError("scale-not-positive", text=text)
+    return mu

@@ -38,8 +38,7 @@ def driver_view(scene: Scene) -> View:
     _balance(canvas, scene, o, e)
     for point in (driver.pivot, driver.point):
         canvas.label(words.mark(point), scene.mm(point), clear=style.pair + 0.8)
-    key = "heading.driver"
-    return canvas.finish("driver", (*scene.heading(key, "position"), words["said.arrows"]))
+    return canvas.finish("driver", scene.heading("heading.driver", "position"), (words["said.arrows"],))
 
 
 def _balance(canvas: Canvas, scene: Scene, o: complex, e: complex) -> None:

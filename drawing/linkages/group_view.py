@@ -35,7 +35,7 @@ def group_view(scene: Scene, d: Dyad) -> View:
     moment = f"M_i{j}"
     if d.rod.inertia and scene.defined(moment):
         _moment(canvas, scene, moment, a + (b - a) * 0.5, along)
-    return canvas.finish(f"group_{d.name}", (*scene.heading("heading.group", "position", links=f"{j}, {k}"), scene.words["said.arrows"]))
+    return canvas.finish(f"group_{d.name}", scene.heading("heading.group", "position", links=f"{j}, {k}"), (scene.words["said.arrows"],))
 
 
 def slider_view(scene: Scene, d: Dyad) -> View:
@@ -53,7 +53,7 @@ def slider_view(scene: Scene, d: Dyad) -> View:
     _force(canvas, scene, f"R_0{k}", b, taken, gap=half)
     canvas.label(scene.words.mark(d.B), b, clear=scene.style.pair + 0.8)
     arm_text = f"{scene.words.symbol(f'h_0{k}')} = {scene.words.short(h or 0.0)}"
-    return canvas.finish(f"link_{k}", (scene.words["heading.link"].format(link=k), arm_text))
+    return canvas.finish(f"link_{k}", (scene.words["heading.link"].format(link=k),), (arm_text,))
 
 
 def loads(scene: Scene, number: int) -> list[tuple[str, str]]:

@@ -22,7 +22,7 @@ def lever_view(scene: Scene) -> View:
     canvas.label(words.mark("lever.p"), p, clear=1.0, priority=1)
     rays = {mark: [(q - scene.mm(mark)) for a, b, _ in lines for q in (a, b) if scene.mm(mark) in (a, b)] for mark in marks}
     taken = {mark: [ray for ray in rays[mark] if abs(ray) > 1e-6] for mark in marks}
-    for name, mark in _hung(scene):
+    for name, mark in hung_on_lever(scene):
         e = scene.direction(name)
         if e == 0:
             continue
@@ -31,14 +31,14 @@ def lever_view(scene: Scene) -> View:
         far = arrow.tip if abs(arrow.tip - scene.mm(mark)) > abs(arrow.tail - scene.mm(mark)) else arrow.tail
         canvas.label(words.symbol(name.removeprefix("_"), bar=True), (far - ray * 0.55 * style.force, far), clear=0.9)
         if name != "_F_bal":
-            force_arm(canvas, scene, name, _arm_of(name), scene.mm(mark), p)
+            force_arm(canvas, scene, name, arm_of(name), scene.mm(mark), p)
     canvas.label(f"{words.mark('velocity.p')}{words.mark('velocity.' + driver.point)} = {scene.segment('V_' + driver.point)}",
                  (p, scene.mm(f"lever.{driver.point}")), clear=0.9)
     middle = sum(scene.mm(mark) for mark in marks) / len(marks)
     for mark in marks:
         canvas.add(Group((Circle(scene.mm(mark), 0.3, Pen.THIN, fill="black"),), "point", mark))
         canvas.label(words.mark(f"velocity.{mark.removeprefix('lever.')}"), scene.mm(mark), prefer=scene.mm(mark) - middle, priority=1)
-    return canvas.finish("lever", (*scene.heading("heading.lever", "lever"), words["said.lever"]))
+    return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"],))
 
 
 def _lines(scene: Scene, marks: list[str]) -> list[tuple[complex, complex, str]]:
@@ -49,13 +49,13 @@ def _lines(scene: Scene, marks: list[str]) -> list[tuple[complex, complex, str]]
     return [line for line in lines if abs(line[1] - line[0]) > 1e-6]
 
 
-def _hung(scene: Scene) -> list[tuple[str, str]]:
+def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
     """Return (force, mark) of all that hangs on the lever, the balancing force last."""
     hung = [(step.operands[0], step.operands[1]) for step in scene.solved.program if step.verb == "moment" and step.operands[2] == "lever.p"]
     return [*hung, ("_F_bal", f"lever.{scene.solved.mechanism.driver.point}")]
 
 
-def _arm_of(force: str) -> str:
+def arm_of(force: str) -> str:
     """Return the arm's name: of `F_i2` it is `h_lever_F_i2`, of the couple `F_i2_couple_B` `h_lever_M_i2_B`."""
     if "_couple_" in force:
         moment, _, point = force.partition("_couple_")

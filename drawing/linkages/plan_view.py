@@ -19,7 +19,7 @@ def plan_view(scene: Scene, plan: str, key: str, **fill: str) -> View:
     _construction(canvas, scene, steps)
     _vectors(canvas, scene, vectors)
     _letters(canvas, scene, plan, [tip for _, _, tip in vectors])
-    return canvas.finish(plan, (*scene.heading(key, plan, **fill), *_said(scene, vectors)))
+    return canvas.finish(plan, scene.heading(key, plan, **fill), tuple(_said(scene, vectors)))
 
 
 def vectors_of(steps: tuple[Step, ...]) -> list[tuple[str, str, str]]:

@@ -10,8 +10,17 @@ from ...plans.linkages.rrp import Dyad
 from ...plans.linkages.solved import Solved
 from ...scales.scale import Scale
 from ..shapes import Vector
+from ..printed import segment_decimals
 from ..style import Style
-from ..words import Words, segment_decimals
+from ..words import Words
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A given as the task states it: a number in its own unit, or a chosen word (without unit)."""
+
+    value: float | str
+    unit: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +32,7 @@ class Scene:
     scales: Mapping[str, Scale]
     words: Words
     style: Style
-    givens: Mapping[str, tuple[float, str]]  # what the task printed: value and unit by name
+    givens: Mapping[str, Given]  # what the task states, in its own units
 
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""

@@ -72,8 +72,7 @@ def _angle(canvas: Canvas, scene: Scene) -> None:
     crank_mm = abs(scene.mm(driver.point) - o)
     phi = math.remainder(scene.solved.values[driver.angle], 2 * math.pi)
     phi = phi + 2 * math.pi if phi < -1e-12 else phi
-    value, unit = scene.givens.get(driver.angle, (math.degrees(phi), "deg"))
-    text = f"{words.symbol(driver.angle)} = {words.short(value)}{'°' if unit == 'deg' else ' ' + words.unit(unit)}"
+    text = f"{words.symbol(driver.angle)} = {words.short(round(math.degrees(phi), 9))}°"
     radius = max(0.45 * crank_mm, 9.0)
     canvas.add(Line(o + style.pair, o + max(crank_mm, radius + 6.0) * 1.1, Pen.THIN, role="zero-direction"))
     if phi > 0.05:

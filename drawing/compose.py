@@ -1,0 +1,54 @@
+"""Composing a sheet: views on pages, in frames with title blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from .formats import Format, drawing_area, reserved_boxes
+from .packing import Placement, pack
+from .page import Page
+from .pens import Norm
+from .titleblock import Stamp, frame_shapes
+from .view import View
+
+MARGIN = 4.0  # mm between the frame and any view
+GAP = 7.0  # mm between views
+CLOSE = 4.0  # mm between views on the smallest format
+
+
+def room(sheet: Format, norm: Norm) -> tuple[float, float]:
+    """Return width and height of the largest view that a page of its own can hold, beside nothing else."""
+    x0, y0, x1, y1 = _area(sheet, norm)
+    block = reserved_boxes(sheet, norm, first=False)[0]
+    return x1 - x0, y1 - block[3] - CLOSE
+
+
+def arrange(views: Sequence[View], sheet: Format, norm: Norm, pages: int | None) -> list[Placement] | None:
+    """Place the views on at most `pages` pages of `sheet`, or on as many as they need; None if they do not fit."""
+    return pack(
+        [[view.size] for view in views],
+        _area(sheet, norm),
+        reserved_boxes(sheet, norm, first=True),
+        later=reserved_boxes(sheet, norm, first=False),
+        gap=CLOSE if sheet.letters == "A4" else GAP,
+        pages=pages,
+    )
+
+
+def compose(views: Sequence[View], places: Sequence[Placement], sheet: Format, norm: Norm, stamp: Stamp) -> list[Page]:
+    """Return the finished pages: frame, title block and the views at their places."""
+    count = max(place.page for place in places) + 1
+    pages = []
+    for number in range(count):
+        own = replace(stamp, sheet=number + 1, sheets=count)
+        frame = frame_shapes(sheet, own, norm, first=number == 0)
+        figures = [v.at(p.x, p.y) for v, p in zip(views, places, strict=True) if p.page == number]
+        pages.append(Page(sheet.width, sheet.height, (*frame, *figures), stamp.title, stamp.language, norm))
+    return pages
+
+
+def _area(sheet: Format, norm: Norm) -> tuple[float, float, float, float]:
+    x0, y0, x1, y1 = drawing_area(sheet, norm)
+    margin = MARGIN if sheet.letters != "A4" else 2.0
+    return x0 + margin, y0 + margin, x1 - margin, y1 - margin

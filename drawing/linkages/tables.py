@@ -1,0 +1,59 @@
+"""Tables of a linkage sheet: what is given, and what was measured and calculated."""
+
+from __future__ import annotations
+
+from ...plans.quantities import Quantity
+from ..printed import segment_decimals, value_text
+from ..table import table
+from ..view import View
+from .scene import Scene
+
+RESULTS = {
+    "velocity": ("V", "omega"),
+    "acceleration": ("a", "epsilon"),
+    "forces": ("F", "M", "R", "h", "delta"),
+}
+
+
+def givens_table(scene: Scene) -> View:
+    """Return the table of the givens in the task's own units."""
+    words = scene.words
+    rows = [[words["table.symbol"], words["table.value"], words["table.unit"]]]
+    for name, given in scene.givens.items():
+        if isinstance(given.value, str):
+            rows.append([words.texts.get(f"given.{name}", name), words.texts.get(f"choice.{given.value}", given.value), ""])
+        else:
+            rows.append([words.symbol(name), words.short(given.value), words.unit(given.unit)])
+    return table("givens", words["heading.givens"], rows, scene.style)
+
+
+def results_tables(scene: Scene) -> list[View]:
+    """Return one table of results for each kind of plan that was drawn."""
+    views = []
+    for plan, heads in RESULTS.items():
+        items = [q for q in scene.solved.quantities.values() if q.kind != "point" and q.name.partition("_")[0] in heads]
+        items = [q for q in items if q.value is not None and "_couple_" not in q.name]
+        if items:
+            words = scene.words
+            head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
+            rows = [head, *(_row(scene, q) for q in items)]
+            views.append(table(f"results_{plan}", words[f"heading.results_{plan}"], rows, scene.style))
+    return views
+
+
+def _row(scene: Scene, q: Quantity) -> list[str]:
+    words, value = scene.words, q.value or 0.0
+    symbol = words.symbol(q.name)
+    unit = words.unit(q.unit)
+    plan = scene.solved.shown_on.get(q.name, "")
+    if plan not in scene.scales:
+        return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, tidy(scene, q)), unit]
+    mu = scene.scales[plan].mu
+    places, decimals = segment_decimals(value, mu)
+    return [symbol, words.number(abs(value) / mu, places), words.short(mu), words.number(abs(value), decimals), unit]
+
+
+def tidy(scene: Scene, q: Quantity) -> float:
+    """Return the value, 0 where it is the rounding noise of a difference."""
+    value = q.value or 0.0
+    return 0.0 if q.name.startswith("delta") and abs(value) < 1e-6 else value

@@ -1,0 +1,21 @@
+"""Tasks as data: their reader, their variants, and what is solved and drawn of them."""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .reader import load_task as load_task
+    from .sheets import sheet as sheet
+    from .solution import solve as solve
+
+__all__ = ["load_task", "sheet", "solve"]
+
+_HOMES = {"load_task": "reader", "sheet": "sheets", "solve": "solution"}
+
+
+def __getattr__(name: str) -> Any:
+    """Load what is asked for, so that a list of tasks needs no numpy."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(f".{_HOMES[name]}", __name__), name)
