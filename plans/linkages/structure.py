@@ -31,8 +31,8 @@ class Group:
 
     @property
     def group_class(self) -> int:
-        """Class by Artobolevsky: II for a dyad, III for a triad."""
-        return 2 if len(self.links) == 2 else 3
+        """Class by Artobolevsky: II for a dyad, III for a triad, IV for a closed contour of four links."""
+        return 2 if len(self.links) == 2 else 4 if self.kind == "IV" else 3
 
     @property
     def order(self) -> int:
@@ -98,8 +98,13 @@ def _groups(pairs: tuple[Pair, ...], known: set[int], left: list[int]) -> Iterat
         for links in combinations(left, size):
             inner = tuple(pair for pair in pairs if set(pair.links) <= set(links))
             outer = tuple(pair for pair in pairs if len(set(pair.links) & set(links)) == 1 and set(pair.links) & known)
-            if 2 * (len(inner) + len(outer)) == 3 * size and len({_within(p, links) for p in outer}) == len(outer):
-                yield _dyad(links, inner, outer) if size == 2 else Group(links, inner, outer, "III" if size == 4 else "?")
+            if 2 * (len(inner) + len(outer)) == 3 * size and len({_within(p, links) for p in outer}) == len(outer) > 1:
+                yield _dyad(links, inner, outer) if size == 2 else Group(links, inner, outer, _class(size, len(outer)))
+
+
+def _class(links: int, outer: int) -> str:
+    """Return III for a triad, a tree of four links; IV for a closed contour of four; `?` for larger groups."""
+    return {(4, 3): "III", (4, 2): "IV"}.get((links, outer), "?")
 
 
 def _within(pair: Pair, links: tuple[int, ...]) -> int:
