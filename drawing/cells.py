@@ -27,15 +27,15 @@ def fitted(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor = "mi
     words = plain.split()
     if not words:
         return []
-    wide, high = cell[2] - cell[0] - 2 * SIDE, cell[3] - cell[1] - 2 * EDGE
+    wide, high = cell[2] - cell[0] - 2 * SIDE, cell[3] - cell[1]
     for height in heights:
         lines = _wrapped(words, height, wide)
-        if lines and _depth(len(lines), height) <= high:
+        if lines and _fits(lines, height, high):
             return _placed(lines, cell, height, anchor, name)
     height = heights[-1]
     for percent in range(98, NARROWEST - 1, -2):
         lines = _wrapped(words, height, wide * 100 / percent)
-        if lines and (len(lines) == 1 or _depth(len(lines), height) <= high):
+        if lines and (len(lines) == 1 or _fits(lines, height, high)):
             return [replace(line, squeeze=percent / 100) for line in _placed(lines, cell, height, anchor, name)]
     raise InputError("stamp-too-long", field=name, text=" ".join(words))
 
@@ -43,6 +43,20 @@ def fitted(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor = "mi
 def _depth(lines: int, height: float) -> float:
     """Return the height of a block of lines, from the capitals of the first to the tails of the last."""
     return ((lines - 1) * PITCH + 1 + FALL) * height
+
+
+def _ink(lines: list[str], height: float) -> tuple[float, float]:
+    """Return bottom and top of a block's ink, measured from the baseline of its first line."""
+    layouts = [lay_out(escape(line), height) for line in lines]
+    levels = [-row * PITCH * height for row in range(len(lines))]
+    bottom = min(layout.bottom + level for layout, level in zip(layouts, levels, strict=True))
+    return bottom, max(layout.top + level for layout, level in zip(layouts, levels, strict=True))
+
+
+def _fits(lines: list[str], height: float, high: float) -> bool:
+    """Tell whether a block, and what its letters have above capitals, finds room in a cell `high` mm high."""
+    bottom, top = _ink(lines, height)
+    return _depth(len(lines), height) <= high - 2 * EDGE and top - bottom <= high - 2 * CLEAR
 
 
 def _wrapped(words: list[str], height: float, wide: float) -> list[str]:
@@ -64,10 +78,9 @@ def _placed(lines: list[str], cell: Box, height: float, anchor: Anchor, name: st
     x0, y0, x1, y1 = cell
     x = {"left": x0 + SIDE, "middle": (x0 + x1) / 2, "right": x1 - SIDE}[anchor]
     y = (y0 + y1 + _depth(len(lines), height)) / 2 - height
-    if len(lines) == 1:
-        ink = lay_out(escape(lines[0]), height)
-        if y + ink.top > y1 - CLEAR or y + ink.bottom < y0 + CLEAR:  # a capital with a breve, a deep bracket
-            y = (y0 + y1 - ink.top - ink.bottom) / 2
+    bottom, top = _ink(lines, height)
+    if y + top > y1 - CLEAR or y + bottom < y0 + CLEAR:  # a capital with a breve, a deep bracket
+        y = (y0 + y1 - top - bottom) / 2
     return [
         Text(complex(x, y - row * PITCH * height), escape(line), height, anchor, role="stamp", name=name)
         for row, line in enumerate(lines)

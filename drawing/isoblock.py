@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .cells import fitted
-from .formats import Format, drawing_area
+from .formats import Format, block_box, drawing_area
 from .shapes import Group, Line, Pen, Shape
 from .text import Box
 from .titleblock import Stamp, ruled, words
@@ -52,7 +52,7 @@ def iso_block(stamp: Stamp) -> list[Shape]:
     parts = ruled(ISO_7200)
     for key, (x0, y0, x1, y1) in CELLS:
         parts += fitted(caption[f"iso_{key}"], (x0, y1 - 4.6, x1, y1), (2.5,), "left", f"{key}_caption")
-        value = (x0, y0, x1, y1 - 3.6)
+        value = (x0, y0, x1, y1 - 3.95)
         parts += fitted(values.get(key, ""), value, (3.5, 2.5), "left", key)
     return parts
 
@@ -61,10 +61,12 @@ def centring_marks(sheet: Format) -> Group:
     """Return the four marks in the middles of the sides, from 5 mm outside the frame to 5 mm inside it."""
     x0, y0, x1, y1 = drawing_area(sheet, "iso")
     across, up = sheet.width / 2, sheet.height / 2
+    left, _, right, _ = block_box(sheet, "iso")
+    inward = 0 if left < across < right else 5  # a mark through the title block would cross its words
     ends = (
         (complex(x0 - 5, up), complex(x0 + 5, up)),
         (complex(x1 + 5, up), complex(x1 - 5, up)),
-        (complex(across, y0 - 5), complex(across, y0 + 5)),
+        (complex(across, y0 - 5), complex(across, y0 + inward)),
         (complex(across, y1 + 5), complex(across, y1 - 5)),
     )
     return Group(tuple(Line(a, b, T) for a, b in ends), "margin", "centring")
