@@ -1,0 +1,136 @@
+"""Imports run one way: scales <- plans <- drawing <- variants <- cli; heavy ones wait until they are needed."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import kulman
+import pytest
+
+ROOT = Path(kulman.__file__).parent
+LAYERS = ("scales", "plans", "drawing", "variants", "cli")
+OUTSIDE = ("tests", "benchmarks", "docs", ".venv", ".typing", ".ci", "build")
+COMMAND = "import contextlib, kulman.cli\nwith contextlib.suppress(SystemExit): kulman.cli.main(['{}'])"
+HEAVY = ("numpy", "shapely", "svgwrite", "matplotlib", "reportlab", "fontTools", "pypdfium2", "mpmath")
+
+
+def modules() -> Iterator[Path]:
+    """Go through the files of the package."""
+    for path in sorted(ROOT.rglob("*.py")):
+        if path.relative_to(ROOT).parts[0] not in OUTSIDE:
+            yield path.relative_to(ROOT)
+
+
+def imported(source: str, path: Path) -> Iterator[tuple[str, ...]]:
+    """Go through the modules of the package that a file imports, `TYPE_CHECKING` ones too, as parts from the root."""
+    package = path.parts[:-1]
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            base = package[: len(package) - node.level + 1]
+            if node.module:
+                yield (*base, *node.module.split("."))
+            else:
+                yield from ((*base, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield ("", *str(node.module).split("."))
+        elif isinstance(node, ast.Import):
+            yield from (("", *alias.name.split(".")) for alias in node.names)
+
+
+def layer(parts: tuple[str, ...]) -> int | None:
+    name = parts[0].removesuffix(".py") if parts else ""
+    return LAYERS.index(name) if name in LAYERS else None
+
+
+def wrong_imports(source: str, path: Path) -> list[str]:
+    """Return the imports of a file that lead to a higher layer, or name the package absolutely."""
+    own = layer(path.parts)
+    found = []
+    for target in imported(source, path):
+        other = layer(target)
+        absolute = target[0] == "" and target[1] in ("kulman", *LAYERS, "tests", "benchmarks")
+        upward = own is not None and other is not None and other > own
+        if absolute or upward:
+            found.append(".".join(target))
+    return found
+
+
+@pytest.mark.parametrize("path", [pytest.param(path, id=path.as_posix()) for path in modules()])
+def test_module_imports_nothing_from_a_higher_layer(path: Path) -> None:
+    source = (ROOT / path).read_text(encoding="utf-8")
+
+    assert wrong_imports(source, path) == []
+
+
+@pytest.mark.parametrize(
+    ("path", "source"),
+    [
+        pytest.param("drawing/a.py", "from ..variants import load_task", id="name of a higher layer"),
+        pytest.param("drawing/a.py", "from .. import variants", id="higher layer itself"),
+        pytest.param("plans/linkages/a.py", "from ...drawing.shapes import Line", id="from a folder below"),
+        pytest.param("scales/a.py", "if TYPE_CHECKING:\n    from ..plans.board import Board", id="for a type"),
+        pytest.param("plans/a.py", "def f():\n    from ..drawing import shapes", id="inside a function"),
+        pytest.param("variants/a.py", "from ..cli import main", id="command line"),
+        pytest.param("drawing/a.py", "import kulman.plans", id="absolute"),
+        pytest.param("drawing/a.py", "from kulman.plans import board", id="absolute name"),
+    ],
+)
+def test_import_to_a_higher_layer_is_noticed(path: str, source: str) -> None:
+    assert wrong_imports(source, Path(path)) != []
+
+
+@pytest.mark.parametrize(
+    ("path", "source"),
+    [
+        ("variants/a.py", "from ..drawing.shapes import Line"),
+        (
+            "plans/linkages/a.py",
+            "from ...scales.errors import InputError\nfrom ..board import Board\nfrom . import rrp",
+        ),
+        ("cli.py", "from .variants import load_task\nfrom . import __version__"),
+        ("scales/a.py", "import math\nfrom typing import Any"),
+    ],
+)
+def test_import_from_a_lower_layer_is_allowed(path: str, source: str) -> None:
+    assert wrong_imports(source, Path(path)) == []
+
+
+def test_every_folder_of_the_package_is_a_layer() -> None:
+    folders = {path.parts[0] for path in modules() if len(path.parts) > 1}
+
+    assert folders <= set(LAYERS)
+
+
+def loaded(code: str) -> set[str]:
+    """Run `code` in a fresh Python; return the heavy packages that it has loaded."""
+    report = f"{code}\nimport sys\nprint('LOADED', *(name for name in {HEAVY!r} if name in sys.modules))"
+    done = subprocess.run([sys.executable, "-c", report], capture_output=True, text=True, encoding="utf-8", check=True)
+    line = next(line for line in done.stdout.splitlines() if line.startswith("LOADED"))
+    return set(line.split()[1:])
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        pytest.param("import kulman", id="import kulman"),
+        pytest.param("import kulman.cli", id="import kulman.cli"),
+        pytest.param("import kulman.plans.linkages.chain", id="record a construction"),
+        pytest.param(
+            "import contextlib, kulman.cli\nwith contextlib.suppress(SystemExit): kulman.cli.main(['list'])", id="list"
+        ),
+        pytest.param(
+            "import contextlib, kulman.cli\nwith contextlib.suppress(SystemExit): kulman.cli.main(['--help'])",
+            id="help",
+        ),
+    ],
+)
+def test_nothing_heavy_is_loaded(code: str) -> None:
+    assert loaded(code) == set()
+
+
+def test_heavy_package_is_noticed() -> None:
+    assert loaded("import kulman.plans.batch") == {"numpy"}
