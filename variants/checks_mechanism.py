@@ -23,12 +23,13 @@ _M, _RAD = unit("m"), unit("rad")
 class Names:
     """The values that a mechanism may name, and what it turned out to use.
 
-    `literals` are constants by value and dimension, `distances` the names that must be greater than zero.
+    `literals` are constants by value and dimension, `positive` the names that must be greater than zero: without
+    a length or a speed of the crank there is no plan.
     """
 
     dimensions: dict[str, Dimension]
     literals: dict[tuple[float, Dimension], str] = field(default_factory=dict)
-    distances: set[str] = field(default_factory=set)
+    positive: set[str] = field(default_factory=set)
     signs: set[str] = field(default_factory=set)
 
     def value(self, wanted: Unit) -> Read:
@@ -85,6 +86,7 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | N
         Driver(**read["driver"]),
         tuple(Load(**x) for x in read.get("load", ())),
     )
+    names.positive.add(mechanism.driver.speed)
     _joined(checker, mechanism)
     return mechanism if len(checker.faults) == before else None
 
@@ -114,7 +116,7 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | Non
         lettered = {name(checker, (*path, key), key): place(checker, (*path, key), at) for key, at in raw.items()}
         for at in lettered.values():
             if at and ZERO in at:
-                names.distances.update(at)
+                names.positive.update(at)
         return None if None in lettered or None in lettered.values() else lettered  # type: ignore[return-value]
 
     place = array_of(names.value(_M), 2)

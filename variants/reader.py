@@ -248,7 +248,7 @@ def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Nam
 
 def _bounded(given: Given, names: Names) -> Given:
     """Return a given that is a distance on a link as one that must be greater than zero."""
-    return replace(given, bound=Bound.POSITIVE) if given.name in names.distances else given
+    return replace(given, bound=Bound.POSITIVE) if given.name in names.positive else given
 
 
 def _signs(checker: Checker, names: Names, choices: Settings) -> None:

@@ -14,8 +14,8 @@ from ..scales.errors import InputError
 from ..scales.numbers import quote
 from ..scales.units import Unit, parse
 
-# Beyond these a square of a square no longer fits into a float; no drawing has such links or forces.
-SMALLEST, LARGEST = 1e-30, 1e30
+# In SI; no drawing has links, masses or forces beyond these, and none of their products leaves the range of a float.
+SMALLEST, LARGEST = 1e-12, 1e9
 
 
 class Bound(Enum):
