@@ -12,7 +12,7 @@ import zlib
 from array import array
 from bisect import bisect_left
 from collections.abc import Iterable
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -112,7 +112,7 @@ class Font:
         advances = self._advances
         return advances[min(2 * self.strict_glyph(character), len(advances) - 2)] / self.units
 
-    @cache  # noqa: B019
+    @lru_cache(maxsize=16384)  # noqa: B019
     def width(self, string: str) -> float:
         """Return the width of `string` without kerning, in units of the font size."""
         return sum(self.advance(character) for character in string)
@@ -288,7 +288,7 @@ def _complete(tables: dict[str, bytes]) -> dict[str, bytes]:
     return tables | {"head": bytes(head)}
 
 
-@cache
+@lru_cache(maxsize=64)
 def subset(characters: str) -> bytes:
     """Return a TrueType font with the glyphs of `characters` only: the same outlines and advances, no hinting."""
     plain = _subset_tables(font(), characters)
@@ -296,7 +296,7 @@ def subset(characters: str) -> bytes:
     return _directory(plain) + b"".join(data + b"\0" * (-len(data) % 4) for data in tables.values())
 
 
-@cache
+@lru_cache(maxsize=64)
 def web_subset(characters: str) -> bytes:
     """Return the same subset in the compressed form of web pages (WOFF 1)."""
     plain = _subset_tables(font(), characters)

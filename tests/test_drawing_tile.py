@@ -11,7 +11,7 @@ from kulman.drawing.shapes import Line, Text
 from kulman.drawing.tile import MARGIN, OVERLAP, tiles, write_tiles
 from kulman.drawing.writers import WRITERS, write_pages
 from kulman.scales.errors import InputError
-from pdfminer.high_level import extract_pages
+from pdfminer.high_level import extract_pages, extract_text
 from pypdfium2 import PdfDocument
 
 
@@ -46,6 +46,7 @@ def test_tiled_sheets_are_small_paper_at_full_size():
     sheets = list(extract_pages(BytesIO(stream.getvalue())))
 
     assert len(sheets) == 8
+    assert "Аркуш" in extract_text(BytesIO(stream.getvalue()))
     assert {(round(sheet.width * 25.4 / 72), round(sheet.height * 25.4 / 72)) for sheet in sheets} == {(210, 297)}
 
 
