@@ -19,7 +19,7 @@ CLOSE = 4.0  # mm between views on the smallest format
 
 def room(sheet: Format, norm: Norm) -> tuple[float, float]:
     """Return width and height of the largest view that a page of its own can hold, beside nothing else."""
-    x0, y0, x1, y1 = _area(sheet, norm)
+    x0, _, x1, y1 = _area(sheet, norm)
     block = reserved_boxes(sheet, norm, first=False)[0]
     return x1 - x0, y1 - block[3] - CLOSE
 

@@ -33,9 +33,7 @@ def segment_decimals(value: float, mu: float) -> tuple[int, int]:
     return places, decimals
 
 
-def calculation(
-    words: Words, law: Callable[..., float], inputs: Sequence[tuple[float, bool]]
-) -> tuple[list[str], str]:
+def calculation(words: Words, law: Callable[..., float], inputs: Sequence[tuple[float, bool]]) -> tuple[list[str], str]:
     """Return the printed inputs and the printed result of a calculation, such that it recomputes.
 
     Parameters

@@ -38,9 +38,7 @@ def fixed_pivot(at: complex, name: str, style: Style) -> Group:
     width, height, base = style.pivot
     foot = at - 1j * (height + style.pair)
     sides = (rect(style.pair, -2.15), rect(style.pair, -0.99))
-    legs = tuple(
-        Line(at + side, foot + x * width / 2, Pen.MAIN) for side, x in zip(sides, (-1, 1), strict=True)
-    )
+    legs = tuple(Line(at + side, foot + x * width / 2, Pen.MAIN) for side, x in zip(sides, (-1, 1), strict=True))
     ground = (foot - base / 2, foot + base / 2)
     strokes = hatching(*ground, -1j, style)
     circle = Circle(at, style.pair, Pen.MAIN, fill="white")
@@ -51,7 +49,9 @@ def slider(at: complex, u: complex, name: str, style: Style, guides: bool = True
     """Return a slider along the unit vector `u` and, under it, the guide with hatching on its far side."""
     length, height = style.slider
     below = -1j * u if (1j * u).imag >= -1e-12 else 1j * u
-    corners = tuple(at + u * (sx * length / 2) + 1j * u * (sy * height / 2) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    corners = tuple(
+        at + u * (sx * length / 2) + 1j * u * (sy * height / 2) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    )
     block = Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "link", name)
     if not guides:
         return (block,)
@@ -108,8 +108,10 @@ def angle_dimension(centre: complex, radius: float, start: float, sweep: float, 
     return Group(tuple(parts), "dimension", name)
 
 
-def clear_ray(direction: complex, taken: list[complex]) -> tuple[complex, bool]:
+def clear_ray(direction: complex, lines: list[complex], arrows: list[complex]) -> tuple[complex, bool]:
     """Choose where an arrow along `direction` stands at its point: on the ray it points along, or on the opposite one.
+
+    Lines of links must not be covered; another arrow may be, for then this one stands beyond it.
 
     Returns
     -------
@@ -120,24 +122,32 @@ def clear_ray(direction: complex, taken: list[complex]) -> tuple[complex, bool]:
     """
 
     def room(ray: complex) -> float:
-        return min((abs(cmath.phase(other / ray)) for other in taken), default=math.pi)
+        to_lines = min((abs(cmath.phase(other / ray)) for other in lines), default=math.pi)
+        to_arrows = min((abs(cmath.phase(other / ray)) for other in arrows), default=math.pi)
+        return min(to_lines, 0.2 + to_arrows)
 
     outward, inward = room(direction), room(-direction)
-    return (direction, True) if outward >= inward - 0.2 else (-direction, False)
+    return (direction, True) if outward >= inward - 0.1 else (-direction, False)
 
 
 def force_arrow(
-    at: complex, direction: complex, name: str, taken: list[complex], style: Style, gap: float = 0.0
+    at: complex,
+    direction: complex,
+    name: str,
+    lines: list[complex],
+    arrows: list[complex],
+    style: Style,
+    gap: float = 0.0,
 ) -> tuple[Arrow, complex]:
     """Return an arrow of a force at a point (its length means nothing) and the ray on which it lies.
 
-    A force whose two rays are both taken stands beyond the first arrow there.
+    Where another arrow of `arrows` lies already, it stands beyond that one; it is added to `arrows` itself.
     """
-    ray, outward = clear_ray(direction, taken)
+    ray, outward = clear_ray(direction, lines, arrows)
     start = gap
-    while any(abs(cmath.phase(other / ray)) < 0.02 and abs(other) > start + 0.5 * style.force for other in taken):
+    while any(abs(cmath.phase(other / ray)) < 0.02 and abs(other) > start + 0.5 * style.force for other in arrows):
         start += style.force + 2.0
     near, far = at + ray * start, at + ray * (start + style.force)
-    taken.append(ray * (start + style.force))
+    arrows.append(ray * (start + style.force))
     tail, tip = (near, far) if outward else (far, near)
     return Arrow(tail, tip, Pen.MAIN, name=name), ray

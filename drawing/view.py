@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from cmath import rect
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import assert_never
 
 from .labels import Obstacles, Request, place
@@ -126,7 +127,7 @@ def _gather(
             circles.append((centre, radius))
         case Arc(centre=centre, radius=radius, start=start, sweep=sweep, pen=pen):
             points = tuple(centre + rect(radius, start + sweep * k / 8) for k in range(9))
-            (main if pen is Pen.MAIN else thin).extend(zip(points, points[1:], strict=False))
+            (main if pen is Pen.MAIN else thin).extend(pairwise(points))
         case Head(tip=tip, direction=direction):
             boxes.append(_head_box(tip, direction, style.arrow))
         case Text():

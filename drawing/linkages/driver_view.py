@@ -7,7 +7,7 @@ from cmath import phase
 
 from ..symbols import fixed_pivot, force_arrow, link, revolute, turning_arrow
 from ..view import Canvas, View
-from .group_view import force_arm, loads
+from .group_view import force_arm, letter_arrow, loads
 from .scene import Scene
 
 
@@ -23,16 +23,12 @@ def driver_view(scene: Scene) -> View:
     for name, point in (*forces, *loads(scene, driver.link)):
         if scene.direction(name) == 0 or point == driver.pivot:
             continue
-        arrow, ray = force_arrow(scene.mm(point), scene.direction(name), name, [-e], style)
-        canvas.add(arrow)
-        canvas.label(words.symbol(name, bar=True), (scene.mm(point) + ray * 0.4 * style.force, scene.mm(point) + ray * style.force))
-        force_arm(canvas, scene, name, f"h_{name.removeprefix('R_')}", scene.mm(point), o)
+        letter_arrow(canvas, scene, *force_arrow(scene.mm(point), scene.direction(name), name, [-e], [], style))
+        force_arm(canvas, scene, [name], [f"h_{name.removeprefix('R_')}"], scene.mm(point), o)
     name = f"R_0{driver.link}"
     if scene.direction(name) != 0:
-        arrow, ray = force_arrow(o, scene.direction(name), name, [e, -1j], style)
-        canvas.add(arrow)
-        canvas.label(words.symbol(name, bar=True), (o + ray * 0.4 * style.force, o + ray * style.force))
-    width, height, base = style.pivot
+        letter_arrow(canvas, scene, *force_arrow(o, scene.direction(name), name, [e, -1j], [], style))
+    _, height, base = style.pivot
     foot = o - 1j * (height + style.pair)
     canvas.keep_clear(foot - base / 2 - 1j * style.hatch[0], foot + base / 2)
     _balance(canvas, scene, o, e)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ...plans.linkages.rrp import Dyad
-from ..shapes import Line, Pen
+from ..shapes import Arrow, Line, Pen
 from ..symbols import arm, force_arrow, revolute, slider, turning_arrow
 from ..view import Canvas, View
 from .scene import Scene
@@ -15,27 +15,31 @@ from .scheme import rod_and_slider
 def group_view(scene: Scene, d: Dyad) -> View:
     """Draw group (rod, slider) without the crank: loads, reactions at its outer pairs, the arm of each moment."""
     canvas = Canvas(scene.style)
-    a, b, u = scene.mm(d.A), scene.mm(d.B), scene.solved.point(d.u)
+    a, b = scene.mm(d.A), scene.mm(d.B)
     rod_and_slider(canvas, scene, d, apart=True)
     canvas.add(revolute(a, d.A, scene.style))
     canvas.label(scene.words.mark(d.A), a, clear=scene.style.pair + 0.8)
     along = (b - a) / abs(b - a)
     i, j, k = d.before, d.rod.number, d.slider.number
-    at_a, at_b = [along], [-along]
-    _force(canvas, scene, f"R_{i}{j}_n", a, at_a)
-    _force(canvas, scene, f"R_{i}{j}_t", a, at_a)
+    at_a: list[complex] = []
+    at_b: list[complex] = []
+    _force(canvas, scene, f"R_{i}{j}_n", a, [along], at_a)
+    _force(canvas, scene, f"R_{i}{j}_t", a, [along], at_a)
     for name, point in loads(scene, k):
-        _force(canvas, scene, name, scene.mm(point), at_b, gap=scene.style.slider[0] / 2)
-    _force(canvas, scene, f"R_0{k}", b, at_b, gap=scene.style.slider[1] / 2)
+        _force(canvas, scene, name, scene.mm(point), [-along], at_b, gap=scene.style.slider[0] / 2)
+    _force(canvas, scene, f"R_0{k}", b, [-along], at_b, gap=scene.style.slider[1] / 2)
     for name, point in loads(scene, j):
-        taken = [along, -along] if point != d.B else at_b
-        _force(canvas, scene, name, scene.mm(point), taken)
+        inside = point not in (d.A, d.B)
+        _force(canvas, scene, name, scene.mm(point), [along, -along] if inside else [-along], [] if inside else at_b)
         if point != d.B:
-            force_arm(canvas, scene, name, f"h_{j}" if name == f"F_i{j}" else f"h_{name}", scene.mm(point), b)
+            arm_name = f"h_{j}" if name == f"F_i{j}" else f"h_{name}"
+            force_arm(canvas, scene, [name], [arm_name], scene.mm(point), b)
     moment = f"M_i{j}"
     if d.rod.inertia and scene.defined(moment):
         _moment(canvas, scene, moment, a + (b - a) * 0.5, along)
-    return canvas.finish(f"group_{d.name}", scene.heading("heading.group", "position", links=f"{j}, {k}"), (scene.words["said.arrows"],))
+    return canvas.finish(
+        f"group_{d.name}", scene.heading("heading.group", "position", links=f"{j}, {k}"), (scene.words["said.arrows"],)
+    )
 
 
 def slider_view(scene: Scene, d: Dyad) -> View:
@@ -46,11 +50,11 @@ def slider_view(scene: Scene, d: Dyad) -> View:
     canvas.add(*slider(b, u, str(k), scene.style, guides=False), revolute(b, d.B, scene.style))
     taken: list[complex] = []
     half = scene.style.slider[0] / 2
-    _force(canvas, scene, f"R_{j}{k}", b, taken, gap=half)
+    _force(canvas, scene, f"R_{j}{k}", b, [], taken, gap=half)
     for name, _ in loads(scene, k):
-        _force(canvas, scene, name, b, taken, gap=half)
+        _force(canvas, scene, name, b, [], taken, gap=half)
     h = scene.solved.quantities[f"h_0{k}"].value
-    _force(canvas, scene, f"R_0{k}", b, taken, gap=half)
+    _force(canvas, scene, f"R_0{k}", b, [], taken, gap=half)
     canvas.label(scene.words.mark(d.B), b, clear=scene.style.pair + 0.8)
     arm_text = f"{scene.words.symbol(f'h_0{k}')} = {scene.words.short(h or 0.0)}"
     return canvas.finish(f"link_{k}", (scene.words["heading.link"].format(link=k),), (arm_text,))
@@ -63,30 +67,44 @@ def loads(scene: Scene, number: int) -> list[tuple[str, str]]:
     return inertia + [(load.name, load.point) for load in scene.solved.mechanism.loads_on(number)]
 
 
-def force_arm(canvas: Canvas, scene: Scene, force: str, name: str, at: complex, about: complex) -> None:
-    """Draw the line of a force, thin, and the arm from `about` to it with its millimetres."""
-    e = scene.direction(force)
-    if e == 0 or not scene.defined(name):
+def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str], at: complex, about: complex) -> None:
+    """Draw the line of forces that share it, thin, and the arm from `about` to it with its millimetres."""
+    e = scene.direction(forces[0])
+    if e == 0 or not scene.defined(names[0]):
         return
     foot = at + e * (((about - at) / e).real)
-    reach = scene.style.force
-    ends = sorted((((p - at) / e).real for p in (at - e * 0.6 * reach, at + e * 0.6 * reach, foot)))
-    canvas.add(Line(at + e * (ends[0] - 4.0), at + e * (ends[-1] + 4.0), Pen.THIN, role="line-of-action", name=force))
+    reach = 0.6 * scene.style.force
+    ends = sorted(((p - at) / e).real for p in (at - e * reach, at + e * reach, foot))
+    line = (at + e * (ends[0] - 4.0), at + e * (ends[-1] + 4.0))
+    canvas.add(Line(*line, Pen.THIN, role="line-of-action", name=" ".join(forces)))
     if abs(foot - about) < 0.05:
         return
-    canvas.add(arm(about, foot, name, e, scene.style))
-    canvas.label(f"{scene.words.symbol(name)} = {scene.segment(name)}", (about, foot), clear=0.9)
+    canvas.add(*(arm(about, foot, name, e, scene.style) for name in names[:1]))
+    symbols = " = ".join(scene.words.symbol(name) for name in names)
+    canvas.label(f"{symbols} = {scene.segment(names[0])}", (about, foot), clear=0.9)
 
 
-def _force(canvas: Canvas, scene: Scene, name: str, at: complex, taken: list[complex], gap: float = 0.0) -> None:
-    """Hang the arrow of a force on a point, where no other arrow lies, and letter it."""
+def _force(
+    canvas: Canvas,
+    scene: Scene,
+    name: str,
+    at: complex,
+    lines: list[complex],
+    arrows: list[complex],
+    gap: float = 0.0,
+) -> None:
+    """Hang the arrow of a force on a point, clear of links and of other arrows there, and letter it."""
     e = scene.direction(name)
-    if e == 0:
-        return
-    arrow, ray = force_arrow(at, e, name, taken, scene.style, gap)
+    if e != 0:
+        letter_arrow(canvas, scene, *force_arrow(at, e, name, lines, arrows, scene.style, gap))
+
+
+def letter_arrow(canvas: Canvas, scene: Scene, arrow: Arrow, ray: complex) -> None:
+    """Draw a force arrow with its letter beside its outer half."""
     canvas.add(arrow)
-    far = arrow.tip if abs(arrow.tip - at) > abs(arrow.tail - at) else arrow.tail
-    canvas.label(scene.words.symbol(name, bar=True), (far - ray * 0.55 * scene.style.force, far), clear=0.9)
+    far = arrow.tip if abs((arrow.tip - arrow.tail) / abs(arrow.tip - arrow.tail) - ray) < 1.0 else arrow.tail
+    name = scene.words.symbol(arrow.name.removeprefix("_"), bar=True)
+    canvas.label(name, (far - ray * 0.55 * scene.style.force, far), clear=0.9)
 
 
 def _moment(canvas: Canvas, scene: Scene, name: str, at: complex, along: complex) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..shapes import Circle, Group, Line, Pen
 from ..symbols import force_arrow
 from ..view import Canvas, View
-from .group_view import force_arm
+from .group_view import force_arm, letter_arrow
 from .scene import Scene
 
 
@@ -17,27 +17,42 @@ def lever_view(scene: Scene) -> View:
     marks = [step.name for step in steps if step.verb == "normal"]
     p = scene.mm("lever.p")
     lines = _lines(scene, marks)
-    canvas.add(*(Line(a, b, Pen.THIN, role="lever", name=name) for a, b, name in lines))
+    canvas.add(*(Line(a, b, Pen.MAIN, role="lever", name=name) for a, b, name in lines))
     canvas.add(Group((Circle(p, style.node, Pen.MAIN, fill="white"),), "point", "lever.p"))
     canvas.label(words.mark("lever.p"), p, clear=1.0, priority=1)
-    rays = {mark: [(q - scene.mm(mark)) for a, b, _ in lines for q in (a, b) if scene.mm(mark) in (a, b)] for mark in marks}
-    taken = {mark: [ray for ray in rays[mark] if abs(ray) > 1e-6] for mark in marks}
+    rays = {
+        mark: [(q - scene.mm(mark)) for a, b, _ in lines for q in (a, b) if scene.mm(mark) in (a, b)] for mark in marks
+    }
+    lines_at = {mark: [ray for ray in rays[mark] if abs(ray) > 1e-6] for mark in marks}
+    arrows_at: dict[complex, list[complex]] = {}
+    feet: dict[complex, list[tuple[str, complex]]] = {}
     for name, mark in hung_on_lever(scene):
         e = scene.direction(name)
         if e == 0:
             continue
-        arrow, ray = force_arrow(scene.mm(mark), e, name, taken[mark], style)
-        canvas.add(arrow)
-        far = arrow.tip if abs(arrow.tip - scene.mm(mark)) > abs(arrow.tail - scene.mm(mark)) else arrow.tail
-        canvas.label(words.symbol(name.removeprefix("_"), bar=True), (far - ray * 0.55 * style.force, far), clear=0.9)
-        if name != "_F_bal":
-            force_arm(canvas, scene, name, arm_of(name), scene.mm(mark), p)
-    canvas.label(f"{words.mark('velocity.p')}{words.mark('velocity.' + driver.point)} = {scene.segment('V_' + driver.point)}",
-                 (p, scene.mm(f"lever.{driver.point}")), clear=0.9)
+        at = scene.mm(mark)
+        arrows = arrows_at.setdefault(complex(round(at.real, 3), round(at.imag, 3)), [])
+        letter_arrow(canvas, scene, *force_arrow(at, e, name, lines_at[mark], arrows, style))
+        if name != "_F_bal" and scene.defined(arm_of(name)):
+            foot = at + e * (((p - at) / e).real)
+            feet.setdefault(complex(round(foot.real, 4), round(foot.imag, 4)), []).append((name, at))
+    # forces on one line share their arm
+    for sharing in feet.values():
+        force_arm(canvas, scene, [name for name, _ in sharing], [arm_of(name) for name, _ in sharing], sharing[0][1], p)
+    canvas.label(
+        f"{words.mark('velocity.p')}{words.mark('velocity.' + driver.point)} = {scene.segment('V_' + driver.point)}",
+        (p, scene.mm(f"lever.{driver.point}")),
+        clear=0.9,
+    )
     middle = sum(scene.mm(mark) for mark in marks) / len(marks)
     for mark in marks:
         canvas.add(Group((Circle(scene.mm(mark), 0.3, Pen.THIN, fill="black"),), "point", mark))
-        canvas.label(words.mark(f"velocity.{mark.removeprefix('lever.')}"), scene.mm(mark), prefer=scene.mm(mark) - middle, priority=1)
+        canvas.label(
+            words.mark(f"velocity.{mark.removeprefix('lever.')}"),
+            scene.mm(mark),
+            prefer=scene.mm(mark) - middle,
+            priority=1,
+        )
     return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"],))
 
 
@@ -51,7 +66,11 @@ def _lines(scene: Scene, marks: list[str]) -> list[tuple[complex, complex, str]]
 
 def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
     """Return (force, mark) of all that hangs on the lever, the balancing force last."""
-    hung = [(step.operands[0], step.operands[1]) for step in scene.solved.program if step.verb == "moment" and step.operands[2] == "lever.p"]
+    hung = [
+        (step.operands[0], step.operands[1])
+        for step in scene.solved.program
+        if step.verb == "moment" and step.operands[2] == "lever.p"
+    ]
     return [*hung, ("_F_bal", f"lever.{scene.solved.mechanism.driver.point}")]
 
 

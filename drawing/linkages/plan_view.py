@@ -27,7 +27,7 @@ def vectors_of(steps: tuple[Step, ...]) -> list[tuple[str, str, str]]:
     vectors = []
     for step in steps:
         if step.verb == "read":
-            vectors.append((step.name, *step.operands))
+            vectors.append((step.name, step.operands[0], step.operands[1]))
         elif step.verb == "chain":
             vectors.append((step.operands[1], step.operands[0], step.name))
     return vectors

@@ -9,8 +9,8 @@ from ...plans.board import POSITION
 from ...plans.linkages.rrp import Dyad
 from ...plans.linkages.solved import Solved
 from ...scales.scale import Scale
-from ..shapes import Vector
 from ..printed import segment_decimals
+from ..shapes import Vector
 from ..style import Style
 from ..words import Words
 
@@ -47,7 +47,7 @@ class Scene:
     def defined(self, name: str) -> bool:
         """Whether a value exists and is a number."""
         value = self.solved.values.get(name)
-        return value is not None and value == value  # noqa: PLR0124 (NaN)
+        return value is not None and value == value
 
     def vector(self, name: str, tail: str, tip: str) -> Vector:
         """Return the vector `name` of a plan from one mark to another."""

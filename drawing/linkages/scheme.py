@@ -48,11 +48,15 @@ def rod_and_slider(canvas: Canvas, scene: Scene, d: Dyad, apart: bool = False) -
         origin = scene.mm(f"_{d.u}_origin")
         along = ((b - origin) / u).real
         reach = sorted((0.0, along))
-        canvas.add(Line(origin + u * (reach[0] - 12.0) + (b - origin - u * along), b + u * (reach[1] - along + 16.0), Pen.AXIS))
-        radius, direction = abs(b - a), phase(b - a)
-        spread = max(14.0 / radius, 0.06)
-        canvas.add(Arc(a, radius, direction - spread / 2, spread, Pen.THIN, role="construction", name=f"arc_{d.B}"))
+        canvas.add(
+            Line(origin + u * (reach[0] - 12.0) + (b - origin - u * along), b + u * (reach[1] - along + 16.0), Pen.AXIS)
+        )
     canvas.add(*slider(b, u, str(d.slider.number), style, guides=not apart))
+    if not apart:
+        # the compass arc runs past the slider on both sides
+        radius, direction = abs(b - a), phase(b - a)
+        spread = (2.4 * style.slider[1] + 4.0) / radius
+        canvas.add(Arc(a, radius, direction - spread / 2, spread, Pen.THIN, role="construction", name=f"arc_{d.B}"))
     canvas.add(link(a, b, str(d.rod.number), style))
     canvas.add(revolute(b, d.B, style))
     middle = (a + 2 * b) / 3
@@ -134,14 +138,18 @@ def _senses(canvas: Canvas, scene: Scene, d: Dyad) -> None:
 
 def _frame_number(canvas: Canvas, scene: Scene, pivot: complex) -> None:
     """Letter the frame 0 beside the hatching of the pivot and keep letters off the hatching."""
-    width, height, base = scene.style.pivot
+    _, height, base = scene.style.pivot
     foot = pivot - 1j * (height + scene.style.pair)
     canvas.keep_clear(foot - base / 2 - 1j * scene.style.hatch[0], foot + base / 2)
     canvas.label("0", foot + base / 2 - 0.5j * scene.style.hatch[0], prefer=1.0 + 0j, clear=1.0)
     for d in scene.dyads:
         b, u = scene.mm(d.B), scene.solved.point(d.u)
         length, height = scene.style.slider
-        corners = [b + u * (s * length * 1.1) + 1j * u * (t * (height / 2 + scene.style.hatch[0])) for s in (-1, 1) for t in (-1, 0)]
+        corners = [
+            b + u * (s * length * 1.1) + 1j * u * (t * (height / 2 + scene.style.hatch[0]))
+            for s in (-1, 1)
+            for t in (-1, 0)
+        ]
         canvas.keep_clear(*corners)
 
 

@@ -20,12 +20,15 @@ from ..titleblock import Stamp
 from ..view import View
 from ..words import Words
 from .driver_view import driver_view
-from .equations import forces_block, kinematics_block, lever_block, structure_block
+from .forces_text import forces_block
 from .group_view import group_view, slider_view
+from .kinematics_text import kinematics_block
+from .lever_text import lever_block
 from .lever_view import lever_view
 from .plan_view import plan_view
 from .scene import Given, Scene
 from .scheme import scheme
+from .structure_text import structure_block
 from .tables import givens_table, results_tables
 
 SMALLEST_FIRST = ("A4", "A3", "A2", "A1")
@@ -83,7 +86,9 @@ def _ladders(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...]]
 
     def value(name: str) -> float:
         if name in plans.values():
-            drawn = [q.value or 0.0 for q in solved.quantities.values() if plans.get(shown.get(q.name, "position")) == name]
+            drawn = [
+                q.value or 0.0 for q in solved.quantities.values() if plans.get(shown.get(q.name, "position")) == name
+            ]
             size = max(map(abs, drawn), default=0.0)
         else:
             item = solved.quantities.get(name)
@@ -95,7 +100,9 @@ def _ladders(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...]]
     ladders: dict[str, tuple[float, ...]] = {}
     for symbol in dict.fromkeys(plans.values()):
         chooser = choosers.get(symbol, Round(symbol, 100.0))
-        ladders[symbol] = chooser.ladder(value, ladders["mu_l"]) if isinstance(chooser, CrankScale) else chooser.ladder(value)
+        ladders[symbol] = (
+            chooser.ladder(value, ladders["mu_l"]) if isinstance(chooser, CrankScale) else chooser.ladder(value)
+        )
     return ladders
 
 
@@ -127,7 +134,9 @@ def _several(order: Order, sheet: Format, ladders: Mapping[str, tuple[float, ...
     return _drawn(order, sheet, views, places, scales)
 
 
-def _drawn(order: Order, sheet: Format, views: list[View], places: list[Placement], scales: Mapping[str, Scale]) -> Drawn:
+def _drawn(
+    order: Order, sheet: Format, views: list[View], places: list[Placement], scales: Mapping[str, Scale]
+) -> Drawn:
     return Drawn(compose(views, places, sheet, order.norm, order.stamp), scales, sheet.name)
 
 
@@ -157,7 +166,11 @@ def _does_not_fit(order: Order, sheet: Format, symbol: str, mu: float, view: Vie
     """Say which format, or which scale factor, would do."""
     width, height = room(sheet, order.norm)
     excess = max(view.size[0] / width, view.size[1] / height)
-    wide = [name for name in SMALLEST_FIRST if all(a >= b for a, b in zip(room(FORMATS[name], order.norm), view.size, strict=True))]
+    wide = [
+        name
+        for name in SMALLEST_FIRST
+        if all(a >= b for a, b in zip(room(FORMATS[name], order.norm), view.size, strict=True))
+    ]
     unit = Scale(symbol, mu, UNITS[symbol.split("_")[1]]).per_mm_unit
     return InputError(
         "plan-too-large" if wide else "plan-too-large-everywhere",
@@ -179,6 +192,7 @@ def _scene(order: Order, sheet: Format, mus: Mapping[str, float]) -> Scene:
 def build(scene: Scene, plans: tuple[str, ...], width: float) -> Iterator[tuple[View, str]]:
     """Yield the views in the order of the work, each with the symbol of the scale factor that sizes it."""
     symbols = scene.solved.scale_of_plan
+    results = results_tables(scene)
     if "structure" in plans:
         yield givens_table(scene), ""
         yield structure_block(scene, width), ""
@@ -189,6 +203,9 @@ def build(scene: Scene, plans: tuple[str, ...], width: float) -> Iterator[tuple[
             yield plan_view(scene, plan, f"heading.{plan}"), symbols[plan]
     if "velocity" in plans:
         yield kinematics_block(scene, width, plans), ""
+    for kind in ("velocity", "acceleration"):
+        if kind in results:
+            yield results[kind], ""
     if "forces" in plans:
         for d in reversed(scene.dyads):
             yield from _group(scene, d, symbols)
@@ -197,8 +214,9 @@ def build(scene: Scene, plans: tuple[str, ...], width: float) -> Iterator[tuple[
     if "lever" in plans:
         yield lever_view(scene), "mu_V"
         yield lever_block(scene, width, with_inertia="forces" not in plans), ""
-    for view in results_tables(scene):
-        yield view, ""
+    for kind in ("forces", "lever"):
+        if kind in results:
+            yield results[kind], ""
 
 
 def _group(scene: Scene, d: Dyad, symbols: Mapping[str, str]) -> Iterator[tuple[View, str]]:
@@ -214,4 +232,3 @@ def _driver(scene: Scene, symbols: Mapping[str, str]) -> Iterator[tuple[View, st
     link = str(scene.solved.structure.driver)
     yield driver_view(scene), "mu_l"
     yield plan_view(scene, f"forces_{link}", "heading.link_forces", link=link), symbols[f"forces_{link}"]
-

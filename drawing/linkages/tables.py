@@ -8,11 +8,14 @@ from ..table import table
 from ..view import View
 from .scene import Scene
 
-RESULTS = {
-    "velocity": ("V", "omega"),
-    "acceleration": ("a", "epsilon"),
-    "forces": ("F", "M", "R", "h", "delta"),
-}
+HEADS = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
+
+
+def kind_of(name: str) -> str:
+    """Return the table in which a quantity stands."""
+    if name.startswith("h_lever") or name in ("F_bal", "M_bal_lever", "delta_M_bal") or name.endswith("_couple"):
+        return "lever"
+    return HEADS.get(name.partition("_")[0], "forces")
 
 
 def givens_table(scene: Scene) -> View:
@@ -21,24 +24,26 @@ def givens_table(scene: Scene) -> View:
     rows = [[words["table.symbol"], words["table.value"], words["table.unit"]]]
     for name, given in scene.givens.items():
         if isinstance(given.value, str):
-            rows.append([words.texts.get(f"given.{name}", name), words.texts.get(f"choice.{given.value}", given.value), ""])
+            rows.append(
+                [words.texts.get(f"given.{name}", name), words.texts.get(f"choice.{given.value}", given.value), ""]
+            )
         else:
             rows.append([words.symbol(name), words.short(given.value), words.unit(given.unit)])
     return table("givens", words["heading.givens"], rows, scene.style)
 
 
-def results_tables(scene: Scene) -> list[View]:
+def results_tables(scene: Scene) -> dict[str, View]:
     """Return one table of results for each kind of plan that was drawn."""
-    views = []
-    for plan, heads in RESULTS.items():
-        items = [q for q in scene.solved.quantities.values() if q.kind != "point" and q.name.partition("_")[0] in heads]
-        items = [q for q in items if q.value is not None and "_couple_" not in q.name]
-        if items:
-            words = scene.words
-            head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
-            rows = [head, *(_row(scene, q) for q in items)]
-            views.append(table(f"results_{plan}", words[f"heading.results_{plan}"], rows, scene.style))
-    return views
+    words = scene.words
+    rows: dict[str, list[list[str]]] = {}
+    for q in scene.solved.quantities.values():
+        if q.kind != "point" and q.value is not None and not q.name.startswith("l_") and "_couple_" not in q.name:
+            rows.setdefault(kind_of(q.name), []).append(_row(scene, q))
+    head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
+    return {
+        kind: table(f"results_{kind}", words[f"heading.results_{kind}"], [head, *body], scene.style)
+        for kind, body in rows.items()
+    }
 
 
 def _row(scene: Scene, q: Quantity) -> list[str]:

@@ -1,0 +1,141 @@
+"""Equations of velocities and accelerations, with their numbers."""
+
+from __future__ import annotations
+
+import math
+
+from ...plans.linkages.rrp import Dyad
+from ..printed import calculation
+from ..table import text_block
+from ..view import View
+from .equations import Lines, by_direction, calculated, given, known, size_of
+from .scene import Scene
+
+
+def kinematics_block(scene: Scene, width: float, plans: tuple[str, ...]) -> View:
+    """Return the equations of velocities and, where it was built, of accelerations."""
+    lines: Lines = _driver_lines(scene, plans)
+    for d in scene.dyads:
+        lines += _velocity_lines(scene, d)
+        if "acceleration" in plans:
+            lines += _acceleration_lines(scene, d)
+    key = "heading.equations_kinematics" if "acceleration" in plans else "heading.equations_velocity"
+    return text_block("equations_kinematics", scene.words[key], lines, scene.style, width)
+
+
+def _driver_lines(scene: Scene, plans: tuple[str, ...]) -> Lines:
+    w, s = scene.words, scene.solved
+    driver = s.mechanism.driver
+    omega, n, l, point = (
+        f"omega_{driver.link}",
+        driver.speed,
+        s.mechanism.link(driver.link).points[driver.point][0],
+        driver.point,
+    )
+    size = abs(s.values[omega])
+    sense = w["said.ccw" if s.values[omega] > 0 else "said.cw"]
+    rpm = round(size * 30.0 / math.pi, 9)
+    texts, result = calculation(w, lambda x: math.pi * x / 30.0, [(rpm, True)])
+    lines: Lines = [
+        (f"{w.symbol(omega)} = π{w.symbol(n)}/30 =", f"π·{texts[0]}/30 =", f"{result} {w.unit('rad/s')},", sense),
+        calculated(
+            scene,
+            f"V_{point}",
+            f"{w.symbol(omega)}·{w.symbol(l)}",
+            "{}·{}",
+            lambda x, y: x * y,
+            (size, False),
+            given(scene, l),
+        ),
+    ]
+    if "acceleration" in plans:
+        lines.append(
+            calculated(
+                scene,
+                f"a_{point}",
+                f"ω^{{2}}_{{{driver.link}}}·{w.symbol(l)}",
+                "{}^{{2}}·{}",
+                lambda x, y: x * x * y,
+                (size, False),
+                given(scene, l),
+            )
+        )
+    return lines
+
+
+def _velocity_lines(scene: Scene, d: Dyad) -> Lines:
+    w = scene.words
+    V, Va, Vba = (w.symbol(name, bar=True) for name in (f"V_{d.B}", f"V_{d.A}", f"V_{d.B}{d.A}"))
+    lines: Lines = [
+        (
+            f"{by_direction(V)} = {known(Va)} + {by_direction(Vba)},",
+            *_directions(scene, d, f"V_{d.B}", f"V_{d.B}{d.A}"),
+        ),
+    ]
+    lines += _similarity_lines(scene, d, "velocity", f"V_{d.B}{d.A}")
+    rate = f"omega_{d.rod.number}"
+    v, size = f"V_{d.B}{d.A}", abs(scene.solved.values[rate])
+    line = _rate_line(scene, rate, v, d, size)
+    return [*lines, line]
+
+
+def _rate_line(scene: Scene, rate: str, v: str, d: Dyad, size: float) -> tuple[str, ...]:
+    w = scene.words
+    length = given(scene, d.length)
+    texts, result = calculation(w, lambda x, y: x / y, [(size_of(scene, v), False), length])
+    unit = w.unit(scene.solved.quantities[rate].unit)
+    sense = "" if size == 0.0 else w["said.ccw" if scene.solved.values[rate] > 0 else "said.cw"]
+    head = f"{w.symbol(rate)} = {w.symbol(v)}/{w.symbol(d.length)} ="
+    return head, f"{texts[0]}/{texts[1]} =", f"{result} {unit}{', ' if sense else ''}", sense
+
+
+def _directions(scene: Scene, d: Dyad, along: str, across: str) -> tuple[str, ...]:
+    w = scene.words
+    return (f"{w.symbol(along, bar=True)} ∥ x–x,", f"{w.symbol(across, bar=True)} ⊥ {d.AB}")
+
+
+def _similarity_lines(scene: Scene, d: Dyad, plan: str, relative: str) -> Lines:
+    w = scene.words
+    lines: Lines = []
+    for point, (part, _) in d.rod.points.items():
+        if point in (d.A, d.B):
+            continue
+        a, b, s = (w.mark(f"{plan}.{letter}") for letter in (d.A, d.B, point))
+        ab = size_of(scene, relative) / scene.scales[plan].mu
+        law = lambda x, y, z: x * y / z  # noqa: E731
+        texts, result = calculation(w, law, [(ab, False), given(scene, part), given(scene, d.length)])
+        ratio = f"{w.symbol(part)}/{w.symbol(d.length)}"
+        mm = w["unit.mm"]
+        lines.append((f"{a}{s} = {a}{b}·{ratio} =", f"{texts[0]}·{texts[1]}/{texts[2]} =", f"{result} {mm}"))
+    return lines
+
+
+def _acceleration_lines(scene: Scene, d: Dyad) -> Lines:
+    w = scene.words
+    aB, aA, n, t = (w.symbol(name, bar=True) for name in (f"a_{d.B}", f"a_{d.A}", f"a_{d.B}{d.A}_n", f"a_{d.B}{d.A}_t"))
+    normal = f"a_{d.B}{d.A}_n"
+    v = f"V_{d.B}{d.A}"
+    lines: Lines = [
+        (
+            f"{by_direction(aB)} = {known(aA)} + {known(n)} + {by_direction(t)},",
+            f"{n} ∥ {d.AB} ({d.B} → {d.A}),",
+            f"{t} ⊥ {d.AB}",
+        ),
+        calculated(
+            scene,
+            normal,
+            f"V^{{2}}_{{{d.B}{d.A}}}/{w.symbol(d.length)}",
+            "{}^{{2}}/{}",
+            lambda x, y: x * x / y,
+            (size_of(scene, v), False),
+            given(scene, d.length),
+        ),
+        *_similarity_lines(scene, d, "acceleration", f"a_{d.B}{d.A}"),
+    ]
+    rate, speed = f"epsilon_{d.rod.number}", f"omega_{d.rod.number}"
+    lines.append(_rate_line(scene, rate, f"a_{d.B}{d.A}_t", d, abs(scene.solved.values[rate])))
+    product = scene.solved.values[rate] * scene.solved.values[speed]
+    key = "said.steady" if product == 0.0 else "said.speeds_up" if product > 0 else "said.slows_down"
+    text = w[key].format(link=d.rod.number, omega=w.symbol(speed), epsilon=w.symbol(rate))
+    lines.append(tuple(text.split("|")))
+    return lines
