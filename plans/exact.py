@@ -44,7 +44,7 @@ class ExactBoard(Board):
     """
 
     def __init__(self, givens: Mapping[str, Any]) -> None:
-        self.values: dict[str, Any] = {"zero": 0.0, **givens}
+        self.values: dict[str, Any] = {"zero": 0.0, "one": 1.0, **givens}
         self.sines: dict[str, float] = {}
         self.trouble: Trouble | None = None
 

@@ -25,7 +25,7 @@ def cross(u: Any, w: Any) -> Any:
     return product
 
 
-def _sum(first: Any, *rest: Any) -> Any:
+def _sum(first: Any = 0.0, *rest: Any) -> Any:
     for value in rest:
         first = first + value
     return first

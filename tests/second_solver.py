@@ -60,13 +60,15 @@ class SecondSolver:
         assert pivot.at is not None
         points = {driver.pivot: mp.mpc(v[pivot.at[0]], v[pivot.at[1]])}
         points[driver.point] = points[driver.pivot] + v[self.m.link(1).points[driver.point][0]] * mp.expj(phi)
+        for name, (x, y) in self.m.link(1).points.items():
+            points[name] = points[driver.pivot] + mp.mpc(v[x], v[y]) * mp.expj(phi)
         for _, rod, _, A, B, guide in self.dyads:
             u, length = self._along(guide), v[self.m.link(rod).points[B][0]]
             start = mp.mpc(v[guide.through[0]], v[guide.through[1]]) + 1j * u * v[guide.offset]
             # s^2 + b s + c = 0 for B = start + s u
             b = 2 * mp.re((start - points[A]) * mp.conj(u))
             c = abs(start - points[A]) ** 2 - length**2
-            s = (-b + v[str(guide.branch)] * mp.sqrt(b * b - 4 * c)) / 2
+            s = (-b + v.get(str(guide.branch), mpf(1)) * mp.sqrt(b * b - 4 * c)) / 2
             points[B] = start + s * u
             for name, (x, _) in self.m.link(rod).points.items():
                 points[name] = points[A] + (points[B] - points[A]) * v[x] / length
@@ -168,7 +170,9 @@ class SecondSolver:
         for load in self.m.loads:
             q[f"e_{load.name}"] = mp.expj(self.v[load.direction])
         for forces in self.loads.values():
-            q.update({f"h_lever_{name}": self._arm(force, 1j * self.V[point]) for name, force, point in forces})
+            for name, force, point in forces:
+                if point != driver.pivot:
+                    q[f"h_lever_{name}"] = self._arm(force, 1j * self.V[point])
         for dyad in self.dyads:
             self._read_dyad(*dyad)
 

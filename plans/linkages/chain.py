@@ -10,7 +10,7 @@ from ...scales.errors import InputError
 from ..board import Program, RecordingBoard
 from . import driver, rrp
 from .lever import lever
-from .mechanism import Link, Mechanism
+from .mechanism import FRAME, Link, Mechanism, Prismatic
 from .structure import Group, Structure, analyse
 
 Forces = dict[int, list[tuple[str, str]]]
@@ -85,12 +85,18 @@ def _loads(board: RecordingBoard, mechanism: Mechanism) -> None:
     for link in mechanism.links:
         if _has_inertia_force(mechanism, link):
             board.calc(f"F_i{link.number}", "inertia_force", str(link.mass), f"a_{link.centre}")
-        if link.inertia:
+        if link.inertia and _has_inertia_moment(mechanism, link):
             board.calc(f"M_i{link.number}", "inertia_moment", link.inertia, f"epsilon_{link.number}")
 
 
 def _has_inertia_force(mechanism: Mechanism, link: Link) -> bool:
     return bool(link.mass) and link.centre != mechanism.driver.pivot
+
+
+def _has_inertia_moment(mechanism: Mechanism, link: Link) -> bool:
+    """Return whether the link turns unsteadily: not the crank, which turns steadily, nor a slider on the frame."""
+    guides = [pair.links for pair in mechanism.pairs if isinstance(pair, Prismatic)]
+    return link.number != mechanism.driver.link and (link.number, FRAME) not in guides
 
 
 def _hung(mechanism: Mechanism) -> tuple[Forces, Couples]:
@@ -101,7 +107,7 @@ def _hung(mechanism: Mechanism) -> tuple[Forces, Couples]:
         if _has_inertia_force(mechanism, link):
             forces[link.number].append((f"F_i{link.number}", str(link.centre)))
         forces[link.number] += [(load.name, load.point) for load in mechanism.loads_on(link.number)]
-        if link.inertia:
+        if link.inertia and _has_inertia_moment(mechanism, link):
             couples[link.number].append(f"M_i{link.number}")
     return forces, couples
 

@@ -1,9 +1,12 @@
-"""The driver: a crank about a fixed pivot. Its position, velocity, acceleration; its force plan and balancing moment."""
+"""The driver: a crank about a fixed pivot. Position, velocity, acceleration, force plan and balancing moment."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from ...scales.errors import InputError
 from ..board import Board
-from .mechanism import Mechanism, Revolute
+from .mechanism import ZERO, Mechanism, Revolute
 
 
 def position(board: Board, mechanism: Mechanism) -> None:
@@ -14,6 +17,8 @@ def position(board: Board, mechanism: Mechanism) -> None:
     board.turn(f"e_{crank}", driver.angle)
     board.normal(f"n_{crank}", f"e_{crank}")
     board.lay(driver.point, driver.pivot, f"e_{crank}", crank_length(mechanism))
+    for point, x in _other_points(mechanism):
+        board.divide(point, driver.pivot, driver.point, x, crank_length(mechanism))
 
 
 def velocity(board: Board, mechanism: Mechanism) -> None:
@@ -25,6 +30,7 @@ def velocity(board: Board, mechanism: Mechanism) -> None:
     board.pole("velocity.p")
     board.lay(f"velocity.{driver.point}", "velocity.p", f"n_{crank_name(mechanism)}", f"_V_{driver.point}")
     board.read(f"V_{driver.point}", "velocity.p", f"velocity.{driver.point}")
+    _similar(board, mechanism, "velocity", "V")
 
 
 def acceleration(board: Board, mechanism: Mechanism) -> None:
@@ -34,6 +40,23 @@ def acceleration(board: Board, mechanism: Mechanism) -> None:
     board.pole("acceleration.p")
     board.back(f"acceleration.{driver.point}", "acceleration.p", f"e_{crank}", f"_a_{driver.point}")
     board.read(f"a_{driver.point}", "acceleration.p", f"acceleration.{driver.point}")
+    _similar(board, mechanism, "acceleration", "a")
+
+
+def _similar(board: Board, mechanism: Mechanism, plan: str, symbol: str) -> None:
+    for point, x in _other_points(mechanism):
+        pole, end = f"{plan}.p", f"{plan}.{mechanism.driver.point}"
+        board.divide(f"{plan}.{point}", pole, end, x, crank_length(mechanism))
+        board.read(f"{symbol}_{point}", pole, f"{plan}.{point}")
+
+
+def _other_points(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
+    """Go through the crank's points beside its pivot and its pin: (point, distance from the pivot)."""
+    driver = mechanism.driver
+    points = mechanism.link(driver.link).points
+    if points[driver.pivot] != (ZERO, ZERO) or any(y != ZERO for _, y in points.values()):
+        raise InputError("bent-link", link=driver.link)
+    return ((point, x) for point, (x, _) in points.items() if point not in (driver.pivot, driver.point))
 
 
 def forces(board: Board, mechanism: Mechanism, hung: tuple[tuple[str, str], ...]) -> None:

@@ -18,6 +18,7 @@ def lever(
     A couple hangs as two equal opposite forces M / l_AB at B and A, normal to AB.
     """
     driver = mechanism.driver
+    forces = [(force, at) for force, at in forces if at != driver.pivot]
     board.pole("lever.p")
     points = [driver.point, *(at for _, at in forces), *(p for couple in couples for p in couple[1:3])]
     for point in dict.fromkeys(points):
@@ -32,7 +33,9 @@ def lever(
         board.calc(f"{pair}_{B}", "along", pair, f"n_{A}{B}")
         board.calc(f"{pair}_{A}", "opposite", f"{pair}_{B}")
         for point in (B, A):
-            board.moment(f"_M_{pair}_{point}_p", f"h_lever_{moment}_{point}", f"{pair}_{point}", f"lever.{point}", "lever.p")
+            board.moment(
+                f"_M_{pair}_{point}_p", f"h_lever_{moment}_{point}", f"{pair}_{point}", f"lever.{point}", "lever.p"
+            )
             moments.append(f"_M_{pair}_{point}_p")
     # F_bal along the normal to the crank has the moment -F_bal * pa about the pole
     board.calc("F_bal", "moment_equation", f"_V_{driver.point}", *moments)
