@@ -85,7 +85,7 @@ class ExactBoard(Board):
         return sine
 
     def _half_chord(self, radius: Any, distance: Any) -> Any:
-        """Half the chord that a circle cuts from a line at `distance` from its centre, factored against cancellation."""
+        """Half the chord that a circle cuts from a line at `distance` from its centre, factored, not to cancel."""
         square = (radius - distance) * (radius + distance)
         if square < -TANGENT * radius * radius:
             self._fail("no-assembly", gap=distance - radius)

@@ -101,7 +101,9 @@ def _finite(value: float) -> float | None:
     return float(value) + 0.0 if math.isfinite(value) else None  # + 0.0 turns -0.0 into 0.0
 
 
-def measured(items: Mapping[str, Quantity], plans: Mapping[str, str], scales: Mapping[str, Scale]) -> dict[str, Quantity]:
+def measured(
+    items: Mapping[str, Quantity], plans: Mapping[str, str], scales: Mapping[str, Scale]
+) -> dict[str, Quantity]:
     """Return the quantities with the millimetres that show them; `scales` are by plan."""
     out = {}
     for name, item in items.items():

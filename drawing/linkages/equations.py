@@ -11,14 +11,17 @@ Lines = list[tuple[str, ...]]
 
 
 def known(text: str) -> str:
+    """Underline a vector twice: known in full."""
     return f"\\uu{{{text}}}"
 
 
 def by_direction(text: str) -> str:
+    """Underline a vector once: known by direction."""
     return f"\\u{{{text}}}"
 
 
 def size_of(scene: Scene, name: str) -> float:
+    """Return the magnitude of a quantity or of a value of the construction."""
     item = scene.solved.quantities.get(name)
     return scene.solved.size(name) if item is None else (item.value or 0.0)
 
@@ -34,16 +37,19 @@ def calculated(
 
 
 def given(scene: Scene, name: str) -> tuple[float, bool]:
+    """Return a given as the exact input of a calculation."""
     return scene.solved.values[name], True
 
 
 def vector_sum(w_known: list[str], w_line: list[str], unknown: str = "") -> tuple[str, ...]:
+    """Return a closed sum of vectors: those known in full, those known by direction, the one to be found."""
     parts = [known(text) for text in w_known] + [by_direction(text) for text in w_line] + ([unknown] if unknown else [])
     chunks = [parts[0], *(f"+ {part}" for part in parts[1:])]
     return (*chunks, "= 0")
 
 
 def signed(sign: float, text: str, first: bool = False) -> str:
+    """Return a term of a sum with its sign before it."""
     if first:
         return text if sign > 0 else f"−{text}"
     return f" + {text}" if sign > 0 else f" − {text}"

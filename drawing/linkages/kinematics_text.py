@@ -66,12 +66,8 @@ def _driver_lines(scene: Scene, plans: tuple[str, ...]) -> Lines:
 def _velocity_lines(scene: Scene, d: Dyad) -> Lines:
     w = scene.words
     V, Va, Vba = (w.symbol(name, bar=True) for name in (f"V_{d.B}", f"V_{d.A}", f"V_{d.B}{d.A}"))
-    lines: Lines = [
-        (
-            f"{by_direction(V)} = {known(Va)} + {by_direction(Vba)},",
-            *_directions(scene, d, f"V_{d.B}", f"V_{d.B}{d.A}"),
-        ),
-    ]
+    directions = _directions(scene, d, f"V_{d.B}", f"V_{d.B}{d.A}")
+    lines: Lines = [(f"{by_direction(V)} = {known(Va)} + {by_direction(Vba)},", *directions)]
     lines += _similarity_lines(scene, d, "velocity", f"V_{d.B}{d.A}")
     rate = f"omega_{d.rod.number}"
     v, size = f"V_{d.B}{d.A}", abs(scene.solved.values[rate])

@@ -3,7 +3,7 @@
 A is the outer revolute pair, B the inner one; u is the guide's direction. Determinant of all its problems: the sine of
 the angle between the normal to AB and u, zero when AB is normal to the guide.
 
-Source: Artobolevsky, Theory of mechanisms and machines; Kinytskyi, Theory of mechanisms and machines (class II, kind 2).
+Source: Artobolevsky, Theory of mechanisms and machines; Kinytskyi, the same (class II, kind 2).
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def velocity(board: Board, d: Dyad) -> None:
 
 
 def acceleration(board: Board, d: Dyad) -> None:
-    """From a' the normal part towards A, through its end the normal to AB, through the pole the parallel to the guide: b'."""
+    """From a' the normal part towards A, through its end the normal to AB, through the pole the parallel to u: b'."""
     a, b, n = (f"acceleration.{letter}" for letter in (d.A, d.B, f"n_{d.B}{d.A}"))
     part = f"a_{d.B}{d.A}_n"
     board.calc(f"_{part}", "normal_part", f"V_{d.B}{d.A}", d.length)

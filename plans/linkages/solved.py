@@ -62,7 +62,9 @@ class Solved:
         if trouble is None:
             return None
         if trouble.status == "no-assembly":
-            return PositionError("no-assembly", status_word="no-assembly", point=trouble.name, gap=f"{trouble.gap * 1e3:.4g}")
+            return PositionError(
+                "no-assembly", status_word="no-assembly", point=trouble.name, gap=f"{trouble.gap * 1e3:.4g}"
+            )
         plan, dot, point = trouble.name.rpartition(".")
         return PositionError("singular", status_word="singular", point=point, plan=plan if dot else POSITION)
 

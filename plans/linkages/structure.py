@@ -1,7 +1,7 @@
 """Structure of a mechanism: mobility W, and Assur groups in order of attachment to the driver.
 
-Source: Artobolevsky, Theory of mechanisms and machines: W = 3n - 2p_1 - p_2 (Chebyshev); a group has W = 0 and cannot be
-split into smaller ones. Kinds of class II groups: 1 RRR, 2 RRP, 3 RPR, 4 PRP, 5 RPP.
+Source: Artobolevsky, Theory of mechanisms and machines: W = 3n - 2p_1 - p_2 (Chebyshev); a group has W = 0 and cannot
+be split into smaller ones. Kinds of class II groups: 1 RRR, 2 RRP, 3 RPR, 4 PRP, 5 RPP.
 """
 
 from __future__ import annotations

@@ -1,0 +1,37 @@
+# `make sheet` and `make test` set up everything they need in .venv; the same steps in plain pip are in README.md
+PYTHON ?= python3
+PY := .venv/bin/python
+VARIANT ?= 3
+READY := .venv/ready
+
+.PHONY: sheet test soak lint types bench clean
+
+sheet: $(READY)
+	mkdir -p out
+	$(PY) -m kulman sheet nau-slider-crank -v $(VARIANT) -o out/sheet.svg -o out/sheet.pdf
+
+test: $(READY)
+	$(PY) -m pytest -q -m "not soak"
+
+soak: $(READY)
+	$(PY) -m pytest -q -m soak
+
+lint: $(READY)
+	$(PY) -m ruff check .
+	$(PY) -m ruff format --check .
+
+types: $(READY)
+	mkdir -p .typing
+	ln -sfn .. .typing/kulman
+	$(PY) -m mypy
+
+bench: $(READY)
+	$(PY) benchmarks/run.py
+
+$(READY): pyproject.toml
+	$(PYTHON) -m venv .venv
+	$(PY) -m pip install --quiet --disable-pip-version-check --editable ".[dev,png]"
+	touch $(READY)
+
+clean:
+	rm -rf .venv .typing build out *.egg-info
