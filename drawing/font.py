@@ -112,19 +112,14 @@ class Font:
         advances = self._advances
         return advances[min(2 * self.strict_glyph(character), len(advances) - 2)] / self.units
 
-    @lru_cache(maxsize=16384)  # noqa: B019
-    def width(self, string: str) -> float:
-        """Return the width of `string` without kerning, in units of the font size."""
-        return sum(self.advance(character) for character in string)
-
     @cache  # noqa: B019
-    def rise(self, character: str) -> tuple[float, float]:
-        """Return the lowest and the highest point of a character's ink, in units of the font size."""
+    def ink(self, character: str) -> tuple[float, float, float]:
+        """Return advance, lowest and highest point of a character, in units of the font size."""
         outline = self.outline(self.strict_glyph(character))
         if not outline:
-            return 0.0, 0.0
+            return self.advance(character), 0.0, 0.0
         low, high = struct.unpack_from(">h", outline, 4)[0], struct.unpack_from(">h", outline, 8)[0]
-        return low / self.units, high / self.units
+        return self.advance(character), low / self.units, high / self.units
 
     def outline(self, glyph: int) -> bytes:
         """Return the outline of a glyph as it stands in the file; empty for a space."""

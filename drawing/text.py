@@ -6,9 +6,10 @@ twice: known by direction, known in full); it may be nested. `\{ \} \\ \_ \^` st
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import lru_cache
-from math import cos, sin
+from math import cos, inf, sin
 from typing import TypeAlias
 
 from ..scales.errors import InputError
@@ -20,6 +21,8 @@ DROP, LIFT = 0.35, 0.62  # of a script's baseline, in heights of its parent
 GAP = 0.22  # between text and a bar or an underline, and between two underlines, in heights
 RULES = {"bar": 0, "u": 1, "uu": 2}
 ESCAPED = "\\{}_^"
+_PLAIN = re.compile(r"(?:[^\\{}_^]|\\[\\{}_^]|[_^](?!\{))+")
+_ESCAPE = re.compile(r"\\([\\{}_^])")
 
 Box: TypeAlias = tuple[float, float, float, float]
 
@@ -46,7 +49,9 @@ class TextLayout:
     bottom: float
 
 
-_EMPTY = TextLayout((), (), 0.0, 0.0, 0.0)
+# Width, top and bottom of what has been laid out; top < bottom where there is no ink.
+_Span: TypeAlias = tuple[float, float, float]
+_NO_INK = (-inf, inf)
 
 
 def escape(plain: str) -> str:
@@ -63,99 +68,94 @@ def lay_out(markup: str, height: float) -> TextLayout:
     InputError
         The markup is broken, or the font lacks a character.
     """
-    return _Reader(markup).line(height, height, nested=False)
-
-
-@lru_cache(maxsize=8192)
-def _word(string: str, size: float) -> TextLayout:
-    """Lay plain characters out; spaces at the ends become distance, since SVG would drop them."""
-    face = font()
-    inner = string.strip(" ")
-    start = face.width(" ") * size * (len(string) - len(string.lstrip(" ")))
-    width = face.width(string) * size
-    if not inner:
-        return TextLayout((), (), width, 0.0, 0.0)
-    ink = [face.rise(character) for character in inner]
-    run = Run(start, 0.0, size, inner, face.width(inner) * size)
-    return TextLayout((run,), (), width, max(high for _, high in ink) * size, min(low for low, _ in ink) * size)
-
-
-def _joined(parts: list[tuple[TextLayout, float, float]], width: float) -> TextLayout:
-    """Put layouts at their places (x, y) into one."""
-    runs = tuple(
-        Run(run.x + x, run.y + y, run.size, run.string, run.width) for part, x, y in parts for run in part.runs
-    )
-    rules = tuple((a + x, b + y, c + x, d + y) for part, x, y in parts for a, b, c, d in part.rules)
-    inked = [(part, y) for part, _, y in parts if part.runs or part.rules]
-    top = max((part.top + y for part, y in inked), default=0.0)
-    bottom = min((part.bottom + y for part, y in inked), default=0.0)
-    return TextLayout(runs, rules, width, top, bottom)
-
-
-def _ruled(inner: TextLayout, kind: str, height: float) -> TextLayout:
-    """Return `inner` with a vector bar over it, or one or two lines under it."""
-    gap = GAP * height
-    if kind == "bar":
-        level = inner.top + gap
-        rules = (*inner.rules, (0.0, level, inner.width, level))
-        return TextLayout(inner.runs, rules, inner.width, level, inner.bottom)
-    levels = [min(inner.bottom, 0.0) - gap * (step + 1) for step in range(RULES[kind])]
-    rules = (*inner.rules, *((0.0, level, inner.width, level) for level in levels))
-    return TextLayout(inner.runs, rules, inner.width, inner.top, levels[-1])
+    reader = _Reader(markup)
+    width, top, bottom = reader.line(0.0, 0.0, height, height, nested=False)
+    if top < bottom:
+        top = bottom = 0.0
+    return TextLayout(tuple(reader.runs), tuple(reader.rules), width, top, bottom)
 
 
 class _Reader:
-    """Reads one line of markup from left to right."""
+    """Reads one line of markup from left to right, and lays it out as it goes.
+
+    Each method lays out from the place (x, y) of the pen with capitals of `height`; scripts are measured from `base`.
+    """
 
     def __init__(self, markup: str) -> None:
         self.markup = markup
         self.at = 0
+        self.runs: list[Run] = []
+        self.rules: list[Box] = []
 
     def refuse(self) -> InputError:
         return InputError("markup-broken", text=self.markup, position=self.at + 1)
 
-    def line(self, height: float, base: float, nested: bool) -> TextLayout:
-        """Lay out up to the end, or up to the brace that closes a group; scripts are measured from `base`."""
-        parts: list[tuple[TextLayout, float, float]] = []
-        x = 0.0
+    def line(self, x: float, y: float, height: float, base: float, nested: bool) -> _Span:
+        """Lay out up to the end, or up to the brace that closes a group."""
+        start, (top, bottom) = x, _NO_INK
         while self.at < len(self.markup) and not (nested and self.markup[self.at] == "}"):
-            parts_here, width = self.piece(height, base)
-            parts += [(part, dx + x, dy) for part, dx, dy in parts_here]
-            x += width
+            width, high, low = self.piece(x, y, height, base)
+            x, top, bottom = x + width, max(top, high), min(bottom, low)
         if nested and self.at >= len(self.markup):
             raise self.refuse()
-        return _joined(parts, x) if parts else _EMPTY
+        return x - start, top, bottom
 
-    def piece(self, height: float, base: float) -> tuple[list[tuple[TextLayout, float, float]], float]:
-        """Lay out plain characters, a ruled group, or scripts; return them with the width they take."""
+    def piece(self, x: float, y: float, height: float, base: float) -> _Span:
+        """Lay out plain characters, a ruled group, or scripts."""
         mark, after = self.markup[self.at], self.markup[self.at + 1 : self.at + 2]
         if mark in "_^" and after == "{":
-            return self.scripts(height, base)
+            return self.scripts(x, y, height, base)
         if mark == "\\" and (not after or after not in ESCAPED):
-            kind = self.command()
-            inner = _ruled(self.group(height, base), kind, height)
-            return [(inner, 0.0, 0.0)], inner.width
-        word = _word(self.plain(), height * SIZE)
-        return [(word, 0.0, 0.0)], word.width
+            return self.ruled(x, y, height, base)
+        return self.word(self.plain(), x, y, height * SIZE)
 
-    def scripts(self, height: float, base: float) -> tuple[list[tuple[TextLayout, float, float]], float]:
+    def word(self, string: str, x: float, y: float, size: float) -> _Span:
+        """Lay plain characters out; spaces at the ends become distance, since SVG would drop them."""
+        ink = font().ink
+        letters = [ink(letter) for letter in string]
+        width = sum([letter[0] for letter in letters]) * size
+        inner = string.strip(" ")
+        if not inner:
+            return width, *_NO_INK
+        spaces = len(string) - len(string.lstrip(" "))
+        start, letters = x + ink(" ")[0] * size * spaces, letters[spaces : spaces + len(inner)]
+        self.runs.append(Run(start, y, size, inner, sum([letter[0] for letter in letters]) * size))
+        top, bottom = max([letter[2] for letter in letters]), min([letter[1] for letter in letters])
+        return width, y + top * size, y + bottom * size
+
+    def ruled(self, x: float, y: float, height: float, base: float) -> _Span:
+        """Lay out a group with a vector bar over it, or one or two lines under it."""
+        kind = self.command()
+        width, top, bottom = self.group(x, y, height, base)
+        if top < bottom:
+            top = bottom = y
+        gap = GAP * height
+        if kind == "bar":
+            top += gap
+            self.rules.append((x, top, x + width, top))
+            return width, top, bottom
+        bottom = min(bottom, y)
+        for _ in range(RULES[kind]):
+            bottom -= gap
+            self.rules.append((x, bottom, x + width, bottom))
+        return width, top, bottom
+
+    def scripts(self, x: float, y: float, height: float, base: float) -> _Span:
         """Lay out a subscript, a superscript, or both one over the other."""
-        small = SCRIPT * base
-        found: dict[str, TextLayout] = {}
-        while self.markup[self.at : self.at + 2] in ("_{", "^{") and self.markup[self.at] not in found:
-            mark = self.markup[self.at]
-            self.at += 1
-            found[mark] = self.group(small, base)
         shift = {"_": -DROP * height, "^": LIFT * height}
-        width = max(part.width for part in found.values()) + 0.06 * height
-        return [(part, 0.0, shift[mark]) for mark, part in found.items()], width
+        width, (top, bottom) = 0.0, _NO_INK
+        while (mark := self.markup[self.at : self.at + 2])[1:] == "{" and mark[0] in shift:
+            self.at += 1
+            wide, high, low = self.group(x, y + shift.pop(mark[0]), SCRIPT * base, base)
+            width, top, bottom = max(width, wide), max(top, high), min(bottom, low)
+        return width + 0.06 * height, top, bottom
 
-    def group(self, height: float, base: float) -> TextLayout:
+    def group(self, x: float, y: float, height: float, base: float) -> _Span:
         """Lay out what stands between the brace here and the one that closes it."""
         self.at += 1
-        inner = self.line(height, base, nested=True)
+        span = self.line(x, y, height, base, nested=True)
         self.at += 1
-        return inner
+        return span
 
     def command(self) -> str:
         """Read `\\bar`, `\\u` or `\\uu` up to its opening brace."""
@@ -168,19 +168,11 @@ class _Reader:
 
     def plain(self) -> str:
         """Read characters that mean themselves."""
-        found = ""
-        while self.at < len(self.markup):
-            mark, after = self.markup[self.at], self.markup[self.at + 1 : self.at + 2]
-            if mark == "\\" and after and after in ESCAPED:
-                self.at += 1
-                mark = after
-            elif mark == "\\" or (mark in "_^" and after == "{") or (mark == "}" and found):
-                break
-            elif mark in "{}":
-                raise self.refuse()
-            found += mark
-            self.at += 1
-        return found
+        found = _PLAIN.match(self.markup, self.at)
+        if found is None:
+            raise self.refuse()
+        self.at = found.end()
+        return _ESCAPE.sub(r"\1", found.group())
 
 
 def start_of(text: Text) -> complex:

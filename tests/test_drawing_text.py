@@ -98,8 +98,8 @@ def test_a_script_of_a_script_is_no_smaller():
 def test_bars_and_underlines_clear_the_ink(markup, rules):
     layout = lay_out(markup, 3.5)
 
-    ink = [font().rise(letter)[0] * run.size + run.y for run in layout.runs for letter in run.string]
-    tops = [font().rise(letter)[1] * run.size + run.y for run in layout.runs[:1] for letter in run.string]
+    ink = [font().ink(letter)[1] * run.size + run.y for run in layout.runs for letter in run.string]
+    tops = [font().ink(letter)[2] * run.size + run.y for run in layout.runs[:1] for letter in run.string]
     assert len(layout.rules) == rules
     for _, level, _, _ in layout.rules:
         assert level > max(tops) if level > 0 else level < min(ink)
@@ -144,8 +144,8 @@ def test_runs_lie_inside_the_layout(markup):
 
     for run in layout.runs:
         assert -1e-9 <= run.x <= run.x + run.width <= layout.width + 1e-9
-        low = min(font().rise(letter)[0] for letter in run.string) * run.size + run.y
-        high = max(font().rise(letter)[1] for letter in run.string) * run.size + run.y
+        low = min(font().ink(letter)[1] for letter in run.string) * run.size + run.y
+        high = max(font().ink(letter)[2] for letter in run.string) * run.size + run.y
         assert layout.bottom - 1e-9 <= low <= high <= layout.top + 1e-9
 
 
