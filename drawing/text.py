@@ -22,6 +22,7 @@ GAP = 0.22  # between text and a bar or an underline, and between two underlines
 RULES = {"bar": 0, "u": 1, "uu": 2}
 ESCAPED = "\\{}_^"
 _PLAIN = re.compile(r"(?:[^\\{}_^]|\\[\\{}_^]|[_^](?!\{))+")
+_SHARES = {"left": 0.0, "middle": 0.5, "right": 1.0}  # of its width, how much of a text stands before its point
 _ESCAPE = re.compile(r"\\([\\{}_^])")
 
 Box: TypeAlias = tuple[float, float, float, float]
@@ -175,24 +176,19 @@ class _Reader:
         return _ESCAPE.sub(r"\1", found.group())
 
 
-def start_of(text: Text) -> complex:
-    """Return where the first run of `text` starts: its point, moved back by its anchor."""
-    share = {"left": 0.0, "middle": 0.5, "right": 1.0}[text.anchor]
-    width = lay_out(text.markup, text.height).width * text.squeeze
-    return text.at - complex(cos(text.angle), sin(text.angle)) * (share * width)
-
-
 def placed(text: Text, x: float, y: float) -> complex:
     """Return the point of the sheet where the point (x, y) of the text's layout lies."""
-    return start_of(text) + complex(x * text.squeeze, y) * complex(cos(text.angle), sin(text.angle))
+    before = _SHARES[text.anchor] * lay_out(text.markup, text.height).width
+    offset = complex((x - before) * text.squeeze, y)
+    return text.at + (offset * complex(cos(text.angle), sin(text.angle)) if text.angle else offset)
 
 
 def corners(text: Text) -> tuple[complex, complex, complex, complex]:
     """Return the corners of the rectangle that `text` fills, which turns with it."""
     lines = lay_out(text.markup, text.height)
-    ends = ((0.0, lines.bottom), (lines.width, lines.bottom), (lines.width, lines.top), (0.0, lines.top))
-    a, b, c, d = (placed(text, x, y) for x, y in ends)
-    return a, b, c, d
+    start, end = placed(text, 0.0, lines.bottom), placed(text, lines.width, lines.bottom)
+    up = placed(text, 0.0, lines.top) - start
+    return start, end, end + up, start + up
 
 
 def box(text: Text) -> Box:
