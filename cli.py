@@ -16,6 +16,7 @@ from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.numbers import quote
 
 INTERRUPTED = 130
+PATH = 200  # characters of a path in a message
 Command = TypeVar("Command", bound=Callable[..., Any])
 if TYPE_CHECKING:
     TextType = click.ParamType[str]
@@ -166,7 +167,7 @@ def _outputs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]
     from .drawing.writers import WRITERS
 
     for number, value in enumerate(values):
-        shown, path = quote(value) or param.opts[0], Path(value)
+        shown, path = quote(value, PATH) or param.opts[0], Path(value)
         if path.suffix.lower() not in WRITERS:
             raise InputError("output-suffix", file=shown, known=", ".join(WRITERS))
         if "\0" in value:
@@ -174,7 +175,7 @@ def _outputs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]
         if path.is_dir():
             raise InputError("output-is-folder", file=shown)
         if not path.parent.is_dir():
-            raise InputError("output-folder-missing", file=shown, folder=quote(path.parent))
+            raise InputError("output-folder-missing", file=shown, folder=quote(path.parent, PATH))
         if not os.access(path if path.exists() else path.parent, os.W_OK):
             raise InputError("output-refused", file=shown, reason=os.strerror(13))
         if value in values[:number]:
@@ -323,10 +324,6 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 
     given = {name: value for name, value in options.items() if value is not None}
     drawn = variants.sheet(task, set=settings, **given)
-    try:
-        saved = drawn.save(*files, tile=tile)
-    except OSError as error:
-        shown = error.filename or ", ".join(map(str, files))
-        raise InputError("output-refused", file=quote(shown), reason=error.strerror or type(error).__name__) from error
+    saved = drawn.save(*files, tile=tile)
     for path in saved:
         click.echo(str(path))

@@ -14,13 +14,12 @@ _NUMBER = re.compile(
     rf"[+\-\u2212\u2013]?(?:(?:{_GROUPED}|[0-9]+)(?:[.,][0-9]*)?|[.,][0-9]+)(?:[eE][+\-\u2212]?[0-9]+)?"
 )
 _PLAIN = str.maketrans({"\u2212": "-", "\u2013": "-", ",": ".", **dict.fromkeys(SPACES)})
-_LONGEST = 40
 
 
-def quote(text: object) -> str:
-    """Return `text` fit for one line of a message: short, and without control characters."""
-    line = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in str(text)[: _LONGEST + 1])
-    return line if len(line) <= _LONGEST else line[: _LONGEST - 1] + "…"
+def quote(text: object, longest: int = 40) -> str:
+    """Return `text` fit for one line of a message: at most `longest` characters, none of them a control character."""
+    line = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in str(text)[: longest + 1])
+    return line if len(line) <= longest else line[: longest - 1] + "…"
 
 
 def split_number(text: str) -> tuple[float, str]:

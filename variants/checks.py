@@ -12,7 +12,12 @@ from ..scales.numbers import quote
 from .task import LocatedError, unknown
 from .toml_places import Path, Places
 
+MOST_FAULTS = 1000  # nobody reads more of them, and a file of a megabyte may hold a million
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+
+
+class EnoughError(Exception):
+    """There are so many faults that looking for more helps nobody."""
 
 
 @dataclass(slots=True)
@@ -29,6 +34,8 @@ class Checker:
         keys = ".".join(str(part) for part in path if isinstance(part, str))
         place = f"{self.file}:{line}:{column}"
         self.faults.append((line, column, LocatedError(f"{place}: {quote(keys)}" if keys else place, error)))
+        if len(self.faults) >= MOST_FAULTS:
+            raise EnoughError
 
     def wrong_type(self, path: Path, expected: str) -> None:
         """Note that the value at `path` is not of the `expected` kind, a key of a message."""

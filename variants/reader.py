@@ -6,6 +6,7 @@ import os
 import re
 import stat
 import tomllib
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from pathlib import Path as FilePath
@@ -14,7 +15,7 @@ from typing import Any
 from ..scales.choose import chooser
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.numbers import quote
-from .checks import Checker, Field, array_of, label, one_of, record, text
+from .checks import Checker, EnoughError, Field, array_of, label, one_of, record, text
 from .checks_givens import Settings, read_choices, read_givens, read_variants
 from .checks_mechanism import Names, read_mechanism
 from .shelf import bundled, bundled_text
@@ -22,6 +23,8 @@ from .task import Bound, Given, LocatedError, Task, unknown
 from .toml_places import Path, Places
 
 LARGEST_FILE = 1_000_000
+# tomllib takes time as the square of the parts of a dotted key
+_LONG_KEY = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){64}""")
 
 
 class TaskFileError(InputError):
@@ -73,13 +76,17 @@ def read_file(task: str | os.PathLike[str]) -> tuple[Task | None, tuple[InputErr
 def read_text(toml: str, file: str) -> tuple[Task | None, tuple[InputError, ...]]:
     """Read a task from the text of a file that messages call `file`: the task, or all its faults."""
     try:
+        if _LONG_KEY.search(toml):
+            raise RecursionError
         raw = tomllib.loads(toml)
         checker = Checker(file, Places(toml))
     except RecursionError as error:
         raise LocatedError(file, InputError("toml-nested")) from error
     except ValueError as error:
         return None, (_syntax(toml, file, str(error)),)
-    found = _task(checker, raw)
+    found = None
+    with suppress(EnoughError):
+        found = _task(checker, raw)
     if checker.faults:
         return None, tuple(fault for _, _, fault in sorted(checker.faults, key=lambda fault: fault[:2]))
     return found, ()
@@ -110,7 +117,7 @@ def _file_text(task: str | os.PathLike[str], shown: str) -> str:
     except (OSError, ValueError) as error:
         if isinstance(task, str) and not re.search(r"[./\\]", task):
             raise unknown("task-unknown", task, bundled()) from error
-        raise InputError("file-missing", file=_short(shown)) from error
+        raise InputError("file-missing", file=quote(shown, 200)) from error
     if not stat.S_ISREG(state.st_mode):
         raise InputError("file-not-regular", file=shown)
     if state.st_size > LARGEST_FILE:
@@ -129,11 +136,6 @@ def _file_text(task: str | os.PathLike[str], shown: str) -> str:
     if "\0" in decoded:
         raise LocatedError(f"{shown}:{decoded.count(chr(10), 0, decoded.index(chr(0))) + 1}", InputError("file-binary"))
     return decoded
-
-
-def _short(shown: str) -> str:
-    """Return a path with its middle left out when it is longer than a line."""
-    return shown if len(shown) <= 200 else f"{shown[:100]}…{shown[-90:]}"
 
 
 def _syntax(toml: str, file: str, reason: str) -> InputError:
