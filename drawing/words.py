@@ -74,7 +74,7 @@ class Words:
 
     def unit(self, unit: str) -> str:
         """Return a unit in the language, powers as true superscripts."""
-        return "%" if unit == "%" else format_unit(unit, self.language, raised=True)
+        return _unit(unit, self.language)
 
     def scale(self, scale: Scale) -> str:
         """Return a scale factor as `μ_V = 0,05 (м/с)/мм`."""
@@ -119,6 +119,11 @@ class Words:
         if point.startswith("n_"):
             return str(self.notation["normal_end"])
         return _indexed(point[0].lower() + prime + point[1:])
+
+
+@cache
+def _unit(unit: str, language: str) -> str:
+    return "%" if unit == "%" else format_unit(unit, language, raised=True)
 
 
 def _indexed(letter: str) -> str:

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..drawing.formats import format_named
-from ..drawing.linkages.sheet import Order, draw
+from ..drawing.linkages.fitting import Contents
+from ..drawing.linkages.sheet import draw
 from ..drawing.page import Page
 from ..drawing.pens import Norm
 from ..drawing.titleblock import Stamp
@@ -118,15 +119,14 @@ def sheet(
         document_type=words["sheet.document"],
         language=lang,
     )
-    order = Order(
+    contents = Contents(
         solved,
         tuple(only or found.plans),
         read_choosers(found, scales),
         givens_of(found, name, set),
         words,
-        stamp,
         norm,
     )
-    drawn = draw(order, paper)
+    drawn = draw(contents, stamp, paper)
     said = tuple(warning.text(lang) for warning in warnings_of(solved))
     return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, said)

@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..drawing.linkages.fitting import first_scales
 from ..drawing.linkages.scene import Given
-from ..drawing.linkages.sheet import first_scales
 from ..drawing.words import Words
 from ..plans.linkages.chain import PLANS
 from ..plans.linkages.solved import Solved, solve_linkage
@@ -75,8 +75,10 @@ class Solution:
         rows = [_row(words, quantity) for quantity in self.quantities.values()]
         widths = [max(len(row[i]) for row in rows) for i in range(5)]
         lines = [
-            "  ".join([row[0].ljust(widths[0]), *(cell.rjust(w) for cell, w in zip(row[1:3], widths[1:3], strict=True))])
-            .rstrip() + f" {row[3]:{widths[3]}}  {row[4]}".rstrip()
+            "  ".join(
+                [row[0].ljust(widths[0]), *(cell.rjust(w) for cell, w in zip(row[1:3], widths[1:3], strict=True))]
+            ).rstrip()
+            + f" {row[3]:{widths[3]}}  {row[4]}".rstrip()
             for row in rows
         ]
         return "\n".join(line.rstrip() for line in lines)

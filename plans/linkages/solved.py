@@ -28,6 +28,7 @@ class Solved:
     sines: Mapping[str, float]
     status: Status
     trouble: Trouble | None
+    shown_on: Mapping[str, str]  # the first plan that shows each quantity as a segment
 
     def point(self, mark: str) -> complex:
         """Return a mark of any plan, SI."""
@@ -37,11 +38,6 @@ class Solved:
         """Return the magnitude of a value."""
         value = self.values[name]
         return math.hypot(value.real, value.imag)
-
-    @property
-    def shown_on(self) -> dict[str, str]:
-        """The first plan that shows each quantity as a segment."""
-        return shown_on(self.program)
 
     @property
     def scale_of_plan(self) -> dict[str, str]:
@@ -90,4 +86,6 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     board = run(program, board_givens(mechanism, values))
     lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if x != ZERO}
     items = quantities(program, board.values, lengths)
-    return Solved(mechanism, structure, program, board.values, items, board.sines, board.status, board.trouble)
+    return Solved(
+        mechanism, structure, program, board.values, items, board.sines, board.status, board.trouble, shown_on(program)
+    )

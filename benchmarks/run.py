@@ -1,0 +1,134 @@
+"""Measure what the README promises: `make bench`. Every row is a ratio to a yardstick of the same run, too."""
+
+from __future__ import annotations
+
+import math
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+RUNS = 7
+MILLION = 1_000_000
+# as for a user: with compiled modules kept from run to run
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+
+
+def shell(*arguments: str) -> float:
+    """Return the median time of a whole process, seconds."""
+    times = []
+    for run in range(RUNS + 1):
+        start = time.perf_counter()
+        subprocess.run([sys.executable, *arguments], check=True, stdout=subprocess.DEVNULL, env=ENVIRONMENT)
+        if run:  # the first one warms the caches of the disk and writes bytecode
+            times.append(time.perf_counter() - start)
+    return statistics.median(times)
+
+
+def warm(work: Callable[[], object], runs: int = RUNS) -> float:
+    """Return the median time of a call within a process, seconds."""
+    work()
+    times = []
+    for _ in range(runs):
+        start = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - start)
+    return statistics.median(times)
+
+
+def closed_form(phi, values):
+    """Return M_bal of the slider-crank by virtual power, written by hand for this one mechanism."""
+    import numpy as np
+
+    r, length, part = values["l_OA"], values["l_AB"], values["l_AS2"] / values["l_AB"]
+    omega = values["n_1"] * values["sense_1"]
+    crank = r * np.exp(1j * phi)
+    height = crank.imag
+    reach = -np.sqrt(length**2 - height**2)
+    rod = reach - 1j * height
+    rate = -omega * crank.real / reach
+    v_b = (1j * omega * crank + 1j * rate * rod).real
+    epsilon = (omega**2 * crank.imag + rate**2 * rod.imag) / rod.real
+    a_a = -(omega**2) * crank
+    a_ba = (1j * epsilon - rate**2) * rod
+    v_s, a_s, a_b = 1j * omega * crank + 1j * rate * rod * part, a_a + a_ba * part, (a_a + a_ba).real
+    power = (np.conj(v_s) * (-values["m_2"] * a_s)).real + v_b * (values["F_3"] - values["m_3"] * a_b)
+    return -(power - values["J_S2"] * epsilon * rate) / omega
+
+
+def million() -> None:
+    """Solve a million positions and print nanoseconds each, the yardstick's, and the peak memory in MB."""
+    import resource
+
+    import numpy as np
+
+    from kulman.plans.batch import batch, settle_heap
+    from kulman.plans.linkages.chain import board_givens, construct
+    from kulman.variants import load_task
+
+    settle_heap()
+    task = load_task("nau-slider-crank")
+    values = task.values("example")
+    _, program = construct(task.mechanism)
+    phi = np.linspace(0.0, 2.0 * math.pi, MILLION, endpoint=False)
+    givens = board_givens(task.mechanism, {**values, "phi": phi})
+    wanted = ["M_bal", "M_bal_lever"]
+    ours = min(warm(lambda: batch(program, givens, wanted), 3) for _ in range(2))
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    results, codes = batch(program, givens, wanted)
+    chunks = np.array_split(phi, MILLION // 16384)
+    hand = warm(lambda: [closed_form(part, values) for part in chunks], 3)
+    worst = np.abs(results["M_bal"] - closed_form(phi, values)).max() / np.abs(results["M_bal"]).max()
+    assert not codes.any()
+    assert worst < 1e-12
+    print(ours / MILLION * 1e9, hand / MILLION * 1e9, memory)
+
+
+def row(name: str, value: float, unit: str, goal: float, ratio: str) -> None:
+    """Print one line of the table."""
+    print(f"| {name} | {value:.3g} {unit} | {goal:g} {unit} | {ratio} |")
+
+
+def main() -> None:
+    """Print the table."""
+    import numpy as np
+
+    import kulman
+    from kulman.plans.exact import run
+    from kulman.plans.linkages.chain import board_givens, construct
+
+    print(f"Python {sys.version.split()[0]}, numpy {np.__version__}, {os.cpu_count()} cores, medians of {RUNS} runs\n")
+    print("| what | measured | goal | ratio in the same run |\n|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        svg, pdf = (str(Path(folder) / f"sheet.{suffix}") for suffix in ("svg", "pdf"))
+        bare = shell("-c", "pass")
+        sheet = ("-m", "kulman", "sheet", "nau-slider-crank", "-v", "3")
+        for name, goal, arguments in (
+            ("`kulman list`", 0.12, ("-m", "kulman", "list")),
+            ("`kulman solve nau-slider-crank -v 3`", 0.3, ("-m", "kulman", "solve", "nau-slider-crank", "-v", "3")),
+            ("SVG sheet from the shell", 0.4, (*sheet, "-o", svg)),
+            ("SVG and PDF from the shell", 0.6, (*sheet, "-o", svg, "-o", pdf)),
+        ):
+            taken = shell(*arguments)
+            row(name, taken, "s", goal, f"{taken / bare:.1f} starts of Python")
+        once = warm(lambda: kulman.sheet("nau-slider-crank", "3").save(svg, pdf))
+        row("SVG and PDF, warm", once * 1e3, "ms", 60, f"{once / bare:.2f} starts of Python")
+    task = kulman.load_task("nau-slider-crank")
+    _, program = construct(task.mechanism)
+    givens = board_givens(task.mechanism, task.values("example"))
+    one = warm(lambda: [run(program, givens) for _ in range(200)]) / 200
+    values = task.values("example")
+    hand = warm(lambda: [closed_form(values["phi"], values) for _ in range(200)]) / 200
+    row("one position, the full chain", one * 1e6, "us", 100, f"{one / hand:.1f} times a hand-written closed form")
+    output = subprocess.run([sys.executable, __file__, "million"], check=True, capture_output=True, text=True).stdout
+    ours, hand, memory = map(float, output.split())
+    row("a million positions to the lever, each", ours, "ns", 100, f"{ours / hand:.1f} times a hand-written closed form")
+    row("peak memory of that run", memory, "MB", 150, "")
+
+
+if __name__ == "__main__":
+    million() if sys.argv[1:] == ["million"] else main()
