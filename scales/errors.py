@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import tomllib
 from functools import cache
-from importlib.resources import files
 from typing import Any
 
 LANGUAGES = ("uk", "ru", "en")
@@ -13,6 +11,9 @@ LANGUAGES = ("uk", "ru", "en")
 @cache
 def messages(language: str) -> dict[str, str]:
     """Return the templates of all messages in `language`, by key."""
+    import tomllib
+    from importlib.resources import files
+
     text = files(__package__).joinpath("messages", f"{language}.toml").read_text(encoding="utf-8")
     return tomllib.loads(text)
 
