@@ -67,6 +67,10 @@ FILES = {
     "pair of moving links with a place": ("links = [1, 2]", 'links = [1, 2]\nat = ["0 mm", "0 mm"]', "pair-at"),
     "guide without a direction": ('direction = "0 deg"\n', "", "key-missing"),
     "driver of an unknown point": ('pivot = "O"', 'pivot = "Q"', "point-unknown"),
+    "driver about no pivot": ('pivot = "O"', 'pivot = "A"', "driver-pivot"),
+    "driver without a crank": ('point = "A"\nangle', 'point = "O"\nangle', "driver-point"),
+    "load named like a length": ('name = "F_3"', 'name = "l_OA"', "id-twice"),
+    "no structure": ("links = [3, 0]", "links = [2, 0]", "no-group"),
     "driver with a speed in newtons": ('speed = "n_1"', 'speed = "F_3"', "value-wrong"),
     "load in millimetres": ('magnitude = "F_3"', 'magnitude = "l_OA"', "value-wrong"),
     "load on no link": ('name = "F_3"\nlink = 3', 'name = "F_3"\nlink = 4', "link-unknown"),
@@ -104,7 +108,7 @@ FILES = {
     "string not closed": ('phi = "45 deg"', 'phi = "45 deg', "toml-bad"),
     "array not closed": ("plans = [", "plans = [[", "toml-bad"),
 }
-WITHOUT_LINE = {"array not closed", "links one table"}  # reported where it shows
+WITHOUT_LINE = {"no structure", "array not closed", "links one table"}  # reported where it shows
 
 
 @pytest.fixture(autouse=True)

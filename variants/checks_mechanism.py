@@ -87,7 +87,7 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | N
         tuple(Load(**x) for x in read.get("load", ())),
     )
     names.positive.add(mechanism.driver.speed)
-    _joined(checker, mechanism)
+    _joined(checker, mechanism, names)
     return mechanism if len(checker.faults) == before else None
 
 
@@ -167,7 +167,7 @@ def _pair(checker: Checker, path: Path, raw: object, names: Names) -> Pair | Non
     return made(**read)
 
 
-def _joined(checker: Checker, mechanism: Mechanism) -> None:
+def _joined(checker: Checker, mechanism: Mechanism, names: Names) -> None:
     """Check that links, pairs, driver and loads speak of the same numbers and letters."""
     links: dict[int, Mapping[str, object]] = {}
     for i, link in enumerate(mechanism.links):
@@ -176,17 +176,29 @@ def _joined(checker: Checker, mechanism: Mechanism) -> None:
         links[link.number] = link.points
     for i, pair in enumerate(mechanism.pairs):
         _pair_joined(checker, ("mechanism", "pair", i), pair, links)
-    driver = mechanism.driver
-    path: Path = ("mechanism", "driver")
-    _on_link(checker, path, "pivot", driver.pivot, driver.link, links)
-    _on_link(checker, path, "point", driver.point, driver.link, links)
+    _driver_joined(checker, mechanism, links)
     seen: set[str] = set()
     for i, load in enumerate(mechanism.loads):
-        path = ("mechanism", "load", i)
+        path: Path = ("mechanism", "load", i)
         _on_link(checker, path, "point", load.point, load.link, links)
-        if load.name in seen:
+        if load.name in seen or (load.name in names.dimensions and load.name != load.magnitude):
             checker.fault((*path, "name"), InputError("id-twice", name=load.name))
         seen.add(load.name)
+
+
+def _driver_joined(checker: Checker, mechanism: Mechanism, links: Mapping[int, Mapping[str, object]]) -> None:
+    """Check that the crank turns on the frame about its pivot and carries another point."""
+    driver, path = mechanism.driver, ("mechanism", "driver")
+    before = len(checker.faults)
+    _on_link(checker, path, "pivot", driver.pivot, driver.link, links)
+    _on_link(checker, path, "point", driver.point, driver.link, links)
+    if len(checker.faults) > before:
+        return
+    pivots = [p.point for p in mechanism.pairs if isinstance(p, Revolute) and {*p.links} == {FRAME, driver.link}]
+    if driver.pivot not in pivots:
+        checker.fault((*path, "pivot"), InputError("driver-pivot", text=driver.pivot))
+    elif driver.point == driver.pivot:
+        checker.fault((*path, "point"), InputError("driver-point", text=driver.point))
 
 
 def _pair_joined(checker: Checker, path: Path, pair: Pair, links: Mapping[int, Mapping[str, object]]) -> None:

@@ -12,6 +12,7 @@ from functools import cache
 from pathlib import Path as FilePath
 from typing import Any
 
+from ..plans.linkages.mechanism import Mechanism
 from ..scales.choose import chooser
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.numbers import quote
@@ -215,6 +216,8 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
     givens = {key: _bounded(given, names) for key, given in givens.items()}
     variants = read_variants(checker, raw["variant"], givens) if "variant" in raw else {}
     _signs(checker, names, choices)
+    if mechanism is not None and "plans" in head:
+        _constructed(checker, mechanism, head["plans"])
     if checker.faults or mechanism is None:
         return None
     return Task(
@@ -234,6 +237,16 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
         variants=variants,
         file=checker.file,
     )
+
+
+def _constructed(checker: Checker, mechanism: Mechanism, plans: tuple[str, ...]) -> None:
+    """Check that the mechanism has a structure, and that there are constructions for its groups."""
+    from ..plans.linkages.chain import construct
+
+    try:
+        construct(mechanism, plans)
+    except InputError as error:
+        checker.fault(("mechanism",), error)
 
 
 def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Names:
