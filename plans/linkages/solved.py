@@ -12,6 +12,7 @@ from ..board import POSITION, Program
 from ..exact import Status, Trouble, run
 from ..quantities import Quantity, quantities, shown_on
 from .chain import PLANS, board_givens, construct
+from .limits import limiting_angles
 from .mechanism import ZERO, Mechanism
 from .structure import Structure
 
@@ -58,11 +59,22 @@ class Solved:
         if trouble is None:
             return None
         if trouble.status == "no-assembly":
-            return PositionError(
-                "no-assembly", status_word="no-assembly", point=trouble.name, gap=f"{trouble.gap * 1e3:.4g}"
-            )
+            return self._apart(trouble)
         plan, dot, point = trouble.name.rpartition(".")
         return PositionError("singular", status_word="singular", point=point, plan=plan if dot else POSITION)
+
+
+    def _apart(self, trouble: Trouble) -> PositionError:
+        """Return by how much the links miss each other, and the angles of the driver at which they just meet."""
+        given = {name: value for name, value in self.values.items() if isinstance(value, float)}
+        limits = limiting_angles(self.mechanism, given)
+        gap = f"{trouble.gap * 1e3:.4g}"
+        if limits is None:
+            return PositionError("no-assembly", status_word="no-assembly", point=trouble.name, gap=gap)
+        low, high = (f"{math.degrees(angle) % 360.0:.7g}" for angle in limits)
+        return PositionError(
+            "no-assembly-here", status_word="no-assembly", point=trouble.name, gap=gap, low=low, high=high
+        )
 
 
 def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> Solved:
