@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 
 from ..exact import run
-from .chain import board_givens, construct
+from .chain import construct
 from .mechanism import Mechanism
 
 STEPS = 360
@@ -24,12 +24,11 @@ def limiting_angles(mechanism: Mechanism, values: Mapping[str, float]) -> tuple[
         Radians, within one turn of the given angle; None when no position of the driver can be assembled.
     """
     _, program = construct(mechanism, ("position",))
-    givens = board_givens(mechanism, values)
     angle = mechanism.driver.angle
     start = values[angle]
 
     def stands(at: float) -> bool:
-        return run(program, {**givens, angle: at}).status != "no-assembly"
+        return run(program, {**values, angle: at}).status != "no-assembly"
 
     found = []
     for sense in (-1.0, 1.0):

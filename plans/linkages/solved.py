@@ -60,8 +60,12 @@ class Solved:
             return None
         if trouble.status == "no-assembly":
             return self._apart(trouble)
-        plan, dot, point = trouble.name.rpartition(".")
-        return PositionError("singular", status_word="singular", point=point, plan=plan if dot else POSITION)
+        step = next(step for step in self.program if step.name == trouble.name)
+        key = f"singular-{step.plan}" if step.plan in ("velocity", "acceleration") else "singular-forces"
+        lines = [_spoken(step.operands[i]) for i in (1, 3)]
+        return PositionError(
+            key, status_word="singular", point=trouble.name.rpartition(".")[2], first=lines[0], second=lines[1]
+        )
 
 
     def _apart(self, trouble: Trouble) -> PositionError:
@@ -75,6 +79,14 @@ class Solved:
         return PositionError(
             "no-assembly-here", status_word="no-assembly", point=trouble.name, gap=gap, low=low, high=high
         )
+
+
+def _spoken(direction: str) -> str:
+    """Return a direction as it is written in equations: normal to AB, along AB, along the guide x-x."""
+    kind, _, name = direction.partition("_")
+    if name.startswith("u_"):
+        return "⊥x–x"
+    return {"n": f"⊥{name}", "e": f"∥{name}", "u": "∥x–x"}[kind]
 
 
 def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> Solved:
