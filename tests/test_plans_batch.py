@@ -64,3 +64,19 @@ def test_what_goes_into_a_batch_comes_out_untouched() -> None:
     solved(general_slider_crank(), values)
 
     assert all(bits(values[name]) == bits(before[name]) for name in values)
+
+
+def test_any_one_given_may_vary_while_the_others_stay() -> None:
+    mechanism, values = general_slider_crank(), random_slider_cranks(SEED, 1)
+    fixed = one_of(values, 0)
+    program = solved(mechanism, values).program
+    names = [name for name in program.names if not name.startswith("_")]
+
+    for given in values:
+        varied = np.array([fixed[given], fixed[given] * (1 + 1e-4), fixed[given]])
+        results, codes = batch(program, board_givens(mechanism, {**fixed, given: varied}), names)
+
+        for index, value in enumerate(varied):
+            board = run(program, board_givens(mechanism, {**fixed, given: float(value)}))
+            assert STATUSES[codes[index]] == board.status
+            assert [name for name in names if bits(board.values[name]) != bits(results[name][index])] == []

@@ -97,6 +97,7 @@ def test_acceleration_plan_keeps_the_rod_rigid_and_the_slider_on_its_guide(crank
     assert vanish(cranks["a_A"] + cranks["a_BA_n"] + cranks["a_BA_t"] - cranks["a_B"], size)
     assert vanish(cranks["a_BA"] - cranks["a_BA_n"] - cranks["a_BA_t"], size)
     assert vanish(cranks["a_BA_t"] - 1j * cranks["epsilon_2"] * rod, size)
+    assert vanish(cranks["acceleration.n_BA"] - cranks["a_A"] - cranks["a_BA_n"], size)
 
 
 @pytest.mark.parametrize("plan", ["velocity", "acceleration"])
@@ -171,6 +172,14 @@ def test_lever_gives_the_balancing_moment_of_the_force_plan(cranks: Solved) -> N
     assert vanish(cranks["M_bal_lever"] - cranks["F_bal"] * cranks["l_OA"], size)
     difference = (cranks["M_bal_lever"] - cranks["M_bal"]) / cranks["M_bal_lever"] * 100
     assert np.allclose(cranks["delta_M_bal"], difference, rtol=1e-9, atol=0)
+
+
+def test_balancing_force_stands_on_the_crank_pin_across_the_crank(cranks: Solved) -> None:
+    crank, force = cranks["A"] - cranks["O"], cranks["_F_bal"]
+    size = np.abs(force) * (np.abs(cranks["A"]) + np.abs(cranks["O"]))
+
+    assert vanish(dot(crank, force), size)
+    assert vanish(cross(crank, force) - cranks["M_bal_lever"], size)
 
 
 def test_lever_turns_the_velocity_plan_by_a_right_angle(cranks: Solved) -> None:

@@ -38,6 +38,7 @@ def loaded_at(link: int, point: str) -> Mechanism:
         pytest.param(with_links(replace(SLIDER, inertia="J_1")), id="slider with a moment of inertia"),
         pytest.param(with_links(Link(1, PIN), Link(2, ROD.points), Link(3, SLIDER.points)), id="no masses"),
         pytest.param(with_links(replace(ROD, inertia=None)), id="rod without a moment of inertia"),
+        pytest.param(with_links(replace(ROD, mass=None)), id="rod with a centre of mass but no mass"),
         pytest.param(with_links(replace(ROD, centre="A")), id="rod with its mass at A"),
         pytest.param(with_links(replace(ROD, centre="B")), id="rod with its mass at B"),
         pytest.param(loaded_at(1, "O"), id="load on the pivot"),
@@ -48,6 +49,7 @@ def loaded_at(link: int, point: str) -> Mechanism:
             replace(NAU, pairs=(NAU.pairs[0], Revolute("A", (2, 1)), Revolute("B", (3, 2)), NAU.pairs[3])),
             id="pairs with their links the other way round",
         ),
+        pytest.param(replace(NAU, pairs=NAU.pairs[::-1], links=NAU.links[::-1]), id="pairs in another order"),
     ],
 )
 def test_every_quantity_of_an_own_mechanism_agrees_with_the_second_solver(mechanism: Mechanism) -> None:

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from kulman.plans.batch import ArrayBoard
 from kulman.plans.board import Program
-from kulman.plans.exact import STATUSES, run
+from kulman.plans.exact import STATUSES, ExactBoard, run
 from kulman.plans.linkages.chain import board_givens, construct
 from kulman.tests.mechanisms import (
     NAU_VARIANTS,
@@ -120,9 +121,10 @@ def test_crank_that_is_off_by_a_rounding_error_stands_at_the_right_angle(degrees
     assert boards[0].values["e_OA"] == boards[1].values["e_OA"] == 1j ** (degrees // 90)
 
 
+@pytest.mark.parametrize("degrees", [60, -60])
 @pytest.mark.parametrize("side", SIDES)
-def test_rod_too_short_for_the_guide_cannot_be_assembled(side: str) -> None:
-    values = nau_values(side=side, phi=math.radians(60), l_AB=0.04)
+def test_rod_too_short_for_the_guide_cannot_be_assembled(side: str, degrees: float) -> None:
+    values = nau_values(side=side, phi=math.radians(degrees), l_AB=0.04)
 
     board = run(PROGRAM, board_givens(NAU, values))
 
@@ -187,6 +189,46 @@ def test_rod_nearly_normal_to_the_guide_is_ill_conditioned() -> None:
     assert board.status == "ill-conditioned"
     assert min(board.sines.values()) == pytest.approx(sine, rel=1e-6)
     assert undefined(PROGRAM, board.values) == set()
+
+
+@pytest.mark.parametrize(
+    ("part", "status"),
+    [
+        (1e-3, "ok"),
+        (0.6e-6, "ok"),
+        (0.4e-6, "ill-conditioned"),
+        (1e-7, "ill-conditioned"),
+        (1e-14, "ill-conditioned"),
+        (0, "singular"),
+        (-1e-14, "no-assembly"),
+    ],
+)
+def test_status_turns_where_its_threshold_says(part: float, status: str) -> None:
+    values = nau_values(phi=math.radians(90), l_AB=0.05 * (1 + part))
+
+    board = run(PROGRAM, board_givens(NAU, values))
+    mechanisms = solved(NAU, {name: np.full(1, value) for name, value in values.items()})
+
+    assert board.status == STATUSES[mechanisms.codes[0]] == status
+
+
+@pytest.mark.parametrize(
+    ("moment", "force", "arm"),
+    [
+        pytest.param(-6.0, 3j, 2.0, id="a force off the point"),
+        pytest.param(0.0, 3j, 0.0, id="a force through the point"),
+        pytest.param(0.0, 0j, 0.0, id="nothing"),
+        pytest.param(6.0, 0j, math.nan, id="a couple, which has no arm"),
+    ],
+)
+def test_arm_is_that_of_one_force(moment: float, force: complex, arm: float) -> None:
+    one, many = ExactBoard({"M": moment, "F": force}), ArrayBoard({"M": np.array([moment]), "F": np.array([force])}, 1)
+
+    one.step("arm", "h", "M", "F")
+    with np.errstate(invalid="ignore", divide="ignore"):
+        many.step("arm", "h", "M", "F")
+
+    assert [one.values["h"], many.values["h"][0]] == pytest.approx([arm, arm], rel=1e-15, nan_ok=True)
 
 
 def mixed() -> dict[str, Any]:

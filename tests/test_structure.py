@@ -203,6 +203,15 @@ def test_lever_alone_records_no_reaction() -> None:
     assert "M_bal_lever" in program.names
 
 
+def test_every_step_that_draws_stands_on_one_plan() -> None:
+    _, program = construct(nau_slider_crank())
+
+    drawn = [step for plan in program.plans for step in program.on(plan) if step.verb != "calc"]
+
+    assert sorted(drawn, key=program.steps.index) == [step for step in program if step.verb != "calc"]
+    assert [step.name for step in program.on("velocity") if step.verb == "read"] == ["V_A", "V_BA", "V_B", "V_S2"]
+
+
 def test_every_step_uses_only_names_made_before_it() -> None:
     for mechanism in (nau_slider_crank(), general_slider_crank(), twin(series=True), twin(series=False)):
         _, program = construct(mechanism)
