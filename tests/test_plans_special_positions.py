@@ -191,18 +191,11 @@ def test_rod_nearly_normal_to_the_guide_is_ill_conditioned() -> None:
     assert undefined(PROGRAM, board.values) == set()
 
 
-@pytest.mark.parametrize(
-    ("part", "status"),
-    [
-        (1e-3, "ok"),
-        (0.6e-6, "ok"),
-        (0.4e-6, "ill-conditioned"),
-        (1e-7, "ill-conditioned"),
-        (1e-14, "ill-conditioned"),
-        (0, "singular"),
-        (-1e-14, "no-assembly"),
-    ],
-)
+THRESHOLDS = {1e-3: "ok", 0.6e-6: "ok", 0.4e-6: "ill-conditioned", 1e-7: "ill-conditioned", 1e-14: "ill-conditioned"}
+THRESHOLDS |= {0.0: "singular", -1e-14: "no-assembly"}
+
+
+@pytest.mark.parametrize(("part", "status"), THRESHOLDS.items())
 def test_status_turns_where_its_threshold_says(part: float, status: str) -> None:
     values = nau_values(phi=math.radians(90), l_AB=0.05 * (1 + part))
 
