@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import accumulate
 
 from .shapes import Group, Line, Pen, Shape, Text
 from .style import Style
@@ -15,25 +16,34 @@ INDENT = "    "
 def table(name: str, heading: str, rows: Sequence[Sequence[str]], style: Style) -> View:
     """Return a ruled table; the first row is its head."""
     h = style.text
-    pad, row_height = 0.5 * h, 2.0 * h
+    pad = 0.5 * h
     columns = range(len(rows[0]))
     widths = [max(lay_out(row[i], h).width for row in rows) + 2 * pad for i in columns]
     edges = [sum(widths[:i]) for i in range(len(widths) + 1)]
-    height = row_height * len(rows)
+    spans = [_span(row, h) for row in rows]
+    # a row of scripts above and below needs more than a row of plain words
+    levels = [0.0, *accumulate(-max(2.0 * h, top - bottom + 0.4 * h) for top, bottom in spans)]
+    height = -levels[-1]
     shapes: list[Shape] = []
-    for i in range(len(rows) + 1):
+    for i, y in enumerate(levels):
         pen = Pen.MAIN if i in (0, 1, len(rows)) else Pen.THIN
-        shapes.append(Line(complex(0, -i * row_height), complex(edges[-1], -i * row_height), pen))
+        shapes.append(Line(complex(0, y), complex(edges[-1], y), pen))
     for i, x in enumerate(edges):
         pen = Pen.MAIN if i in (0, len(edges) - 1) else Pen.THIN
         shapes.append(Line(complex(x, 0), complex(x, -height), pen))
-    for j, row in enumerate(rows):
-        baseline = -(j + 1) * row_height + 0.5 * (row_height - h)
+    for j, (row, (top, bottom)) in enumerate(zip(rows, spans, strict=True)):
+        baseline = (levels[j] + levels[j + 1] - top - bottom) / 2
         for i, cell in enumerate(row):
             if cell:
                 middle = (edges[i] + edges[i + 1]) / 2
                 shapes.append(Text(complex(middle, baseline), cell, h, "middle", role="cell"))
     return _view(name, heading, shapes, edges[-1] / 2, (0.0, -height, edges[-1], 0.0), style, role="table")
+
+
+def _span(row: Sequence[str], h: float) -> tuple[float, float]:
+    """Return how far a row of cells reaches above and below its baseline, at least as far as a capital letter."""
+    layouts = [lay_out(cell, h) for cell in row]
+    return max(h, *(layout.top for layout in layouts)), min(0.0, *(layout.bottom for layout in layouts))
 
 
 def text_block(name: str, heading: str, lines: Sequence[Sequence[str]], style: Style, width: float) -> View:
