@@ -43,6 +43,7 @@ def lever_view(scene: Scene) -> View:
         f"{words.mark('velocity.p')}{words.mark('velocity.' + driver.point)} = {scene.segment('V_' + driver.point)}",
         (p, scene.mm(f"lever.{driver.point}")),
         clear=0.9,
+        height=style.text,
     )
     middle = sum(scene.mm(mark) for mark in marks) / len(marks)
     for mark in marks:
