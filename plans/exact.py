@@ -47,12 +47,15 @@ class ExactBoard(Board):
         self.values: dict[str, Any] = {"zero": 0.0, "one": 1.0, **givens}
         self.sines: dict[str, float] = {}
         self.trouble: Trouble | None = None
+        self._name = ""
+        self._operands: tuple[str, ...] = ()
+        self._sine_of: dict[tuple[str, str], Any] = {}
 
     def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
         """Do the step with numbers."""
         values = self.values
         operate = LAWS[law] if law else getattr(self, "_" + verb)
-        self._name = name
+        self._name, self._operands = name, operands
         values[name] = operate(*[values[operand] for operand in operands])
 
     # What differs between one position and many.
@@ -103,7 +106,7 @@ class ExactBoard(Board):
     # The verbs, the same for one and for many.
 
     def _place(self, x: Any, y: Any) -> Any:
-        return self._complex(x, y)
+        return POLE if _is_zero(x) and _is_zero(y) else self._complex(x, y)
 
     def _pole(self) -> Any:
         return POLE
@@ -124,13 +127,17 @@ class ExactBoard(Board):
         return vector if start is POLE else start + vector
 
     def _meet(self, p: Any, u: Any, q: Any, w: Any) -> Any:
-        sine = self._lines_sine(cross(u, w))
+        # plans of velocities and accelerations meet along the same two directions
+        key = self._operands[1], self._operands[3]
+        sine = self._sine_of.get(key)
+        if sine is None:
+            sine = self._sine_of[key] = self._lines_sine(cross(u, w))
         return p + u * (cross(self._read(p, q), w) / sine)
 
     def _arc(self, centre: Any, radius: Any, q: Any, w: Any, side: Any) -> Any:
-        to_centre = centre - q
+        to_centre = self._read(q, centre)
         half = self._half_chord(radius, abs(cross(w, to_centre)))
-        return q + w * (dot(w, to_centre) + side * half)
+        return self._chain(q, w * (dot(w, to_centre) + side * half))
 
     def _divide(self, start: Any, end: Any, part: Any, whole: Any) -> Any:
         return start + (end - start) * (part / whole)
@@ -147,6 +154,10 @@ class ExactBoard(Board):
         if self.trouble is not None:
             return self.trouble.status
         return "ill-conditioned" if min(self.sines.values(), default=1.0) < ILL else "ok"
+
+
+def _is_zero(value: Any) -> bool:
+    return isinstance(value, float) and value == 0.0
 
 
 def run(program: Program, givens: Mapping[str, Any]) -> ExactBoard:
