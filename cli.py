@@ -268,6 +268,12 @@ def _check(file: str, as_json: bool) -> int:
     return 0
 
 
+def _warn(warnings: Sequence[KulmanError]) -> None:
+    """Show what a user should know, a line each, on stderr."""
+    for warning in warnings:
+        click.echo(warning.text(system_language()), err=True)
+
+
 def _print_json(data: Mapping[str, Any]) -> None:
     """Print one JSON object in ASCII, which every console and pipe lets through."""
     import json
@@ -289,6 +295,7 @@ def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, 
         _print_json(solution.to_json())
     elif solution.reason is None:
         click.echo(solution.table(lang or system_language()))
+        _warn(solution.warnings)
     return _refuse(solution.reason) if solution.reason is not None else 0
 
 
@@ -327,3 +334,4 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
     saved = drawn.save(*files, tile=tile)
     for path in saved:
         click.echo(str(path))
+    _warn(drawn.warnings)

@@ -30,7 +30,7 @@ def hatching(a: complex, b: complex, below: complex, style: Style) -> tuple[Shap
     count = max(2, round(abs(b - a) / pitch))
     lean = (below - e) * (stroke / math.sqrt(2.0))
     feet = (a + e * (abs(b - a) * (k + 0.5) / count) for k in range(count))
-    return tuple(Line(foot - lean * 0.0, foot + lean, Pen.THIN, role="hatch") for foot in feet)
+    return tuple(Line(foot, foot + lean, Pen.THIN, role="hatch") for foot in feet)
 
 
 def fixed_pivot(at: complex, name: str, style: Style) -> Group:
@@ -124,7 +124,7 @@ def clear_ray(direction: complex, lines: list[complex], arrows: list[complex]) -
     def room(ray: complex) -> float:
         to_lines = min((abs(cmath.phase(other / ray)) for other in lines), default=math.pi)
         to_arrows = min((abs(cmath.phase(other / ray)) for other in arrows), default=math.pi)
-        return min(to_lines, 0.2 + to_arrows)
+        return min(to_lines, 0.5 + to_arrows)
 
     outward, inward = room(direction), room(-direction)
     return (direction, True) if outward >= inward - 0.1 else (-direction, False)

@@ -147,5 +147,6 @@ def _lever_arm(name: str) -> tuple[str, str, str]:
 
 def _plain(value: float, digits: int) -> str:
     """Return a small number without an exponent."""
-    decimals = digits - 1 - math.floor(math.log10(abs(value)))
-    return f"{value:.{min(decimals, 30)}f}".rstrip("0").rstrip(".")
+    decimals = min(max(digits - 1 - math.floor(math.log10(abs(value))), 0), 40)
+    text = f"{value:.{decimals}f}"
+    return text.rstrip("0").rstrip(".") if decimals else text

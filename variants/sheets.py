@@ -16,6 +16,7 @@ from ..drawing.pens import Norm
 from ..drawing.titleblock import Stamp
 from ..drawing.words import Words
 from ..drawing.writers import write_pages, writer_for
+from ..scales.errors import InputError
 from ..scales.scale import Scale
 from .solution import Settings, givens_of, read_choosers, solve_variant, warnings_of
 from .task import Task
@@ -28,7 +29,7 @@ class Sheet:
     pages: tuple[Page, ...]
     scales: Mapping[str, Scale]
     format: str
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[InputError, ...] = ()
 
     def save(self, *paths: str | os.PathLike[str], tile: str | None = None) -> list[Path]:
         """Write the sheet to each of `paths`; the suffix picks the writer.
@@ -122,11 +123,10 @@ def sheet(
     contents = Contents(
         solved,
         tuple(only or found.plans),
-        read_choosers(found, scales),
+        read_choosers(found, scales, solved),
         givens_of(found, name, set),
         words,
         norm,
     )
     drawn = draw(contents, stamp, paper)
-    said = tuple(warning.text(lang) for warning in warnings_of(solved))
-    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, said)
+    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, warnings_of(solved))

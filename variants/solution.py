@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..drawing.linkages.fitting import first_scales
+from ..drawing.linkages.ladders import first_scales
 from ..drawing.linkages.scene import Given
 from ..drawing.words import Words
 from ..plans.linkages.chain import PLANS
@@ -18,7 +18,7 @@ from ..scales.choose import Chooser, chooser, segment_symbol
 from ..scales.errors import InputError, PositionError
 from ..scales.scale import Scale
 from .reader import load_task
-from .task import Task, unknown
+from .task import LocatedError, Task, unknown
 
 DRAWN_ANGLE = math.radians(20.0)  # lines that meet at a smaller angle make a drawing lose digits
 Settings = Mapping[str, str | float]
@@ -104,15 +104,24 @@ def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
     return q.name, value, unit, components, mm
 
 
-def read_choosers(task: Task, scales: Settings | None) -> dict[str, Chooser]:
+def read_choosers(task: Task, scales: Settings | None, solved: Solved) -> dict[str, Chooser]:
     """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
     choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
+    structure = solved.structure
+    known = [
+        "mu_l",
+        "mu_V",
+        "mu_a",
+        *(f"mu_F_{name}" for name in (structure.driver, *(g.name for g in structure.groups))),
+    ]
     for name, text in (scales or {}).items():
-        if name.startswith("mu_"):
-            choosers[name] = chooser(name, str(text), firm=True)
-        else:
-            symbol = segment_symbol(name)
-            choosers[symbol] = chooser(symbol, f"{name}={text}", firm=True)
+        if name.startswith("mu_") and name not in known:
+            raise unknown("scale-unknown", name, known, task=task.id)
+        try:
+            symbol = name if name.startswith("mu_") else segment_symbol(name)
+            choosers[symbol] = chooser(symbol, str(text) if symbol == name else f"{name}={text}", firm=True)
+        except InputError as error:
+            raise LocatedError(name, error) from error
     return choosers
 
 
@@ -175,7 +184,7 @@ def solve(
     """
     found, name, solved = solve_variant(task, variant, set, only)
     words = Words.of(lang or "en", notation or found.notation)
-    choosers = read_choosers(found, scales)
+    choosers = read_choosers(found, scales, solved)
     by_plan = first_scales(solved, choosers) if solved.trouble is None else {}
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 from ...plans.board import Step
 from ..shapes import Circle, Group, Line, Pen
 from ..view import Canvas, View
 from .scene import Scene
 
 PAST = 6.0  # mm by which a construction line runs past the point that it finds
+SMALL = math.sin(math.radians(20.0))  # sine of an angle at which a drawing loses much
 SHORT = 2.0  # mm below which a vector cannot be drawn as an arrow
 
 
@@ -19,7 +22,7 @@ def plan_view(scene: Scene, plan: str, key: str, **fill: str) -> View:
     _construction(canvas, scene, steps)
     _vectors(canvas, scene, vectors)
     _letters(canvas, scene, plan, [tip for _, _, tip in vectors])
-    return canvas.finish(plan, scene.heading(key, plan, **fill), tuple(_said(scene, vectors)))
+    return canvas.finish(plan, scene.heading(key, plan, **fill), tuple(_said(scene, plan, vectors)))
 
 
 def vectors_of(steps: tuple[Step, ...]) -> list[tuple[str, str, str]]:
@@ -81,9 +84,14 @@ def _letters(canvas: Canvas, scene: Scene, plan: str, tips: list[str]) -> None:
             canvas.add(Group((Circle(scene.mm(name), 0.3, Pen.THIN, fill="black"),), "point", name))
 
 
-def _said(scene: Scene, vectors: list[tuple[str, str, str]]) -> list[str]:
+def _said(scene: Scene, plan: str, vectors: list[tuple[str, str, str]]) -> list[str]:
     """Say in words what is too short for an arrow."""
     lines = []
+    for mark, sine in scene.solved.sines.items():
+        if mark.startswith(f"{plan}.") and sine < SMALL:
+            angle = scene.words.short(math.degrees(math.asin(sine)), 3)
+            loss = scene.words.short(1.0 / sine, 3)
+            lines.append(scene.words["said.ill"].format(point=scene.words.mark(mark), angle=angle, loss=loss))
     for quantity, tail, tip in dict.fromkeys(vectors):
         length = abs(scene.mm(tip) - scene.mm(tail))
         if length < 1e-6:

@@ -1,0 +1,49 @@
+"""Ladders of scale factors: for each plan the wanted one first, then coarser and coarser."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...plans.linkages.solved import Solved
+from ...scales.choose import UNITS, Choosers, CrankScale, Round
+from ...scales.errors import InputError
+from ...scales.scale import Scale
+
+Ladders = Mapping[str, tuple[float, ...]]
+
+
+def first_scales(solved: Solved, choosers: Choosers) -> dict[str, Scale]:
+    """Return the scale factors as they are wanted, by plan, before any format has its say."""
+    return by_plan(solved, {symbol: ladder[0] for symbol, ladder in ladders_of(solved, choosers).items()})
+
+
+def ladders_of(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...]]:
+    """Return for each scale factor of the plans its values from the wanted one to ever coarser ones."""
+    plans, shown = solved.scale_of_plan, solved.shown_on
+
+    def value(name: str) -> float:
+        if name in plans.values():
+            drawn = [
+                q.value or 0.0 for q in solved.quantities.values() if plans.get(shown.get(q.name, "position")) == name
+            ]
+            size = max(map(abs, drawn), default=0.0)
+        else:
+            item = solved.quantities.get(name)
+            size = abs(item.value or 0.0) if item is not None else abs(float(solved.values.get(name, 0.0)))
+        if not size > 0.0:
+            raise InputError("scale-of-zero", quantity=name)
+        return size
+
+    ladders: dict[str, tuple[float, ...]] = {}
+    for symbol in dict.fromkeys(plans.values()):
+        chooser = choosers.get(symbol, Round(symbol, 100.0))
+        ladders[symbol] = (
+            chooser.ladder(value, ladders["mu_l"]) if isinstance(chooser, CrankScale) else chooser.ladder(value)
+        )
+    return ladders
+
+
+def by_plan(solved: Solved, mus: Mapping[str, float]) -> dict[str, Scale]:
+    """Return the scale factors of the plans from their values by symbol."""
+    plans = solved.scale_of_plan.items()
+    return {plan: Scale(symbol, mus[symbol], UNITS[symbol.split("_")[1]]) for plan, symbol in plans}
