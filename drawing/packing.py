@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import islice, product
 from typing import TypeAlias
 
-Size: TypeAlias = tuple[float, float]
-Corner: TypeAlias = tuple[float, float]
-Box: TypeAlias = tuple[float, float, float, float]
+from .hanging import hang
+from .rows import SLACK, Edge, Room, Row, Size, cut
 
-SLACK = 1e-9  # mm, for rounding
-KEPT = 4  # partial layouts that are followed further, for each number of views placed
-SHAPES_TRIED = 16  # combinations of alternative shapes
-SHAPES_PAGED = 4  # the same where there may be more pages anyway
+Box: TypeAlias = tuple[float, float, float, float]
+Corner: TypeAlias = tuple[float, float]
+
+NEIGHBOURS = (5, 7, 12, 19)  # how many views may change places if they do not fit in order
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,60 +25,6 @@ class Placement:
     shape: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class _Page:
-    area: Box
-    reserved: tuple[Box, ...]  # already with the gap around them
-    gap: float
-
-    def free_row(self, sizes: Sequence[Size], top: float, space: float = 0.0) -> list[float] | None:
-        """Left edges of views that hang side by side from `top`, `space` more than the gap around each, or None."""
-        left, low, right, _ = self.area
-        lefts = []
-        for w, h in sizes:
-            if top - h < low - SLACK:
-                return None
-            left = self._step_over(left, w + 2 * space, top - h, top)
-            if left + w + 2 * space > right + SLACK:
-                return None
-            lefts.append(left + space)
-            left += w + space + self.gap
-        return lefts
-
-    def _step_over(self, left: float, width: float, bottom: float, top: float) -> float:
-        moved = True
-        while moved:
-            moved = False
-            for x0, y0, x1, y1 in self.reserved:
-                if left < x1 - SLACK and left + width > x0 + SLACK and bottom < y1 - SLACK and top > y0 + SLACK:
-                    left, moved = x1, True
-        return left
-
-    def may_hold(self, sizes: Sequence[Size]) -> bool:
-        """Compare the areas."""
-        x0, y0, x1, y1 = self.area
-        gap = self.gap
-        return sum((w + gap) * (h + gap) for w, h in sizes) <= (x1 - x0 + gap) * (y1 - y0 + gap) + SLACK
-
-    def even_row(self, sizes: Sequence[Size], top: float) -> list[float] | None:
-        """Return the same with as much space around each view as the row has room for."""
-        left, _, right, _ = self.area
-        used = sum(w for w, _ in sizes) + self.gap * (len(sizes) - 1)
-        most, step = max(0.0, (right - left - used) / (len(sizes) + 1)), 1.0
-        row, share = self.free_row(sizes, top), 0.0
-        for _ in range(7):
-            wider = self.free_row(sizes, top, min(1.0, share + step) * most)
-            if wider is not None:
-                row, share = wider, share + step
-            if share >= 1.0:
-                break
-            step /= 2
-        return row
-
-
-_Method: TypeAlias = Callable[[Sequence[Size], _Page], list[Corner] | None]
-
-
 def pack(
     views: Sequence[Sequence[Size]],
     area: Box,
@@ -89,6 +33,7 @@ def pack(
     later: Sequence[Box] | None = None,
     gap: float = 8.0,
     pages: int | None = 1,
+    any_order: bool = True,
 ) -> list[Placement] | None:
     """Place views on as few pages as they need.
 
@@ -99,219 +44,118 @@ def pack(
     area : (x0, y0, x1, y1)
         The usable area of a page, y up.
     reserved : sequence of boxes
-        What is taken on the first page: the title block, the corner with the turned designation.
+        What is taken on the first page: the title block, the corner with the turned designation. A box counts as if it
+        reached the nearest corner of the area.
     later : sequence of boxes, optional
         What is taken on the following pages; the same as on the first one if left out.
     gap : float
         The least distance between views, and from them to reserved boxes.
     pages : int or None
         How many pages there may be; None for as many as are needed.
+    any_order : bool
+        Whether a single page may give up the reading order if the views do not fit otherwise.
 
     Returns
     -------
     list of Placement or None
         In the order of `views`; None if they do not fit.
     """
-    first = _page(area, reserved, gap)
-    rest = first if later is None else _page(area, later, gap)
-    whole = _one_page(views, first, (_rows, _in_order, _in_any_order), SHAPES_TRIED)
-    if whole is not None or pages == 1 or not views:
-        return whole
-    return _pages(views, first, rest, pages)
+    if not views:
+        return []
+    first, rest = _room(area, reserved, gap), _room(area, reserved if later is None else later, gap)
+    plain = [shapes[:1] for shapes in views]
+    whole = cut(plain, first, rest, gap, 1, nested=False) or cut(views, first, rest, gap, 1, nested=True)
+    if whole is not None:
+        return _placed(whole, first, rest, views, area, gap)
+    if any_order:
+        taken = tuple((x0 - gap, y0 - gap, x1 + gap, y1 + gap) for x0, y0, x1, y1 in reserved)
+        corners = _in_any_order([shapes[0] for shapes in views], _Page(area, taken, gap))
+        if corners is not None:
+            return [Placement(0, x, y) for x, y in corners]
+    several = None if pages == 1 else cut(views, first, rest, gap, pages, nested=True)
+    return None if several is None else _placed(several, first, rest, views, area, gap)
 
 
-def _page(area: Box, reserved: Sequence[Box], gap: float) -> _Page:
-    return _Page(area, tuple((x0 - gap, y0 - gap, x1 + gap, y1 + gap) for x0, y0, x1, y1 in reserved), gap)
+def _placed(
+    found: list[list[Row]], first: Room, rest: Room, views: Sequence[Sequence[Size]], area: Box, gap: float
+) -> list[Placement]:
+    places: dict[int, Placement] = {}
+    for number, rows in enumerate(found):
+        for (i, shape), x, y in hang(rows, rest if number else first, views, gap):
+            places[i] = Placement(number, area[0] + x, area[1] + y, shape)
+    return [places[i] for i in range(len(views))]
 
 
-def _pages(views: Sequence[Sequence[Size]], first: _Page, rest: _Page, limit: int | None) -> list[Placement] | None:
-    """Break the views into pages: as few as possible, then as equally full as possible."""
-    layouts: dict[tuple[int, int], list[Placement] | None] = {}
-
-    def layout(i: int, j: int) -> list[Placement] | None:
-        if (i, j) not in layouts:
-            methods = (_rows, _in_order)
-            layouts[i, j] = _one_page(views[i:j], rest if i else first, methods, SHAPES_PAGED)
-        return layouts[i, j]
-
-    count = len(views)
-    reach: list[int] = []
-    for i in range(count):
-        j = max([i + 1, *reach[-1:]])
-        while j > i and layout(i, j) is None:
-            j -= 1
-        while j < count and layout(i, j + 1) is not None:
-            j += 1
-        reach.append(j)
-    while (breaks := _breaks(views, reach, layouts)) is not None:
-        pages = [layout(i, j) for i, j in breaks]
-        if None not in pages:
-            fits = limit is None or len(pages) <= limit
-            numbered = [Placement(n, p.x, p.y, p.shape) for n, page in enumerate(pages) for p in page or ()]
-            return numbered if fits else None
-    return None
+def _room(area: Box, reserved: Sequence[Box], gap: float) -> Room:
+    """Tell how the first and the last row of a page may go round the reserved corners."""
+    x0, y0, x1, y1 = area
+    corners: dict[tuple[bool, bool], Size] = {}
+    for a, b, c, d in reserved:
+        right, top = a + c > x0 + x1, b + d > y0 + y1
+        w, h = x1 - max(a, x0) if right else min(c, x1) - x0, y1 - max(b, y0) if top else min(d, y1) - y0
+        if w > -gap and h > -gap:
+            w, h = max(w, SLACK), max(h, SLACK)
+            before = corners.get((right, top), (0.0, 0.0))
+            corners[right, top] = max(before[0], w), max(before[1], h)
+    none = (-gap, 0.0)
+    tl, tr = corners.get((False, True), none), corners.get((True, True), none)
+    bl, br = corners.get((False, False), none), corners.get((True, False), none)
+    heads, tails = _edges(tl, tr, gap, left=True), _edges(br, bl, gap, left=False)
+    return Room(x1 - x0, y1 - y0, heads, tails, max(tl[1], tr[1]), max(bl[1], br[1]))
 
 
-def _breaks(
-    views: Sequence[Sequence[Size]], reach: Sequence[int], layouts: dict[tuple[int, int], list[Placement] | None]
-) -> list[tuple[int, int]] | None:
-    """First and last view of each page, none of them beyond its reach or known not to fit."""
-    weight = [min(w * h for w, h in shapes) for shapes in views]
-    # For the first j views: pages used, unevenness, these pages.
-    best: list[tuple[int, float, list[tuple[int, int]]] | None] = [(0, 0.0, [])] + [None] * len(views)
-    for i in range(len(views)):
-        before = best[i]
-        for j in range(i + 1, reach[i] + 1 if before else 0):
-            if before and layouts.get((i, j), []) is not None:
-                filled = sum(weight[i:j])
-                candidate = (before[0] + 1, before[1] + filled * filled, [*before[2], (i, j)])
-                best[j] = min(best[j] or candidate, candidate)
-    last = best[-1]
-    return last and last[2]
+def _edges(main: Size, other: Size, gap: float, left: bool) -> tuple[Edge, ...]:
+    """Beside both corners, or beside one of them and under or over the main one."""
+    wide, aside = main[0] + gap, other[0] + gap
+    beside = Edge(wide if left else aside, aside if left else wide, max(main[1], other[1]))
+    if not main[1]:
+        return (beside,)
+    return beside, Edge(0.0 if left else aside, aside if left else 0.0, other[1], main)
 
 
-def _one_page(
-    views: Sequence[Sequence[Size]], page: _Page, methods: Sequence[_Method], tries: int
-) -> list[Placement] | None:
-    """Return what the first method finds that fits the views on the page, the preferred shapes first."""
-    choices = [
-        (choice, sizes)
-        for choice in islice(_choices(views), tries)
-        if page.may_hold(sizes := [shapes[k] for shapes, k in zip(views, choice, strict=True)])
-    ]
-    for method in methods:
-        for choice, sizes in choices:
-            corners = method(sizes, page)
-            if corners is not None:
-                return [Placement(0, x, y, k) for (x, y), k in zip(corners, choice, strict=True)]
-    return None
-
-
-def _choices(views: Sequence[Sequence[Size]]) -> Iterator[tuple[int, ...]]:
-    """Combinations of shapes, the preferred ones first."""
-    several = [i for i, shapes in enumerate(views) if len(shapes) > 1]
-    combinations = product(*(range(len(views[i])) for i in several[:4]))
-    for ranks in sorted(combinations, key=lambda ranks: (sum(ranks), ranks)):
-        choice = [0] * len(views)
-        for i, rank in zip(several, ranks, strict=False):
-            choice[i] = rank
-        yield tuple(choice)
-
-
-# Rows ---------------------------------------------------------------------------------------------------------------
+# Close packing: the last resort ---------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
-class _Part:
-    """The first views in rows: how low these reach, how unevenly they fill, and where each row begins and hangs."""
+class _Page:
+    area: Box
+    reserved: tuple[Box, ...]  # already with the gap around them
+    gap: float
 
-    low: float
-    uneven: float
-    rows: tuple[tuple[int, int, float], ...]  # first view, view after the last, top
-
-
-def _rows(sizes: Sequence[Size], page: _Page) -> list[Corner] | None:
-    """Break the views into rows; of the ways that fit the one with the most even spaces."""
-    count = len(sizes)
-    _, low, _, top = page.area
-    parts: list[list[_Part]] = [[] for _ in range(count + 1)]
-    parts[0] = [_Part(top + page.gap, 0.0, ())]
-    for i in range(count):
-        for part in _worth_following(parts[i]):
-            for hang in _tops(part.low - page.gap, page):
-                _add_rows(parts, i, part, hang, sizes, page)
-    height = top - low
-    done = [(part.uneven + ((part.low - low) / height) ** 2, part) for part in parts[count]]
-    for _, part in sorted(done, key=lambda pair: pair[0]):
-        return _spread(part, sizes, page)
-    return None
-
-
-def _tops(top: float, page: _Page) -> list[float]:
-    """A row may hang as high as possible, or below a reserved box in its way."""
-    return [top] + [y0 for _, y0, _, y1 in page.reserved if y0 < top - SLACK and y1 > top + SLACK and y0 > page.area[1]]
-
-
-def _worth_following(parts: list[_Part]) -> list[_Part]:
-    """Those that no other part beats in both height and evenness."""
-    kept: list[_Part] = []
-    for part in sorted(parts, key=lambda part: (-part.low, part.uneven)):
-        if not kept or part.uneven < kept[-1].uneven - SLACK:
-            kept.append(part)
-    if len(kept) > KEPT:
-        kept = [kept[k * (len(kept) - 1) // (KEPT - 1)] for k in range(KEPT)]
-    return kept
-
-
-def _add_rows(parts: list[list[_Part]], i: int, part: _Part, hang: float, sizes: Sequence[Size], page: _Page) -> None:
-    x0, _, x1, _ = page.area
-    for j in range(i + 1, len(sizes) + 1):
-        lefts = page.free_row(sizes[i:j], hang)
-        if lefts is None:
-            return
-        slack = (x1 - lefts[-1] - sizes[j - 1][0]) / (x1 - x0)
-        deepest = max(h for _, h in sizes[i:j])
-        ragged = sum(deepest - h for _, h in sizes[i:j]) / deepest / 10
-        grown = _Part(hang - deepest, part.uneven + slack * slack + ragged, (*part.rows, (i, j, hang)))
-        parts[j].append(grown)
-
-
-def _spread(part: _Part, sizes: Sequence[Size], page: _Page) -> list[Corner] | None:
-    """Share the empty height among the rows, as much of it as the reserved boxes permit."""
-    for share in (1.0, 0.8, 0.6, 0.4, 0.2, 0.0):
-        corners = _hung(part, share * (part.low - page.area[1]) / (len(part.rows) + 1), sizes, page)
-        if corners is not None:
-            return corners
-    return None
-
-
-def _hung(part: _Part, space: float, sizes: Sequence[Size], page: _Page) -> list[Corner] | None:
-    """Hang the rows with so much space above each."""
-    corners: list[Corner] = []
-    ceiling = page.area[3]
-    for number, (i, j, hang) in enumerate(part.rows, start=1):
-        top = min(hang - space * number, ceiling)
-        # A little lower the whole width may be free.
-        top = min((t for t in _tops(top, page) if t > top - space / 2), default=top)
-        lefts = page.even_row(sizes[i:j], top)
-        if lefts is None:
-            return None
-        corners += [(left, top - h) for left, (_, h) in zip(lefts, sizes[i:j], strict=True)]
-        ceiling = top - max(h for _, h in sizes[i:j]) - page.gap
-    return corners
-
-
-# Close packing --------------------------------------------------------------------------------------------------------
-
-
-def _in_order(sizes: Sequence[Size], page: _Page) -> list[Corner] | None:
-    """Put each view, in the given order, as high and as far left as it goes."""
-    corners = _maximal(sizes, range(len(sizes)), page)
-    return None if corners is None else _stretch(corners, sizes, page)
+    def may_hold(self, sizes: Sequence[Size]) -> bool:
+        """Compare the areas."""
+        (x0, y0, x1, y1), gap = self.area, self.gap
+        taken = sum(
+            max(0.0, min(c, x1) - max(a, x0)) * max(0.0, min(d, y1) - max(b, y0)) for a, b, c, d in self.reserved
+        )
+        return sum((w + gap) * (h + gap) for w, h in sizes) <= (x1 - x0 + gap) * (y1 - y0 + gap) - taken + SLACK
 
 
 def _in_any_order(sizes: Sequence[Size], page: _Page) -> list[Corner] | None:
-    """Put the views so in the order that keeps nearest to the given one, of some that waste less room."""
-    numbers = range(len(sizes))
-    orders = (
-        sorted(numbers, key=lambda i: (-sizes[i][1], i)),
-        sorted(numbers, key=lambda i: (-sizes[i][0] * sizes[i][1], i)),
-        sorted(numbers, key=lambda i: (-sizes[i][0], i)),
-    )
-    found = [corners for order in orders if (corners := _maximal(sizes, order, page)) is not None]
-    if not found:
+    """Put each view as high and as far left as it goes, the large ones of each few neighbours first."""
+    if not page.may_hold(sizes):
         return None
-    return _stretch(max(found, key=lambda corners: order_kept(corners, sizes)), sizes, page)
+    sides = [-w * h for w, h in sizes], [-h for _, h in sizes]
+    for near in NEIGHBOURS:
+        found = []
+        for shift in range(0, near, max(1, near // 5)):
+            for side in sides:
+                order = [i for *_, i in sorted(((i + shift) // near, side[i], i) for i in range(len(sizes)))]
+                corners = _maximal(sizes, order, page)
+                if corners is not None:
+                    found.append(corners)
+        if found:
+            return _stretch(max(found, key=lambda corners: order_kept(corners, sizes)), sizes, page)
+    return None
 
 
 def order_kept(corners: Sequence[Corner], sizes: Sequence[Size]) -> float:
-    """Part of the pairs of views on one page that a reader meets in their order, rows before columns."""
+    """Part of the pairs of views whose earlier one is above or on the left; half if also below."""
     boxes = [(x, y, x + w, y + h) for (x, y), (w, h) in zip(corners, sizes, strict=True)]
-    kept = pairs = 0
-    for j, (left, bottom, _, top) in enumerate(boxes):
-        for a, b, _, d in boxes[:j]:
-            side_by_side = min(d, top) - max(b, bottom) > 0.3 * min(d - b, top - bottom)
-            kept += a < left if side_by_side else d > top
+    kept, pairs = 0.0, 0
+    for j, (x0, y0, _, y1) in enumerate(boxes):
+        for _, b, c, d in boxes[:j]:
+            kept += 1.0 if b >= y1 or (c <= x0 and d > y0) else 0.5 if c <= x0 else 0.0
             pairs += 1
     return kept / pairs if pairs else 1.0
 

@@ -12,6 +12,20 @@ AREAS = {"A1": (20, 5, 836, 589), "A2": (20, 5, 589, 415), "A3": (20, 5, 415, 29
 SHEET = [(250, 120), (115, 115), (115, 115), (230, 120), (200, 90), (180, 70), (80, 80), (70, 90), (130, 120),
          (120, 150), (150, 120), (180, 100), (100, 100), (120, 60), (90, 90), (140, 70)]  # fmt: skip
 
+# Givens, structure, position, velocity, acceleration, equations, two tables; group, its forces, forces of the link,
+# slider, driver, its forces, equations; lever, its equations, two tables.
+COURSEWORK = {
+    "two tables in a column": [
+        (111, 95), (132, 43), (173, 110), (82, 77), (75, 110), (172, 90), (148, 60), (148, 67), (183, 127), (192, 119),
+        (179, 108), (70, 67), (98, 97), (114, 76), (225, 84), (170, 134), (222, 53), (148, 130), (148, 80)],
+    "wide group": [
+        (111, 95), (132, 43), (281, 88), (76, 106), (89, 82), (176, 90), (148, 60), (148, 67), (311, 109), (240, 79),
+        (233, 68), (98, 64), (120, 76), (147, 50), (235, 84), (170, 107), (234, 47), (148, 130), (148, 80)],
+    "wide force plans": [
+        (111, 95), (132, 43), (358, 96), (76, 105), (104, 81), (175, 90), (148, 60), (148, 67), (301, 108), (416, 102),
+        (283, 95), (98, 64), (98, 86), (98, 65), (174, 90), (170, 116), (234, 47), (148, 130), (148, 80)],
+}  # fmt: skip
+
 
 def corners_of(area, block=55):
     """Title block and turned designation, as on every sheet."""
@@ -33,10 +47,28 @@ def judge(views, layout, area, reserved, later=None, gap=GAP):
             assert all(box.distance(other) > gap - 1e-6 for other in on_page[n + 1 :] + taken)
 
 
-def kept(views, layout):
-    """Order kept on the first page."""
-    first = [(p, shapes[p.shape]) for shapes, p in zip(views, layout, strict=True) if p.page == 0]
-    return order_kept([(p.x, p.y) for p, _ in first], [size for _, size in first])
+def read(boxes):
+    """The order in which a reader meets boxes that straight cuts part, across first, then down."""
+    if len(boxes) < 2:
+        return list(boxes)
+    for low, high in ((lambda b: -b[3], lambda b: -b[1]), (lambda b: b[0], lambda b: b[2])):
+        parts, end = [], float("-inf")
+        for n in sorted(boxes, key=lambda n: low(boxes[n])):
+            if low(boxes[n]) >= end - 1e-6:
+                parts.append({})
+            parts[-1][n] = boxes[n]
+            end = max(end, high(boxes[n]))
+        if len(parts) > 1:
+            return [n for part in parts for n in read(part)]
+    return sorted(boxes, key=lambda n: (-boxes[n][3], boxes[n][0]))
+
+
+def read_pages(views, layout):
+    boxes: dict[int, dict] = {}
+    for n, (shapes, p) in enumerate(zip(views, layout, strict=True)):
+        w, h = shapes[p.shape]
+        boxes.setdefault(p.page, {})[n] = (p.x, p.y, p.x + w, p.y + h)
+    return [n for page in sorted(boxes) for n in read(boxes[page])]
 
 
 def random_views(seed):
@@ -69,18 +101,39 @@ def test_random_views_fit_their_pages(paper):
     assert packed > (20 if paper == "A4" else 40)
 
 
-def test_a_sheet_reads_from_left_to_right_and_down():
-    views = [[size] for size in SHEET]
+@pytest.mark.parametrize("name", COURSEWORK)
+def test_a_sheet_reads_from_left_to_right_and_down(name):
+    views = [[size] for size in COURSEWORK[name]]
 
-    layout = pack(views, AREAS["A1"], corners_of(AREAS["A1"]), gap=GAP)
+    layout = pack(views, AREAS["A1"], corners_of(AREAS["A1"]), gap=7.0)
 
     assert layout is not None
-    judge(views, layout, AREAS["A1"], corners_of(AREAS["A1"]))
-    assert kept(views, layout) == 1.0
+    judge(views, layout, AREAS["A1"], corners_of(AREAS["A1"]), gap=7.0)
+    assert read_pages(views, layout) == list(range(len(views)))
+
+
+@pytest.mark.parametrize(("paper", "most"), [("A2", 3), ("A3", 4)])
+def test_several_pages_read_in_order_and_none_is_nearly_empty(paper, most):
+    area = AREAS[paper]
+    views = [[size] for size in COURSEWORK["two tables in a column"]]
+
+    layout = pack(views, area, corners_of(area), later=corners_of(area, block=15), gap=7.0, pages=None)
+
+    assert layout is not None
+    judge(views, layout, area, corners_of(area), corners_of(area, block=15), gap=7.0)
+    for n, (q, [(_, h)]) in enumerate(zip(layout, views, strict=True)):
+        for p, [(w, _)] in zip(layout[:n], views[:n], strict=True):
+            assert p.page < q.page or p.x + w <= q.x or p.y >= q.y + h
+    count = max(p.page for p in layout) + 1
+    assert count <= most
+    full = [0.0] * count
+    for [(w, h)], p in zip(views, layout, strict=True):
+        full[p.page] += w * h / (area[2] - area[0]) / (area[3] - area[1])
+    assert min(full[:-1]) > 0.3
 
 
 def test_views_in_a_row_hang_from_one_line():
-    layout = pack([[(250, 120)], [(115, 115)], [(230, 100)]], AREAS["A1"], gap=GAP)
+    layout = pack([[(250, 120)], [(115, 115)], [(230, 100)]], (0, 0, 640, 200), gap=GAP)
 
     assert layout is not None
     assert len({p.y + h for p, h in zip(layout, (120, 115, 100), strict=True)}) == 1
@@ -104,6 +157,8 @@ def test_order_gives_way_only_to_a_fit():
 
     assert layout is not None
     judge(views, layout, (0, 0, 170, 208), [])
+    assert read_pages(views, layout) != list(range(len(views)))
+    assert pack(views, (0, 0, 170, 208), gap=GAP, any_order=False) is None
 
 
 def test_order_kept_sees_disorder():
@@ -158,5 +213,5 @@ def test_a_sheet_is_packed_in_a_few_milliseconds():
         pack(views, AREAS["A1"], corners_of(AREAS["A1"]), gap=GAP)
         times.append(time.perf_counter() - start)
 
-    # 0.6 ms where it was measured; the rest is for slow and busy machines.
-    assert min(times) < 0.01
+    # 2 ms where it was measured; the rest is for slow and busy machines.
+    assert min(times) < 0.05
