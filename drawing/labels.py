@@ -159,7 +159,9 @@ def _finish(requests: Sequence[Request], wanted: Wanted, bodies: Bodies, board: 
     bad.sort(key=lambda i: (requests[i].priority, board.now[i] < COVER, i))
     for i in bad:
         if i in board.in_trouble():
-            _lead(i, wanted, bodies, board, leaders, bounds)
+            one = wanted.some(np.array([i]))
+            # beside a line a leader leaves along its normal; where that is barred, from its middle to any side
+            any(_lead(i, end, wanted, bodies, board, leaders, bounds) for end in (one, one.at_middle()))
     return Labels(
         {
             r.name: complex(x - r.width / 2, y - r.height / 2)
@@ -171,10 +173,15 @@ def _finish(requests: Sequence[Request], wanted: Wanted, bodies: Bodies, board: 
 
 
 def _lead(
-    i: int, wanted: Wanted, bodies: Bodies, board: _Board, leaders: dict[int, Segment], bounds: Box | None
-) -> None:
-    """Move label i away, onto a leader, if there is a free place for both."""
-    one = wanted.some(np.array([i]))
+    i: int,
+    one: Wanted,
+    wanted: Wanted,
+    bodies: Bodies,
+    board: _Board,
+    leaders: dict[int, Segment],
+    bounds: Box | None,
+) -> bool:
+    """Move label i, which is `one`, away onto a leader, if there is a free place for both; tell whether there is."""
     grid = Grid.around(one, bodies, FAR, bounds, led=True)
     x, y, cost = grid.x[0], grid.y[0], grid.cost[0]
     cost = cost + COVER * np.count_nonzero(board.clashes(i, x, y), axis=1)
@@ -194,6 +201,8 @@ def _lead(
         cost += COVER * np.count_nonzero(on, axis=1) + CROSSING * crossings(lines, old)
     cost += CROSSING * crossings(lines, bodies)
     k = int(cost.argmin())
-    if cost[k] < COVER:
-        board.now_x[i], board.now_y[i], board.now[i] = x[k], y[k], 0.0
-        leaders[i] = (complex(head[k]), complex(start[k]))
+    if cost[k] >= COVER:
+        return False
+    board.now_x[i], board.now_y[i], board.now[i] = x[k], y[k], 0.0
+    leaders[i] = (complex(head[k]), complex(start[k]))
+    return True

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -16,10 +16,10 @@ Reals: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
 
 # Costs. Only their order matters: covering something is worse than any sum of the rest.
-COVER, AMBIGUOUS, THIN, CROWDED, STEP, TURN, SLIDE, CROSSING = 1e4, 30.0, 9.0, 1.5, 1.0, 1.5, 4.0, 40.0
+COVER, AMBIGUOUS, THIN, CROWDED, STEP, TURN, SLIDE, CROSSING = 1e4, 30.0, 25.0, 1.5, 1.0, 1.5, 4.0, 40.0
 ROOM = 2.5  # mm around a label that should be empty where there is a choice
 NEAR = (0.0, 0.8, 2.0, 3.5)  # mm added to the distance that was asked for
-FAR = (5.0, 8.0, 11.0, 14.0, 17.0, 20.0)  # the same for a label on a leader
+FAR = (5.0, 8.0, 11.0, 14.0, 17.0, 20.0, 25.0, 30.0)  # the same for a label on a leader
 ALONG = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78, 0.86])  # places along a segment
 TOUCH = 0.3  # mm: a stroke that comes so near to a node ends there
 SLACK = 1e-9  # mm, for rounding
@@ -105,6 +105,11 @@ class Wanted:
         a, b, prefer = self.a[rows], self.b[rows], self.prefer[rows]
         hw, hh, clear, rim = self.hw[rows], self.hh[rows], self.clear[rows], self.rim[rows]
         return Wanted(a, b, hw, hh, clear, rim, prefer, self.priority[rows], self.gap)
+
+    def at_middle(self) -> Wanted:
+        """Return the same labels, those of segments as if they named the node in the middle."""
+        middle = (self.a + self.b) / 2
+        return replace(self, a=middle, b=middle)
 
     def feet(self, centre: Points) -> Points:
         """Where leaders from boxes around `centre` should end: on the node, or on the middle part of the segment."""
