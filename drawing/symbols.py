@@ -45,10 +45,15 @@ def fixed_pivot(at: complex, name: str, style: Style) -> Group:
     return Group((*legs, Line(*ground, Pen.MAIN), *strokes, circle), "pivot", name)
 
 
+def slider_up(u: complex) -> complex:
+    """Return the side of a slider along the unit vector `u` that is free of its guide."""
+    return 1j * u if (1j * u).imag >= -1e-12 else -1j * u
+
+
 def slider(at: complex, u: complex, name: str, style: Style, guides: bool = True) -> tuple[Shape, ...]:
     """Return a slider along the unit vector `u` and, under it, the guide with hatching on its far side."""
     length, height = style.slider
-    below = -1j * u if (1j * u).imag >= -1e-12 else 1j * u
+    below = -slider_up(u)
     corners = tuple(
         at + u * (sx * length / 2) + 1j * u * (sy * height / 2) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))
     )

@@ -8,7 +8,17 @@ from cmath import phase, rect
 
 from ...plans.linkages.rrp import Dyad
 from ..shapes import Arc, Arrow, Line, Pen
-from ..symbols import angle_dimension, centre_of_mass, fixed_pivot, hatching, link, revolute, slider, turning_arrow
+from ..symbols import (
+    angle_dimension,
+    centre_of_mass,
+    fixed_pivot,
+    hatching,
+    link,
+    revolute,
+    slider,
+    slider_up,
+    turning_arrow,
+)
 from ..view import Canvas, View
 from .scene import Scene
 
@@ -61,12 +71,20 @@ def rod_and_slider(canvas: Canvas, scene: Scene, d: Dyad, apart: bool = False) -
     canvas.add(revolute(b, d.B, style))
     middle = (a + 2 * b) / 3
     canvas.label(str(d.rod.number), (a, middle), clear=0.8)
-    canvas.label(str(d.slider.number), b, clear=style.slider[1] / 2 + 1.0, prefer=1j)
     for point in d.rod.points:
         if point not in (d.A, d.B):
             canvas.add(centre_of_mass(scene.mm(point), point, style))
             canvas.label(scene.words.mark(point), scene.mm(point), clear=style.centre + 0.8)
-    canvas.label(scene.words.mark(d.B), b, clear=style.pair + 0.8, prefer=-1j)
+    # beside the slider's free edge: the compass arc and the arrows at B leave no room beside the pair itself
+    up = slider_up(u)
+    edge = b + up * (style.slider[1] / 2)
+    half = u * (style.slider[0] / 2)
+    canvas.label(scene.words.mark(d.B), (edge - half, edge + half), clear=1.0, prefer=up, priority=1)
+    if apart:
+        foot = edge - up * style.slider[1]
+        canvas.label(str(d.slider.number), (foot - half, foot + half), clear=1.0, prefer=-up)
+    else:
+        canvas.label(str(d.slider.number), b, clear=style.slider[1] / 2 + 1.0, prefer=up)
 
 
 def _angle(canvas: Canvas, scene: Scene) -> None:
