@@ -24,8 +24,13 @@ def room(sheet: Format, norm: Norm) -> tuple[float, float]:
     return x1 - x0, y1 - block[3] - CLOSE
 
 
-def arrange(views: Sequence[View], sheet: Format, norm: Norm, pages: int | None) -> list[Placement] | None:
-    """Place the views on at most `pages` pages of `sheet`, or on as many as they need; None if they do not fit."""
+def arrange(
+    views: Sequence[View], sheet: Format, norm: Norm, pages: int | None, any_order: bool = True
+) -> list[Placement] | None:
+    """Place the views on at most `pages` pages of `sheet`, or on as many as they need; None if they do not fit.
+
+    They stand in reading order; only with `any_order` they may leave it where nothing else fits.
+    """
     return pack(
         [[view.size] for view in views],
         _area(sheet, norm),
@@ -33,6 +38,7 @@ def arrange(views: Sequence[View], sheet: Format, norm: Norm, pages: int | None)
         later=reserved_boxes(sheet, norm, first=False),
         gap=CLOSE if sheet.letters == "A4" else GAP,
         pages=pages,
+        any_order=any_order,
     )
 
 

@@ -24,13 +24,16 @@ def value_text(words: Words, value: float) -> str:
 
 
 def segment_decimals(value: float, mu: float) -> tuple[int, int]:
-    """Return decimals for a segment in mm and for its value so that mm * mu is the value to its last printed digit."""
-    decimals = decimals_for(value)
-    wanted = round(abs(value), decimals)
-    places = 2
-    while places < MOST and round(round(abs(value) / mu, places) * mu, decimals) != wanted:
-        places += 1
-    return places, decimals
+    """Return decimals for a segment in mm and for its value so that mm * mu is the value to its last printed digit.
+
+    Hundredths of a millimetre and the usual digits of the value where that will do, else one digit more of either.
+    """
+    size, usual = abs(value), decimals_for(value)
+    for extra in range(MOST):
+        for places, decimals in ((2 + extra, usual), (2 + extra, usual + 1)):
+            if round(round(size / mu, places) * mu, decimals) == round(size, decimals):
+                return places, decimals
+    return 2 + MOST, usual
 
 
 def calculation(words: Words, law: Callable[..., float], inputs: Sequence[tuple[float, bool]]) -> tuple[list[str], str]:

@@ -23,6 +23,7 @@ from .views import build
 
 SMALLEST_FIRST = ("A4", "A3", "A2", "A1")
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
+FORCES_ONLY = 3
 MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide")
 Fitted = tuple[list[View], Mapping[str, Scale]]
 
@@ -60,7 +61,9 @@ class Fitting:
         return any(chooser.firm for chooser in self.contents.choosers.values())
 
     def views(self, sheet: Format, step: int = 0) -> Fitted:
-        """Return views and scale factors for pages of `sheet`, each factor `step` rungs or more below the wanted one.
+        """Return views and scale factors for pages of `sheet`, force plans `step` rungs or more below the wanted one.
+
+        After `FORCES_ONLY` steps the other plans follow, too: a student sooner shrinks forces than pa or OA.
 
         Raises
         ------
@@ -94,7 +97,8 @@ class Fitting:
         """Return the first rung at which the marks alone have room, before any view is built."""
         ladder, reach = self.ladders[symbol], _reach(self.contents.solved, symbol)
         diagonal = math.hypot(*room(sheet, self.contents.norm))
-        for rung in range(min(step, len(ladder) - 1), len(ladder)):
+        first = step if symbol.startswith("mu_F") else step - FORCES_ONLY
+        for rung in range(min(max(first, 0), len(ladder) - 1), len(ladder)):
             if reach <= diagonal * ladder[rung]:
                 return rung
         raise self._does_not_fit(sheet, symbol, (reach / ladder[-1], reach / ladder[-1]))

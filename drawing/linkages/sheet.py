@@ -16,7 +16,7 @@ from .fitting import SMALLEST_FIRST, Contents, Fitted, Fitting
 
 # part of the area on the largest format that the same figures take on a smaller one, with its smaller letters
 LIGHTER = {"A4": 0.5, "A3": 0.55, "A2": 0.9, "A1": 1.0}
-COARSER = 3  # how many rungs below the wanted one a single sheet may be before several pages are better
+COARSER = 6  # how many steps below the wanted scales a single sheet may be before several pages are better
 CROWDED = 1.6  # parts of a page whose figures no coarser rung brings on one page
 
 
@@ -64,14 +64,15 @@ def _worth_trying(fitting: Fitting) -> list[Format]:
 
 def _single(fitting: Fitting, sheet: Format, coarser: int) -> tuple[Fitted, list[Placement]] | None:
     """Try one page, each scale factor up to `coarser` rungs beyond the first at which its views fit."""
-    for step in range(coarser + 1):
+    tries = [(step, False) for step in range(coarser + 1)] + [(coarser, True)] * bool(coarser)
+    for step, any_order in tries:
         try:
             fitted = fitting.views(sheet, step)
         except InputError:
             if coarser or fitting.firm:
                 raise
             return None
-        places = arrange(fitted[0], sheet, fitting.contents.norm, 1)
+        places = arrange(fitted[0], sheet, fitting.contents.norm, 1, any_order)
         if places is not None:
             return fitted, places
         if _area(fitted) > CROWDED * sheet.width * sheet.height:
