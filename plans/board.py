@@ -85,6 +85,10 @@ class Board:
         """Divide start-end in the ratio part : whole, counted from `start` (theorem of similarity on a line)."""
         self.step("divide", name, start, end, part, whole)
 
+    def same(self, name: str, mark: str) -> None:
+        """Give a mark another letter: a point of a link that does not turn moves like this one."""
+        self.step("same", name, mark)
+
     def read(self, name: str, tail: str, tip: str) -> None:
         """Read a vector off the plan: the quantity `name` from `tail` to `tip`."""
         self.step("read", name, tail, tip)

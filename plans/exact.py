@@ -142,6 +142,9 @@ class ExactBoard(Board):
     def _divide(self, start: Any, end: Any, part: Any, whole: Any) -> Any:
         return start + (end - start) * (part / whole)
 
+    def _same(self, mark: Any) -> Any:
+        return mark
+
     def _read(self, tail: Any, tip: Any) -> Any:
         return tip if tail is POLE else tip - tail
 

@@ -23,7 +23,7 @@ UNITS = {
     "l": "m",
     "delta": "%",
 }
-POINTS = ("place", "lay", "arc", "divide")
+POINTS = ("place", "lay", "back", "arc", "divide", "same")
 READ_OFF = ("read", "chain")
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from ..printed import calculation
 from .scene import Scene
@@ -53,3 +55,55 @@ def signed(sign: float, text: str, first: bool = False) -> str:
     if first:
         return text if sign > 0 else f"−{text}"
     return f" + {text}" if sign > 0 else f" − {text}"
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """A moment in a sum: its value with sign, how it is written, and the factors that make it (value, exact)."""
+
+    value: float
+    symbol: str
+    factors: tuple[tuple[float, bool], ...]
+
+    @property
+    def sign(self) -> float:
+        """+1 counter-clockwise, -1 clockwise."""
+        return math.copysign(1.0, self.value)
+
+
+def sum_of(terms: Sequence[Term], turn: float = 1.0) -> list[str]:
+    """Return the terms as chunks of a sum, all signs multiplied by `turn`."""
+    chunks = [signed(turn * term.sign, term.symbol, first=i == 0) for i, term in enumerate(terms)]
+    return [chunk.strip() for chunk in chunks]
+
+
+def balanced(
+    scene: Scene, terms: Sequence[Term], turn: float, divisor: tuple[float, bool] | None = None
+) -> tuple[list[str], str, str]:
+    """Solve a sum of moments for one more: `turn` * terms / divisor, with numbers that recompute.
+
+    Returns
+    -------
+    numbers : list of str
+        The printed terms, as chunks.
+    below : str
+        The printed divisor, or nothing.
+    result : str
+        The printed result, positive when `turn` is the sense that the sum asks for.
+    """
+    inputs = [factor for term in terms for factor in term.factors]
+
+    def law(*x: float) -> float:
+        total, at = 0.0, 0
+        for term in terms:
+            total += turn * term.sign * math.prod(x[at : at + len(term.factors)])
+            at += len(term.factors)
+        return total / x[-1] if divisor else total
+
+    texts, result = calculation(scene.words, law, [*inputs, divisor] if divisor else inputs)
+    products, at = [], 0
+    for i, term in enumerate(terms):
+        product = "·".join(texts[at : at + len(term.factors)])
+        products.append(signed(turn * term.sign, product, first=i == 0).strip())
+        at += len(term.factors)
+    return products, texts[-1] if divisor else "", result

@@ -24,7 +24,7 @@ from .views import build
 SMALLEST_FIRST = ("A4", "A3", "A2", "A1")
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 FORCES_ONLY = 3
-MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide")
+MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same")
 Fitted = tuple[list[View], Mapping[str, Scale]]
 
 

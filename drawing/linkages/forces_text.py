@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from ...plans.linkages.rrp import Dyad
 from ..printed import calculation, value_text
 from ..table import text_block
 from ..view import View
-from .equations import Lines, calculated, given, signed, size_of, vector_sum
+from .equations import Lines, Term, balanced, calculated, given, signed, size_of, sum_of, vector_sum
 from .group_view import loads
 from .scene import Scene
 
@@ -50,114 +51,81 @@ def inertia_lines(scene: Scene) -> Lines:
     return lines
 
 
+def arm_terms(scene: Scene, hung: list[tuple[str, str]], about: str, arm_of: Callable[[str], str]) -> list[Term]:
+    """Return the moments of forces about a joint as F * h * mu_l, those that are not zero."""
+    w, s, mu = scene.words, scene.solved, scene.scales["position"].mu
+    terms = []
+    for name, _ in hung:
+        moment, arm = s.values.get(f"_M_{name}_{about}", 0.0), arm_of(name)
+        if moment != 0.0 and scene.defined(arm):
+            symbol = f"{w.symbol(name)}·{w.symbol(arm)}·{w.symbol('mu_l')}"
+            factors = ((size_of(scene, name), False), (size_of(scene, arm) / mu, False), (mu, True))
+            terms.append(Term(moment, symbol, factors))
+    return terms
+
+
 def _group_lines(scene: Scene, d: Dyad) -> Lines:
-    w = scene.words
+    """Return the moments of the rod about B, the force plans of the group and the rod, the moments of the slider."""
+    w, s = scene.words, scene.solved
     i, j, k = d.before, d.rod.number, d.slider.number
-    tangential, length = f"R_{i}{j}_t", d.length
-    mu = scene.scales["position"].mu
-    terms, inputs, pattern = [], [], []
-    signs: list[float] = []
-    for name, point in loads(scene, j):
-        moment = scene.solved.values.get(f"_M_{name}_{d.B}", 0.0)
-        if point != d.B and moment != 0.0:
-            arm = f"h_{j}" if name == f"F_i{j}" else f"h_{name}"
-            terms.append((moment, f"{w.symbol(name)}·{w.symbol(arm)}·{w.symbol('mu_l')}"))
-            inputs += [(size_of(scene, name), False), (size_of(scene, arm) / mu, False), (mu, True)]
-            pattern.append("{}·{}·{}")
-            signs.append(math.copysign(1.0, moment))
-    if d.rod.inertia and scene.solved.values[f"M_i{j}"] != 0.0:
-        moment = scene.solved.values[f"M_i{j}"]
-        terms.append((moment, w.symbol(f"M_i{j}")))
-        inputs.append((abs(moment), False))
-        pattern.append("{}")
-        signs.append(math.copysign(1.0, moment))
+    tangential = f"R_{i}{j}_t"
+    on_rod = [(name, point) for name, point in loads(scene, j) if point != d.B]
+    terms = arm_terms(scene, on_rod, d.B, lambda name: f"h_{j}" if name == f"F_i{j}" else f"h_{name}")
+    couple = s.values.get(f"M_i{j}", 0.0)
+    if couple != 0.0:
+        terms.append(Term(couple, w.symbol(f"M_i{j}"), ((abs(couple), False),)))
     lines: Lines = []
     if terms:
-        turn = -math.copysign(1.0, scene.solved.values[f"_R_{i}{j}_t"])
-        sums = "".join(signed(m, text) for m, text in terms)
-        lines.append(
-            (
-                f"ΣM_{{{d.B}}}({j}) = 0:",
-                f"{signed(turn, f'{w.symbol(tangential)}·{w.symbol(length)}', first=True)}{sums} = 0",
-            )
-        )
-        signs = [-turn * sign for sign in signs]
-        numbers = "".join(signed(s, p, first=n == 0) for n, (s, p) in enumerate(zip(signs, pattern, strict=True)))
-        formula = "".join(signed(s, t, first=n == 0) for n, (s, (_, t)) in enumerate(zip(signs, terms, strict=True)))
-
-        def law(*x: float) -> float:
-            total, at = 0.0, 0
-            for sign, part in zip(signs, pattern, strict=True):
-                count = part.count("{}")
-                total += sign * math.prod(x[at : at + count])
-                at += count
-            return total / x[-1]
-
-        lines.append(
-            calculated(
-                scene,
-                tangential,
-                f"({formula})/{w.symbol(length)}",
-                f"({numbers})/{{}}",
-                law,
-                *inputs,
-                given(scene, length),
-            )
-        )
+        # R^t is drawn as it acts; it stands at A and turns about B against the normal to AB
+        turn = math.copysign(1.0, s.values[f"_R_{i}{j}_t"])
+        product = signed(-turn, f"{w.symbol(tangential)}·{w.symbol(d.length)}", first=True)
+        rest = [signed(term.sign, term.symbol).strip() for term in terms]
+        lines.append((f"ΣM_{{{d.B}}}({j}) = 0:", product, *rest, "= 0"))
+        numbers, below, result = balanced(scene, terms, turn, given(scene, d.length))
+        head = f"{w.symbol(tangential)} = ({' '.join(sum_of(terms, turn))})/{w.symbol(d.length)} ="
+        lines.append((head, f"({' '.join(numbers)})/{below} =", f"{result} {w.unit('N')}"))
     known = [tangential, *(name for name, _ in (*loads(scene, k), *loads(scene, j)))]
-    unknown = [f"R_0{k}", f"R_{i}{j}_n"]
-    lines.append(
-        vector_sum(w_known=[w.symbol(n, bar=True) for n in known], w_line=[w.symbol(n, bar=True) for n in unknown])
-    )
+    lines.append(vector_sum(_bars(scene, known), _bars(scene, [f"R_0{k}", f"R_{i}{j}_n"])))
     full = [f"R_{i}{j}", *(name for name, _ in loads(scene, j))]
-    lines.append(
-        vector_sum(w_known=[w.symbol(n, bar=True) for n in full], w_line=[], unknown=w.symbol(f"R_{k}{j}", bar=True))
-    )
+    lines.append(vector_sum(_bars(scene, full), [], w.symbol(f"R_{k}{j}", bar=True)))
+    return [*lines, *_slider_lines(scene, d)]
+
+
+def _slider_lines(scene: Scene, d: Dyad) -> Lines:
+    """Return the moments of the slider about B, which say where the guide's reaction stands."""
+    w, k = scene.words, d.slider.number
     h = f"h_0{k}"
-    value = value_text(w, scene.solved.quantities[h].value or 0.0)
-    lines.append((f"ΣM_{{{d.B}}}({k}) = 0:", f"{w.symbol(f'R_0{k}')}·{w.symbol(h)} = 0,", f"{w.symbol(h)} = {value}"))
-    return lines
+    off = [(name, point) for name, point in loads(scene, k) if point != d.B]
+    terms = arm_terms(scene, off, d.B, lambda name: f"h_{name}")
+    head, product = f"ΣM_{{{d.B}}}({k}) = 0:", f"{w.symbol(f'R_0{k}')}·{w.symbol(h)}"
+    if not terms:
+        return [(head, f"{product} = 0,", f"{w.symbol(h)} = {value_text(w, scene.solved.quantities[h].value or 0.0)}")]
+    turn = math.copysign(1.0, scene.solved.values[f"_M_{k}"])
+    numbers, below, result = balanced(scene, terms, turn, (size_of(scene, f"R_0{k}"), False))
+    sums = " ".join(sum_of(terms, turn))
+    value = f"{w.symbol(h)} = ({sums})/{w.symbol(f'R_0{k}')} ="
+    return [(head, value, f"({' '.join(numbers)})/{below} =", f"{result} {w.unit('m')}")]
+
+
+def _bars(scene: Scene, names: list[str]) -> list[str]:
+    return [scene.words.symbol(name, bar=True) for name in names]
 
 
 def _balance_lines(scene: Scene) -> Lines:
+    """Return the force plan of the driver and the moments about its pivot."""
     w, s = scene.words, scene.solved
     driver = s.mechanism.driver
     crank = driver.link
-    mu = scene.scales["position"].mu
-    lines: Lines = []
-    forces = [f"R_{d.rod.number}{crank}" for d in scene.dyads if d.before == crank]
-    forces += [name for name, _ in loads(scene, crank)]
-    known = [w.symbol(name, bar=True) for name in forces]
-    lines.append(vector_sum(w_known=known, w_line=[], unknown=w.symbol(f"R_0{crank}", bar=True)))
-    signs = [-math.copysign(1.0, s.values[f"_M_{name}_{driver.pivot}"]) for name in forces]
+    hung = [(f"R_{d.rod.number}{crank}", d.A) for d in scene.dyads if d.before == crank]
+    hung += loads(scene, crank)
+    lines: Lines = [vector_sum(_bars(scene, [name for name, _ in hung]), [], w.symbol(f"R_0{crank}", bar=True))]
+    own = f"F_i{crank}"
+    terms = arm_terms(scene, hung, driver.pivot, lambda n: f"h_{crank}" if n == own else f"h_{n.removeprefix('R_')}")
+    head = f"ΣM_{{{driver.pivot}}}({crank}) = 0:"
+    if not terms:
+        return [*lines, (head, f"{w.symbol('M_bal')} = 0")]
     total = math.copysign(1.0, s.values["M_bal"])
-    arms = [f"h_{name.removeprefix('R_')}" for name in forces]
-    if all(scene.defined(arm) for arm in arms):
-        signs = [sign * total for sign in signs]
-        formula = "".join(
-            signed(sign, f"{w.symbol(n)}·{w.symbol(h)}·{w.symbol('mu_l')}", first=i == 0)
-            for i, (sign, n, h) in enumerate(zip(signs, forces, arms, strict=True))
-        )
-        pattern = "".join(signed(sign, "{}·{}·{}", first=i == 0) for i, sign in enumerate(signs))
-
-        def law(*x: float) -> float:
-            return sum(sign * x[3 * i] * x[3 * i + 1] * x[3 * i + 2] for i, sign in enumerate(signs))
-
-        inputs = [
-            pair
-            for n, h in zip(forces, arms, strict=True)
-            for pair in ((size_of(scene, n), False), (size_of(scene, h) / mu, False), (mu, True))
-        ]
-        sense = w["said.ccw" if total > 0 else "said.cw"]
-        texts, result = calculation(w, law, inputs)
-        head = f"ΣM_{{{driver.pivot}}}({crank}) = 0:"
-        lines.append(
-            (
-                head,
-                f"{w.symbol('M_bal')} = {formula} =",
-                f"{pattern.format(*texts)} =",
-                f"{result} {w.unit('N*m')},",
-                sense,
-            )
-        )
-    return lines
+    numbers, _, result = balanced(scene, terms, -total)
+    formula = f"{w.symbol('M_bal')} = {' '.join(sum_of(terms, -total))} ="
+    sense = w["said.ccw" if total > 0 else "said.cw"]
+    return [*lines, (head, formula, f"{' '.join(numbers)} =", f"{result} {w.unit('N*m')},", sense)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from ...plans.laws import cross
 from ...plans.linkages.rrp import Dyad
 from ..shapes import Arrow, Line, Pen
 from ..symbols import arm, force_arrow, revolute, slider, turning_arrow
@@ -15,7 +16,7 @@ from .scheme import rod_and_slider
 def group_view(scene: Scene, d: Dyad) -> View:
     """Draw group (rod, slider) without the crank: loads, reactions at its outer pairs, the arm of each moment."""
     canvas = Canvas(scene.style)
-    a, b = scene.mm(d.A), scene.mm(d.B)
+    a, b, u = scene.mm(d.A), scene.mm(d.B), scene.solved.point(d.u)
     rod_and_slider(canvas, scene, d, apart=True)
     canvas.add(revolute(a, d.A, scene.style))
     canvas.label(scene.words.mark(d.A), a, clear=scene.style.pair + 0.8)
@@ -27,7 +28,8 @@ def group_view(scene: Scene, d: Dyad) -> View:
     _force(canvas, scene, f"R_{i}{j}_t", a, [along], at_a)
     for name, point in loads(scene, k):
         _force(canvas, scene, name, scene.mm(point), [-along], at_b, gap=scene.style.slider[0] / 2)
-    _force(canvas, scene, f"R_0{k}", b, [-along], at_b, gap=scene.style.slider[1] / 2)
+    guide = b + u * (guide_offset(scene, d) / scene.scales["position"].mu)
+    _force(canvas, scene, f"R_0{k}", guide, [-along], at_b, gap=scene.style.slider[1] / 2)
     for name, point in loads(scene, j):
         inside = point not in (d.A, d.B)
         _force(canvas, scene, name, scene.mm(point), [along, -along] if inside else [-along], [] if inside else at_b)
@@ -51,19 +53,29 @@ def slider_view(scene: Scene, d: Dyad) -> View:
     taken: list[complex] = []
     half = scene.style.slider[0] / 2
     _force(canvas, scene, f"R_{j}{k}", b, [], taken, gap=half)
-    for name, _ in loads(scene, k):
-        _force(canvas, scene, name, b, [], taken, gap=half)
+    for name, point in loads(scene, k):
+        at = (scene.solved.point(point) - scene.solved.point(d.B)) * (1.0 / scene.scales["position"].mu)
+        _force(canvas, scene, name, at, [], taken if point == d.B else [], gap=half)
     h = scene.solved.quantities[f"h_0{k}"].value
-    _force(canvas, scene, f"R_0{k}", b, [], taken, gap=half)
+    at = u * (guide_offset(scene, d) / scene.scales["position"].mu)
+    _force(canvas, scene, f"R_0{k}", at, [], taken, gap=half)
     canvas.label(scene.words.mark(d.B), b, clear=scene.style.pair + 0.8)
     arm_text = f"{scene.words.symbol(f'h_0{k}')} = {scene.words.short(h or 0.0)}"
     return canvas.finish(f"link_{k}", (scene.words["heading.link"].format(link=k),), (arm_text,))
 
 
+def guide_offset(scene: Scene, d: Dyad) -> float:
+    """Return where along the guide from B the guide's reaction stands, so that it balances the slider's moments."""
+    k = d.slider.number
+    moment, reaction = scene.solved.values.get(f"_M_{k}", 0.0), scene.solved.values[f"R_0{k}"]
+    size = cross(scene.solved.point(d.u), complex(reaction))
+    return -float(moment) / size if moment and size else 0.0
+
+
 def loads(scene: Scene, number: int) -> list[tuple[str, str]]:
     """Return (force, point) of the loads on a link: its inertia force, then outer ones."""
-    link = scene.solved.mechanism.link(number)
-    inertia = [(f"F_i{number}", str(link.centre))] if link.mass else []
+    force, link = f"F_i{number}", scene.solved.mechanism.link(number)
+    inertia = [(force, str(link.centre))] if force in scene.solved.quantities else []
     return inertia + [(load.name, load.point) for load in scene.solved.mechanism.loads_on(number)]
 
 

@@ -82,7 +82,7 @@ def _rate_line(scene: Scene, rate: str, v: str, d: Dyad, size: float) -> tuple[s
     unit = w.unit(scene.solved.quantities[rate].unit)
     sense = "" if size == 0.0 else w["said.ccw" if scene.solved.values[rate] > 0 else "said.cw"]
     head = f"{w.symbol(rate)} = {w.symbol(v)}/{w.symbol(d.length)} ="
-    return head, f"{texts[0]}/{texts[1]} =", f"{result} {unit}{', ' if sense else ''}", sense
+    return head, f"{texts[0]}/{texts[1]} =", f"{result} {unit}{',' if sense else ''}", sense
 
 
 def _directions(scene: Scene, d: Dyad, along: str, across: str) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ import math
 from ..printed import calculation, value_text
 from ..table import text_block
 from ..view import View
-from .equations import Lines, given, signed, size_of
+from .equations import Lines, Term, balanced, given, signed, size_of
 from .forces_text import inertia_lines
 from .lever_view import arm_of, hung_on_lever
 from .scene import Scene
@@ -37,53 +37,39 @@ def _couple_lines(scene: Scene) -> Lines:
 def _lever_lines(scene: Scene) -> Lines:
     """Sum of moments about the pole, each force times its arm in mm; solved for F_bal; M_bal; the difference."""
     w, s = scene.words, scene.solved
-    driver = s.mechanism.driver
-    mu = scene.scales["lever"].mu
+    driver, mu = s.mechanism.driver, scene.scales["lever"].mu
     terms = []
-    for name, mark in hung_on_lever(scene):
-        moment = s.values.get(f"_M_{name}_p", 0.0)
-        arm = arm_of(name)
-        if name != "_F_bal" and moment != 0.0 and scene.defined(arm):
-            terms.append((math.copysign(1.0, moment), name, arm, mark))
-    balance = s.values["F_bal"]
-    pa = s.size(f"_V_{driver.point}") / mu
+    for name, _ in hung_on_lever(scene):
+        moment, arm = s.values.get(f"_M_{name}_p", 0.0), arm_of(name)
+        if moment != 0.0 and scene.defined(arm):
+            factors = ((s.size(name), False), (size_of(scene, arm) / mu, False))
+            terms.append(Term(moment, f"{w.symbol(name)}·{w.symbol(arm)}", factors))
+    balance, speed = s.values["F_bal"], s.values[f"_V_{driver.point}"]
     segment = f"{w.mark('velocity.p')}{w.mark('velocity.' + driver.point)}"
     # F_bal along the crank's normal has the moment -F_bal * V_A, with the signs of both
-    turn = -math.copysign(1.0, balance * s.values[f"_V_{driver.point}"])
-    head = signed(turn, f"{w.symbol('F_bal')}·{segment}", first=True)
-    sums = [signed(sign, f"{w.symbol(n)}·{w.symbol(h)}").strip() for sign, n, h, _ in terms]
-    lines: Lines = [("ΣM_{p} = 0:", head, *sums, "= 0")]
-    signs = [-turn * sign for sign, *_ in terms]
-    inputs = [pair for _, n, h, _ in terms for pair in ((s.size(n), False), (size_of(scene, h) / mu, False))]
-
-    def law(*x: float) -> float:
-        return sum(sign * x[2 * i] * x[2 * i + 1] for i, sign in enumerate(signs)) / x[-1]
-
-    texts, result = calculation(w, law, [*inputs, (pa, False)])
-    products = [
-        signed(sign, f"{texts[2 * i]}·{texts[2 * i + 1]}", first=i == 0).strip() for i, sign in enumerate(signs)
-    ]
-    if products:
-        lines.append((f"{w.symbol('F_bal')} = (", *products, f")/{texts[-1]} =", f"{result} {w.unit('N')}"))
+    turn = math.copysign(1.0, balance * speed)
+    own = signed(-turn, f"{w.symbol('F_bal')}·{segment}", first=True)
+    rest = [signed(term.sign, term.symbol).strip() for term in terms]
+    lines: Lines = [(f"ΣM_{{{w.mark('lever.p')}}} = 0:", own, *rest, "= 0")]
+    if terms:
+        numbers, below, result = balanced(scene, terms, turn, (abs(speed) / mu, False))
+        numbers[0] = f"({numbers[0]}"
+        numbers[-1] = f"{numbers[-1]})/{below} ="
+        lines.append((f"{w.symbol('F_bal')} =", *numbers, f"{result} {w.unit('N')}"))
     length = s.mechanism.link(driver.link).points[driver.point][0]
-    moment = abs(s.values["M_bal_lever"])
     texts, result = calculation(w, lambda x, y: x * y, [(abs(balance), False), given(scene, length)])
-    lines.append(
-        (
-            f"{w.symbol('M_bal_lever')} = {w.symbol('F_bal')}·{w.symbol(length)} =",
-            f"{texts[0]}·{texts[1]} =",
-            f"{result} {w.unit('N*m')}",
-        )
-    )
-    if "M_bal" in s.quantities and moment > 0.0:
-        shown, plan = value_text(w, moment), value_text(w, abs(s.values["M_bal"]))
-        pattern = f"({w.symbol('M_bal_lever')} − {w.symbol('M_bal')})/{w.symbol('M_bal_lever')}·100 % ="
-        per_cent = s.values["delta_M_bal"]
-        lines.append(
-            (
-                f"{w.symbol('delta_M_bal')} = {pattern}",
-                f"({shown} − {plan})/{shown}·100 % =",
-                f"{w.number(per_cent, 2)} %",
-            )
-        )
-    return lines
+    head = f"{w.symbol('M_bal_lever')} = {w.symbol('F_bal')}·{w.symbol(length)} ="
+    lines.append((head, f"{texts[0]}·{texts[1]} =", f"{result} {w.unit('N*m')}"))
+    return [*lines, *_difference_line(scene)]
+
+
+def _difference_line(scene: Scene) -> Lines:
+    """Return the difference of the two balancing moments in per cent, of their printed values."""
+    w, values = scene.words, scene.solved.values
+    lever, plan = abs(values["M_bal_lever"]), abs(values.get("M_bal", 0.0))
+    if "M_bal" not in values or lever == 0.0:
+        return []
+    a, b = value_text(w, lever), value_text(w, plan)
+    symbols = w.symbol("M_bal_lever"), w.symbol("M_bal")
+    head = f"{w.symbol('delta_M_bal')} = ({symbols[0]} − {symbols[1]})/{symbols[0]}·100 % ="
+    return [(head, f"({a} − {b})/{a}·100 % =", f"{w.number(values['delta_M_bal'], 2)} %")]

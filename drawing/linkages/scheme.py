@@ -71,7 +71,7 @@ def rod_and_slider(canvas: Canvas, scene: Scene, d: Dyad, apart: bool = False) -
     canvas.add(revolute(b, d.B, style))
     middle = (a + 2 * b) / 3
     canvas.label(str(d.rod.number), (a, middle), clear=0.8)
-    for point in d.rod.points:
+    for point in (*d.rod.points, *d.slider.points):
         if point not in (d.A, d.B):
             canvas.add(centre_of_mass(scene.mm(point), point, style))
             canvas.label(scene.words.mark(point), scene.mm(point), clear=style.centre + 0.8)

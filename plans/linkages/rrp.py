@@ -64,6 +64,8 @@ def dyad(mechanism: Mechanism, group: Group) -> Dyad:
     A, B = pin.point, group.inner[0].point
     if guide.links != (second, FRAME) or guide.point != B:
         raise InputError("moving-guide", links=f"{first}, {second}")
+    if slider.points[B] != (ZERO, ZERO):
+        raise InputError("bent-link", link=second)
     if rod.points[A] != (ZERO, ZERO) or any(y != ZERO for _, y in rod.points.values()):
         raise InputError("bent-link", link=first)
     before = next(number for number in pin.links if number != first)
@@ -85,6 +87,12 @@ def position(board: Board, d: Dyad) -> None:
     for point, (x, _) in d.rod.points.items():
         if point not in (d.A, d.B):
             board.divide(point, d.A, d.B, x, d.length)
+    for point in _slider_points(d):
+        x, y = d.slider.points[point]
+        along = point if y == ZERO else f"_{point}_along"
+        board.lay(along, d.B, d.u, x)
+        if y != ZERO:
+            board.lay(point, along, f"n_{d.u}", y)
 
 
 def velocity(board: Board, d: Dyad) -> None:
@@ -117,6 +125,14 @@ def _similar(board: Board, d: Dyad, plan: str, symbol: str) -> None:
         if point not in (d.A, d.B):
             board.divide(f"{plan}.{point}", f"{plan}.{d.A}", f"{plan}.{d.B}", x, d.length)
             board.read(f"{symbol}_{point}", f"{plan}.p", f"{plan}.{point}")
+    for point in _slider_points(d):
+        board.same(f"{plan}.{point}", f"{plan}.{d.B}")
+        board.read(f"{symbol}_{point}", f"{plan}.p", f"{plan}.{point}")
+
+
+def _slider_points(d: Dyad) -> list[str]:
+    """Return the slider's points beside B; it does not turn, so all move like B."""
+    return [point for point in d.slider.points if point != d.B]
 
 
 def forces(board: Board, d: Dyad, loads: dict[int, list[tuple[str, str]]], couples: dict[int, list[str]]) -> None:

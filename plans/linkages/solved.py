@@ -67,7 +67,6 @@ class Solved:
             key, status_word="singular", point=trouble.name.rpartition(".")[2], first=lines[0], second=lines[1]
         )
 
-
     def _apart(self, trouble: Trouble) -> PositionError:
         """Return by how much the links miss each other, and the angles of the driver at which they just meet."""
         given = {name: value for name, value in self.values.items() if isinstance(value, float)}
