@@ -1,0 +1,59 @@
+"""Draw the pictures of the README and fill in what its commands print: `.venv/bin/python docs/refresh.py`."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+README = ROOT / "README.md"
+BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
+
+
+def commands(block: str) -> list[str]:
+    """Return the command lines of a console block."""
+    return [line.removeprefix("$ ") for line in block.splitlines() if line.startswith("$ ")]
+
+
+def run(command: str, folder: str) -> tuple[str, int]:
+    """Run one `kulman ...` line in `folder`; return what it prints on both streams, and its status."""
+    words = [sys.executable, "-m", *shlex.split(command)]
+    environment = {**os.environ, "LC_ALL": "en_GB.UTF-8", "PYTHONIOENCODING": "utf-8"}
+    done = subprocess.run(
+        words, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", check=False
+    )
+    return done.stdout, done.returncode
+
+
+def filled(block: str, folder: str) -> str:
+    """Return a console block with what its commands print today."""
+    return "".join(f"$ {command}\n{run(command, folder)[0]}" for command in commands(block))
+
+
+def main() -> None:
+    """Rewrite the README's blocks and the picture."""
+    text = README.read_text(encoding="utf-8")
+    with tempfile.TemporaryDirectory() as folder:
+        text = BLOCK.sub(lambda found: f"```console\n{filled(found[1], folder)}```", text)
+        README.write_text(text, encoding="utf-8")
+        people = "--student 'І. Петренко' --group АТ-301 --designation ТММ.РГР.03.01"
+        run(f"kulman sheet nau-slider-crank -v 3 -o sheet.pdf {people}", folder)
+        picture(Path(folder) / "sheet.pdf", ROOT / "docs" / "pictures" / "nau-slider-crank-3.png")
+
+
+def picture(pdf: Path, png: Path) -> None:
+    """Render the first page, small enough for a README."""
+    import pypdfium2
+
+    png.parent.mkdir(exist_ok=True)
+    page = pypdfium2.PdfDocument(pdf)[0]
+    page.render(scale=1.0, grayscale=True).to_pil().quantize(16).save(png, optimize=True)
+
+
+if __name__ == "__main__":
+    main()
