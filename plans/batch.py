@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from .board import Program
 from .exact import ILL, NAN, RIGHT, SINGULAR, STATUSES, TANGENT, ExactBoard, Status
 
-CHUNK = 8192
+CHUNK = 12288
 _CODE = {status: code for code, status in enumerate(STATUSES)}
 
 
 class ArrayBoard(ExactBoard):
     """N positions on arrays of shape (N,): a status per position in `codes`, NaN only where a position fails."""
 
-    def __init__(self, givens: Mapping[str, Any], size: int) -> None:
+    def __init__(self, givens: Mapping[str, Any], codes: NDArray[np.int8]) -> None:
         super().__init__(givens)
-        self.codes = np.zeros(size, np.int8)
+        self.codes = codes
 
     @staticmethod
     def _sqrt(square: Any) -> Any:
@@ -35,6 +35,8 @@ class ArrayBoard(ExactBoard):
         return points
 
     def _turn(self, angle: Any) -> Any:
+        if not np.ndim(angle):
+            return super()._turn(angle)
         return self._complex(*(_without_rounding(part(angle)) for part in (np.cos, np.sin)))
 
     def _mark(self, where: Any, status: Status) -> None:
@@ -91,29 +93,48 @@ def batch(
         Index into `STATUSES`.
     """
     arrays = {name: np.asarray(value, float) for name, value in givens.items() if np.ndim(value)}
-    fixed = {name: float(value) for name, value in givens.items() if not np.ndim(value)}
     size = len(next(iter(arrays.values())))
     if size > chunk:
         settle_heap()
-    program = program.needed_for(wanted)
-    drops = program.last_uses(wanted)
-    results: dict[str, NDArray[Any]] = {}
-    codes = np.empty(size, np.int8)
+    once, each, dead = _split(program.needed_for(wanted), arrays, wanted)
+    fixed = ExactBoard({name: float(value) for name, value in givens.items() if name not in arrays})
+    once.run(fixed)
+    results: dict[str, NDArray[Any]] = {name: np.empty(size, _kind(fixed.values.get(name))) for name in wanted}
+    codes = np.full(size, _CODE[fixed.status], np.int8)
     with np.errstate(invalid="ignore", divide="ignore"):
         for start in range(0, size, chunk):
             part = slice(start, min(start + chunk, size))
-            board = ArrayBoard({**fixed, **{name: array[part] for name, array in arrays.items()}}, part.stop - start)
-            for step, dead in zip(program, drops, strict=True):
-                board.step(step.verb, step.name, *step.operands, law=step.law)
-                for name in dead:
+            board = ArrayBoard({**fixed.values, **{name: array[part] for name, array in arrays.items()}}, codes[part])
+            for step, last in zip(each, dead, strict=True):
+                board.perform(board.operation(step.verb, step.law), step.name, step.operands)
+                for name in last:
                     del board.values[name]
             for name in wanted:
                 value = board.values[name]
-                if name not in results:
-                    results[name] = np.empty(size, np.result_type(value))
+                if results[name].dtype != np.result_type(value):
+                    results[name] = results[name].astype(complex)
                 results[name][part] = value
-            codes[part] = board.codes
     return results, codes
+
+
+def _split(
+    program: Program, arrays: Iterable[str], wanted: Sequence[str]
+) -> tuple[Program, Program, tuple[tuple[str, ...], ...]]:
+    """Return the steps that are the same everywhere, the others, and what nothing needs after each of those."""
+    varying, once, each = set(arrays), [], []
+    for step in program:
+        if varying.isdisjoint(step.operands):
+            once.append(step)
+        else:
+            each.append(step)
+            varying.add(step.name)
+    rest = Program(tuple(each))
+    dead = tuple(tuple(name for name in names if name in varying) for names in rest.last_uses(wanted))
+    return Program(tuple(once)), rest, dead
+
+
+def _kind(value: Any) -> type:
+    return complex if isinstance(value, complex) else float
 
 
 def settle_heap() -> None:

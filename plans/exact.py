@@ -7,7 +7,7 @@ numbers, which numpy fuses; no modulus by `hypot`): N positions at once equal on
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -53,8 +53,16 @@ class ExactBoard(Board):
 
     def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
         """Do the step with numbers."""
+        self.perform(self.operation(verb, law), name, operands)
+
+    def operation(self, verb: str, law: str) -> Callable[..., Any]:
+        """Return what computes a step."""
+        operate: Callable[..., Any] = LAWS[law] if law else getattr(self, "_" + verb)
+        return operate
+
+    def perform(self, operate: Callable[..., Any], name: str, operands: tuple[str, ...]) -> None:
+        """Make `name` with the operation of a step."""
         values = self.values
-        operate = LAWS[law] if law else getattr(self, "_" + verb)
         self._name, self._operands = name, operands
         values[name] = operate(*[values[operand] for operand in operands])
 
@@ -132,7 +140,8 @@ class ExactBoard(Board):
         sine = self._sine_of.get(key)
         if sine is None:
             sine = self._sine_of[key] = self._lines_sine(cross(u, w))
-        return p + u * (cross(self._read(p, q), w) / sine)
+        offset = cross(w, p) if q is POLE else cross(q - p, w)
+        return p + u * (offset / sine)
 
     def _arc(self, centre: Any, radius: Any, q: Any, w: Any, side: Any) -> Any:
         to_centre = self._read(q, centre)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 from ...plans.linkages.rrp import dyad
 from ...plans.linkages.solved import Solved
@@ -19,7 +19,7 @@ from ..view import View
 from ..words import Words
 from .ladders import Ladders, by_plan, ladders_of
 from .scene import Given, Scene
-from .views import build
+from .views import Figure, figures
 
 SMALLEST_FIRST = ("A4", "A3", "A2", "A1")
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
@@ -40,6 +40,28 @@ class Contents:
     norm: Norm = "gost"
 
 
+class Watched(Mapping[str, Scale]):
+    """Scale factors by plan that note which of them a figure has asked for."""
+
+    def __init__(self, scales: Mapping[str, Scale]) -> None:
+        self._scales = scales
+        self.used: dict[str, Scale] = {}
+
+    def __getitem__(self, plan: str) -> Scale:
+        """Return the scale factor of a plan and note it."""
+        scale = self._scales[plan]
+        self.used[plan] = scale
+        return scale
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the plans."""
+        return iter(self._scales)
+
+    def __len__(self) -> int:
+        """Return the number of plans."""
+        return len(self._scales)
+
+
 @dataclass(slots=True)
 class Fitting:
     """Builds the views of `contents` for any format, each only once."""
@@ -48,6 +70,7 @@ class Fitting:
     ladders: Ladders = field(init=False)
     _root: dict[str, str] = field(init=False)
     _built: dict[tuple[str, int], Fitted] = field(default_factory=dict)
+    _drawings: dict[tuple[str, int], list[tuple[dict[str, Scale], View]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Find the ladders; a crank scale stands on the rung of mu_l."""
@@ -78,20 +101,33 @@ class Fitting:
     def _fitted(self, sheet: Format, step: int) -> Fitted:
         contents, root = self.contents, self._root
         width, height = room(sheet, contents.norm)
+        text_width = min(TEXT_WIDTH[sheet.letters], width)
         rungs = {root[s]: self._rung(s, step, sheet) for s in self.ladders if root[s] == s}
         while True:
             scene = self._scene(sheet, {s: ladder[rungs[root[s]]] for s, ladder in self.ladders.items()})
             views, too_large = [], {}
-            for view, symbol in build(scene, contents.plans, min(TEXT_WIDTH[sheet.letters], width)):
+            for number, figure in enumerate(figures(contents.solved, contents.plans, text_width)):
+                view = self._drawn(sheet, number, figure, scene)
                 views.append(view)
-                if symbol and (view.size[0] > width or view.size[1] > height):
-                    too_large[root[symbol]] = view
+                if figure.symbol and (view.size[0] > width or view.size[1] > height):
+                    too_large[root[figure.symbol]] = view
             if not too_large:
                 return views, scene.scales
             for symbol, view in too_large.items():
                 rungs[symbol] += 1
                 if rungs[symbol] >= len(self.ladders[symbol]):
                     raise self._does_not_fit(sheet, symbol, view.size)
+
+    def _drawn(self, sheet: Format, number: int, figure: Figure, scene: Scene) -> View:
+        """Draw a figure, unless it has been drawn for this format at the same of the scale factors that it used."""
+        drawings = self._drawings.setdefault((sheet.name, number), [])
+        for used, view in drawings:
+            if all(scene.scales[plan] == scale for plan, scale in used.items()):
+                return view
+        watched = Watched(scene.scales)
+        view = figure.draw(replace(scene, scales=watched))
+        drawings.append((watched.used, view))
+        return view
 
     def _rung(self, symbol: str, step: int, sheet: Format) -> int:
         """Return the first rung at which the marks alone have room, before any view is built."""

@@ -96,7 +96,7 @@ def _slider_lines(scene: Scene, d: Dyad) -> Lines:
     w, k = scene.words, d.slider.number
     h = f"h_0{k}"
     off = [(name, point) for name, point in loads(scene, k) if point != d.B]
-    terms = arm_terms(scene, off, d.B, lambda name: f"h_{name}")
+    terms = arm_terms(scene, off, d.B, lambda name: f"h_{k}" if name == f"F_i{k}" else f"h_{name}")
     head, product = f"ΣM_{{{d.B}}}({k}) = 0:", f"{w.symbol(f'R_0{k}')}·{w.symbol(h)}"
     if not terms:
         return [(head, f"{product} = 0,", f"{w.symbol(h)} = {value_text(w, scene.solved.quantities[h].value or 0.0)}")]

@@ -56,11 +56,12 @@ def slider_view(scene: Scene, d: Dyad) -> View:
     for name, point in loads(scene, k):
         at = (scene.solved.point(point) - scene.solved.point(d.B)) * (1.0 / scene.scales["position"].mu)
         _force(canvas, scene, name, at, [], taken if point == d.B else [], gap=half)
-    h = scene.solved.quantities[f"h_0{k}"].value
     at = u * (guide_offset(scene, d) / scene.scales["position"].mu)
     _force(canvas, scene, f"R_0{k}", at, [], taken, gap=half)
     canvas.label(scene.words.mark(d.B), b, clear=scene.style.pair + 0.8)
-    arm_text = f"{scene.words.symbol(f'h_0{k}')} = {scene.words.short(h or 0.0)}"
+    offset = f"h_0{k}"
+    length = f"{scene.segment(offset)} {scene.words['unit.mm']}" if scene.solved.quantities[offset].value else "0"
+    arm_text = f"{scene.words.symbol(offset)} = {length}"
     return canvas.finish(f"link_{k}", (scene.words["heading.link"].format(link=k),), (arm_text,))
 
 

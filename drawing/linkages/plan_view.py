@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from ...plans.board import Step
 from ..shapes import Circle, Group, Line, Pen
@@ -56,9 +57,11 @@ def _vectors(canvas: Canvas, scene: Scene, vectors: list[tuple[str, str, str]]) 
     named: dict[frozenset[complex], None] = {}
     for quantity, tail, tip in vectors:
         vector = scene.vector(quantity, tail, tip)
-        canvas.add(vector)
+        short = abs(vector.tip - vector.tail) < SHORT
+        # an arrowhead would be longer than the vector
+        canvas.add(replace(vector, head="none") if short else vector)
         ends = frozenset((_rounded(vector.tail), _rounded(vector.tip)))
-        if abs(vector.tip - vector.tail) < SHORT:
+        if short:
             continue  # said in words under the heading
         side = 1j * (vector.tip - vector.tail) if ends in named else 0j
         named[ends] = None

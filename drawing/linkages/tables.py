@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...plans.linkages.solved import Solved
 from ...plans.quantities import Quantity
 from ..printed import segment_decimals, value_text
 from ..table import table
@@ -32,18 +33,23 @@ def givens_table(scene: Scene) -> View:
     return table("givens", words["heading.givens"], rows, scene.style)
 
 
-def results_tables(scene: Scene) -> dict[str, View]:
-    """Return one table of results for each kind of plan that was drawn."""
+def kinds_of_results(solved: Solved) -> tuple[str, ...]:
+    """Return which tables of results there are."""
+    return tuple(dict.fromkeys(kind_of(q.name) for q in _results(solved)))
+
+
+def results_table(scene: Scene, kind: str) -> View:
+    """Return the table of the results of one kind of plan."""
     words = scene.words
-    rows: dict[str, list[list[str]]] = {}
-    for q in scene.solved.quantities.values():
-        if q.kind != "point" and q.value is not None and not q.name.startswith("l_") and "_couple_" not in q.name:
-            rows.setdefault(kind_of(q.name), []).append(_row(scene, q))
     head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
-    return {
-        kind: table(f"results_{kind}", words[f"heading.results_{kind}"], [head, *body], scene.style)
-        for kind, body in rows.items()
-    }
+    rows = [_row(scene, q) for q in _results(scene.solved) if kind_of(q.name) == kind]
+    return table(f"results_{kind}", words[f"heading.results_{kind}"], [head, *rows], scene.style)
+
+
+def _results(solved: Solved) -> list[Quantity]:
+    """Return what the tables show: all quantities but points, lengths, and each force of a pair."""
+    shown = (q for q in solved.quantities.values() if q.kind != "point" and q.value is not None)
+    return [q for q in shown if not q.name.startswith("l_") and "_couple_" not in q.name]
 
 
 def _row(scene: Scene, q: Quantity) -> list[str]:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
-from ...plans.linkages.rrp import Dyad
+from ...plans.linkages.rrp import Dyad, dyad
+from ...plans.linkages.solved import Solved
 from ..view import View
 from .driver_view import driver_view
 from .forces_text import forces_block
@@ -16,49 +18,65 @@ from .plan_view import plan_view
 from .scene import Scene
 from .scheme import scheme
 from .structure_text import structure_block
-from .tables import givens_table, results_tables
+from .tables import givens_table, kinds_of_results, results_table
 
 
-def build(scene: Scene, plans: tuple[str, ...], width: float) -> Iterator[tuple[View, str]]:
-    """Yield the views in the order of the work, each with the symbol of the scale factor that sizes it."""
-    symbols = scene.solved.scale_of_plan
-    results = results_tables(scene)
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """One figure of the sheet: how it is drawn, and the scale factor that sizes it ("" for a table or text)."""
+
+    draw: Callable[[Scene], View]
+    symbol: str = ""
+
+
+def figures(solved: Solved, plans: tuple[str, ...], width: float) -> list[Figure]:
+    """Return the figures for `plans` in the order of the work; lines of text are at most `width` long."""
+    return [*_kinematics(solved, plans, width), *_forces(solved, plans, width), *_lever(solved, plans, width)]
+
+
+def _kinematics(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
+    symbols, results = solved.scale_of_plan, kinds_of_results(solved)
     if "structure" in plans:
-        yield givens_table(scene), ""
-        yield structure_block(scene, width), ""
+        yield Figure(givens_table)
+        yield Figure(lambda scene: structure_block(scene, width))
     if "position" in plans:
-        yield scheme(scene), "mu_l"
+        yield Figure(scheme, "mu_l")
     for plan in ("velocity", "acceleration"):
         if plan in plans:
-            yield plan_view(scene, plan, f"heading.{plan}"), symbols[plan]
+            yield _plan(plan, f"heading.{plan}", symbols[plan])
     if "velocity" in plans:
-        yield kinematics_block(scene, width, plans), ""
-    for kind in ("velocity", "acceleration"):
-        if kind in results:
-            yield results[kind], ""
+        yield Figure(lambda scene: kinematics_block(scene, width, plans))
+    yield from (_results(kind) for kind in ("velocity", "acceleration") if kind in results)
+
+
+def _forces(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
     if "forces" in plans:
-        for d in reversed(scene.dyads):
-            yield from _group(scene, d, symbols)
-        yield from _driver(scene, symbols)
-        yield forces_block(scene, width), ""
+        symbols, link = solved.scale_of_plan, str(solved.structure.driver)
+        for group in reversed(solved.structure.groups):
+            yield from _group(dyad(solved.mechanism, group), symbols[f"forces_{group.name}"])
+        yield Figure(driver_view, "mu_l")
+        yield _plan(f"forces_{link}", "heading.link_forces", symbols[f"forces_{link}"], link=link)
+        yield Figure(lambda scene: forces_block(scene, width))
+
+
+def _group(d: Dyad, symbol: str) -> Iterator[Figure]:
+    links, rod = f"{d.rod.number}, {d.slider.number}", str(d.rod.number)
+    yield Figure(lambda scene: group_view(scene, d), "mu_l")
+    yield _plan(f"forces_{d.name}", "heading.group_forces", symbol, links=links)
+    yield _plan(f"forces_{rod}", "heading.link_forces", symbol, link=rod)
+    yield Figure(lambda scene: slider_view(scene, d))
+
+
+def _lever(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
     if "lever" in plans:
-        yield lever_view(scene), "mu_V"
-        yield lever_block(scene, width, with_inertia="forces" not in plans), ""
-    for kind in ("forces", "lever"):
-        if kind in results:
-            yield results[kind], ""
+        yield Figure(lever_view, "mu_V")
+        yield Figure(lambda scene: lever_block(scene, width, with_inertia="forces" not in plans))
+    yield from (_results(kind) for kind in ("forces", "lever") if kind in kinds_of_results(solved))
 
 
-def _group(scene: Scene, d: Dyad, symbols: Mapping[str, str]) -> Iterator[tuple[View, str]]:
-    symbol = symbols[f"forces_{d.name}"]
-    links = f"{d.rod.number}, {d.slider.number}"
-    yield group_view(scene, d), "mu_l"
-    yield plan_view(scene, f"forces_{d.name}", "heading.group_forces", links=links), symbol
-    yield plan_view(scene, f"forces_{d.rod.number}", "heading.link_forces", link=str(d.rod.number)), symbol
-    yield slider_view(scene, d), ""
+def _plan(plan: str, key: str, symbol: str, **fill: str) -> Figure:
+    return Figure(lambda scene: plan_view(scene, plan, key, **fill), symbol)
 
 
-def _driver(scene: Scene, symbols: Mapping[str, str]) -> Iterator[tuple[View, str]]:
-    link = str(scene.solved.structure.driver)
-    yield driver_view(scene), "mu_l"
-    yield plan_view(scene, f"forces_{link}", "heading.link_forces", link=link), symbols[f"forces_{link}"]
+def _results(kind: str) -> Figure:
+    return Figure(lambda scene: results_table(scene, kind))

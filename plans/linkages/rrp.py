@@ -176,7 +176,8 @@ def forces(board: Board, d: Dyad, loads: dict[int, list[tuple[str, str]]], coupl
     moments = [ZERO, *couples[k]]
     for force, at in loads[k]:
         if at != d.B:
-            board.moment(f"_M_{force}_{d.B}", f"h_{force}", force, at, d.B)
+            arm = f"h_{k}" if force == f"F_i{k}" else f"h_{force}"
+            board.moment(f"_M_{force}_{d.B}", arm, force, at, d.B)
             moments.append(f"_M_{force}_{d.B}")
     # the guide's reaction stands where it balances the moments of the slider's loads about B
     board.calc(f"_M_{k}", "sum", *moments)

@@ -80,6 +80,10 @@ class Solved:
         )
 
 
+def _is_given(name: str) -> bool:
+    return name != ZERO and not name.startswith("_")
+
+
 def _spoken(direction: str) -> str:
     """Return a direction as it is written in equations: normal to AB, along AB, along the guide x-x."""
     kind, _, name = direction.partition("_")
@@ -107,7 +111,7 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     """
     structure, program = construct(mechanism, plans)
     board = run(program, board_givens(mechanism, values))
-    lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if x != ZERO}
+    lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if _is_given(x)}
     items = quantities(program, board.values, lengths)
     return Solved(
         mechanism, structure, program, board.values, items, board.sines, board.status, board.trouble, shown_on(program)
