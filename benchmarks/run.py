@@ -65,7 +65,6 @@ def million() -> None:
     import resource
 
     import numpy as np
-
     from kulman.plans.batch import batch, settle_heap
     from kulman.plans.linkages.chain import board_givens, construct
     from kulman.variants import load_task
@@ -95,9 +94,8 @@ def row(name: str, value: float, unit: str, goal: float, ratio: str) -> None:
 
 def main() -> None:
     """Print the table."""
-    import numpy as np
-
     import kulman
+    import numpy as np
     from kulman.plans.exact import run
     from kulman.plans.linkages.chain import board_givens, construct
 
@@ -126,7 +124,9 @@ def main() -> None:
     row("one position, the full chain", one * 1e6, "us", 100, f"{one / hand:.1f} times a hand-written closed form")
     output = subprocess.run([sys.executable, __file__, "million"], check=True, capture_output=True, text=True).stdout
     ours, hand, memory = map(float, output.split())
-    row("a million positions to the lever, each", ours, "ns", 100, f"{ours / hand:.1f} times a hand-written closed form")
+    row(
+        "a million positions to the lever, each", ours, "ns", 100, f"{ours / hand:.1f} times a hand-written closed form"
+    )
     row("peak memory of that run", memory, "MB", 150, "")
 
 
