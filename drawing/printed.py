@@ -9,13 +9,16 @@ from .words import Words
 
 DIGITS = 4  # significant digits of a printed value
 MOST = 10  # more digits than that would be rounding noise
+FINEST = 12  # decimals; what is smaller still is 0
+POINT = 1e-6  # mm; a shorter segment is a point, and its quantity 0
 
 
 def decimals_for(value: float, digits: int = DIGITS) -> int:
     """Return how many decimals show `value` with so many significant digits."""
     if value == 0.0 or not math.isfinite(value):
         return 0
-    return max(0, digits - 1 - math.floor(math.log10(abs(value))))
+    decimals = max(0, digits - 1 - math.floor(math.log10(abs(value))))
+    return decimals if decimals <= FINEST else 0
 
 
 def value_text(words: Words, value: float) -> str:
@@ -29,6 +32,8 @@ def segment_decimals(value: float, mu: float) -> tuple[int, int]:
     Hundredths of a millimetre and the usual digits of the value where that will do, else one digit more of either.
     """
     size, usual = abs(value), decimals_for(value)
+    if size < POINT * mu:
+        return 2, 0
     for extra in range(MOST):
         for places, decimals in ((2 + extra, usual), (2 + extra, usual + 1)):
             if round(round(size / mu, places) * mu, decimals) == round(size, decimals):

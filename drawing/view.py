@@ -134,7 +134,7 @@ def _gather(
             boxes.append(extent((shape,)))
         case Vector(tail=tail, tip=tip, pen=pen) | Arrow(tail=tail, tip=tip, pen=pen):
             (main if pen is Pen.MAIN else thin).append((tail, tip))
-            if abs(tip - tail) > 0.01:
+            if shape.head != "none" and abs(tip - tail) > 0.01:
                 boxes.append(_head_box(tip, tip - tail, style.arrow))
         case Group(shapes=parts):
             for part in parts:
