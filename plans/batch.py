@@ -11,16 +11,20 @@ from numpy.typing import NDArray
 from .board import Program
 from .exact import ILL, NAN, RIGHT, SINGULAR, STATUSES, TANGENT, ExactBoard, Status
 
-CHUNK = 12288
+CHUNK = 8192
 _CODE = {status: code for code, status in enumerate(STATUSES)}
 
 
 class ArrayBoard(ExactBoard):
     """N positions on arrays of shape (N,): a status per position in `codes`, NaN only where a position fails."""
 
-    def __init__(self, givens: Mapping[str, Any], codes: NDArray[np.int8]) -> None:
-        super().__init__(givens)
-        self.codes = codes
+    def __init__(self) -> None:
+        super().__init__({})
+        self.codes = np.zeros(0, np.int8)
+
+    def restart(self, givens: Mapping[str, Any], codes: NDArray[np.int8]) -> None:
+        """Begin with other positions; the status of each goes into `codes`."""
+        self.values, self.codes, self._sine_of = dict(givens), codes, {}
 
     @staticmethod
     def _sqrt(square: Any) -> Any:
@@ -101,14 +105,17 @@ def batch(
     once.run(fixed)
     results: dict[str, NDArray[Any]] = {name: np.empty(size, _kind(fixed.values.get(name))) for name in wanted}
     codes = np.full(size, _CODE[fixed.status], np.int8)
+    board = ArrayBoard()
+    steps = [(board.operation(s.verb, s.law), s.name, s.operands, last) for s, last in zip(each, dead, strict=True)]
     with np.errstate(invalid="ignore", divide="ignore"):
         for start in range(0, size, chunk):
             part = slice(start, min(start + chunk, size))
-            board = ArrayBoard({**fixed.values, **{name: array[part] for name, array in arrays.items()}}, codes[part])
-            for step, last in zip(each, dead, strict=True):
-                board.perform(board.operation(step.verb, step.law), step.name, step.operands)
-                for name in last:
-                    del board.values[name]
+            board.restart({**fixed.values, **{name: array[part] for name, array in arrays.items()}}, codes[part])
+            perform, values = board.perform, board.values
+            for operate, name, operands, last in steps:
+                perform(operate, name, operands)
+                for spent in last:
+                    del values[spent]
             for name in wanted:
                 value = board.values[name]
                 if results[name].dtype != np.result_type(value):
