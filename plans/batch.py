@@ -18,9 +18,9 @@ _CODE = {status: code for code, status in enumerate(STATUSES)}
 class ArrayBoard(ExactBoard):
     """N positions on arrays of shape (N,): a status per position in `codes`, NaN only where a position fails."""
 
-    def __init__(self) -> None:
-        super().__init__({})
-        self.codes = np.zeros(0, np.int8)
+    def __init__(self, givens: Mapping[str, Any], size: int) -> None:
+        super().__init__(givens)
+        self.codes = np.zeros(size, np.int8)
 
     def restart(self, givens: Mapping[str, Any], codes: NDArray[np.int8]) -> None:
         """Begin with other positions; the status of each goes into `codes`."""
@@ -105,7 +105,7 @@ def batch(
     once.run(fixed)
     results: dict[str, NDArray[Any]] = {name: np.empty(size, _kind(fixed.values.get(name))) for name in wanted}
     codes = np.full(size, _CODE[fixed.status], np.int8)
-    board = ArrayBoard()
+    board = ArrayBoard({}, 0)
     steps = [(board.operation(s.verb, s.law), s.name, s.operands, last) for s, last in zip(each, dead, strict=True)]
     with np.errstate(invalid="ignore", divide="ignore"):
         for start in range(0, size, chunk):
