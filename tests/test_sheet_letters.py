@@ -12,7 +12,7 @@ from kulman.tests.sheet_cases import Case, drawn, pages
 from kulman.tests.test_sheet_points import SAMPLE
 
 PAGES = {(841.0, 594.0), (594.0, 420.0), (420.0, 297.0), (297.0, 420.0), (210.0, 297.0)}
-THINNEST = {841.0: 0.3, 594.0: 0.3, 420.0: 0.25, 297.0: 0.25, 210.0: 0.2}
+THINNEST = {841.0: 0.3, 594.0: 0.25, 420.0: 0.25, 297.0: 0.25, 210.0: 0.2}
 HEIGHTS = (2.5, 3.5, 5.0, 7.0, 10.0)
 ISO = [
     Case("3", "A1", "en", norm="iso", notation="iso"),
