@@ -129,7 +129,8 @@ def clear_ray(direction: complex, lines: list[complex], arrows: list[complex]) -
     def room(ray: complex) -> float:
         to_lines = min((abs(cmath.phase(other / ray)) for other in lines), default=math.pi)
         to_arrows = min((abs(cmath.phase(other / ray)) for other in arrows), default=math.pi)
-        return min(to_lines, 0.5 + to_arrows)
+        # better beyond another arrow on its own line than at a small angle to it
+        return min(to_lines, 0.5 + (to_arrows if to_arrows > 0.02 else 0.25))
 
     outward, inward = room(direction), room(-direction)
     return (direction, True) if outward >= inward - 0.1 else (-direction, False)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from cmath import phase
+from cmath import phase, rect
 
+from ..shapes import Arrow, Group, Line, Shape
 from ..symbols import fixed_pivot, force_arrow, link, revolute, turning_arrow
 from ..view import Canvas, View
 from .group_view import force_arm, letter_arrow, loads
@@ -42,5 +43,23 @@ def _balance(canvas: Canvas, scene: Scene, o: complex, e: complex) -> None:
     if not value or value != value:
         return
     sense, radius = math.copysign(1.0, value), 0.62 * scene.style.force
-    canvas.add(turning_arrow(o, radius, phase(e), 2.2, sense, "M_bal"))
-    canvas.label(scene.words.symbol("M_bal"), o + e * radius, clear=1.4)
+    # on the freest side of O: the pivot's foot, the crank, the reaction and the arms of forces leave from there too
+    ends = [end for shape in canvas.shapes for end in _ends(shape) if 0.1 < abs(end - o) < 3 * radius]
+    busy = [-1j, 1 - 1.5j, -1 - 1.5j, e, *((end - o) / abs(end - o) for end in ends)]
+    middle = max(
+        (k * math.pi / 12 for k in range(24)),
+        key=lambda angle: (round(min(abs(phase(rect(1.0, angle) / ray)) for ray in busy), 6), -angle),
+    )
+    canvas.add(turning_arrow(o, radius, middle, 1.5, sense, "M_bal"))
+    canvas.label(scene.words.symbol("M_bal"), o + rect(radius, middle), prefer=rect(1.0, middle), clear=1.4)
+
+
+def _ends(shape: Shape) -> tuple[complex, ...]:
+    """Return the ends of an arrow, or of the line of an arm."""
+    match shape:
+        case Arrow(tail=tail, tip=tip):
+            return tail, tip
+        case Group(role="arm", shapes=(Line(a=a, b=b), *_)):
+            return a, b
+        case _:
+            return ()
