@@ -19,7 +19,8 @@ def lever_view(scene: Scene) -> View:
     lines = _lines(scene, marks)
     canvas.add(*(Line(a, b, Pen.MAIN, role="lever", name=name) for a, b, name in lines))
     canvas.add(Group((Circle(p, style.node, Pen.MAIN, fill="white"),), "point", "lever.p"))
-    canvas.label(words.mark("lever.p"), p, clear=1.0, priority=1)
+    outward = -sum(scene.mm(mark) - p for mark in marks)
+    canvas.label(words.mark("lever.p"), p, prefer=outward, clear=1.0, priority=1)
     rays = {
         mark: [(q - scene.mm(mark)) for a, b, _ in lines for q in (a, b) if scene.mm(mark) in (a, b)] for mark in marks
     }
