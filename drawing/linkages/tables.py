@@ -65,6 +65,6 @@ def _row(scene: Scene, q: Quantity) -> list[str]:
 
 
 def tidy(scene: Scene, q: Quantity) -> float:
-    """Return the value, 0 where it is the rounding noise of a difference."""
-    value = q.value or 0.0
+    """Return the value: of a force its magnitude, of a difference 0 where it is rounding noise."""
+    value = abs(q.value or 0.0) if q.name.startswith("F") else q.value or 0.0
     return 0.0 if q.name.startswith("delta") and abs(value) < 1e-6 else value
