@@ -13,6 +13,7 @@ from .spots import (
     FAR,
     NEAR,
     SLACK,
+    THIN,
     TOUCH,
     Bodies,
     Box,
@@ -152,16 +153,21 @@ class _Board:
 
 
 def _finish(requests: Sequence[Request], wanted: Wanted, bodies: Bodies, board: _Board, bounds: Box | None) -> Labels:
-    """Set apart, on leaders, the labels that found no free place; give up those that find none there either."""
+    """Set apart, on leaders, the labels that found no free place or that a thin line would run through.
+
+    Those that find no free place there either are given up.
+    """
     leaders: dict[int, Segment] = {}
     bad = board.in_trouble()
     # Of two labels that touch, one may stay: take them up one by one, the less important first.
     bad.sort(key=lambda i: (requests[i].priority, board.now[i] < COVER, i))
-    for i in bad:
-        if i in board.in_trouble():
+    crossed = np.flatnonzero((board.now >= THIN) & (board.now < COVER)).tolist()
+    for i, limit in [*((i, COVER) for i in bad), *((i, THIN) for i in crossed if i not in bad)]:
+        if limit == THIN or i in board.in_trouble():
             one = wanted.some(np.array([i]))
-            # beside a line a leader leaves along its normal; where that is barred, from its middle to any side
-            any(_lead(i, end, wanted, bodies, board, leaders, bounds) for end in (one, one.at_middle()))
+            # beside a line a leader leaves along its normal; where that is barred, from a point of it to any side
+            ends = (one, one.at(0.5), one.at(0.25), one.at(0.75))
+            any(_lead(i, end, wanted, bodies, board, leaders, bounds, limit) for end in ends)
     return Labels(
         {
             r.name: complex(x - r.width / 2, y - r.height / 2)
@@ -180,8 +186,9 @@ def _lead(
     board: _Board,
     leaders: dict[int, Segment],
     bounds: Box | None,
+    limit: float,
 ) -> bool:
-    """Move label i, which is `one`, away onto a leader, if there is a free place for both; tell whether there is."""
+    """Move label i, which is `one`, away onto a leader, if there is a place for both that costs less than `limit`."""
     grid = Grid.around(one, bodies, FAR, bounds, led=True)
     x, y, cost = grid.x[0], grid.y[0], grid.cost[0]
     cost = cost + COVER * np.count_nonzero(board.clashes(i, x, y), axis=1)
@@ -201,8 +208,8 @@ def _lead(
         cost += COVER * np.count_nonzero(on, axis=1) + CROSSING * crossings(lines, old)
     cost += CROSSING * crossings(lines, bodies)
     k = int(cost.argmin())
-    if cost[k] >= COVER:
+    if cost[k] >= limit:
         return False
     board.now_x[i], board.now_y[i], board.now[i] = x[k], y[k], 0.0
-    leaders[i] = (complex(head[k]), complex(start[k]))
+    leaders[i] = (complex(head[k] - way[k] * wanted.gap / 2), complex(start[k]))
     return True

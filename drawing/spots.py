@@ -16,8 +16,11 @@ Reals: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
 
 # Costs. Only their order matters: covering something is worse than any sum of the rest.
-COVER, AMBIGUOUS, THIN, CROWDED, STEP, TURN, SLIDE, CROSSING = 1e4, 30.0, 25.0, 1.5, 1.0, 1.5, 4.0, 40.0
+COVER, AMBIGUOUS, THIN, CROWDED, STEP, TURN, SLIDE, CROSSING = 1e4, 30.0, 300.0, 1.5, 1.0, 1.5, 4.0, 40.0
+CLOSE = 6.0  # for each mm that something is nearer than it should be to leave no doubt
 ROOM = 2.5  # mm around a label that should be empty where there is a choice
+BARE = 2.0  # mm around a label: a thin line nearer than this looks like a bar over or under the letter
+DOUBT = 1.0  # mm by which a label should be nearer to its own anchor than to anything else with a name
 NEAR = (0.0, 0.8, 2.0, 3.5)  # mm added to the distance that was asked for
 FAR = (5.0, 8.0, 11.0, 14.0, 17.0, 20.0, 25.0, 30.0)  # the same for a label on a leader
 ALONG = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78, 0.86])  # places along a segment
@@ -40,7 +43,8 @@ class Request:
     """A label of `width` x `height` mm that belongs to a node (a point) or stands beside a segment.
 
     `clear` is the distance wanted between the box and its anchor, `prefer` the side where it should stand;
-    where two labels want the same place, the one with the higher `priority` chooses first.
+    where two labels want the same place, the one with the higher `priority` chooses first. A `strict` label, such as
+    that of a dimension, stands rather on a leader than nearer to something else.
     """
 
     name: str
@@ -50,6 +54,7 @@ class Request:
     clear: float = 1.0
     prefer: complex = 0j
     priority: int = 0
+    strict: bool = False
 
 
 def circle_table(circles: Sequence[tuple[complex, float]]) -> tuple[Points, Reals]:
@@ -83,6 +88,7 @@ class Wanted:
     rim: Reals  # radius of the node's own circle
     prefer: Points
     priority: NDArray[np.int64]
+    strict: Flags
     gap: float
 
     @classmethod
@@ -98,18 +104,19 @@ class Wanted:
         own = (a == b)[:, None] & (abs(a[:, None] - centres) < TOUCH)
         rim = np.where(own, radii, 0.0).max(axis=1, initial=0.0)
         clear = np.maximum(numbers[2], rim + gap)
-        return cls(a, b, numbers[0], numbers[1], clear, rim, prefer, numbers[3].astype(int), gap)
+        strict = np.array([r.strict for r in requests], dtype=bool)
+        return cls(a, b, numbers[0], numbers[1], clear, rim, prefer, numbers[3].astype(int), strict, gap)
 
     def some(self, rows: NDArray[np.intp]) -> Wanted:
         """Return the same of some labels."""
         a, b, prefer = self.a[rows], self.b[rows], self.prefer[rows]
         hw, hh, clear, rim = self.hw[rows], self.hh[rows], self.clear[rows], self.rim[rows]
-        return Wanted(a, b, hw, hh, clear, rim, prefer, self.priority[rows], self.gap)
+        return Wanted(a, b, hw, hh, clear, rim, prefer, self.priority[rows], self.strict[rows], self.gap)
 
-    def at_middle(self) -> Wanted:
-        """Return the same labels, those of segments as if they named the node in the middle."""
-        middle = (self.a + self.b) / 2
-        return replace(self, a=middle, b=middle)
+    def at(self, share: float) -> Wanted:
+        """Return the same labels, those of segments as if they named the node at this share of the length."""
+        node = self.a + (self.b - self.a) * share
+        return replace(self, a=node, b=node)
 
     def feet(self, centre: Points) -> Points:
         """Where leaders from boxes around `centre` should end: on the node, or on the middle part of the segment."""
@@ -161,28 +168,30 @@ class Bodies:
 
     @classmethod
     def of(cls, obstacles: Obstacles, wanted: Wanted) -> Bodies:
-        """Gather the obstacles and the nodes that are to be labelled."""
+        """Gather the obstacles, and the nodes and the segments that are to be labelled."""
         main = np.asarray(obstacles.segments, dtype=complex).reshape(-1, 2)
         thin = np.asarray(obstacles.thin, dtype=complex).reshape(-1, 2)
         centres, radii = circle_table(obstacles.circles)
-        nodes = wanted.a[wanted.a == wanted.b]
+        is_point = wanted.a == wanted.b
+        nodes = wanted.a[is_point]
         edges = np.array(obstacles.boxes, dtype=float).reshape(-1, 4)
         # The first body lies far away: so every label has a neighbour, and sums over neighbours are never empty.
         far = np.array([1e9 + 1e9j])
-        a = np.concatenate((far, main[:, 0], thin[:, 0], centres, nodes, edges[:, 0] + 1j * edges[:, 1]))
-        b = np.concatenate((far, main[:, 1], thin[:, 1], centres, nodes, edges[:, 2] + 1j * edges[:, 3]))
+        starts, ends = edges[:, 0] + 1j * edges[:, 1], edges[:, 2] + 1j * edges[:, 3]
+        a = np.concatenate((far, main[:, 0], thin[:, 0], centres, nodes, starts, wanted.a[~is_point]))
+        b = np.concatenate((far, main[:, 1], thin[:, 1], centres, nodes, ends, wanted.b[~is_point]))
         half = (b - a) / 2
-        counts = (1, len(main), len(thin), len(centres), len(nodes), len(edges))
-        is_main, is_thin, is_circle, is_node, is_box = (
-            np.repeat(np.arange(6), counts) == kind for kind in (1, 2, 3, 4, 5)
+        counts = (1, len(main), len(thin), len(centres), len(nodes), len(edges), len(wanted.a) - len(nodes))
+        is_main, is_thin, is_circle, is_node, is_box, is_named = (
+            np.repeat(np.arange(7), counts) == kind for kind in range(1, 7)
         )
         radius = np.zeros(len(a))
         radius[is_circle] = radii
         length = abs(half)
         normal = np.where(is_box | (length == 0), 0, 1j * half / np.where(length == 0, 1, length))
         along = np.where(is_box, 0, half)
-        rival = is_main | is_circle | is_node
-        return cls((a + b) / 2, along, abs(half.real), abs(half.imag), normal, radius, ~is_thin, rival)
+        rival = is_main | is_circle | is_node | is_named
+        return cls((a + b) / 2, along, abs(half.real), abs(half.imag), normal, radius, ~(is_thin | is_named), rival)
 
     @classmethod
     def strokes(cls, a: Points, b: Points) -> Bodies:
@@ -255,9 +264,15 @@ class Grid:
         price = np.where(distance < wanted.gap - SLACK, weight, 0.0)
         crowd = np.where(hard, CROWDED / ROOM, CROWDED / ROOM / 2)[:, None]
         price += crowd * np.clip(ROOM - distance, 0.0, ROOM)
+        belongs = _belongs(wanted, bodies, i, j)
+        own_line = belongs & (wanted.a != wanted.b)[i]
+        r = np.flatnonzero(~hard & ~bodies.rival[j] & ~own_line)
+        price[r] += CLOSE * np.clip(BARE - distance[r], 0.0, BARE)
         if not led:
-            r = np.flatnonzero(bodies.rival[j] & ~_belongs(wanted, bodies, i, j))
-            price[r] += np.where(distance[r] < own[i[r]] + 0.1, AMBIGUOUS, 0.0)
+            r = np.flatnonzero(bodies.rival[j] & ~belongs)
+            lead = distance[r] - own[i[r]]
+            doubtful = np.where(wanted.strict[i[r]], THIN, AMBIGUOUS)[:, None]
+            price[r] += np.where(lead < 0.1, doubtful, CLOSE * np.clip(DOUBT - lead, 0.0, DOUBT))
         cost = cost + np.add.reduceat(price, np.searchsorted(i, np.arange(len(x))), axis=0)
         if bounds is not None:
             x0, y0, x1, y1 = bounds

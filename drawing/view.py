@@ -63,12 +63,13 @@ class Canvas:
         clear: float = 1.0,
         height: float | None = None,
         priority: int = 0,
+        strict: bool = False,
     ) -> None:
         """Ask for a letter beside a node, or beside a line from one point to another."""
         height = height or self.style.label
         layout = lay_out(markup, height)
         size = layout.width, layout.top - layout.bottom
-        self._requests.append(Request(str(len(self._requests)), *size, anchor, clear, prefer, priority))
+        self._requests.append(Request(str(len(self._requests)), *size, anchor, clear, prefer, priority, strict))
         self._markup.append((markup, height))
 
     def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:

@@ -95,7 +95,8 @@ def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str],
     canvas.add(*(arm(about, foot, name, e, scene.style) for name in names[:1]))
     symbols = " = ".join(scene.words.symbol(name) for name in names)
     # smaller than a node's letter: a number with its symbol is long, and the arms of a lever lie close together
-    canvas.label(f"{symbols} = {scene.segment(names[0])}", (about, foot), clear=0.9, height=scene.style.text)
+    text = f"{symbols} = {scene.segment(names[0])}"
+    canvas.label(text, (about, foot), clear=0.9, height=scene.style.text, strict=True)
 
 
 def _force(

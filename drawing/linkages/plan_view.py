@@ -63,7 +63,9 @@ def _vectors(canvas: Canvas, scene: Scene, vectors: list[tuple[str, str, str]]) 
         ends = frozenset((_rounded(vector.tail), _rounded(vector.tip)))
         if short:
             continue  # said in words under the heading
-        side = 1j * (vector.tip - vector.tail) if ends in named else 0j
+        across = 1j * (vector.tip - vector.tail)
+        # the first of two vectors on one line has its letter above it or to the right
+        side = (-across if (across / (0.3 + 1j)).real > 0 else across) if ends in named else 0j
         named[ends] = None
         canvas.label(scene.words.symbol(quantity, bar=True), (vector.tail, vector.tip), prefer=side, clear=0.9)
 
