@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..scales.errors import InputError
+from ..scales.numbers import quote
 from .pens import Norm
 from .text import Box
 
@@ -52,9 +53,9 @@ def format_named(name: str) -> Format:
     InputError
         There is no such format.
     """
-    wanted = name.strip().upper().replace("А", "A").replace("-PORTRAIT", "-portrait")
+    wanted = str(name).strip().upper().replace("А", "A").replace("-PORTRAIT", "-portrait")
     if wanted not in FORMATS:
-        raise InputError("format-unknown", text=name, known=", ".join(FORMATS))
+        raise InputError("format-unknown", text=quote(name), known=", ".join(FORMATS))
     return FORMATS[wanted]
 
 

@@ -14,7 +14,7 @@ from .pens import pens_for
 from .shapes import Line, Pen, Shape, Text
 from .text import Box
 
-PAPERS = {"A4": (210.0, 297.0)}
+PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0)}
 MARGIN = 10.0  # no printer reaches the edge of its paper
 OVERLAP = 10.0  # to glue on
 MARK = 5.0  # length of a cut mark

@@ -10,6 +10,7 @@ from importlib.resources import files
 from typing import Any
 
 from ..scales.errors import LANGUAGES, InputError
+from ..scales.names import unknown
 from ..scales.scale import Scale
 from ..scales.units import format_unit
 
@@ -49,7 +50,7 @@ class Words:
         if language not in LANGUAGES:
             raise InputError("language", language=language, known=", ".join(LANGUAGES))
         if notation not in notations():
-            raise InputError("notation", notation=notation, known=", ".join(notations()))
+            raise unknown("notation-unknown", notation, notations())
         return cls(language, _table("texts", language), _table("notations", notation))
 
     def __getitem__(self, key: str) -> str:

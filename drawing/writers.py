@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import suppress
+from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO, TypeAlias
 
 from ..scales.errors import InputError
+from ..scales.numbers import quote
 from .page import Page
 
 Writer: TypeAlias = Callable[[Sequence[Page], BinaryIO], None]
@@ -34,6 +37,7 @@ def _png(pages: Sequence[Page], stream: BinaryIO) -> None:
 
 WRITERS: dict[str, Writer] = {".svg": _svg, ".pdf": _pdf, ".png": _png}
 ONE_PAGE = {".svg", ".png"}  # several pages become x-1.svg, x-2.svg, ...
+SHOWN = 200  # characters of a path in a message
 
 
 def writer_for(path: Path) -> Writer:
@@ -46,18 +50,45 @@ def writer_for(path: Path) -> Writer:
     """
     writer = WRITERS.get(path.suffix.lower())
     if writer is None:
-        raise InputError("output-suffix", file=str(path), known=", ".join(WRITERS))
+        raise InputError("output-suffix", file=quote(path, SHOWN), known=", ".join(WRITERS))
     return writer
 
 
-def write_pages(pages: Sequence[Page], path: Path, tile: str | None = None) -> list[Path]:
-    """Write pages to `path`, or to one numbered file each where the format holds a single page.
+def check_outputs(*paths: Path) -> None:
+    """Refuse, before any work, files that cannot be written.
+
+    Raises
+    ------
+    InputError
+        A suffix that nothing writes, a name that no file can have, a folder, a missing folder, a place that is
+        protected, or the same file twice.
+    """
+    seen = set()
+    for path in paths:
+        writer_for(path)
+        shown = quote(path, SHOWN)
+        if "\0" in str(path):
+            raise InputError("output-name", file=shown)
+        if path.is_dir():
+            raise InputError("output-is-folder", file=shown)
+        if not path.parent.is_dir():
+            raise InputError("output-folder-missing", file=shown, folder=quote(path.parent, SHOWN))
+        if not os.access(path if path.exists() else path.parent, os.W_OK):
+            raise InputError("output-refused", file=shown, reason=os.strerror(errno.EACCES))
+        place = os.path.normcase(os.path.abspath(path))
+        if place in seen:
+            raise InputError("output-twice", file=shown)
+        seen.add(place)
+
+
+def write_pages(pages: Sequence[Page], *paths: Path, tile: str | None = None) -> list[Path]:
+    """Write pages to each of `paths`, or to one numbered file each where the format holds a single page.
 
     Parameters
     ----------
     pages : sequence of Page
-    path : Path
-        Its suffix picks the writer.
+    *paths : Path
+        The suffix of each picks the writer.
     tile : str, optional
         Paper ("A4") on which the pages are spread at full size; for a PDF only.
 
@@ -69,24 +100,33 @@ def write_pages(pages: Sequence[Page], path: Path, tile: str | None = None) -> l
     Raises
     ------
     InputError
-        The suffix is unknown, or the file cannot be written.
+        A file cannot be written: then none is, unless the disk itself fails half-way.
     """
-    writer = writer_for(path)
-    if tile is not None:
-        writer = _tiled(path, tile)
+    check_outputs(*paths)
+    # every file is made before the first is written: what cannot be drawn costs no older file
+    files = [file for path in paths for file in _files(pages, path, tile)]
+    check_outputs(*(path for path, _ in files))
+    for path, data in files:
+        _replace(path, data)
+    return [path for path, _ in files]
+
+
+def _files(pages: Sequence[Page], path: Path, tile: str | None) -> Iterator[tuple[Path, bytes]]:
+    """Make the files that `path` stands for: their names and what they hold."""
+    writer = writer_for(path) if tile is None else _tiled(path, tile)
     parts: list[tuple[Path, Sequence[Page]]] = [(path, pages)]
     if path.suffix.lower() in ONE_PAGE and len(pages) > 1:
         numbered = enumerate(pages, start=1)
         parts = [(path.with_name(f"{path.stem}-{number}{path.suffix}"), [page]) for number, page in numbered]
     for target, some in parts:
-        with replacing(target) as stream:
-            writer(some, stream)
-    return [target for target, _ in parts]
+        stream = BytesIO()
+        writer(some, stream)
+        yield target, stream.getvalue()
 
 
 def _tiled(path: Path, paper: str) -> Writer:
     if path.suffix.lower() != ".pdf":
-        raise InputError("tile-suffix", file=str(path))
+        raise InputError("tile-suffix", file=quote(path, SHOWN))
 
     def write(pages: Sequence[Page], stream: BinaryIO) -> None:
         from .tile import write_tiles
@@ -96,20 +136,15 @@ def _tiled(path: Path, paper: str) -> Writer:
     return write
 
 
-@contextmanager
-def replacing(path: Path) -> Iterator[BinaryIO]:
-    """Open a file beside `path` that takes its place when all is written, and vanishes when anything fails."""
+def _replace(path: Path, data: bytes) -> None:
+    """Write a file beside `path` that takes its place when it is whole, and vanishes when anything fails."""
     beside = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        stream = beside.open("xb")
-    except OSError as problem:
-        raise InputError("output-refused", file=str(path), reason=problem.strerror or "") from None
-    try:
-        with stream:
-            yield stream
+        with beside.open("xb") as stream:
+            stream.write(data)
         os.replace(beside, path)
     except OSError as problem:
-        raise InputError("output-refused", file=str(path), reason=problem.strerror or "") from None
+        raise InputError("output-refused", file=quote(path, SHOWN), reason=problem.strerror or "") from None
     finally:
         with suppress(OSError):
             beside.unlink()

@@ -36,6 +36,10 @@ class KulmanError(Exception):
         self.key = key
         self.data = data
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Keep the data when the error crosses to another process."""
+        return _again, (type(self), self.args, self.__dict__)
+
     def text(self, language: str = "en") -> str:
         """Return the message as one line in `language`."""
         line = messages(language)[self.key].format(**self.data)
@@ -44,6 +48,13 @@ class KulmanError(Exception):
     def __str__(self) -> str:
         """Return the message in English."""
         return self.text()
+
+
+def _again(kind: type[KulmanError], arguments: tuple[Any, ...], state: dict[str, Any]) -> KulmanError:
+    """Make an error again from what it holds, whatever its constructor asks for."""
+    error = kind.__new__(kind, *arguments)
+    error.__dict__.update(state)
+    return error
 
 
 class InputError(KulmanError, ValueError):

@@ -2,6 +2,7 @@
 
 from io import BytesIO
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from kulman.drawing import writers
@@ -122,6 +123,52 @@ def test_a_failed_writer_leaves_the_old_file(tmp_path, monkeypatch, broken):
 
     assert target.read_text() == "old"
     assert list(tmp_path.iterdir()) == [target]
+
+
+def test_a_file_that_cannot_be_made_costs_no_older_one(tmp_path, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "pypdfium2", None)
+    older = tmp_path / "x.svg"
+    older.write_text("old")
+
+    with pytest.raises(InputError):
+        write_pages([page()], older, tmp_path / "x.png")
+
+    assert older.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [older]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a disk that is always full")
+def test_a_full_disk_leaves_the_old_file(tmp_path, monkeypatch):
+    target = tmp_path / "x.svg"
+    target.write_text("old")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(type(target), "open", lambda path, mode: open("/dev/full", "wb"))  # noqa: SIM115
+        with pytest.raises(InputError) as problem:
+            write_pages([page()], target)
+
+    assert problem.value.key == "output-refused"
+    assert "No space" in problem.value.text("en")
+    assert target.read_text() == "old"
+
+
+def test_the_same_file_is_not_written_twice(tmp_path):
+    with pytest.raises(InputError) as problem:
+        write_pages([page()], tmp_path / "x.svg", tmp_path / "." / ".." / tmp_path.name / "x.svg")
+
+    assert problem.value.key == "output-twice"
+
+
+def test_an_a1_sheet_on_a3_paper_takes_half_the_sheets():
+    stream = BytesIO()
+
+    write_tiles([page("A1")], stream, "A3")
+
+    stream.seek(0)
+    pages = list(extract_pages(stream))
+    assert len(pages) == len(tiles(page("A1"), "A3")) == 8
+    assert len(tiles(page("A1"), "A4")) == 15
+    assert {(round(sheet.width * 25.4 / 72), round(sheet.height * 25.4 / 72)) for sheet in pages} == {(297, 420)}
 
 
 def test_a_place_that_cannot_be_written_is_named(tmp_path):
