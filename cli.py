@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -15,8 +17,7 @@ from . import __version__
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.numbers import quote
 
-INTERRUPTED = 130
-PATH = 200  # characters of a path in a message
+INTERRUPTED, CLOSED = 130, 1
 Command = TypeVar("Command", bound=Callable[..., Any])
 if TYPE_CHECKING:
     TextType = click.ParamType[str]
@@ -52,24 +53,35 @@ def main(arguments: Sequence[str] | None = None) -> None:
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     try:
         status = commands.main(arguments, prog_name="kulman", standalone_mode=False)
-        sys.stdout.flush()
+        if sys.stdout is not None:  # as it is where nothing reads our output: started without a console, or `>&-`
+            sys.stdout.flush()
     except click.UsageError as error:
         status = _refuse(_usage_error(error))
     except KulmanError as error:
         status = _refuse(error)
     except (KeyboardInterrupt, click.Abort):
         status = INTERRUPTED
-    except BrokenPipeError:
-        # What reads our output has closed; without this Python complains once more when it flushes at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        status = 1
+    except OSError as problem:
+        if problem.filename is not None:  # not what a stream of ours raises
+            raise
+        status = _lost_output(problem)
     sys.exit(status if isinstance(status, int) else 0)
 
 
 def _refuse(error: KulmanError) -> int:
     """Show an error as one line and return its exit status."""
-    click.echo(error.text(system_language()), err=True)
+    with suppress(OSError):  # nobody reads it: the status still says what happened
+        click.echo(error.text(system_language()), err=True)
     return error.status
+
+
+def _lost_output(problem: OSError) -> int:
+    """Say why the output cannot be written, unless its reader has closed it; return the exit status."""
+    # without this Python would complain once more when it flushes at exit
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if isinstance(problem, BrokenPipeError) or (sys.platform == "win32" and problem.errno == errno.EINVAL):
+        return CLOSED
+    return _refuse(InputError("output-broken", reason=problem.strerror or ""))
 
 
 def _usage_error(error: click.UsageError) -> InputError:
@@ -99,7 +111,7 @@ class _Group(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Find the command that `args` begin with."""
         if args and not args[0].startswith("-") and self.get_command(ctx, args[0]) is None:
-            from .variants.task import unknown
+            from .scales.names import unknown
 
             raise unknown("cli-command-unknown", args[0], self.list_commands(ctx))
         return super().resolve_command(ctx, args)
@@ -140,47 +152,18 @@ def _pairs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) 
     return pairs
 
 
-def _plans(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:
-    """Split lists of plans at commas."""
-    from .plans.linkages.chain import PLANS
-    from .variants.task import unknown
-
-    plans = tuple(plan.strip() for value in values for plan in value.split(","))
-    for plan in plans:
-        if plan not in PLANS:
-            raise unknown("plan-unknown", plan, PLANS)
-    return plans or None
-
-
-def _notation(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
-    """Refuse a notation that nobody has written."""
-    from .drawing.words import notations
-    from .variants.task import unknown
-
-    if value is not None and value not in notations():
-        raise unknown("notation-unknown", value, notations())
-    return value
+def _given(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:
+    """Tell an option that was not given at all from an empty one."""
+    return values or None
 
 
 def _outputs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
     """Refuse, before any work, files that cannot be written."""
-    from .drawing.writers import WRITERS
+    from .drawing.writers import check_outputs
 
-    for number, value in enumerate(values):
-        shown, path = quote(value, PATH) or param.opts[0], Path(value)
-        if path.suffix.lower() not in WRITERS:
-            raise InputError("output-suffix", file=shown, known=", ".join(WRITERS))
-        if "\0" in value:
-            raise InputError("output-name", file=shown)
-        if path.is_dir():
-            raise InputError("output-is-folder", file=shown)
-        if not path.parent.is_dir():
-            raise InputError("output-folder-missing", file=shown, folder=quote(path.parent, PATH))
-        if not os.access(path if path.exists() else path.parent, os.W_OK):
-            raise InputError("output-refused", file=shown, reason=os.strerror(13))
-        if value in values[:number]:
-            raise InputError("output-twice", file=shown)
-    return tuple(map(Path, values))
+    paths = tuple(map(Path, values))
+    check_outputs(*paths)
+    return paths
 
 
 def _of_task(command: Command) -> Command:
@@ -204,8 +187,8 @@ def _of_task(command: Command) -> Command:
             callback=_pairs,
             help="A scale factor, mu_V=0.05, or a segment in mm, pa=80. Repeatable.",
         ),
-        click.option("--only", metavar="PLAN,...", multiple=True, callback=_plans, help="Only these plans."),
-        click.option("--notation", callback=_notation, help="Letters of another school, such as iso."),
+        click.option("--only", metavar="PLAN,...", multiple=True, callback=_given, help="Only these plans."),
+        click.option("--notation", help="Letters of another school, such as iso."),
         click.option("--lang", type=Word(*LANGUAGES), help="Language of the results."),
     )
     for option in reversed(options):

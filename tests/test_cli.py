@@ -293,6 +293,35 @@ def test_a_closed_pipe_is_quiet(tmp_path: Path) -> None:
     assert done.returncode == 1
 
 
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a disk that is always full")
+@pytest.mark.parametrize("arguments", [["list"], ["list", "--json"], ["solve", TASK], ["--help"]])
+def test_a_full_disk_is_one_line(arguments: list[str]) -> None:
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "kulman", *arguments], stdout=full, stderr=subprocess.PIPE, check=False
+        )
+
+    assert done.returncode == 2
+    assert done.stderr.decode() == f"the output cannot be written ({os.strerror(28)})\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell's way to close a stream")
+@pytest.mark.parametrize(
+    ("redirection", "task", "status"), [(">&-", TASK, 0), ("2>&-", "zzz", 2), ("2>/dev/full", "zzz", 2)]
+)
+def test_a_stream_that_nobody_reads_changes_no_status(redirection: str, task: str, status: int) -> None:
+    if "/dev/full" in redirection and not os.path.exists("/dev/full"):
+        pytest.skip("needs a disk that is always full")
+
+    done = subprocess.run(
+        ["/bin/sh", "-c", f'exec "$0" -m kulman solve {task} {redirection}', sys.executable],
+        capture_output=True,
+        check=False,
+    )
+
+    assert (done.returncode, done.stderr) == (status, b"")
+
+
 def test_an_interrupt_is_quiet(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     def interrupt(*_: object, **__: object) -> None:
         raise KeyboardInterrupt

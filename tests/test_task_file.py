@@ -188,7 +188,7 @@ def test_settings_take_any_unit_of_the_kind_and_the_tasks_own_without_one() -> N
         ("0", {"m_2": "-1 kg"}, "negative"),
         ("0", {"n_1": "-1"}, "not-positive"),
         ("0", {"n_1": 0}, "not-positive"),
-        ("0", {"l_OA": math.nan}, "number-infinite"),
+        ("0", {"l_OA": math.nan}, "number-bad"),
         ("0", {"l_OA": 10**400}, "number-infinite"),
         ("0", {"l_OA": "1e13"}, "number-infinite"),
         ("0", {"l_OA": True}, "type-quantity"),

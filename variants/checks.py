@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..scales.errors import InputError
+from ..scales.names import unknown
 from ..scales.numbers import quote
-from .task import LocatedError, unknown
+from .task import LocatedError
 from .toml_places import Path, Places
 
 MOST_FAULTS = 1000  # nobody reads more of them, and a file of a megabyte may hold a million
@@ -69,6 +70,11 @@ def record(checker: Checker, path: Path, raw: object, fields: Mapping[str, Field
         checker.fault(path, InputError("key-missing", name=name))
     read = {name: wanted.read(checker, (*path, name), raw[name]) for name, wanted in fields.items() if name in raw}
     return {name: value for name, value in read.items() if value is not None}
+
+
+def as_is(checker: Checker, path: Path, raw: object) -> Any:
+    """Leave a value to be read later, by its own reader."""
+    return raw
 
 
 def text(checker: Checker, path: Path, raw: object) -> str | None:

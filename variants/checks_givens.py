@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..scales.errors import InputError
-from ..scales.numbers import quote
+from ..scales.names import unknown
+from ..scales.numbers import quote, split_number
 from ..scales.units import ONE, Dimension, Unit, parse, unit
-from .checks import Checker, Field, array_of, label, name, record, rows, text
-from .task import Bound, Given, Variant, unknown
+from .checks import Checker, Field, array_of, as_is, label, name, record, rows, text
+from .task import Bound, Given, Variant
 from .toml_places import Path
 
 _NEVER_NEGATIVE = {unit("kg").dimension, unit("kg*m^2").dimension, unit("rad/s").dimension}
@@ -39,15 +40,10 @@ def _unit(checker: Checker, path: Path, raw: object) -> Unit | None:
         return None
 
 
-def _anything(checker: Checker, path: Path, raw: object) -> Any:
-    """Leave a value to be read later."""
-    return raw
-
-
 _GIVEN = {
     "unit": Field(_unit, required=False),
     "choices": Field(array_of(name), required=False),
-    "default": Field(_anything, required=False),
+    "default": Field(as_is, required=False),
 }
 
 
@@ -124,8 +120,6 @@ def _settings(checker: Checker, path: Path, raw: object) -> dict[str, Setting] |
 
 def literal(checker: Checker, path: Path, raw: object) -> Setting | None:
     """Read a number, plain or with a unit, of whatever dimension."""
-    from ..scales.numbers import split_number
-
     try:
         if isinstance(raw, str):
             _, rest = split_number(raw)

@@ -8,11 +8,11 @@ from typing import Any
 
 from ..plans.linkages.mechanism import FRAME, ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
 from ..scales.errors import InputError
+from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import ONE, Dimension, Unit, unit
 from .checks import NAME, Checker, Field, Read, array_of, link_number, name, one_of, record, rows
 from .checks_givens import literal
-from .task import unknown
 from .toml_places import Path
 
 _RAD_S, _N, _KG, _KG_M2 = unit("rad/s"), unit("N"), unit("kg"), unit("kg*m^2")

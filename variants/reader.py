@@ -12,15 +12,19 @@ from functools import cache
 from pathlib import Path as FilePath
 from typing import Any
 
+from ..drawing.words import notations
+from ..plans.linkages.chain import PLANS, construct
 from ..plans.linkages.mechanism import Mechanism
-from ..scales.choose import chooser
+from ..scales.choose import Segment, chooser
 from ..scales.errors import LANGUAGES, InputError, messages
+from ..scales.names import unknown
 from ..scales.numbers import quote
-from .checks import Checker, EnoughError, Field, array_of, label, one_of, record, text
+from .arguments import of_kind
+from .checks import Checker, EnoughError, Field, array_of, as_is, label, one_of, record, text
 from .checks_givens import Settings, read_choices, read_givens, read_variants
 from .checks_mechanism import Names, read_mechanism
 from .shelf import bundled, bundled_text
-from .task import Bound, Given, LocatedError, Task, unknown
+from .task import Bound, Given, LocatedError, Task
 from .toml_places import Path, Places
 
 LARGEST_FILE = 1_000_000
@@ -54,6 +58,7 @@ def load_task(task: str | os.PathLike[str]) -> Task:
     InputError
         No such task or file, a file that cannot be read, or (`TaskFileError`) one with faults.
     """
+    of_kind("task", task, (str, os.PathLike), "str | PathLike | Task")
     if isinstance(task, str) and task in bundled():
         return _load_bundled(task)
     found, faults = read_file(task)
@@ -158,51 +163,35 @@ def _syntax(toml: str, file: str, reason: str) -> InputError:
     return LocatedError(f"{file}:{line}:{column}", cause)
 
 
-def _plans() -> tuple[str, ...]:
-    """Return the plans that a task may ask for."""
-    from ..plans.linkages.chain import PLANS
-
-    return PLANS
-
-
-def _notations() -> tuple[str, ...]:
-    """Return the notations that a task may name."""
-    from ..drawing.words import notations
-
-    return notations()
-
-
 def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     """Read `[scales]`: choosers such as `"pa=80 mm"` or `"15 N/mm"`."""
     if not isinstance(raw, dict):
         checker.wrong_type(path, "type-table")
         return {}
-    read = {name: text(checker, (*path, name), said) for name, said in raw.items()}
-    said = {name: chosen for name, chosen in read.items() if chosen}
-    for name, chosen in said.items():
+    good = {}
+    for name, value in raw.items():
+        said = text(checker, (*path, name), value)
+        if said is None:
+            continue
         try:
-            chooser(name, chosen)
+            chooser(name, said)
+            good[name] = said
         except InputError as error:
             checker.fault((*path, name), error)
-    return said
-
-
-def _raw(checker: Checker, path: Path, raw: object) -> Any:
-    """Leave a part of the file to its own reader."""
-    return raw
+    return good
 
 
 _FIELDS = {
     "id": Field(label),
     "source": Field(text),
-    "notation": Field(one_of("notation-unknown", _notations)),
-    "plans": Field(array_of(one_of("plan-unknown", _plans))),
+    "notation": Field(one_of("notation-unknown", notations)),
+    "plans": Field(array_of(one_of("plan-unknown", lambda: PLANS))),
     "title": Field(lambda c, p, r: record(c, p, r, {language: Field(text) for language in LANGUAGES})),
-    "givens": Field(_raw),
-    "choices": Field(_raw, required=False),
-    "mechanism": Field(_raw),
+    "givens": Field(as_is),
+    "choices": Field(as_is, required=False),
+    "mechanism": Field(as_is),
     "scales": Field(_scales, required=False),
-    "variant": Field(_raw),
+    "variant": Field(as_is),
 }
 
 
@@ -217,7 +206,7 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
     variants = read_variants(checker, raw["variant"], givens) if "variant" in raw else {}
     _signs(checker, names, choices)
     if mechanism is not None and "plans" in head:
-        _constructed(checker, mechanism, head["plans"])
+        _constructed(checker, mechanism, head)
     if checker.faults or mechanism is None:
         return None
     return Task(
@@ -239,14 +228,23 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
     )
 
 
-def _constructed(checker: Checker, mechanism: Mechanism, plans: tuple[str, ...]) -> None:
-    """Check that the mechanism has a structure, and that there are constructions for its groups."""
-    from ..plans.linkages.chain import construct
-
+def _constructed(checker: Checker, mechanism: Mechanism, head: dict[str, Any]) -> None:
+    """Check that the mechanism has a structure, constructions for its groups, and plans for the scale factors."""
     try:
-        construct(mechanism, plans)
+        construct(mechanism, head["plans"])
+        structure, program = construct(mechanism)
     except InputError as error:
         checker.fault(("mechanism",), error)
+        return
+    lengths = {x for link in mechanism.links for x, _ in link.points.values()}
+    for name, said in head.get("scales", {}).items():
+        if name not in structure.scale_symbols:
+            symbols = structure.scale_symbols
+            checker.fault(("scales", name), unknown("scale-unknown", name, symbols, task=head.get("id", "")))
+            continue
+        choice = chooser(name, said)
+        if isinstance(choice, Segment) and choice.quantity not in {*program.names, *lengths}:
+            checker.fault(("scales", name), InputError("scale-segment", text=quote(said)))
 
 
 def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Names:

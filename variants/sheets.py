@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import get_args
 
 from ..drawing.formats import format_named
 from ..drawing.linkages.fitting import Contents
@@ -15,16 +16,18 @@ from ..drawing.page import Page
 from ..drawing.pens import Norm
 from ..drawing.titleblock import Stamp
 from ..drawing.words import Words
-from ..drawing.writers import write_pages, writer_for
+from ..drawing.writers import write_pages
 from ..scales.errors import InputError
+from ..scales.names import unknown
 from ..scales.scale import Scale
-from .solution import Settings, givens_of, read_choosers, solve_variant, warnings_of
+from .arguments import of_kind
+from .case import Settings, solve_case
 from .task import Task
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Sheet:
-    """A drawn sheet: one page or several, and the scale factors drawn; a notebook shows its first page."""
+    """A drawn sheet: one page or several, and the scale factors drawn, by plan; a notebook shows its first page."""
 
     pages: tuple[Page, ...]
     scales: Mapping[str, Scale]
@@ -34,6 +37,11 @@ class Sheet:
     def save(self, *paths: str | os.PathLike[str], tile: str | None = None) -> list[Path]:
         """Write the sheet to each of `paths`; the suffix picks the writer.
 
+        Parameters
+        ----------
+        tile : str, optional
+            Small paper, `A4` or `A3`, on which a PDF is spread at full size.
+
         Returns
         -------
         list of Path
@@ -42,20 +50,33 @@ class Sheet:
         Raises
         ------
         InputError
-            An unknown suffix (before anything is written), or a file that cannot be written.
+            An unknown suffix, two outputs of one name, a missing extra (before anything is written), or a file that
+            cannot be written.
         """
-        targets = [Path(path) for path in paths]
-        for path in targets:
-            writer_for(path)
-        return [written for path in targets for written in write_pages(self.pages, path, tile)]
+        for path in paths:
+            of_kind("paths", path, (str, os.PathLike), "str | PathLike")
+        return write_pages(self.pages, *map(Path, paths), tile=tile)
 
     def svg(self, page: int = 1) -> str:
-        """Return one page as SVG text."""
+        """Return one page, counted from 1, as SVG text.
+
+        Raises
+        ------
+        InputError
+            There is no such page.
+        """
         from ..drawing.svg import write_svg
 
+        of_kind("page", page, (int,), "int")
+        if not 1 <= page <= len(self.pages):
+            raise InputError("page-missing", number=page, n=len(self.pages))
         stream = io.BytesIO()
         write_svg(self.pages[page - 1], stream)
         return stream.getvalue().decode("utf-8")
+
+    def __repr__(self) -> str:
+        """Return title, format and the number of pages."""
+        return f"<Sheet {self.pages[0].title!r}: {self.format}, pages: {len(self.pages)}>"
 
     def _repr_svg_(self) -> str:
         """Show the first page in a notebook."""
@@ -67,7 +88,7 @@ def sheet(
     variant: str | None = None,
     *,
     set: Settings | None = None,
-    only: Sequence[str] | None = None,
+    only: str | Iterable[str] | None = None,
     scales: Settings | None = None,
     format: str | None = None,
     norm: Norm = "gost",
@@ -99,18 +120,24 @@ def sheet(
     Raises
     ------
     InputError
-        As for `solve`; also an unknown format, and a scale factor at which a plan does not fit.
+        As for `solve`; also an unknown format or norm, words that the title block cannot hold, and a scale factor at
+        which a plan does not fit.
     PositionError
         The position has no plan.
     """
-    paper = format_named(format) if format else None
-    found, name, solved = solve_variant(task, variant, set, only)
-    words = Words.of(lang, notation or found.notation)
-    error = solved.error()
+    paper = None if format is None else format_named(format)
+    if norm not in get_args(Norm):
+        raise unknown("norm-unknown", norm, get_args(Norm))
+    case = solve_case(task, variant, set, only, scales)
+    words = Words.of(lang, case.task.notation if notation is None else notation)
+    error = case.solved.error()
     if error is not None:
         raise error
+    said = {"student": student, "group": group, "teacher": teacher, "department": department}
+    for name, text in {**said, "designation": designation, "date": date}.items():
+        of_kind(name, text, (str,), "str")
     stamp = Stamp(
-        title=found.title[lang],
+        title=case.task.title[lang],
         designation=designation,
         organisation=department,
         group=group,
@@ -120,13 +147,5 @@ def sheet(
         document_type=words["sheet.document"],
         language=lang,
     )
-    contents = Contents(
-        solved,
-        tuple(only or found.plans),
-        read_choosers(found, scales, solved),
-        givens_of(found, name, set),
-        words,
-        norm,
-    )
-    drawn = draw(contents, stamp, paper)
-    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, warnings_of(solved))
+    drawn = draw(Contents(case.solved, case.plans, case.choosers, case.givens, words, norm), stamp, paper)
+    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, case.warnings)

@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from ..drawing.linkages.ladders import first_scales
-from ..drawing.linkages.scene import Given
 from ..drawing.words import Words
-from ..plans.linkages.chain import PLANS
-from ..plans.linkages.solved import Solved, solve_linkage
+from ..plans.linkages.solved import Solved
 from ..plans.quantities import Quantity, measured
-from ..scales.choose import Chooser, chooser, segment_symbol
 from ..scales.errors import InputError, PositionError
+from ..scales.names import unknown
 from ..scales.scale import Scale
-from .reader import load_task
-from .task import LocatedError, Task, unknown
+from ..scales.units import format_unit
+from .case import Settings, solve_case
+from .task import Task
 
-DRAWN_ANGLE = math.radians(20.0)  # lines that meet at a smaller angle make a drawing lose digits
-Settings = Mapping[str, str | float]
+LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Solution:
     """The answer to one variant of a task.
 
@@ -45,11 +42,42 @@ class Solution:
         """`ok`, `ill-conditioned`, `singular` or `no-assembly`."""
         return self.solved.status
 
+    @property
+    def checks(self) -> dict[str, dict[str, Any]]:
+        """What a second route says, by name: `lever` compares the balancing moment with Zhukovsky's lever, per cent."""
+        delta = self.quantities.get("delta_M_bal")
+        if delta is None or delta.value is None:
+            return {}
+        return {"lever": {"ok": abs(delta.value) < LEVER_AGREES, "value": delta.value, "unit": "%"}}
+
     def __getitem__(self, name: str) -> Quantity:
         """Return a quantity by its name."""
         if name not in self.quantities:
             raise unknown("quantity-unknown", name, self.quantities)
         return self.quantities[name]
+
+    def __contains__(self, name: object) -> bool:
+        """Tell whether there is a quantity of this name."""
+        return name in self.quantities
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names of the quantities, in order of construction."""
+        return iter(self.quantities)
+
+    def __len__(self) -> int:
+        """Return the number of quantities."""
+        return len(self.quantities)
+
+    def __repr__(self) -> str:
+        """Return task, variant, status and the number of quantities."""
+        return f"<Solution {self.task.id} {self.variant}: {self.status}, {len(self)} quantities>"
+
+    def _repr_html_(self) -> str:
+        """Show the table in a notebook, and why a position has no plan."""
+        from html import escape
+
+        reason = "" if self.reason is None else f"<p>{escape(self.reason.text(self.words.language))}</p>"
+        return f"{reason}<pre>{escape(self.table())}</pre>"
 
     def to_json(self) -> dict[str, Any]:
         """Return what `kulman solve --json` prints."""
@@ -58,87 +86,30 @@ class Solution:
             "variant": self.variant,
             "status": self.status,
             "warnings": [warning.text(self.words.language) for warning in self.warnings],
-            "checks": self._checks(),
+            "checks": self.checks,
             "scales": {s.symbol: {"value": s.mu, "unit": s.per_mm_unit} for s in self.scales.values()},
             "quantities": {name: quantity.to_json() for name, quantity in self.quantities.items()},
         }
 
-    def _checks(self) -> dict[str, dict[str, Any]]:
-        delta = self.quantities.get("delta_M_bal")
-        if delta is None or delta.value is None:
-            return {}
-        return {"lever": {"ok": abs(delta.value) < 1e-6, "value": delta.value, "unit": "%"}}
-
     def table(self, language: str | None = None) -> str:
-        """Return the quantities as a readable table."""
+        """Return the quantities as a readable table: name, value, unit, components, segment in mm."""
         words = self.words if language is None else Words.of(language, self.task.notation)
         rows = [_row(words, quantity) for quantity in self.quantities.values()]
-        widths = [max(len(row[i]) for row in rows) for i in range(5)]
-        lines = [
-            "  ".join(
-                [row[0].ljust(widths[0]), *(cell.rjust(w) for cell, w in zip(row[1:3], widths[1:3], strict=True))]
-            ).rstrip()
-            + f" {row[3]:{widths[3]}}  {row[4]}".rstrip()
-            for row in rows
-        ]
-        return "\n".join(line.rstrip() for line in lines)
-
-    def _repr_svg_(self) -> str:
-        """Show the sheet in a notebook."""
-        from .sheets import sheet
-
-        return sheet(self.task, self.variant).svg()
+        widths = [max((len(row[i]) for row in rows), default=0) for i in range(5)]
+        return "\n".join(
+            f"{name:{widths[0]}}  {value:>{widths[1]}}  {unit:>{widths[2]}} {parts:{widths[3]}}  {mm}".rstrip()
+            for name, value, unit, parts, mm in rows
+        )
 
 
 def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
-    unit = words.unit(q.unit).replace("^{2}", "²").replace("^{−1}", "⁻¹").replace("^{−2}", "⁻²")
+    unit = format_unit(q.unit, words.language)
+    parts = "–" if q.x is None or q.y is None else f"({words.short(q.x, 6)}; {words.short(q.y, 6)})"
     if q.kind == "point":
-        place = "–" if q.x is None or q.y is None else f"({words.short(q.x, 6)}; {words.short(q.y, 6)})"
-        return q.name, place, unit, "", ""
+        return q.name, parts, unit, "", ""
     value = "–" if q.value is None else words.short(q.value, 6)
-    if q.kind == "vector" and q.x is not None and q.y is not None:
-        components = f"({words.short(q.x, 6)}; {words.short(q.y, 6)})"
-    else:
-        components = ""
-    mm = "" if q.mm is None else f"{words.short(round(q.mm, 2))} {words['unit.mm']}"
-    return q.name, value, unit, components, mm
-
-
-def read_choosers(task: Task, scales: Settings | None, solved: Solved) -> dict[str, Chooser]:
-    """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
-    choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
-    structure = solved.structure
-    known = [
-        "mu_l",
-        "mu_V",
-        "mu_a",
-        *(f"mu_F_{name}" for name in (structure.driver, *(g.name for g in structure.groups))),
-    ]
-    for name, text in (scales or {}).items():
-        if name.startswith("mu_") and name not in known:
-            raise unknown("scale-unknown", name, known, task=task.id)
-        try:
-            symbol = name if name.startswith("mu_") else segment_symbol(name)
-            choosers[symbol] = chooser(symbol, str(text) if symbol == name else f"{name}={text}", firm=True)
-        except InputError as error:
-            raise LocatedError(name, error) from error
-    return choosers
-
-
-def solve_variant(
-    task: str | os.PathLike[str] | Task,
-    variant: str | None = None,
-    settings: Settings | None = None,
-    only: Sequence[str] | None = None,
-) -> tuple[Task, str, Solved]:
-    """Read a task and solve one variant for the plans wanted."""
-    task = task if isinstance(task, Task) else load_task(task)
-    row = task.variant(variant)
-    plans = tuple(only or task.plans)
-    for plan in plans:
-        if plan not in PLANS:
-            raise unknown("plan-unknown", plan, PLANS)
-    return task, row.id, solve_linkage(task.mechanism, task.values(row.id, settings), plans)
+    mm = "" if q.mm is None else f"{words.short(round(q.mm, 2))} {format_unit('mm', words.language)}"
+    return q.name, value, unit, "" if parts == "–" else parts, mm
 
 
 def solve(
@@ -146,7 +117,7 @@ def solve(
     variant: str | None = None,
     *,
     set: Settings | None = None,
-    only: Sequence[str] | None = None,
+    only: str | Iterable[str] | None = None,
     scales: Settings | None = None,
     notation: str | None = None,
     lang: str | None = None,
@@ -161,8 +132,8 @@ def solve(
         Without it the first variant.
     set : mapping, optional
         Other values for givens: `{"l_OA": "55 mm", "n_1": 765}`.
-    only : sequence of str, optional
-        The plans wanted, `["velocity"]`; only they and what they need are built.
+    only : str or iterable of str, optional
+        The plans wanted, `"velocity"` or `["velocity", "forces"]`; only they and what they need are built.
     scales : mapping, optional
         Scale factors: `{"mu_V": 0.05}` or a segment in mm, `{"pa": 80}`.
     notation, lang : str, optional
@@ -182,34 +153,10 @@ def solve(
     >>> round(solve("nau-slider-crank", "example")["V_B"].value, 4)
     2.7614
     """
-    found, name, solved = solve_variant(task, variant, set, only)
-    words = Words.of(lang or "en", notation or found.notation)
-    choosers = read_choosers(found, scales, solved)
-    by_plan = first_scales(solved, choosers) if solved.trouble is None else {}
+    case = solve_case(task, variant, set, only, scales)
+    solved = case.solved
+    words = Words.of("en" if lang is None else lang, case.task.notation if notation is None else notation)
+    by_plan = first_scales(solved, case.choosers) if solved.trouble is None else {}
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
-    return Solution(found, name, solved, items, used, solved.error(), warnings_of(solved), words)
-
-
-def warnings_of(solved: Solved) -> tuple[InputError, ...]:
-    """Return what a user should know of a position that has a plan: lines that meet at a small angle."""
-    if solved.trouble is not None:
-        return ()
-    mark, sine = solved.worst_sine()
-    if sine >= math.sin(DRAWN_ANGLE):
-        return ()
-    point = mark.rpartition(".")[2]
-    angle = math.degrees(math.asin(sine))
-    return (InputError("small-angle", point=point, angle=f"{angle:.3g}", loss=f"{1.0 / sine:.3g}"),)
-
-
-def givens_of(task: Task, variant: str, settings: Settings | None) -> dict[str, Given]:
-    """Return the givens of a variant as the task states them, each in its own unit."""
-    stated = {}
-    for name, value in task.resolve(variant, settings).items():
-        unit = task.givens[name].unit
-        if isinstance(value, str) or unit is None:
-            stated[name] = Given(str(value))
-        else:
-            stated[name] = Given(float(f"{unit.from_si(value):.12g}"), unit.name)
-    return stated
+    return Solution(case.task, case.variant, solved, items, used, solved.error(), case.warnings, words)

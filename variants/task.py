@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import difflib
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 from numbers import Real
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..scales.errors import InputError
+from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import Unit, parse
 
@@ -81,7 +81,9 @@ def _finite(value: Real, unit: Unit) -> float:
         number = unit.to_si(float(value))
     except OverflowError:
         number = math.inf
-    if not math.isfinite(number):
+    if math.isnan(number):
+        raise InputError("number-bad", text=quote(value))
+    if math.isinf(number):
         raise InputError("number-infinite", text=quote(value))
     return number
 
@@ -121,7 +123,7 @@ class Task:
         if variant_id is None:
             return next(iter(self.variants.values()))
         if str(variant_id) not in self.variants:
-            raise unknown("variant-unknown", str(variant_id), self.variants, task=self.id)
+            raise unknown("variant-unknown", variant_id, self.variants, task=self.id)
         return self.variants[str(variant_id)]
 
     def resolve(
@@ -163,13 +165,3 @@ class Task:
             else:
                 values[name] = value
         return values
-
-
-def unknown(key: str, text: str, known: Iterable[str], **data: str) -> InputError:
-    """Return the error for a name that is not in `known`: with the name that was meant, or with all there are."""
-    names = list(known)
-    like = difflib.get_close_matches(text, names, n=1, cutoff=0.6) if 2 < len(text) < 100 else []
-    if like:
-        return InputError(f"{key}-like", text=quote(text), like=like[0], **data)
-    shown = ", ".join(names[:20]) + (", …" if len(names) > 20 else "")
-    return InputError(key, text=quote(text), known=shown or "—", **data)

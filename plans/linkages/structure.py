@@ -61,6 +61,11 @@ class Structure:
     driver: int
     groups: tuple[Group, ...]
 
+    @property
+    def scale_symbols(self) -> tuple[str, ...]:
+        """Symbols of the scale factors of its plans; the driver and each group have one for their forces."""
+        return ("mu_l", "mu_V", "mu_a", *(f"mu_F_{name}" for name in (self.driver, *(g.name for g in self.groups))))
+
 
 def letter(pair: Pair) -> str:
     """Return R for a revolute pair, P for a prismatic one."""

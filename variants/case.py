@@ -1,0 +1,104 @@
+"""A case: one variant of a task, solved for the plans wanted, with the givens and scale factors that were asked for."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from ..drawing.linkages.scene import Given
+from ..plans.linkages.solved import Solved, solve_linkage
+from ..scales.choose import Chooser, Segment, chooser, segment_symbol
+from ..scales.errors import InputError
+from ..scales.names import unknown
+from ..scales.numbers import quote
+from .arguments import by_name, of_kind, plans_wanted
+from .reader import load_task
+from .task import LocatedError, Task
+
+DRAWN_ANGLE = math.radians(20.0)  # lines that meet at a smaller angle make a drawing lose digits
+Settings = Mapping[str, str | float]
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One variant of a task in one position; `settings` replace givens, `choosers` are by scale factor."""
+
+    task: Task
+    variant: str
+    settings: Settings
+    plans: tuple[str, ...]
+    solved: Solved
+    choosers: Mapping[str, Chooser]
+
+    @property
+    def givens(self) -> dict[str, Given]:
+        """The givens as the task states them, each in its own unit."""
+        stated = {}
+        for name, value in self.task.resolve(self.variant, self.settings).items():
+            unit = self.task.givens[name].unit
+            if isinstance(value, str) or unit is None:
+                stated[name] = Given(str(value))
+            else:
+                stated[name] = Given(float(f"{unit.from_si(value):.12g}"), unit.name)
+        return stated
+
+    @property
+    def warnings(self) -> tuple[InputError, ...]:
+        """What a user should know of a position that has a plan: lines that meet at a small angle."""
+        if self.solved.trouble is not None:
+            return ()
+        mark, sine = self.solved.worst_sine()
+        if sine >= math.sin(DRAWN_ANGLE):
+            return ()
+        point = mark.rpartition(".")[2]
+        angle = math.degrees(math.asin(sine))
+        return (InputError("small-angle", point=point, angle=f"{angle:.3g}", loss=f"{1.0 / sine:.3g}"),)
+
+
+def solve_case(
+    task: str | os.PathLike[str] | Task,
+    variant: str | None,
+    settings: Settings | None,
+    only: str | Iterable[str] | None,
+    scales: Settings | None,
+) -> Case:
+    """Read a task and solve one variant of it; the arguments are those of `solve`.
+
+    Raises
+    ------
+    InputError
+        An unknown task, variant, given, plan or scale factor, or a value of the wrong kind.
+    """
+    found = task if isinstance(task, Task) else load_task(task)
+    of_kind("variant", variant, (str, int, type(None)), "str | None")
+    row = found.variant(variant)
+    changed = by_name("set", settings)
+    plans = plans_wanted(only, found.plans)
+    solved = solve_linkage(found.mechanism, found.values(row.id, changed), plans)
+    return Case(found, row.id, changed, plans, solved, _choosers(found, by_name("scales", scales), solved))
+
+
+def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser]:
+    """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
+    choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
+    known = solved.structure.scale_symbols
+    for name, text in scales.items():
+        if name.startswith("mu_") and name not in known:
+            raise unknown("scale-unknown", name, known, task=task.id)
+        try:
+            symbol = name if name.startswith("mu_") else segment_symbol(name)
+            chosen = chooser(symbol, str(text) if symbol == name else f"{name}={text}", firm=True)
+            if isinstance(chosen, Segment) and symbol in solved.scale_of_plan.values():
+                _shown(chosen, solved, name)
+        except InputError as error:
+            raise LocatedError(name, error) from error
+        choosers[symbol] = chosen
+    return choosers
+
+
+def _shown(segment: Segment, solved: Solved, name: str) -> None:
+    """Refuse a segment, named `name`, that no plan shows."""
+    if segment.quantity not in solved.values and segment.quantity not in solved.quantities:
+        raise InputError("scale-segment", text=quote(name))
