@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from .formats import Format, drawing_area, reserved_boxes
+from .frame import frame_shapes
 from .packing import Placement, pack
 from .page import Page
 from .pens import Norm
-from .titleblock import Stamp, frame_shapes
+from .titleblock import Stamp
 from .view import View
 
 MARGIN = 4.0  # mm between the frame and any view

@@ -19,8 +19,7 @@ from pathlib import Path
 from ..scales.errors import InputError
 
 FAMILY = "DejaVu Sans"
-CAP_HEIGHT = 1493 / 2048  # of the letter H, in units of the font size
-SIZE = 2048 / 1493  # font size of letters whose capitals are 1 mm high
+SIZE = 2048 / 1493  # font size of letters whose capitals are 1 mm high: H has 1493 of 2048 units
 
 # Flags of a part of a composite glyph.
 _WORDS, _SCALE, _MORE, _XY_SCALE, _TWO_BY_TWO, _INSTRUCTIONS = 0x1, 0x8, 0x20, 0x40, 0x80, 0x100

@@ -1,19 +1,13 @@
-"""Frame and title block of a sheet: forms 1 and 2a after GOST 2.104, or the block of ISO 7200."""
+"""Title blocks after GOST 2.104: forms 1 and 2a, and what any title block says."""
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from functools import cache
-from importlib.resources import files
-from math import pi
+from dataclasses import dataclass
 
+from ..scales.packaged import packaged
 from .cells import fitted
-from .formats import Format, block_box, drawing_area, turned_box
-from .pens import Norm
-from .shapes import Group, Line, Pen, Polyline, Shape, Text, shifted
-from .text import Box
+from .shapes import Line, Pen, Shape, Text
 
 T, t = Pen.MAIN, Pen.THIN
 CAPTION = (2.5,)
@@ -69,39 +63,10 @@ CHANGES = (("change", 0, 7), ("row_sheet", 7, 17), ("document_no", 17, 40), ("si
 ROLES = (("drawn", 25), ("checked", 20), ("technical", 15), ("norms", 5), ("approved", 0))
 
 
-@cache
 def words(language: str) -> dict[str, str]:
     """Return the captions of title blocks in `language`, by key."""
-    text = files(__package__).joinpath("texts", f"titleblock.{language}.toml").read_text(encoding="utf-8")
-    table: dict[str, str] = tomllib.loads(text)["titleblock"]
-    return table
-
-
-def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm = "gost", first: bool = True) -> tuple[Shape, ...]:
-    """Return edge, frame, title block and what stands round them; following sheets get the small block.
-
-    Raises
-    ------
-    InputError
-        A field is too long for its cell, or the font lacks one of its characters.
-    """
-    edge = rectangle((0.0, 0.0, sheet.width, sheet.height), t, "edge")
-    frame = rectangle(drawing_area(sheet, norm), T, "frame")
-    x0, y0, _, _ = block_box(sheet, norm, first)
-    if norm == "iso":
-        from .isoblock import centring_marks, iso_block
-
-        return edge, frame, centring_marks(sheet), at_corner(iso_block(stamp), "iso-7200", x0, y0)
-    parts, name = (_form_1(stamp), "form-1") if first else (_form_2a(stamp), "form-2a")
-    around = [_below(sheet, stamp), _turned(sheet, stamp)] if first else [_below(sheet, stamp)]
-    return edge, frame, at_corner(parts, name, x0, y0), *around
-
-
-def rectangle(box: Box, pen: Pen, role: str) -> Polyline:
-    """Return the outline of a box."""
-    x0, y0, x1, y1 = box
-    corners = (complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1))
-    return Polyline(corners, pen, closed=True, role=role)
+    captions: dict[str, str] = packaged(__package__, "texts", f"titleblock.{language}")["titleblock"]
+    return captions
 
 
 def ruled(lines: Iterable[tuple[float, float, float, float, Pen]]) -> list[Shape]:
@@ -109,20 +74,12 @@ def ruled(lines: Iterable[tuple[float, float, float, float, Pen]]) -> list[Shape
     return [Line(complex(x0, y0), complex(x1, y1), pen, role="cell") for x0, y0, x1, y1, pen in lines]
 
 
-def at_corner(parts: Iterable[Shape], name: str, x0: float, y0: float) -> Group:
-    """Return a title block whose bottom left corner lies at (x0, y0), its outer corner mitred."""
-    moved = [shifted(part, complex(x0, y0)) for part in parts]
-    lines = [part for part in moved if isinstance(part, Line)]
-    corner = complex(x0, max(line.a.imag for line in lines))
-    return Group((*moved, Polyline((corner - 1j, corner, corner + 1), T, role="corner")), "titleblock", name)
-
-
 def _changes(caption: dict[str, str], y: float) -> list[Text]:
     cells = ((caption[key], (float(x0), y, float(x1), y + 5.0), key) for key, x0, x1 in CHANGES)
     return [text for plain, cell, key in cells for text in fitted(plain, cell, CAPTION, name=key)]
 
 
-def _form_1(stamp: Stamp) -> list[Shape]:
+def form_1(stamp: Stamp) -> list[Shape]:
     """Return form 1, 185 x 55 mm, filled in."""
     caption = words(stamp.language)
     filled: list[Shape] = [*_changes(caption, 30.0), *_people(caption, stamp)]
@@ -156,7 +113,7 @@ def _people(caption: dict[str, str], stamp: Stamp) -> list[Text]:
     return texts + fitted(stamp.date, (55.0, 25.0, 65.0, 30.0), CAPTION, name="date_value")
 
 
-def _form_2a(stamp: Stamp) -> list[Shape]:
+def form_2a(stamp: Stamp) -> list[Shape]:
     """Return form 2a, 185 x 15 mm, for the sheets after the first."""
     caption = words(stamp.language)
     filled: list[Shape] = [*_changes(caption, 0.0)]
@@ -164,25 +121,3 @@ def _form_2a(stamp: Stamp) -> list[Shape]:
     filled += fitted(caption["row_sheet"], (175.0, 8.0, 185.0, 15.0), CAPTION, name="sheet_caption")
     filled += fitted(str(stamp.sheet), (175.0, 0.0, 185.0, 8.0), (3.5, 2.5), name="sheet")
     return [*ruled(FORM_2A), *filled]
-
-
-def _below(sheet: Format, stamp: Stamp) -> Group:
-    """Return the words under the frame: who copied it, and the format."""
-    caption = words(stamp.language)
-    right = drawing_area(sheet)[2]
-    copied = Text(complex(right - 120, 1.3), caption["copied"], 2.5, role="stamp", name="copied")
-    size = Text(complex(right - 50, 1.3), caption["format"].format(sheet.letters), 2.5, role="stamp", name="format")
-    return Group((copied, size), "margin")
-
-
-def _turned(sheet: Format, stamp: Stamp) -> Group:
-    """Return column 26: the designation turned round, for whoever looks through a pile of folded sheets."""
-    x0, y0, x1, y1 = turned_box(sheet)
-    tall = y1 - y0 > x1 - x0
-    near, far = (x0, x1) if tall else (x1, x0)
-    bend = complex(near, y0)
-    lines = Polyline((complex(far, y0), bend, complex(near, y1)), T, role="cell")
-    middle, turn, angle = complex((x0 + x1) / 2, (y0 + y1) / 2), (-1j if tall else -1), (-pi / 2 if tall else pi)
-    texts = fitted(stamp.designation, (-35.0, -7.0, 35.0, 7.0), (7.0, 5.0, 3.5, 2.5), name="designation_turned")
-    turned = (replace(text, at=middle + text.at * turn, angle=angle) for text in texts)
-    return Group((lines, *turned), "titleblock", "column-26")

@@ -3,26 +3,19 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from dataclasses import dataclass
-from functools import cache
 from importlib.resources import files
 from typing import Any
 
 from ..scales.errors import LANGUAGES, InputError
 from ..scales.names import unknown
+from ..scales.packaged import packaged
 from ..scales.scale import Scale
 from ..scales.units import format_unit
 
 GREEK = {"omega": "ω", "epsilon": "ε", "mu": "μ", "phi": "φ", "delta": "Δ"}
 PARTS = {"n": "n", "t": "t", "k": "k", "r": "r"}  # normal, tangential, Coriolis, sliding part of a vector
 FORCE_LETTERS = "abcdefghijklm"
-
-
-@cache
-def _table(folder: str, name: str) -> dict[str, Any]:
-    path = files(__package__).joinpath(folder, f"{name}.toml")
-    return tomllib.loads(path.read_text(encoding="utf-8"))
 
 
 def notations() -> tuple[str, ...]:
@@ -51,7 +44,7 @@ class Words:
             raise InputError("language", language=language, known=", ".join(LANGUAGES))
         if notation not in notations():
             raise unknown("notation-unknown", notation, notations())
-        return cls(language, _table("texts", language), _table("notations", notation))
+        return cls(language, packaged(__package__, "texts", language), packaged(__package__, "notations", notation))
 
     def __getitem__(self, key: str) -> str:
         """Return a text by its key."""
@@ -75,7 +68,7 @@ class Words:
 
     def unit(self, unit: str) -> str:
         """Return a unit in the language, powers as true superscripts."""
-        return _unit(unit, self.language)
+        return format_unit(unit, self.language, raised=True)
 
     def scale(self, scale: Scale) -> str:
         """Return a scale factor as `μ_V = 0,05 (м/с)/мм`."""
@@ -120,11 +113,6 @@ class Words:
         if point.startswith("n_"):
             return str(self.notation["normal_end"])
         return _indexed(point[0].lower() + prime + point[1:])
-
-
-@cache
-def _unit(unit: str, language: str) -> str:
-    return "%" if unit == "%" else format_unit(unit, language, raised=True)
 
 
 def _indexed(letter: str) -> str:

@@ -24,7 +24,6 @@ UNITS = {
     "delta": "%",
 }
 POINTS = ("place", "lay", "back", "arc", "divide", "same")
-READ_OFF = ("read", "chain")
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
+
+from .packaged import packaged
 
 LANGUAGES = ("uk", "ru", "en")
 
 
-@cache
 def messages(language: str) -> dict[str, str]:
     """Return the templates of all messages in `language`, by key."""
-    import tomllib
-    from importlib.resources import files
-
-    text = files(__package__).joinpath("messages", f"{language}.toml").read_text(encoding="utf-8")
-    return tomllib.loads(text)
+    return packaged(__package__, "messages", language)
 
 
 class KulmanError(Exception):

@@ -54,15 +54,3 @@ def split_number(text: str) -> tuple[float, str]:
     if value == 0.0 and any(digit in "123456789" for digit in re.split("[eE]", plain)[0]):
         raise InputError("number-infinite", text=quote(stripped))
     return value, rest
-
-
-def parse_number(text: str) -> float:
-    """Return the number that is all of `text`.
-
-    >>> parse_number("0,05")
-    0.05
-    """
-    value, rest = split_number(text)
-    if rest:
-        raise InputError("number-bad", text=quote(text.strip()))
-    return value

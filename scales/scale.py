@@ -1,4 +1,4 @@
-"""A scale factor: value per millimetre of the sheet, also spoken as millimetres per unit."""
+"""A scale factor: value per millimetre of the sheet."""
 
 from __future__ import annotations
 
@@ -35,11 +35,6 @@ class Scale:
     def measured(self, millimetres: float) -> float:
         """Return the value that `millimetres` show."""
         return millimetres * self.mu
-
-    @property
-    def per_unit(self) -> float:
-        """The same scale factor as millimetres per unit of the value."""
-        return 1.0 / self.mu
 
     @property
     def per_mm_unit(self) -> str:

@@ -289,11 +289,7 @@ def converted(value: float, written: Unit, expected: Unit) -> float:
     return result
 
 
-def si_unit(written: Unit) -> Unit:
-    """Return the SI unit of the same dimension, by the name under which results are printed."""
-    return next((u for u in map(unit, _SI) if u.dimension == written.dimension), ONE)
-
-
+@cache
 def format_unit(written: Unit | str, language: str, *, raised: bool = False) -> str:
     """Return the spelling of a unit on paper: `м/с²`, `об/хв`, `кг·м²`, `(м/с)/мм`.
 
@@ -330,7 +326,3 @@ def _spell(written: Unit, words: dict[str, str], times: str, power: Callable[[in
 RPM = Unit((("rpm", 1),))
 _SEXAGESIMAL = re.compile(r"([-−]?)([0-9]{1,9})\s*[°º˚]\s*([0-9]{1,2}(?:[.,][0-9]{1,9})?)\s*['’′]")
 _COMMON = ("mm", "m", "deg", "rad", "rpm", "rad/s", "kg", "kg*m^2", "N", "kN", "N*m", "MPa", "s", "m/s")
-_SI = (
-    *("m", "kg", "s", "rad", "m/s", "m/s^2", "rad/s", "rad/s^2", "N", "N*m", "kg*m^2", "Pa", "W", "m^2", "m^3"),
-    *("kg/m^3", "N/m", "N*s/m"),
-)

@@ -5,13 +5,14 @@ from io import BytesIO
 
 import pytest
 from kulman.drawing.formats import FORMATS, block_box, drawing_area
+from kulman.drawing.frame import frame_shapes
 from kulman.drawing.page import Page
 from kulman.drawing.pdf import write_pdf
 from kulman.drawing.pens import pens_for
 from kulman.drawing.shapes import Group, Line, Pen, Polyline, Text
 from kulman.drawing.svg import svg_text
 from kulman.drawing.text import box
-from kulman.drawing.titleblock import Stamp, frame_shapes, words
+from kulman.drawing.titleblock import Stamp, words
 from kulman.scales.errors import InputError
 from lxml import etree
 from pdfminer.high_level import extract_pages
