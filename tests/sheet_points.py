@@ -8,22 +8,12 @@ from collections.abc import Callable, Iterator
 from kulman.tests.printed_numbers import lines_of, numbers_of, table
 from kulman.tests.readback import Arrow, Sheet, Vec, View, angle, cross, parallel
 from kulman.tests.sheet_cases import Case
+from kulman.tests.sheet_geometry import NEAR, along, closed_chain, on, past, same, unless
 
 Faults = Iterator[str]
-NEAR = 0.01  # mm and degrees
 SENSE = {"uk": ("проти годинникової", "за годинниковою"), "ru": ("против часовой", "по часовой")}
 ON_LEVER = {"F_{i2}": "F_i2", "F_{i3}": "F_i3", "F_{3}": "F_3", "F′_{i2}": "F_i2_couple_B", "F″_{i2}": "F_i2_couple_A"}
 SENSE["en"] = ("counter-clockwise", "clockwise")
-
-
-def unless(good: bool, fault: str) -> Faults:
-    """Yield the fault unless all is well."""
-    if not good:
-        yield fault
-
-
-def same(a: complex, b: complex, within: float = NEAR) -> bool:
-    return abs(a - b) <= within
 
 
 def l1_plan_of_the_mechanism(case: Case, sheet: Sheet) -> Faults:
@@ -98,28 +88,11 @@ def l4_closing_the_velocity_plan(case: Case, sheet: Sheet) -> Faults:
     lines = view.lines("construction")
     yield from unless(len(lines) == 2 and all(s.dashed for s in lines), f"{len(lines)} construction lines")
     for start, direction, what in ((a, rod * 1j, "a normal to AB"), (p, 1 + 0j, "p along the guide")):
-        good = [s for s in lines if _on(s.points, start) and _past(s.points, b, 3.0) and _along(s.points, direction)]
+        good = [s for s in lines if on(s.points, start) and past(s.points, b, 3.0) and along(s.points, direction)]
         yield from unless(bool(good), f"no line through {what} and 3 mm past b")
     for name, tail in (("V_B", p), ("V_BA", a)):
         vector = view.vector(name)
         yield from unless(same(vector.tip, b) and same(vector.tail, tail), f"{name} does not end at b")
-
-
-def _on(ends: tuple[complex, ...], point: complex) -> bool:
-    a, b = ends
-    e = (b - a) / abs(b - a)
-    return abs(cross(e, point - a)) < NEAR
-
-
-def _past(ends: tuple[complex, ...], point: complex, by: float) -> bool:
-    """Whether the line contains the point and runs past it on at least one side by so much."""
-    a, b = ends
-    along = ((point - a) / (b - a)).real * abs(b - a)
-    return _on(ends, point) and -NEAR < along < abs(b - a) + NEAR and max(along, abs(b - a) - along) >= by
-
-
-def _along(ends: tuple[complex, ...], direction: complex) -> bool:
-    return parallel(ends[1] - ends[0], direction) or parallel(ends[0] - ends[1], direction)
 
 
 def l5_similarity(case: Case, sheet: Sheet) -> Faults:
@@ -254,7 +227,7 @@ def _arm(case: Case, view: View, arm: str, force: str, about: str, symbol: str) 
     printed = [numbers_of(t.rpartition("=")[2], case.lang)[0] for t in texts]
     yield from unless(len(printed) == 1 and abs(printed[0] - reach) < NEAR, f"{arm} is printed {texts}, drawn {reach}")
     extension = view.lines("line-of-action")
-    yield from unless(any(_on(s.points, foot) and _past(s.points, foot, 1.0) for s in extension), f"{arm} ends in air")
+    yield from unless(any(on(s.points, foot) and past(s.points, foot, 1.0) for s in extension), f"{arm} ends in air")
 
 
 def l10_force_plan(case: Case, sheet: Sheet) -> Faults:
@@ -263,7 +236,7 @@ def l10_force_plan(case: Case, sheet: Sheet) -> Faults:
     sides = ["R_12_t", "F_i3", "F_3", "F_i2", "R_03", "R_12_n"]
     names = sorted(v.quantity for v in view.vectors)
     yield from unless(names == sorted([*sides, "R_12"]), f"the plan has {names}")
-    ordered = _chain([view.vector(name) for name in sides])
+    ordered = closed_chain([view.vector(name) for name in sides])
     yield from unless(ordered is not None, "the sides do not follow tip to tail, closed within 0.02 mm")
     n, t, r, full = (view.vector(name) for name in ("R_12_n", "R_12_t", "R_03", "R_12"))
     yield from unless(same(n.tail, r.tip), "the unknowns do not meet")
@@ -273,26 +246,12 @@ def l10_force_plan(case: Case, sheet: Sheet) -> Faults:
         side = view.vector(arrow.name)
         yield from unless(abs(cross(arrow.unit, side.span)) < 0.02, f"{arrow.name} is not parallel to its side")
     closing = sheet["forces_2"]
-    own = _chain([closing.vector(name) for name in ("R_12", "F_i2", "R_32")])
+    own = closed_chain([closing.vector(name) for name in ("R_12", "F_i2", "R_32")])
     yield from unless(own is not None, "the plan of link 2 does not close")
     lines = view.lines("construction")
     for vector in (n, r):
-        good = [
-            s for s in lines if _on(s.points, n.tail) and _along(s.points, vector.span) and _past(s.points, n.tail, 3)
-        ]
+        good = [s for s in lines if on(s.points, n.tail) and along(s.points, vector.span) and past(s.points, n.tail, 3)]
         yield from unless(abs(vector.span) < 0.1 or bool(good), f"no construction line of {vector.quantity}")
-
-
-def _chain(vectors: list[Vec]) -> list[Vec] | None:
-    """Order vectors tip to tail round a closed polygon, or tell that there is none."""
-    left = [v for v in vectors if abs(v.span) > 0.02]
-    ordered = left[:1]
-    while len(ordered) < len(left):
-        follows = [v for v in left if v not in ordered and same(v.tail, ordered[-1].tip, 0.02)]
-        if not follows:
-            return None
-        ordered.append(follows[0])
-    return ordered if same(ordered[-1].tip, ordered[0].tail, 0.02) else None
 
 
 def l11_driver(case: Case, sheet: Sheet) -> Faults:
@@ -301,7 +260,7 @@ def l11_driver(case: Case, sheet: Sheet) -> Faults:
     r12, r21 = sheet["forces_23"].vector("R_12"), plan.vector("R_21")
     yield from unless(parallel(r21.span, -r12.span), "R_21 is not opposite to R_12")
     yield from unless(abs(abs(r21.span) * r21.mu - abs(r12.span) * r12.mu) < 1e-4 * r21.mu, "R_21 has another size")
-    yield from unless(_chain([r21, plan.vector("R_01")]) is not None, "R_01 does not close the plan")
+    yield from unless(closed_chain([r21, plan.vector("R_01")]) is not None, "R_01 does not close the plan")
     yield from _arm(case, view, "h_21", "R_21", "O", "h_{21}")
     arrow, o = view.arrow("R_21"), view.point("O")
     (mu,) = numbers_of(_heading(view, "μ_{l}"), case.lang)
