@@ -34,9 +34,6 @@ class Stroke:
     path: tuple[tuple[str, str], ...]
     arc: tuple[complex, float, float] | None = None  # centre, radius, sweep
 
-    def within(self, role: str) -> bool:
-        return any(kind == role for kind, _ in self.path)
-
 
 @dataclass(frozen=True)
 class Ring:
@@ -132,10 +129,6 @@ class View:
     def of(self, role: str) -> list[Text]:
         return [text for text in self.texts if text.role == role]
 
-    @property
-    def strings(self) -> list[str]:
-        return [text.string for text in self.texts]
-
     def lines(self, role: str = "", name: str = "") -> list[Stroke]:
         return [s for s in self.strokes if role in ("", s.role) and name in ("", s.name)]
 
@@ -207,19 +200,16 @@ class Sheet:
     pages: list[Page]
 
     def __getitem__(self, name: str) -> View:
-        (found,) = [v for p in self.pages for v in p.views if v.name == name]
+        (found,) = [v for v in self.views if v.name == name]
         return found
-
-    def __contains__(self, name: str) -> bool:
-        return name in self.names
-
-    @property
-    def names(self) -> list[str]:
-        return [v.name for p in self.pages for v in p.views]
 
     @property
     def views(self) -> list[View]:
         return [v for p in self.pages for v in p.views]
+
+    @property
+    def names(self) -> list[str]:
+        return [v.name for v in self.views]
 
     @property
     def vectors(self) -> list[Vec]:
@@ -381,10 +371,6 @@ def _thick(stroke: Stroke) -> Iterator[complex]:
 def cross(a: complex, b: complex) -> float:
     """Positive when b is turned counter-clockwise from a."""
     return (a.conjugate() * b).imag
-
-
-def dot(a: complex, b: complex) -> float:
-    return (a.conjugate() * b).real
 
 
 def angle(a: complex, b: complex) -> float:
