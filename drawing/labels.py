@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .spots import (
+    APART,
+    CLOSE,
     COVER,
     CROSSING,
     FAR,
@@ -82,11 +84,14 @@ class _Board:
         self.now_x, self.now_y, self.now = x[rows, pick], y[rows, pick], cost[rows, pick]
         self.down = np.zeros(len(x), dtype=bool)
 
-    def clashes(self, i: int, x: Reals, y: Reals) -> Flags:
-        """Tell, shape (K, L), which labels on the board label i would touch at x, y."""
+    def clashes(self, i: int, x: Reals, y: Reals, apart: float = 0.0) -> Flags:
+        """Tell, shape (K, L), which labels on the board label i would touch at x, y, or stand less than `apart` beside.
+
+        Two letters side by side read as one word.
+        """
         w = self.wanted
         wide, high = w.hw + (w.hw[i] + w.gap - SLACK), w.hh + (w.hh[i] + w.gap - SLACK)
-        touch = (abs(x[:, None] - self.now_x) < wide) & (abs(y[:, None] - self.now_y) < high)
+        touch = (abs(x[:, None] - self.now_x) < wide + apart) & (abs(y[:, None] - self.now_y) < high)
         touch &= self.down
         touch[:, i] = False
         result: Flags = touch
@@ -94,7 +99,9 @@ class _Board:
 
     def best(self, i: int) -> tuple[float, int]:
         """Return the cost and the number of the best place of label i among the others."""
-        cost = self.cost[i] + COVER * np.count_nonzero(self.clashes(i, self.x[i], self.y[i]), axis=1)
+        x, y = self.x[i], self.y[i]
+        cost = self.cost[i] + COVER * np.count_nonzero(self.clashes(i, x, y), axis=1)
+        cost += CLOSE * np.count_nonzero(self.clashes(i, x, y, APART), axis=1)
         k = int(cost.argmin())
         return float(cost[k]), k
 
@@ -105,7 +112,7 @@ class _Board:
     def settle(self) -> None:
         """Leave alone who is in nobody's way; then the most constrained label chooses first."""
         w = self.wanted
-        touch = abs(self.now_x[:, None] - self.now_x) < w.hw[:, None] + w.hw + w.gap
+        touch = abs(self.now_x[:, None] - self.now_x) < w.hw[:, None] + w.hw + w.gap + APART
         touch &= abs(self.now_y[:, None] - self.now_y) < w.hh[:, None] + w.hh + w.gap
         self.down = np.count_nonzero(touch, axis=1) == 1
         free = np.count_nonzero(self.cost < COVER, axis=1)

@@ -20,6 +20,7 @@ COVER, AMBIGUOUS, THIN, CROWDED, STEP, TURN, SLIDE, CROSSING = 1e4, 30.0, 300.0,
 CLOSE = 6.0  # for each mm that something is nearer than it should be to leave no doubt
 ROOM = 2.5  # mm around a label that should be empty where there is a choice
 BARE = 2.0  # mm around a label: a thin line nearer than this looks like a bar over or under the letter
+APART = 1.4  # mm that should be left between two labels side by side, beyond the gap around each
 DOUBT = 1.0  # mm by which a label should be nearer to its own anchor than to anything else with a name
 NEAR = (0.0, 0.8, 2.0, 3.5)  # mm added to the distance that was asked for
 FAR = (5.0, 8.0, 11.0, 14.0, 17.0, 20.0, 25.0, 30.0)  # the same for a label on a leader

@@ -84,6 +84,9 @@ def _group_lines(scene: Scene, d: Dyad) -> Lines:
         numbers, below, result = balanced(scene, terms, turn, given(scene, d.length))
         head = f"{w.symbol(tangential)} = ({' '.join(sum_of(terms, turn))})/{w.symbol(d.length)} ="
         lines.append((head, f"({' '.join(numbers)})/{below} =", f"{result} {w.unit('N')}"))
+    else:
+        product = f"{w.symbol(tangential)}·{w.symbol(d.length)}"
+        lines.append((f"ΣM_{{{d.B}}}({j}) = 0:", f"{product} = 0,", f"{w.symbol(tangential)} = 0"))
     known = [tangential, *(name for name, _ in (*loads(scene, k), *loads(scene, j)))]
     lines.append(vector_sum(_bars(scene, known), _bars(scene, [f"R_0{k}", f"R_{i}{j}_n"])))
     full = [f"R_{i}{j}", *(name for name, _ in loads(scene, j))]

@@ -39,9 +39,10 @@ def group_view(scene: Scene, d: Dyad) -> View:
     moment = f"M_i{j}"
     if d.rod.inertia and scene.defined(moment):
         _moment(canvas, scene, moment, a + (b - a) * 0.5, along)
-    return canvas.finish(
-        f"group_{d.name}", scene.heading("heading.group", "position", links=f"{j}, {k}"), (scene.words["said.arrows"],)
-    )
+    forces = [f"R_{i}{j}_n", f"R_{i}{j}_t", f"R_0{k}", *(name for name, _ in (*loads(scene, k), *loads(scene, j)))]
+    zero = zeros(scene, [*forces, moment], [f"h_{j}"] if scene.direction(f"F_i{j}") != 0 else [])
+    notes = (scene.words["said.arrows"], *zero)
+    return canvas.finish(f"group_{d.name}", scene.heading("heading.group", "position", links=f"{j}, {k}"), notes)
 
 
 def slider_view(scene: Scene, d: Dyad) -> View:
@@ -61,8 +62,8 @@ def slider_view(scene: Scene, d: Dyad) -> View:
     canvas.label(scene.words.mark(d.B), b, clear=scene.style.pair + 0.8)
     offset = f"h_0{k}"
     length = f"{scene.segment(offset)} {scene.words['unit.mm']}" if scene.solved.quantities[offset].value else "0"
-    arm_text = f"{scene.words.symbol(offset)} = {length}"
-    return canvas.finish(f"link_{k}", (scene.words["heading.link"].format(link=k),), (arm_text,))
+    notes = (scene.words["said.arrows"], f"{scene.words.symbol(offset)} = {length}")
+    return canvas.finish(f"link_{k}", (scene.words["heading.link"].format(link=k),), notes)
 
 
 def guide_offset(scene: Scene, d: Dyad) -> float:
@@ -97,6 +98,15 @@ def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str],
     # smaller than a node's letter: a number with its symbol is long, and the arms of a lever lie close together
     text = f"{symbols} = {scene.segment(names[0])}"
     canvas.label(text, (about, foot), clear=0.9, height=scene.style.text, strict=True)
+
+
+def zeros(scene: Scene, loads_and_couples: list[str], arms: list[str]) -> tuple[str, ...]:
+    """Say in one line which forces, couples and arms are zero: the figure cannot show them."""
+    w, values = scene.words, scene.solved.values
+    names = [name for name in loads_and_couples if scene.defined(name) and scene.solved.size(name) == 0.0]
+    parts = [w.symbol(name.removeprefix("_"), bar=not name.startswith("M")) for name in names]
+    parts += [w.symbol(name) for name in arms if scene.defined(name) and values[name] == 0.0]
+    return (f"{' = '.join(parts)} = 0",) if parts else ()
 
 
 def _force(

@@ -130,8 +130,9 @@ def _acceleration_lines(scene: Scene, d: Dyad) -> Lines:
     ]
     rate, speed = f"epsilon_{d.rod.number}", f"omega_{d.rod.number}"
     lines.append(_rate_line(scene, rate, f"a_{d.B}{d.A}_t", d, abs(scene.solved.values[rate])))
-    product = scene.solved.values[rate] * scene.solved.values[speed]
-    key = "said.steady" if product == 0.0 else "said.speeds_up" if product > 0 else "said.slows_down"
+    omega, epsilon = scene.solved.values[speed], scene.solved.values[rate]
+    still = "said.translates" if omega == 0.0 else "said.steady"
+    key = still if omega * epsilon == 0.0 else "said.speeds_up" if omega * epsilon > 0 else "said.slows_down"
     text = w[key].format(link=d.rod.number, omega=w.symbol(speed), epsilon=w.symbol(rate))
     lines.append(tuple(text.split("|")))
     return lines

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from ..shapes import Circle, Group, Line, Pen
+from ..shapes import Line, Pen
 from ..symbols import force_arrow
 from ..view import Canvas, View
-from .group_view import force_arm, letter_arrow
+from .group_view import force_arm, letter_arrow, zeros
+from .plan_view import letter_marks
 from .scene import Scene
 
 
@@ -18,9 +19,6 @@ def lever_view(scene: Scene) -> View:
     p = scene.mm("lever.p")
     lines = _lines(scene, marks)
     canvas.add(*(Line(a, b, Pen.MAIN, role="lever", name=name) for a, b, name in lines))
-    canvas.add(Group((Circle(p, style.node, Pen.MAIN, fill="white"),), "point", "lever.p"))
-    outward = -sum(scene.mm(mark) - p for mark in marks)
-    canvas.label(words.mark("lever.p"), p, prefer=outward, clear=1.0, priority=1)
     rays = {
         mark: [(q - scene.mm(mark)) for a, b, _ in lines for q in (a, b) if scene.mm(mark) in (a, b)] for mark in marks
     }
@@ -46,16 +44,11 @@ def lever_view(scene: Scene) -> View:
         clear=0.9,
         height=style.text,
     )
-    middle = sum(scene.mm(mark) for mark in marks) / len(marks)
-    for mark in marks:
-        canvas.add(Group((Circle(scene.mm(mark), 0.3, Pen.THIN, fill="black"),), "point", mark))
-        canvas.label(
-            words.mark(f"velocity.{mark.removeprefix('lever.')}"),
-            scene.mm(mark),
-            prefer=scene.mm(mark) - middle,
-            priority=1,
-        )
-    return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"],))
+    letters = {mark: words.mark(f"velocity.{mark.removeprefix('lever.')}") for mark in marks}
+    letter_marks(canvas, scene, {"lever.p": words.mark("lever.p"), **letters}, ("lever.p",))
+    hung = hung_on_lever(scene)
+    zero = zeros(scene, [name for name, _ in hung], [arm_of(name) for name, _ in hung if scene.direction(name) != 0])
+    return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"], *zero))
 
 
 def _lines(scene: Scene, marks: list[str]) -> list[tuple[complex, complex, str]]:

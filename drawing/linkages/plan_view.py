@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from ...plans.board import Step
@@ -71,22 +72,25 @@ def _vectors(canvas: Canvas, scene: Scene, vectors: list[tuple[str, str, str]]) 
 
 
 def _letters(canvas: Canvas, scene: Scene, plan: str, tips: list[str]) -> None:
-    """Letter the pole and every mark at which a vector ends; marks that coincide share one letter box."""
+    """Letter the pole and every mark at which a vector ends."""
     steps = scene.solved.program.on(plan)
     poles = [step.name for step in steps if step.verb == "pole"]
-    marks = list(dict.fromkeys([*poles, *tips]))
-    middle = sum(scene.mm(mark) for mark in marks) / len(marks)
+    letter_marks(canvas, scene, {mark: scene.words.mark(mark) for mark in (*poles, *tips)}, poles)
+
+
+def letter_marks(canvas: Canvas, scene: Scene, letters: Mapping[str, str], poles: Sequence[str]) -> None:
+    """Draw poles and points with their letters outside of the figure; marks that coincide share one letter."""
+    middle = sum(scene.mm(mark) for mark in letters) / len(letters)
     at: dict[complex, list[str]] = {}
-    for mark in marks:
-        at.setdefault(_rounded(scene.mm(mark)), []).append(mark)
+    for mark, letter in letters.items():
+        at.setdefault(_rounded(scene.mm(mark)), []).append(letter)
     for mark in poles:
         canvas.add(Group((Circle(scene.mm(mark), scene.style.node, Pen.MAIN, fill="white"),), "point", mark))
     for place, names in at.items():
-        letter = ", ".join(scene.words.mark(name) for name in names)
-        canvas.label(letter, place, prefer=place - middle, clear=1.0, priority=1)
-    for name in marks:
-        if name not in poles:
-            canvas.add(Group((Circle(scene.mm(name), 0.3, Pen.THIN, fill="black"),), "point", name))
+        canvas.label(", ".join(names), place, prefer=place - middle, clear=1.0, priority=1)
+    for mark in letters:
+        if mark not in poles:
+            canvas.add(Group((Circle(scene.mm(mark), 0.3, Pen.THIN, fill="black"),), "point", mark))
 
 
 def _said(scene: Scene, plan: str, vectors: list[tuple[str, str, str]]) -> list[str]:

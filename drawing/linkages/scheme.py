@@ -58,9 +58,10 @@ def rod_and_slider(canvas: Canvas, scene: Scene, d: Dyad, apart: bool = False) -
         origin = scene.mm(f"_{d.u}_origin")
         along = ((b - origin) / u).real
         reach = sorted((0.0, along))
-        canvas.add(
-            Line(origin + u * (reach[0] - 12.0) + (b - origin - u * along), b + u * (reach[1] - along + 16.0), Pen.AXIS)
-        )
+        low, high = (b + u * (end - along) for end in (reach[0] - 16.0, reach[1] + 16.0))
+        canvas.add(Line(low, high, Pen.AXIS))
+        # at the pivot's end, where there is no guide
+        canvas.label("x–x", max(low, high, key=lambda end: abs(end - b)), clear=1.0, prefer=-slider_up(u))
     canvas.add(*slider(b, u, str(d.slider.number), style, guides=not apart))
     if not apart:
         # the compass arc runs past the slider on both sides
@@ -69,8 +70,7 @@ def rod_and_slider(canvas: Canvas, scene: Scene, d: Dyad, apart: bool = False) -
         canvas.add(Arc(a, radius, direction - spread / 2, spread, Pen.THIN, role="construction", name=f"arc_{d.B}"))
     canvas.add(link(a, b, str(d.rod.number), style))
     canvas.add(revolute(b, d.B, style))
-    middle = (a + 2 * b) / 3
-    canvas.label(str(d.rod.number), (a, middle), clear=0.8)
+    canvas.label(str(d.rod.number), (a + (b - a) * 0.58, a + (b - a) * 0.92), clear=0.8)
     for point in (*d.rod.points, *d.slider.points):
         if point not in (d.A, d.B):
             canvas.add(centre_of_mass(scene.mm(point), point, style))
@@ -80,11 +80,13 @@ def rod_and_slider(canvas: Canvas, scene: Scene, d: Dyad, apart: bool = False) -
     edge = b + up * (style.slider[1] / 2)
     half = u * (style.slider[0] / 2)
     canvas.label(scene.words.mark(d.B), (edge - half, edge + half), clear=1.0, prefer=up, priority=1)
+    # on the side away from the rod: nearer to it the number would seem to be the rod's
+    far = -half if ((a - b) / u).real > 0 else half
     if apart:
         foot = edge - up * style.slider[1]
-        canvas.label(str(d.slider.number), (foot - half, foot + half), clear=1.0, prefer=-up)
+        canvas.label(str(d.slider.number), (foot, foot + far), clear=1.0, prefer=-up)
     else:
-        canvas.label(str(d.slider.number), b, clear=style.slider[1] / 2 + 1.0, prefer=up)
+        canvas.label(str(d.slider.number), edge + far, clear=0.8, prefer=up)
 
 
 def _angle(canvas: Canvas, scene: Scene) -> None:
@@ -159,7 +161,9 @@ def _frame_number(canvas: Canvas, scene: Scene, pivot: complex) -> None:
     _, height, base = scene.style.pivot
     foot = pivot - 1j * (height + scene.style.pair)
     canvas.keep_clear(foot - base / 2 - 1j * scene.style.hatch[0], foot + base / 2)
-    canvas.label("0", foot + base / 2 - 0.5j * scene.style.hatch[0], prefer=1.0 + 0j, clear=1.0)
+    crank_to = scene.mm(scene.solved.mechanism.driver.point) - pivot
+    side = -1.0 if crank_to.real > 0 > crank_to.imag else 1.0
+    canvas.label("0", foot + side * base / 2 - 0.5j * scene.style.hatch[0], prefer=side + 0j, clear=1.0)
     for d in scene.dyads:
         b, u = scene.mm(d.B), scene.solved.point(d.u)
         length, height = scene.style.slider
