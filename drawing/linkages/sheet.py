@@ -16,7 +16,7 @@ from .fitting import SMALLEST_FIRST, Contents, Fitted, Fitting
 
 # part of the area on the largest format that the same figures take on a smaller one, with its smaller letters
 LIGHTER = {"A4": 0.5, "A3": 0.55, "A2": 0.9, "A1": 1.0}
-COARSER = 6  # how many steps below the wanted scales a single sheet may be before several pages are better
+COARSER = 5  # steps below the wanted scales, pa = 50 mm, beyond which several pages are better than one
 CROWDED = 1.6  # parts of a page whose figures no coarser rung brings on one page
 
 
