@@ -144,9 +144,10 @@ def _senses(canvas: Canvas, scene: Scene, d: Dyad) -> None:
         if e == 0:
             continue
         sense = math.copysign(1.0, rate)
-        radius = max(14.0, place * reach)
-        canvas.add(turning_arrow(a, radius, along, min(0.9, 16.0 / radius), sense, turning))
-        tip = a + rect(radius, along + sense * min(0.45, 8.0 / radius))
+        radius = _off_points(scene, d, max(14.0, place * reach))
+        spread = min(0.9, 1.1 * scene.style.force / radius)  # long enough to be seen as an arc
+        canvas.add(turning_arrow(a, radius, along, spread, sense, turning))
+        tip = a + rect(radius, along + sense * spread / 2)
         canvas.label(scene.words.symbol(turning), tip, prefer=rect(sense, along + math.pi / 2), clear=1.4)
         key = complex(round(e.real, 6), round(e.imag, 6))
         start = taken.get(key, 0.0)
@@ -154,6 +155,15 @@ def _senses(canvas: Canvas, scene: Scene, d: Dyad) -> None:
         taken[key] = length + 0.2 * scene.style.force
         canvas.add(Arrow(b, b + e * length, Pen.THIN, name=carried))
         canvas.label(scene.words.symbol(carried, bar=True), (b + e * (length * 0.6), b + e * length), clear=1.0)
+
+
+def _off_points(scene: Scene, d: Dyad, radius: float) -> float:
+    """Return the radius of an arc about A, changed where the arc would run through a point of the rod."""
+    room = 0.3 * scene.style.force
+    for reach in sorted(abs(scene.mm(point) - scene.mm(d.A)) for point in d.rod.points if point not in (d.A, d.B)):
+        if abs(radius - reach) < room:
+            radius = reach - room if radius < reach and reach > 2 * room else reach + room
+    return radius
 
 
 def _frame_number(canvas: Canvas, scene: Scene, pivot: complex) -> None:
