@@ -1,0 +1,121 @@
+"""The words of a sheet: the same keys and the same {placeholders} in every language, and none that nothing uses."""
+
+from __future__ import annotations
+
+import ast
+import string
+from collections.abc import Iterator
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import kulman
+import pytest
+from kulman.drawing.words import Words, notations
+from kulman.scales.errors import LANGUAGES, messages
+from kulman.scales.packaged import packaged
+from kulman.variants.reader import load_task
+from kulman.variants.shelf import bundled
+
+ROOT = Path(kulman.__file__).parent
+LAYERS = ("scales", "plans", "drawing", "variants", "cli.py")
+PACKAGE = "kulman.drawing"
+
+
+def tables(kind: str) -> dict[str, dict[str, str]]:
+    """Return the texts of a kind ("" or "titleblock.") by language."""
+    found = {language: packaged(PACKAGE, "texts", f"{kind}{language}") for language in LANGUAGES}
+    return {language: table.get("titleblock", table) for language, table in found.items()}
+
+
+def placeholders(template: str) -> list[str]:
+    return sorted(name for _, name, _, _ in string.Formatter().parse(template) if name is not None)
+
+
+def patterns() -> Iterator[str]:
+    """Go through the texts in the package's code; what an f-string fills in is a `*`."""
+    for layer in LAYERS:
+        for file in [ROOT / layer] if layer.endswith(".py") else sorted((ROOT / layer).rglob("*.py")):
+            for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.JoinedStr):
+                    yield "".join(str(p.value) if isinstance(p, ast.Constant) else "*" for p in node.values)
+                elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+                    yield node.value
+
+
+PATTERNS = frozenset(patterns())
+
+
+def words_of(stem: str) -> frozenset[str]:
+    """Return what may stand in place of the `*` of `stem*`: names of the bundled tasks, or any text of the code."""
+    tasks = [load_task(task) for task in bundled()]
+    if stem == "given.":
+        return frozenset(name for task in tasks for name, given in task.givens.items() if given.choices)
+    if stem == "choice.":
+        return frozenset(word for task in tasks for given in task.givens.values() for word in given.choices)
+    return PATTERNS
+
+
+def used(key: str) -> bool:
+    """Whether the code names a text, whole or composed of a beginning and a word."""
+    if key in PATTERNS:
+        return True
+    cuts = [at for at in range(1, len(key)) if key[at - 1] in "._-"]
+    return any(f"{key[:at]}*" in PATTERNS and key[at:] in words_of(key[:at]) for at in cuts)
+
+
+@pytest.mark.parametrize("kind", ["", "titleblock."])
+def test_every_language_has_the_same_texts_with_the_same_placeholders(kind: str) -> None:
+    texts = tables(kind)
+
+    assert texts["uk"].keys() == texts["ru"].keys() == texts["en"].keys()
+    for key in texts["en"]:
+        assert len({tuple(placeholders(texts[language][key])) for language in LANGUAGES}) == 1, key
+
+
+@pytest.mark.parametrize("kind", ["", "titleblock."])
+def test_every_text_is_used(kind: str) -> None:
+    assert [key for key in tables(kind)["en"] if not used(key)] == []
+
+
+def test_a_text_that_nothing_uses_is_noticed() -> None:
+    assert not used("heading.nothing")
+    assert not used("given.nothing")
+    assert not used("choice.rotation")
+
+
+def test_every_message_is_used() -> None:
+    keys = {key.removesuffix("-like") for key in messages("en")}
+
+    assert [key for key in sorted(keys) if not used(key)] == []
+
+
+def test_every_choice_of_a_bundled_task_has_words() -> None:
+    texts: dict[str, Any] = tables("")["en"]
+
+    for task in map(load_task, bundled()):
+        for given in task.givens.values():
+            if given.choices:
+                assert {f"given.{given.name}", *(f"choice.{word}" for word in given.choices)} <= texts.keys()
+
+
+def test_every_notation_has_the_same_keys_and_every_task_names_one() -> None:
+    tables_of = {name: packaged(PACKAGE, "notations", name) for name in notations()}
+    letters = {name: table.keys() - {"letters"} for name, table in tables_of.items()}  # the one optional key
+
+    assert len({frozenset(keys) for keys in letters.values()}) == 1
+    for table in tables_of.values():
+        assert table["symbols"].keys() == set(LANGUAGES)
+        assert len({frozenset(symbols) for symbols in table["symbols"].values()}) == 1
+    assert {load_task(task).notation for task in bundled()} <= tables_of.keys()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_words_can_be_looked_up_by_key(language: str) -> None:
+    assert Words.of(language, "nau")["heading.velocity"] == tables("")[language]["heading.velocity"]
+
+
+def test_every_table_of_words_is_read() -> None:
+    names = {path.name for path in files(PACKAGE).joinpath("texts").iterdir()}
+
+    assert names == {f"{kind}{language}.toml" for kind in ("", "titleblock.") for language in LANGUAGES}
