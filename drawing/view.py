@@ -91,7 +91,7 @@ class Canvas:
 def heading_shapes(lines: tuple[str, ...], height: float, middle: float, top: float) -> tuple[list[Shape], float]:
     """Write centred lines above `top`; return them and the new top."""
     texts: list[Shape] = []
-    y = top + 0.5 * height if lines else top
+    y = top + 0.7 * height if lines else top
     for line in reversed(lines):
         layout = lay_out(line, height)
         y -= layout.bottom

@@ -8,7 +8,7 @@ from cmath import phase, rect
 from ..shapes import Arrow, Group, Line, Shape
 from ..symbols import fixed_pivot, force_arrow, link, revolute, turning_arrow
 from ..view import Canvas, View
-from .group_view import force_arm, letter_arrow, loads
+from .group_view import force_arm, letter_arrow, loads, zeros
 from .scene import Scene
 
 
@@ -35,7 +35,10 @@ def driver_view(scene: Scene) -> View:
     _balance(canvas, scene, o, e)
     for point in (driver.pivot, driver.point):
         canvas.label(words.mark(point), scene.mm(point), clear=style.pair + 0.8)
-    return canvas.finish("driver", scene.heading("heading.driver", "position"), (words["said.arrows"],))
+    canvas.label(str(driver.link), (o, a))
+    arms = [f"h_{force.removeprefix('R_')}" for force, _ in forces if scene.direction(force) != 0]
+    notes = (words["said.arrows"], *zeros(scene, [*(force for force, _ in forces), name, "M_bal"], arms))
+    return canvas.finish("driver", scene.heading("heading.driver", "position"), notes)
 
 
 def _balance(canvas: Canvas, scene: Scene, o: complex, e: complex) -> None:

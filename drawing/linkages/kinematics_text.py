@@ -120,7 +120,7 @@ def _acceleration_lines(scene: Scene, d: Dyad) -> Lines:
         calculated(
             scene,
             normal,
-            f"V^{{2}}_{{{d.B}{d.A}}}/{w.symbol(d.length)}",
+            f"{w.symbol(v).replace('_', '^{2}_', 1)}/{w.symbol(d.length)}",
             "{}^{{2}}/{}",
             lambda x, y: x * x / y,
             (size_of(scene, v), False),
