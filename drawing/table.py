@@ -7,7 +7,7 @@ from itertools import accumulate
 
 from .shapes import Group, Line, Pen, Shape, Text
 from .style import Style
-from .text import lay_out
+from .text import Box, lay_out
 from .view import View, heading_shapes
 
 INDENT = "    "
@@ -37,7 +37,7 @@ def table(name: str, heading: str, rows: Sequence[Sequence[str]], style: Style) 
             if cell:
                 middle = (edges[i] + edges[i + 1]) / 2
                 shapes.append(Text(complex(middle, baseline), cell, h, "middle", role="cell"))
-    return _view(name, heading, shapes, edges[-1] / 2, (0.0, -height, edges[-1], 0.0), style, role="table")
+    return _view(name, heading, shapes, (0.0, -height, edges[-1], 0.0), style, role="table")
 
 
 def _span(row: Sequence[str], h: float) -> tuple[float, float]:
@@ -57,7 +57,7 @@ def text_block(name: str, heading: str, lines: Sequence[Sequence[str]], style: S
         shapes.append(Text(complex(0.0, y), line, h, role="line"))
         y += layout.bottom - 0.45 * h
         widest = max(widest, layout.width)
-    return _view(name, heading, shapes, widest / 2, (0.0, y, widest, 0.0), style, role="text")
+    return _view(name, heading, shapes, (0.0, y, widest, 0.0), style, role="text")
 
 
 def _broken(chunks: Sequence[str], h: float, width: float) -> list[str]:
@@ -71,10 +71,10 @@ def _broken(chunks: Sequence[str], h: float, width: float) -> list[str]:
     return lines
 
 
-def _view(
-    name: str, heading: str, shapes: list[Shape], middle: float, box: tuple[float, ...], style: Style, role: str
-) -> View:
+def _view(name: str, heading: str, shapes: list[Shape], box: Box, style: Style, role: str) -> View:
+    """Return a view of `shapes`, which fill `box`, under their heading."""
     x0, y0, x1, _ = box
+    middle = (x0 + x1) / 2
     lines, top = heading_shapes((heading,), style.heading, middle, 0.0)
     half = max((lay_out(heading, style.heading).width / 2, (x1 - x0) / 2))
     body = Group(tuple(shapes), role, name)
