@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from ...plans.linkages.rrp import Dyad
-from ..printed import calculation
+from ..printed import calculation, value_text
 from ..table import text_block
 from ..view import View
 from .equations import Lines, by_direction, calculated, given, known, size_of
@@ -13,54 +14,43 @@ from .scene import Scene
 
 
 def kinematics_block(scene: Scene, width: float, plans: tuple[str, ...]) -> View:
-    """Return the equations of velocities and, where it was built, of accelerations."""
-    lines: Lines = _driver_lines(scene, plans)
+    """Return the equations of the plans wanted, of velocities, of accelerations or of both."""
+    lines: Lines = [_speed_line(scene)]
+    if "velocity" in plans:
+        lines.append(_pin_line(scene, "V", "{omega}", "{}·{}", lambda omega, length: omega * length))
+    if "acceleration" in plans:
+        lines.append(_pin_line(scene, "a", "{omega}^{{2}}", "{}^{{2}}·{}", lambda omega, length: omega**2 * length))
     for d in scene.dyads:
-        lines += _velocity_lines(scene, d)
-        if "acceleration" in plans:
-            lines += _acceleration_lines(scene, d)
-    key = "heading.equations_kinematics" if "acceleration" in plans else "heading.equations_velocity"
-    return text_block("equations_kinematics", scene.words[key], lines, scene.style, width)
+        lines += _velocity_lines(scene, d) if "velocity" in plans else []
+        lines += _acceleration_lines(scene, d) if "acceleration" in plans else []
+    drawn = [plan for plan in ("velocity", "acceleration") if plan in plans]
+    key = "kinematics" if len(drawn) > 1 else drawn[0]
+    return text_block("equations_kinematics", scene.words[f"heading.equations_{key}"], lines, scene.style, width)
 
 
-def _driver_lines(scene: Scene, plans: tuple[str, ...]) -> Lines:
+def _speed_line(scene: Scene) -> tuple[str, ...]:
+    """Return omega_1 from revolutions per minute, or as it is given."""
     w, s = scene.words, scene.solved
     driver = s.mechanism.driver
-    omega, n, l, point = (
-        f"omega_{driver.link}",
-        driver.speed,
-        s.mechanism.link(driver.link).points[driver.point][0],
-        driver.point,
-    )
-    size = abs(s.values[omega])
-    sense = w["said.ccw" if s.values[omega] > 0 else "said.cw"]
-    rpm = round(size * 30.0 / math.pi, 9)
-    texts, result = calculation(w, lambda x: math.pi * x / 30.0, [(rpm, True)])
-    lines: Lines = [
-        (f"{w.symbol(omega)} = π{w.symbol(n)}/30 =", f"π·{texts[0]}/30 =", f"{result} {w.unit('rad/s')},", sense),
-        calculated(
-            scene,
-            f"V_{point}",
-            f"{w.symbol(omega)}·{w.symbol(l)}",
-            "{}·{}",
-            lambda x, y: x * y,
-            (size, False),
-            given(scene, l),
-        ),
-    ]
-    if "acceleration" in plans:
-        lines.append(
-            calculated(
-                scene,
-                f"a_{point}",
-                f"ω^{{2}}_{{{driver.link}}}·{w.symbol(l)}",
-                "{}^{{2}}·{}",
-                lambda x, y: x * x * y,
-                (size, False),
-                given(scene, l),
-            )
-        )
-    return lines
+    omega = s.values[f"omega_{driver.link}"]
+    symbol, unit = w.symbol(f"omega_{driver.link}"), w.unit("rad/s")
+    sense = w["said.ccw" if omega > 0 else "said.cw"]
+    stated = scene.givens.get(driver.speed)
+    if stated is None or stated.unit != "rpm" or isinstance(stated.value, str):
+        return f"{symbol} = {value_text(w, abs(omega))} {unit},", sense
+    texts, result = calculation(w, lambda n: math.pi * n / 30.0, [(stated.value, True)])
+    return f"{symbol} = π{w.symbol(driver.speed)}/30 =", f"π·{texts[0]}/30 =", f"{result} {unit},", sense
+
+
+def _pin_line(scene: Scene, kind: str, factor: str, pattern: str, law: Callable[..., float]) -> tuple[str, ...]:
+    """Return velocity or acceleration of the crank's pin from omega_1 and the crank's length."""
+    w, s = scene.words, scene.solved
+    driver = s.mechanism.driver
+    omega, length = f"omega_{driver.link}", s.mechanism.link(driver.link).points[driver.point][0]
+    letter, index = w.symbol(omega).split("_", 1)
+    formula = f"{factor.format(omega=letter)}_{index}·{w.symbol(length)}"
+    inputs = (abs(s.values[omega]), False), given(scene, length)
+    return calculated(scene, f"{kind}_{driver.point}", formula, pattern, law, *inputs)
 
 
 def _velocity_lines(scene: Scene, d: Dyad) -> Lines:

@@ -44,9 +44,9 @@ def _kinematics(solved: Solved, plans: tuple[str, ...], width: float) -> Iterato
     for plan in ("velocity", "acceleration"):
         if plan in plans:
             yield _plan(plan, f"heading.{plan}", symbols[plan])
-    if "velocity" in plans:
+    if {"velocity", "acceleration"} & set(plans):
         yield Figure(lambda scene: kinematics_block(scene, width, plans))
-    yield from (_results(kind) for kind in ("velocity", "acceleration") if kind in results)
+    yield from (_results(kind) for kind in ("velocity", "acceleration") if kind in results and kind in plans)
 
 
 def _forces(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
@@ -71,7 +71,7 @@ def _lever(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Fig
     if "lever" in plans:
         yield Figure(lever_view, "mu_V")
         yield Figure(lambda scene: lever_block(scene, width, with_inertia="forces" not in plans))
-    yield from (_results(kind) for kind in ("forces", "lever") if kind in kinds_of_results(solved))
+    yield from (_results(kind) for kind in ("forces", "lever") if kind in kinds_of_results(solved) and kind in plans)
 
 
 def _plan(plan: str, key: str, symbol: str, **fill: str) -> Figure:
