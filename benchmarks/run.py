@@ -65,6 +65,7 @@ def million() -> None:
     import resource
 
     import numpy as np
+
     from kulman.plans.batch import batch, settle_heap
     from kulman.plans.linkages.chain import board_givens, construct
     from kulman.variants import load_task
@@ -94,8 +95,9 @@ def row(name: str, value: float, unit: str, goal: float, ratio: str) -> None:
 
 def main() -> None:
     """Print the table."""
-    import kulman
     import numpy as np
+
+    import kulman
     from kulman.plans.exact import run
     from kulman.plans.linkages.chain import board_givens, construct
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from kulman.tests.mechanisms import SEED, Solved, general_slider_crank, random_slider_cranks, solved
 
 

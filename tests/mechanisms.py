@@ -9,11 +9,12 @@ from itertools import product
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from kulman.plans.batch import batch
 from kulman.plans.board import Program
 from kulman.plans.linkages.chain import board_givens, construct
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
-from numpy.typing import NDArray
 
 SEED = 20160101
 ORIGIN = (ZERO, ZERO)

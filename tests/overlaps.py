@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import shapely
+
 from kulman.tests.readback import Page, Sheet, Stroke, Text, View, boxes, polygon, thick
 
 TINY = 1e-6

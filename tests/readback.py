@@ -13,8 +13,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import shapely
-from kulman.tests.glyphs import Box, advance, ink
 from lxml import etree
+
+from kulman.tests.glyphs import Box, advance, ink
 
 SVG = "{http://www.w3.org/2000/svg}"
 CAP = 0.729  # cap height of DejaVu Sans in ems

@@ -11,8 +11,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from kulman.plans.linkages.mechanism import Mechanism, Prismatic, Revolute
 from mpmath import mp, mpf
+
+from kulman.plans.linkages.mechanism import Mechanism, Prismatic, Revolute
 
 mp.dps = 60
 STEP = mpf(10) ** -13  # rad; the differences keep 26 of the 60 digits

@@ -5,10 +5,11 @@ import os
 import string
 from pathlib import Path
 
-import kulman
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+
+import kulman
 from kulman import cli
 from kulman.scales.errors import LANGUAGES, InputError, KulmanError, messages
 from kulman.variants.reader import LARGEST_FILE, load_task, read_text

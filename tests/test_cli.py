@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+
 from kulman import __version__, cli
 from kulman.scales.errors import LANGUAGES
 from kulman.variants.shelf import bundled, bundled_text

@@ -9,6 +9,7 @@ from types import ModuleType
 from typing import Any
 
 import pytest
+
 from kulman.drawing.words import notations
 from kulman.plans.linkages.chain import PLANS
 from kulman.variants import checks, checks_givens, checks_mechanism, reader

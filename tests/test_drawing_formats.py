@@ -1,6 +1,7 @@
 """Formats: sizes, frames, and the places that views must leave free."""
 
 import pytest
+
 from kulman.drawing.formats import FORMATS, block_box, drawing_area, format_named, reserved_boxes
 from kulman.scales.errors import InputError
 

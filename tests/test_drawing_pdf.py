@@ -6,13 +6,14 @@ import time
 from io import BytesIO
 
 import pytest
-from kulman.drawing.page import Page
-from kulman.drawing.pdf import write_pdf
-from kulman.drawing.shapes import Arc, Circle, Line, Pen, Polyline, Text, Vector
 from pdfminer.high_level import extract_pages, extract_text
 from pdfminer.layout import LTChar, LTCurve, LTLine
 from pdfminer.pdfdocument import PDFDocument
 from pdfminer.pdfparser import PDFParser
+
+from kulman.drawing.page import Page
+from kulman.drawing.pdf import write_pdf
+from kulman.drawing.shapes import Arc, Circle, Line, Pen, Polyline, Text, Vector
 
 MM = 25.4 / 72
 

@@ -7,12 +7,13 @@ from io import BytesIO
 from pathlib import Path
 
 import pytest
+from lxml import etree
+
 from kulman.drawing.page import Page
 from kulman.drawing.pens import pens_for
 from kulman.drawing.shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Text, Vector
 from kulman.drawing.svg import svg_text, write_svg
 from kulman.drawing.text import lay_out
-from lxml import etree
 
 GOLDEN = Path(__file__).parent / "golden" / "one-of-each.svg"
 SVG = "{http://www.w3.org/2000/svg}"

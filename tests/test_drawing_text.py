@@ -8,6 +8,7 @@ from fontTools.pens.recordingPen import DecomposingRecordingPen
 from fontTools.ttLib import TTFont
 from hypothesis import given
 from hypothesis import strategies as st
+
 from kulman.drawing.font import SIZE, font, subset, web_subset
 from kulman.drawing.shapes import Text
 from kulman.drawing.text import DROP, SCRIPT, box, escape, lay_out

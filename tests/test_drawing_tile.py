@@ -5,6 +5,9 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from pdfminer.high_level import extract_pages, extract_text
+from pypdfium2 import PdfDocument
+
 from kulman.drawing import writers
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.page import Page
@@ -12,8 +15,6 @@ from kulman.drawing.shapes import Line, Text
 from kulman.drawing.tile import MARGIN, OVERLAP, tiles, write_tiles
 from kulman.drawing.writers import WRITERS, write_pages
 from kulman.scales.errors import InputError
-from pdfminer.high_level import extract_pages, extract_text
-from pypdfium2 import PdfDocument
 
 
 def page(name="A2"):

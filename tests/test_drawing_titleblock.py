@@ -4,6 +4,10 @@ from dataclasses import fields, replace
 from io import BytesIO
 
 import pytest
+from lxml import etree
+from pdfminer.high_level import extract_pages
+from pdfminer.layout import LTLine
+
 from kulman.drawing.formats import FORMATS, block_box, drawing_area
 from kulman.drawing.frame import frame_shapes
 from kulman.drawing.page import Page
@@ -14,9 +18,6 @@ from kulman.drawing.svg import svg_text
 from kulman.drawing.text import box
 from kulman.drawing.titleblock import Stamp, words
 from kulman.scales.errors import InputError
-from lxml import etree
-from pdfminer.high_level import extract_pages
-from pdfminer.layout import LTLine
 
 SVG = "{http://www.w3.org/2000/svg}"
 

@@ -8,6 +8,7 @@ import time
 import numpy as np
 import pytest
 import shapely
+
 from kulman.drawing.labels import Labels, Obstacles, Request, place
 
 GAP = 0.6

@@ -8,8 +8,9 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-import kulman
 import pytest
+
+import kulman
 
 ROOT = Path(kulman.__file__).parent
 LAYERS = ("scales", "plans", "drawing", "variants", "cli")

@@ -5,6 +5,7 @@ import time
 
 import pytest
 import shapely
+
 from kulman.drawing.packing import Placement, order_kept, pack
 
 GAP = 8.0

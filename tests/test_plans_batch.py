@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from kulman.plans.batch import batch
 from kulman.plans.exact import STATUSES, run
 from kulman.plans.linkages.chain import board_givens

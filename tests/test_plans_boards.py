@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from kulman import load_task, solve
 from kulman.plans.batch import ArrayBoard
 from kulman.plans.board import POSITION, Program

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 
 import pytest
+
 from kulman.plans.exact import ExactBoard, run
 from kulman.plans.linkages.chain import board_givens, construct
 from kulman.plans.linkages.structure import analyse

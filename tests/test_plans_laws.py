@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from kulman.tests.mechanisms import GENERAL_LENGTHS, SEED, Solved, general_slider_crank, random_slider_cranks, solved
 
 RELATIVE = 1e-11

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import pytest
+from mpmath import mp, mpf
+
 from kulman.plans.board import Program
 from kulman.plans.exact import ExactBoard, run
 from kulman.plans.linkages.chain import board_givens, construct
@@ -20,7 +22,6 @@ from kulman.tests.mechanisms import (
     twin_values,
 )
 from kulman.tests.second_solver import SecondSolver
-from mpmath import mp, mpf
 
 RELATIVE = 1e-11
 

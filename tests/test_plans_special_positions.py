@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from kulman.plans.batch import ArrayBoard
 from kulman.plans.board import Program
 from kulman.plans.exact import STATUSES, ExactBoard, run

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 
 import pytest
+from mpmath import mpc, mpf
+
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.tests.mechanisms import NAU_VARIANTS, ROTATIONS, nau_cases, nau_values
 from kulman.tests.second_solver import SecondSolver
 from kulman.tests.test_plans_second_solver import size_of
 from kulman.variants import load_task
-from mpmath import mpc, mpf
 
 TASK = load_task("nau-slider-crank")
 

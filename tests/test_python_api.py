@@ -8,9 +8,10 @@ import pickle
 from pathlib import Path
 from typing import Any
 
-import kulman
 import numpy as np
 import pytest
+
+import kulman
 from kulman import KulmanError
 from kulman.scales.errors import LANGUAGES
 from kulman.variants.solution import Solution

@@ -10,16 +10,17 @@ import time
 from pathlib import Path
 
 import pytest
-from kulman import sheet
-from kulman.drawing.pdf import write_pdf
-from kulman.tests.mechanisms import NAU_VARIANTS
-from kulman.tests.sheet_cases import FORMATS, TASK, Case, drawn, solved
-from kulman.tests.test_sheet_points import SAMPLE
 from pdfminer.high_level import extract_pages, extract_text
 from pdfminer.layout import LTLine
 from pdfminer.pdfdocument import PDFDocument
 from pdfminer.pdfparser import PDFParser
 from pdfminer.pdftypes import resolve1
+
+from kulman import sheet
+from kulman.drawing.pdf import write_pdf
+from kulman.tests.mechanisms import NAU_VARIANTS
+from kulman.tests.sheet_cases import FORMATS, TASK, Case, drawn, solved
+from kulman.tests.test_sheet_points import SAMPLE
 
 MM = 25.4 / 72
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+
 from kulman.tests.overlaps import overlaps
 from kulman.tests.printed_numbers import numbers_of
 from kulman.tests.readback import CAP, Sheet, read

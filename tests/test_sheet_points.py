@@ -6,6 +6,7 @@ import random
 import re
 
 import pytest
+
 from kulman.tests.mechanisms import NAU_VARIANTS
 from kulman.tests.printed_numbers import equation_faults, lines_of, table_faults
 from kulman.tests.readback import Sheet, read

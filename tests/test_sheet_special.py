@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from kulman import sheet
 from kulman.scales.errors import InputError
 from kulman.tests.overlaps import overlaps

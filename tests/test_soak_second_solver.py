@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from kulman.plans.exact import run
 from kulman.plans.linkages.chain import board_givens, construct
 from kulman.tests.mechanisms import general_slider_crank, one_of, random_slider_cranks

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 
 import pytest
+
 from kulman.tests.mechanisms import NAU_VARIANTS
 from kulman.tests.overlaps import overlaps
 from kulman.tests.sheet_cases import FORMATS, Case, drawn

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.structure import analyse

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from kulman.plans.linkages.mechanism import ZERO, Prismatic
 from kulman.scales.errors import InputError
 from kulman.variants.reader import load_task, read_file, read_text

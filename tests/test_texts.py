@@ -9,8 +9,9 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import kulman
 import pytest
+
+import kulman
 from kulman.drawing.words import Words, notations
 from kulman.scales.errors import LANGUAGES, messages
 from kulman.scales.packaged import packaged

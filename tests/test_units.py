@@ -6,6 +6,7 @@ from contextlib import suppress
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from kulman.scales.errors import InputError
 from kulman.scales.numbers import split_number
 from kulman.scales.units import ONE, SYMBOLS, Unit, format_unit, parse, unit
