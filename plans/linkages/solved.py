@@ -30,6 +30,7 @@ class Solved:
     status: Status
     trouble: Trouble | None
     shown_on: Mapping[str, str]  # the first plan that shows each quantity as a segment
+    scale_of_plan: Mapping[str, str]  # symbol of the scale factor of every plan
 
     def point(self, mark: str) -> complex:
         """Return a mark of any plan, SI."""
@@ -39,15 +40,6 @@ class Solved:
         """Return the magnitude of a value."""
         value = self.values[name]
         return math.hypot(value.real, value.imag)
-
-    @property
-    def scale_of_plan(self) -> dict[str, str]:
-        """Symbol of the scale factor of every plan; a group and its links share one."""
-        symbols = {POSITION: "mu_l", "velocity": "mu_V", "acceleration": "mu_a", "lever": "mu_V"}
-        symbols[f"forces_{self.structure.driver}"] = f"mu_F_{self.structure.driver}"
-        for group in self.structure.groups:
-            symbols |= {f"forces_{links}": f"mu_F_{group.name}" for links in (group.name, *map(str, group.links))}
-        return {plan: symbol for plan, symbol in symbols.items() if plan in self.program.plans}
 
     def worst_sine(self) -> tuple[str, float]:
         """Return the worst intersection: the name of its mark and the sine of its angle."""
@@ -78,6 +70,16 @@ class Solved:
         return PositionError(
             "no-assembly-here", status_word="no-assembly", point=trouble.name, gap=gap, low=low, high=high
         )
+
+
+def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:
+    """Return the symbol of the scale factor of every plan; a group and its links share one."""
+    symbols = {POSITION: "mu_l", "velocity": "mu_V", "acceleration": "mu_a", "lever": "mu_V"}
+    symbols[f"forces_{structure.driver}"] = f"mu_F_{structure.driver}"
+    for group in structure.groups:
+        symbols |= {f"forces_{links}": f"mu_F_{group.name}" for links in (group.name, *map(str, group.links))}
+    drawn = set(program.plans)
+    return {plan: symbol for plan, symbol in symbols.items() if plan in drawn}
 
 
 def _is_given(name: str) -> bool:
@@ -114,5 +116,14 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if _is_given(x)}
     items = quantities(program, board.values, lengths)
     return Solved(
-        mechanism, structure, program, board.values, items, board.sines, board.status, board.trouble, shown_on(program)
+        mechanism,
+        structure,
+        program,
+        board.values,
+        items,
+        board.sines,
+        board.status,
+        board.trouble,
+        shown_on(program),
+        _scale_of_plan(structure, program),
     )
