@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .board import Program
-from .exact import ILL, NAN, RIGHT, SINGULAR, STATUSES, TANGENT, ExactBoard, Status
+from .exact import ILL, NAN, RIGHT, SINGULAR, STATUSES, TANGENT, ExactBoard, Status, heron
 
 CHUNK = 8192
 _CODE = {status: code for code, status in enumerate(STATUSES)}
@@ -62,6 +62,22 @@ class ArrayBoard(ExactBoard):
             self._mark(out, "no-assembly")
             square = np.where(out, NAN, np.maximum(square, 0.0))
         return np.sqrt(square)
+
+    def _height(self, first: Any, second: Any, base: Any) -> Any:
+        total, double, product = heron(first, second, base)
+        if not np.min(product - (ILL * double) ** 2) >= 0.0 or not np.min(base) > 0.0:
+            out = product < -2.0 * TANGENT * total * total * first * second
+            self._mark(product < (ILL * double) ** 2, "ill-conditioned")
+            self._mark(base == 0.0, "singular")
+            self._mark(out, "no-assembly")
+            product = np.where(out | (base == 0.0), NAN, np.maximum(product, 0.0))
+        return np.sqrt(product) / (base * 2.0)
+
+    def _apart(self, distance: Any) -> Any:
+        if not np.min(distance) > 0.0:
+            self._mark(distance == 0.0, "singular")
+            distance = np.where(distance == 0.0, NAN, distance)
+        return distance
 
     def _arm(self, moment: Any, force: Any) -> Any:
         size = np.sqrt(force.real * force.real + force.imag * force.imag)

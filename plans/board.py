@@ -81,6 +81,33 @@ class Board:
         """Mark where the arc about `centre` crosses the line through `q` along `w`, on the side +1 or -1 of the two."""
         self.step("arc", name, centre, radius, q, w, side)
 
+    def arcs(self, name: str, first: str, radius: str, second: str, other: str, side: str) -> None:
+        """Mark where arcs about `first` and `second` cross, to the left (+1) or right (-1) of the way between them."""
+        self.step("arcs", name, first, radius, second, other, side)
+
+    def tangent(self, name: str, centre: str, point: str, offset: str, side: str) -> None:
+        """Take the unit direction of a line through `point` at `offset` to the left of `centre`.
+
+        There are two; `side` says whether the line runs from the foot of the normal towards `point` (+1) or back (-1).
+        """
+        self.step("tangent", name, centre, point, offset, side)
+
+    def incline(self, name: str, direction: str, slope: str) -> None:
+        """Lay off with the protractor, from `direction`, the angle of the unit direction `slope` of another drawing."""
+        self.step("incline", name, direction, slope)
+
+    def decline(self, name: str, direction: str, slope: str) -> None:
+        """Lay off the angle of `slope` the other way: the result makes that angle with `direction`."""
+        self.step("decline", name, direction, slope)
+
+    def measure(self, name: str, start: str, end: str) -> None:
+        """Measure the distance of two marks."""
+        self.step("measure", name, start, end)
+
+    def similar(self, name: str, start: str, end: str, along: str, across: str) -> None:
+        """Mark the third point of a figure on start-end similar to the link: parts of it along and to the left."""
+        self.step("similar", name, start, end, along, across)
+
     def divide(self, name: str, start: str, end: str, part: str, whole: str) -> None:
         """Divide start-end in the ratio part : whole, counted from `start` (theorem of similarity on a line)."""
         self.step("divide", name, start, end, part, whole)
@@ -104,14 +131,19 @@ class Board:
 
 
 class RecordingBoard(Board):
-    """A board that notes the steps and computes nothing."""
+    """A board that notes the steps, each once, and computes nothing."""
 
     def __init__(self) -> None:
-        self.steps: list[Step] = []
+        self._steps: dict[Step, None] = {}
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """The steps in order."""
+        return tuple(self._steps)
 
     def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
-        """Note the step."""
-        self.steps.append(Step(verb, name, operands, law))
+        """Note the step; two dyads on one pivot of the frame need it once."""
+        self._steps[Step(verb, name, operands, law)] = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -105,6 +105,26 @@ class ExactBoard(Board):
         self.sines[self._name] = half / radius if radius else 0.0
         return half
 
+    def _height(self, first: Any, second: Any, base: Any) -> Any:
+        """Height of the triangle of two radii on `base` by the factored formula of Heron, not to cancel."""
+        total, double, product = heron(first, second, base)
+        if product < -2.0 * TANGENT * total * total * first * second:
+            self._fail("no-assembly", gap=max(base - total, abs(first - second) - base))
+            return NAN
+        if base == 0.0:
+            self._fail("singular")
+            return NAN
+        root = self._sqrt(max(product, 0.0))
+        self.sines[self._name] = root / double
+        return root / (base * 2.0)
+
+    def _apart(self, distance: Any) -> Any:
+        """Two joints that coincide settle no direction."""
+        if distance == 0.0:
+            self._fail("singular")
+            return NAN
+        return distance
+
     def _arm(self, moment: Any, force: Any) -> Any:
         size = self._sqrt(dot(force, force))
         if size == 0.0:
@@ -148,6 +168,36 @@ class ExactBoard(Board):
         half = self._half_chord(radius, abs(cross(w, to_centre)))
         return self._chain(q, w * (dot(w, to_centre) + side * half))
 
+    def _arcs(self, first: Any, radius: Any, second: Any, other: Any, side: Any) -> Any:
+        between = self._read(first, second)
+        base = self._sqrt(dot(between, between))
+        height = self._height(radius, other, base)
+        along = between * (1.0 / (base + (base == 0.0)))
+        foot = (base * base + (radius - other) * (radius + other)) / (base * 2.0 + (base == 0.0))
+        return self._chain(first, along * foot + (along * 1j) * (side * height))
+
+    def _tangent(self, centre: Any, point: Any, offset: Any, side: Any) -> Any:
+        between = self._read(centre, point)
+        distance = self._measure(centre, point)
+        part = side * self._half_chord(distance, abs(offset))
+        inverse = 1.0 / distance
+        along = between * inverse
+        return along * (part * inverse) - (along * 1j) * (offset * inverse)
+
+    def _incline(self, direction: Any, slope: Any) -> Any:
+        return direction * slope.real + (direction * 1j) * slope.imag
+
+    def _decline(self, direction: Any, slope: Any) -> Any:
+        return direction * slope.real - (direction * 1j) * slope.imag
+
+    def _measure(self, start: Any, end: Any) -> Any:
+        between = self._read(start, end)
+        return self._apart(self._sqrt(dot(between, between)))
+
+    def _similar(self, start: Any, end: Any, along: Any, across: Any) -> Any:
+        base = self._read(start, end)
+        return self._chain(start, base * along + (base * 1j) * across)
+
     def _divide(self, start: Any, end: Any, part: Any, whole: Any) -> Any:
         return start + (end - start) * (part / whole)
 
@@ -166,6 +216,12 @@ class ExactBoard(Board):
         if self.trouble is not None:
             return self.trouble.status
         return "ill-conditioned" if min(self.sines.values(), default=1.0) < ILL else "ok"
+
+
+def heron(first: Any, second: Any, base: Any) -> tuple[Any, Any, Any]:
+    """Return the sum of two sides, twice their product, and 16 times the squared area of the triangle on `base`."""
+    total, between = first + second, first - second
+    return total, first * second * 2.0, (total + base) * (total - base) * (base + between) * (base - between)
 
 
 def _is_zero(value: Any) -> bool:

@@ -42,6 +42,22 @@ LAWS: dict[str, Law] = {
     "normal_part": lambda v, length: dot(v, v) / length,
     # omega = v_BA / l_AB, epsilon = a^t_BA / l_AB, with the sense in which the vector turns B about A
     "turning": lambda v, normal, length: dot(v, normal) / length,
+    # a link slides on another: it turns like it
+    "same_turning": lambda rate: rate,
+    # v = omega x r, a^n = -omega^2 * r, a^t = epsilon x r
+    "transport_speed": lambda omega, r: (r * 1j) * omega,
+    "transport_normal": lambda omega, r: r * -(omega * omega),
+    "transport_tangential": lambda epsilon, r: (r * 1j) * epsilon,
+    # a^k = 2 * omega x v_r, omega of the guide
+    "coriolis": lambda omega, v: (v * 1j) * (omega * 2.0),
+    # a^t = epsilon * l, along the normal to the crank
+    "circular_acceleration": lambda epsilon, length: epsilon * length,
+    # where a point of a link lies from its point b, along and to the left of its axis
+    "along_axis": lambda axis, b, e: dot(axis, e - b),
+    "across_axis": lambda axis, b, e: cross(axis, e - b),
+    # the same from a to b, in parts of ab
+    "part_along": lambda a, b, e: dot(b - a, e - a) / dot(b - a, b - a),
+    "part_across": lambda a, b, e: cross(b - a, e - a) / dot(b - a, b - a),
     # F_i = -m * a_S
     "inertia_force": lambda mass, a: a * -mass,
     # M_i = -J_S * epsilon
@@ -55,6 +71,9 @@ LAWS: dict[str, Law] = {
     # sum of moments = 0, solved for a moment
     "closing_moment": lambda *moments: -_sum(*moments),
     "sum": _sum,
+    "excess": lambda whole, part: whole - part,
+    # the moment of a couple on the lever, turned by +90 degrees, is minus its power, like those of forces
+    "couple_on_lever": lambda moment, omega: -moment * omega,
     # M = F * l
     "crank_moment": lambda force, length: force * length,
     # difference of two values in per cent of the first

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+
 from kulman.plans.batch import batch
 from kulman.plans.exact import run
 from kulman.plans.linkages.chain import board_givens, construct
 from kulman.plans.linkages.mechanism import ZERO, Link, Load, Mechanism, Prismatic, Revolute
+from kulman.plans.linkages.views import require_views
 from kulman.scales.errors import InputError
 from kulman.tests.mechanisms import ORIGIN, nau_slider_crank, nau_values
 from kulman.tests.second_solver import SecondSolver
@@ -89,14 +91,20 @@ def test_guide_without_a_branch_takes_the_position_along_its_direction() -> None
         pytest.param(with_links(Link(2, {"A": ("l_S1", ZERO), "B": ("l_AB", ZERO)})), 2, id="shifted pin"),
     ],
 )
-def test_link_with_points_off_its_axis_is_refused(mechanism: Mechanism, link: int) -> None:
+def test_link_with_points_off_its_axis_has_no_views_yet(mechanism: Mechanism, link: int) -> None:
+    structure, _ = construct(mechanism)
+
     with pytest.raises(InputError) as refused:
-        construct(mechanism)
+        require_views(mechanism, structure)
 
-    assert (refused.value.key, refused.value.data) == ("bent-link", {"link": link})
+    assert (refused.value.key, refused.value.data) == ("no-views", {"links": str(link)})
 
 
-def test_guide_on_a_moving_link_is_refused() -> None:
+def test_mechanism_of_the_first_sheets_has_views() -> None:
+    require_views(NAU, construct(NAU)[0])
+
+
+def test_frame_as_a_slider_is_refused() -> None:
     moving = replace(NAU, pairs=(*NAU.pairs[:3], Prismatic("B", (0, 3), ORIGIN, ZERO)))
 
     with pytest.raises(InputError) as refused:

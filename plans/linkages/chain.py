@@ -8,13 +8,11 @@ from typing import Any
 
 from ...scales.errors import InputError
 from ..board import Program, RecordingBoard
-from . import driver, rrp
+from . import driver, prp, rpp, rpr, rrp, rrr
 from .lever import lever
-from .mechanism import FRAME, Link, Mechanism, Prismatic
-from .structure import Group, Structure, analyse
-
-Forces = dict[int, list[tuple[str, str]]]
-Couples = dict[int, list[str]]
+from .mechanism import FRAME, Link, Mechanism
+from .parts import Bodies, Couples, Dyad, Forces
+from .structure import Structure, analyse
 
 PLANS = ("structure", "position", "velocity", "acceleration", "forces", "lever")
 NEEDS = {
@@ -25,7 +23,7 @@ NEEDS = {
     "forces": ("acceleration",),
     "lever": ("acceleration",),
 }
-CONSTRUCTIONS: dict[str, ModuleType] = {"RRP": rrp}
+CONSTRUCTIONS: dict[str, ModuleType] = {"RRR": rrr, "RRP": rrp, "RPR": rpr, "PRP": prp, "RPP": rpp}
 
 
 def with_needs(plans: Iterable[str]) -> tuple[str, ...]:
@@ -48,58 +46,71 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = PLANS) -> tuple[Struc
     structure = analyse(mechanism)
     board = RecordingBoard()
     plans = with_needs(plans)
-    dyads = [_named(mechanism, group) for group in structure.groups]
+    dyads, bodies = _named(mechanism, structure)
     for plan in ("position", "velocity", "acceleration"):
         if plan in plans:
             getattr(driver, plan)(board, mechanism)
+            if plan == "position":
+                _place_frame(board, mechanism)
             for module, dyad in dyads:
                 getattr(module, plan)(board, dyad)
     if "acceleration" in plans and {"forces", "lever"} & set(plans):
-        _loads(board, mechanism)
+        _loads(board, mechanism, bodies)
     if "forces" in plans:
-        _forces(board, mechanism, dyads)
+        _forces(board, mechanism, dyads, bodies)
     if "lever" in plans:
-        _lever(board, mechanism, dyads)
+        _lever(board, mechanism, dyads, bodies)
     if {"forces", "lever"} <= set(plans):
         board.calc("delta_M_bal", "difference", "M_bal_lever", "M_bal")
-    return structure, Program(tuple(board.steps))
+    return structure, Program(board.steps)
 
 
-def _named(mechanism: Mechanism, group: Group) -> tuple[ModuleType, rrp.Dyad]:
-    if group.kind not in CONSTRUCTIONS:
-        raise InputError("no-construction", kind=group.kind, links=", ".join(map(str, group.links)))
-    module = CONSTRUCTIONS[group.kind]
-    return module, module.dyad(mechanism, group)
+def _named(mechanism: Mechanism, structure: Structure) -> tuple[list[tuple[ModuleType, Dyad]], Bodies]:
+    """Name the parts of all groups, each for those attached to it."""
+    for group in structure.groups:
+        if group.kind not in CONSTRUCTIONS:
+            raise InputError("no-construction", kind=group.kind, links=", ".join(map(str, group.links)))
+    bodies = {mechanism.driver.link: driver.body(mechanism)}
+    dyads = []
+    for group in structure.groups:
+        module = CONSTRUCTIONS[group.kind]
+        dyad: Dyad = module.dyad(mechanism, group, bodies)
+        bodies |= {body.link.number: body for body in dyad.bodies}
+        dyads.append((module, dyad))
+    return dyads, bodies
+
+
+def _place_frame(board: RecordingBoard, mechanism: Mechanism) -> None:
+    """Mark the pivots on the frame."""
+    for point, place in mechanism.frame_points.items():
+        board.place(point, *place)
 
 
 def board_givens(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return `values` as the board wants them: the size of a load as `|F_3|`, for `F_3` is the vector."""
-    return {**values, **{f"|{load.magnitude}|": values[load.magnitude] for load in mechanism.loads}}
+    given = [load.magnitude for load in mechanism.loads] + [couple.magnitude for couple in mechanism.couples]
+    return {**values, **{f"|{name}|": values[name] for name in given}}
 
 
-def _loads(board: RecordingBoard, mechanism: Mechanism) -> None:
+def _loads(board: RecordingBoard, mechanism: Mechanism, bodies: Bodies) -> None:
     """Lay down the outer loads, the inertia force and moment of every link that has a mass."""
     for load in mechanism.loads:
         board.turn(f"e_{load.name}", load.direction)
         board.calc(load.name, "along", f"|{load.magnitude}|", f"e_{load.name}")
+    for couple in mechanism.couples:
+        board.calc(couple.name, "signed", f"|{couple.magnitude}|", couple.sense)
     for link in mechanism.links:
         if _has_inertia_force(mechanism, link):
             board.calc(f"F_i{link.number}", "inertia_force", str(link.mass), f"a_{link.centre}")
-        if link.inertia and _has_inertia_moment(mechanism, link):
-            board.calc(f"M_i{link.number}", "inertia_moment", link.inertia, f"epsilon_{link.number}")
+        if link.inertia and bodies[link.number].epsilon:
+            board.calc(f"M_i{link.number}", "inertia_moment", link.inertia, str(bodies[link.number].epsilon))
 
 
 def _has_inertia_force(mechanism: Mechanism, link: Link) -> bool:
-    return bool(link.mass) and link.centre != mechanism.driver.pivot
+    return bool(link.mass) and link.centre not in mechanism.frame_points
 
 
-def _has_inertia_moment(mechanism: Mechanism, link: Link) -> bool:
-    """Return whether the link turns unsteadily: not the crank, which turns steadily, nor a slider on the frame."""
-    guides = [pair.links for pair in mechanism.pairs if isinstance(pair, Prismatic)]
-    return link.number != mechanism.driver.link and (link.number, FRAME) not in guides
-
-
-def _hung(mechanism: Mechanism) -> tuple[Forces, Couples]:
+def _hung(mechanism: Mechanism, bodies: Bodies) -> tuple[Forces, Couples]:
     """Forces (name, point) and couples by link: inertia first, then the outer loads."""
     forces: Forces = {link.number: [] for link in mechanism.links}
     couples: Couples = {link.number: [] for link in mechanism.links}
@@ -107,26 +118,35 @@ def _hung(mechanism: Mechanism) -> tuple[Forces, Couples]:
         if _has_inertia_force(mechanism, link):
             forces[link.number].append((f"F_i{link.number}", str(link.centre)))
         forces[link.number] += [(load.name, load.point) for load in mechanism.loads_on(link.number)]
-        if link.inertia and _has_inertia_moment(mechanism, link):
+        if link.inertia and bodies[link.number].epsilon:
             couples[link.number].append(f"M_i{link.number}")
+    for couple in mechanism.couples:
+        couples[couple.link].append(couple.name)
     return forces, couples
 
 
-def _forces(board: RecordingBoard, mechanism: Mechanism, dyads: list[tuple[ModuleType, rrp.Dyad]]) -> None:
+def _forces(board: RecordingBoard, mechanism: Mechanism, dyads: list[tuple[ModuleType, Dyad]], bodies: Bodies) -> None:
     """Solve the groups from the last to the first, pass each reaction on to the link it acts on, balance the driver."""
-    forces, couples = _hung(mechanism)
-    reactions: list[tuple[str, str]] = []
+    forces, couples = _hung(mechanism, bodies)
+    reactions: Forces = {link: [] for link in forces}
     for module, dyad in reversed(dyads):
+        for link in (body.link.number for body in dyad.bodies):
+            forces[link] += reactions[link]
         module.forces(board, dyad, forces, couples)
-        passed = (f"R_{dyad.rod.number}{dyad.before}", dyad.A)
-        if dyad.before == mechanism.driver.link:
-            reactions.append(passed)
-        elif dyad.before in forces:
-            forces[dyad.before].append(passed)
-    driver.forces(board, mechanism, (*reactions, *forces[mechanism.driver.link]))
+        for passed in dyad.passed():
+            if passed.link != FRAME:
+                reactions[passed.link].append((passed.force, passed.point))
+                couples[passed.link] += [passed.couple] if passed.couple else []
+    crank = mechanism.driver.link
+    forces[crank] = reactions[crank] + forces[crank]
+    driver.forces(board, mechanism, forces, couples)
 
 
-def _lever(board: RecordingBoard, mechanism: Mechanism, dyads: list[tuple[ModuleType, rrp.Dyad]]) -> None:
-    forces, couples = _hung(mechanism)
-    pairs = [(couple, d.A, d.B, d.length) for _, d in dyads for couple in couples[d.rod.number]]
-    lever(board, mechanism, [force for link in forces.values() for force in link], pairs)
+def _lever(board: RecordingBoard, mechanism: Mechanism, dyads: list[tuple[ModuleType, Dyad]], bodies: Bodies) -> None:
+    """Hang all forces on the lever, and the couples: as pairs of forces on links with two joints, else as powers."""
+    forces, couples = _hung(mechanism, bodies)
+    spans = [span for _, dyad in dyads for span in dyad.spans]
+    pairs = [(couple, span) for span in spans for couple in couples[span.link.number]]
+    alone = set(couples) - {span.link.number for span in spans}
+    turning = [(c, omega) for n in couples if n in alone for c in couples[n] if (omega := bodies[n].omega)]
+    lever(board, mechanism, [force for link in forces.values() for force in link], pairs, turning)

@@ -8,35 +8,45 @@ from __future__ import annotations
 from ..board import Board
 from .driver import crank_length, crank_name
 from .mechanism import Mechanism
+from .parts import Span
 
 
 def lever(
-    board: Board, mechanism: Mechanism, forces: list[tuple[str, str]], couples: list[tuple[str, str, str, str]]
+    board: Board,
+    mechanism: Mechanism,
+    forces: list[tuple[str, str]],
+    couples: list[tuple[str, Span]],
+    turning: list[tuple[str, str]],
 ) -> None:
-    """Hang `forces` (name, point) and `couples` (moment, A, B, length name) on the turned plan, solve for F_bal at A.
+    """Hang `forces` (name, point) and `couples` (moment, link AB) on the turned plan, solve for F_bal at A.
 
-    A couple hangs as two equal opposite forces M / l_AB at B and A, normal to AB.
+    A couple hangs as two equal opposite forces M / l_AB at B and A, normal to AB. Those in `turning` (moment, omega) on
+    links with one joint enter with their power.
     """
-    driver = mechanism.driver
-    forces = [(force, at) for force, at in forces if at != driver.pivot]
+    driver, still = mechanism.driver, mechanism.frame_points
+    forces = [(force, at) for force, at in forces if at not in still]
     board.pole("lever.p")
-    points = [driver.point, *(at for _, at in forces), *(p for couple in couples for p in couple[1:3])]
-    for point in dict.fromkeys(points):
+    points = [driver.point, *(at for _, at in forces), *(p for _, span in couples for p in (span.start, span.end))]
+    for point in dict.fromkeys(point for point in points if point not in still):
         board.normal(f"lever.{point}", f"velocity.{point}")
     moments = []
     for force, at in forces:
         board.moment(f"_M_{force}_p", f"h_lever_{force}", force, f"lever.{at}", "lever.p")
         moments.append(f"_M_{force}_p")
-    for moment, A, B, length in couples:
+    for moment, span in couples:
+        A, B = span.start, span.end
         pair = f"{moment.replace('M_', 'F_')}_couple"
-        board.calc(pair, "couple", moment, length)
-        board.calc(f"{pair}_{B}", "along", pair, f"n_{A}{B}")
+        board.calc(pair, "couple", moment, span.length)
+        board.calc(f"{pair}_{B}", "along", pair, span.n)
         board.calc(f"{pair}_{A}", "opposite", f"{pair}_{B}")
-        for point in (B, A):
+        for point in (p for p in (B, A) if p not in still):
             board.moment(
                 f"_M_{pair}_{point}_p", f"h_lever_{moment}_{point}", f"{pair}_{point}", f"lever.{point}", "lever.p"
             )
             moments.append(f"_M_{pair}_{point}_p")
+    for moment, omega in turning:
+        board.calc(f"_{moment}_p", "couple_on_lever", moment, omega)
+        moments.append(f"_{moment}_p")
     # F_bal along the normal to the crank has the moment -F_bal * pa about the pole
     board.calc("F_bal", "moment_equation", f"_V_{driver.point}", *moments)
     board.calc("_F_bal", "along", "F_bal", f"n_{crank_name(mechanism)}")

@@ -27,11 +27,16 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class Revolute:
-    """A revolute pair at a lettered point; `at` is where it stands when one of its links is the frame."""
+    """A revolute pair at a lettered point; `at` is where it stands when one of its links is the frame.
+
+    `branch` belongs to the inner pair of a dyad RRR: whether it lies to the left (+1) or right (-1) of the way from the
+    outer pair of the link with the lower number to the other outer pair.
+    """
 
     point: str
     links: tuple[int, int]
     at: tuple[str, str] | None = None
+    branch: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +44,8 @@ class Prismatic:
     """A prismatic pair: point `point` of the slider runs along a guide of the other link.
 
     `links` is (slider, guide link); the guide passes through `through` along the angle `direction`; the point runs at
-    `offset` to the left of it; `branch` (+1 or -1) says which of two positions along the direction is meant.
+    `offset` to the left of it; `branch` (+1 or -1) says which of two positions along the direction is meant. Both are
+    given on the guide link (absolute on the frame). The slider's own x axis points along the guide.
     """
 
     point: str
@@ -52,7 +58,11 @@ class Prismatic:
 
 @dataclass(frozen=True, slots=True)
 class Driver:
-    """The crank: link `link` turns about `pivot`, carries `point`, at `angle`, with `speed`, in the sense `sense`."""
+    """The crank: link `link` turns about `pivot`, carries `point`, at `angle`, with `speed`, in the sense `sense`.
+
+    `acceleration`, in the sense of rotation too, is positive while the crank speeds up; without it the crank turns
+    steadily.
+    """
 
     link: int
     pivot: str
@@ -60,6 +70,7 @@ class Driver:
     angle: str
     speed: str
     sense: str
+    acceleration: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +84,16 @@ class Load:
     direction: str
 
 
+@dataclass(frozen=True, slots=True)
+class Couple:
+    """A moment `name` on a link: its magnitude and its sense, +1 counter-clockwise, -1 clockwise."""
+
+    name: str
+    link: int
+    magnitude: str
+    sense: str = "one"
+
+
 Pair = Revolute | Prismatic
 
 
@@ -84,10 +105,20 @@ class Mechanism:
     pairs: tuple[Pair, ...]
     driver: Driver
     loads: tuple[Load, ...] = field(default=())
+    couples: tuple[Couple, ...] = field(default=())
 
     def link(self, number: int) -> Link:
         """Return the moving link with this number."""
         return next(link for link in self.links if link.number == number)
+
+    @property
+    def frame_points(self) -> dict[str, tuple[str, str]]:
+        """Points of the frame, the pivots on it, with their coordinates."""
+        return {p.point: p.at or (ZERO, ZERO) for p in self.pairs if isinstance(p, Revolute) and FRAME in p.links}
+
+    def mark(self, plan: str, point: str) -> str:
+        """Return the mark of `point` on a plan of velocities or accelerations; points of the frame are at the pole."""
+        return f"{plan}.p" if point in self.frame_points else f"{plan}.{point}"
 
     def loads_on(self, number: int) -> tuple[Load, ...]:
         """Return the loads on link `number`."""

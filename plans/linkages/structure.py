@@ -45,6 +45,11 @@ class Group:
         return KINDS.index(self.kind) + 1 if self.kind in KINDS else None
 
     @property
+    def before(self) -> tuple[int, ...]:
+        """The links before it to which its outer pairs join it."""
+        return tuple(next(n for n in pair.links if n not in self.links) for pair in self.outer)
+
+    @property
     def name(self) -> str:
         """The group's links as a word, such as `23`."""
         return "".join(str(number) for number in self.links)
@@ -117,7 +122,8 @@ def _within(pair: Pair, links: tuple[int, ...]) -> int:
 
 
 def _dyad(links: tuple[int, ...], inner: tuple[Pair, ...], outer: tuple[Pair, ...]) -> Group:
-    """Order the two links so that the letters read as one of the five kinds."""
+    """Order the two links so that the letters read as one of the five kinds; by number where both orders do."""
+    links = tuple(sorted(links))
     by_link = {_within(pair, links): pair for pair in outer}
     for first, second in (links, links[::-1]):
         pairs = (by_link[first], inner[0], by_link[second])

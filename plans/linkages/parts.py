@@ -1,0 +1,285 @@
+"""Parts that all constructions share: how a link lies and moves, and where its points are on every plan.
+
+A link with two joints carries its points by similarity; a link with one joint and a sliding pair by rotation about that
+joint. A straight link whose points stand on one axis from the first joint needs neither: its segments are divided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+from ..board import Board
+from .mechanism import ZERO, Link, Mechanism
+
+SYMBOLS = {"velocity": "V", "acceleration": "a"}
+Forces = dict[int, list[tuple[str, str]]]
+Couples = dict[int, list[str]]
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """How a moving link is known to the links that are attached to it.
+
+    `pin` is one of its points with marks on all plans; `direction` a unit direction that turns with it, `local` the
+    same direction in the link's own coordinates, or None where that is the x axis from `pin` at the origin; `omega` and
+    `epsilon` are None where they are zero by the form of the mechanism.
+    """
+
+    link: Link
+    pin: str
+    direction: str
+    local: str | None
+    omega: str | None
+    epsilon: str | None
+
+
+Bodies = Mapping[int, Body]
+
+
+@dataclass(frozen=True, slots=True)
+class Passed:
+    """A reaction handed on to the link before: force, link, point where it acts, and a couple beside it."""
+
+    force: str
+    link: int
+    point: str
+    couple: str | None = None
+
+
+class Dyad(Protocol):
+    """What the chain asks of a dyad of any kind."""
+
+    @property
+    def name(self) -> str:
+        """The dyad's links as a word."""
+
+    @property
+    def spans(self) -> tuple[Span, ...]:
+        """Its links with two joints."""
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """Its links for those attached to them."""
+
+    def passed(self) -> tuple[Passed, ...]:
+        """Reactions on the links before."""
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A link between two of its joints, `start` and `end`."""
+
+    link: Link
+    start: str
+    end: str
+
+    @property
+    def name(self) -> str:
+        """The link by its ends."""
+        return self.start + self.end
+
+    @property
+    def straight(self) -> bool:
+        """Whether all points stand on the x axis, `start` at the origin."""
+        points = self.link.points
+        return points[self.start] == (ZERO, ZERO) != points[self.end] and all(y == ZERO for _, y in points.values())
+
+    @property
+    def length(self) -> str:
+        """Name of the distance of the joints: a given where `end` stands on the x axis from `start`."""
+        points = self.link.points
+        on_axis = points[self.start] == (ZERO, ZERO) and points[self.end][1] == ZERO
+        return points[self.end][0] if on_axis else f"_l_{self.name}"
+
+    @property
+    def e(self) -> str:
+        """Name of the direction from start to end."""
+        return f"e_{self.name}"
+
+    @property
+    def n(self) -> str:
+        """Name of the normal to it."""
+        return f"n_{self.name}"
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        """The points beside the joints."""
+        return tuple(point for point in self.link.points if point not in (self.start, self.end))
+
+    def body(self, omega: str, epsilon: str | None) -> Body:
+        """Return the link for those attached to it."""
+        points = self.link.points
+        on_axis = points[self.start] == (ZERO, ZERO) and points[self.end][1] == ZERO
+        local = None if on_axis else f"_g_{self.link.number}"
+        return Body(self.link, self.start, self.e, local, omega, epsilon)
+
+
+def normal_of(direction: str) -> str:
+    """Return the name of the normal to a direction: n_AB to e_AB, n_u_30 to u_30."""
+    return f"n_{direction.removeprefix('e_')}"
+
+
+def local_mark(board: Board, link: Link, point: str) -> str:
+    """Mark a point on a drawing of the link alone."""
+    name = f"_{link.number}_{point}"
+    board.place(name, *link.points[point])
+    return name
+
+
+def measure_link(board: Board, span: Span) -> None:
+    """Measure a link on a drawing of its own, where its length is not given."""
+    if span.length == f"_l_{span.name}":
+        start, end = (local_mark(board, span.link, point) for point in (span.start, span.end))
+        board.measure(span.length, start, end)
+        board.direction(f"_g_{span.link.number}", start, end, span.length)
+
+
+def place_link(board: Board, span: Span, turned: bool = False) -> None:
+    """Mark the direction of a link between its joints, which are placed, and its other points.
+
+    Its direction is there already when it was `turned` to it.
+    """
+    if not turned:
+        board.direction(span.e, span.start, span.end, span.length)
+    board.normal(span.n, span.e)
+    if not span.straight:
+        start, end = (local_mark(board, span.link, point) for point in (span.start, span.end))
+        for point in span.others:
+            local = local_mark(board, span.link, point)
+            board.calc(f"_along_{point}", "part_along", start, end, local)
+            board.calc(f"_across_{point}", "part_across", start, end, local)
+    for point in span.others:
+        _third(board, span, point, point, span.start, span.end)
+
+
+def move_link(board: Board, mechanism: Mechanism, span: Span, plan: str) -> None:
+    """Mark the other points of a link on a plan: its figure there is similar to the link."""
+    start, end = (mechanism.mark(plan, point) for point in (span.start, span.end))
+    for point in span.others:
+        _third(board, span, point, f"{plan}.{point}", start, end)
+        board.read(f"{SYMBOLS[plan]}_{point}", f"{plan}.p", f"{plan}.{point}")
+
+
+def _third(board: Board, span: Span, point: str, mark: str, start: str, end: str) -> None:
+    if span.straight:
+        board.divide(mark, start, end, span.link.points[point][0], span.length)
+    else:
+        board.similar(mark, start, end, f"_along_{point}", f"_across_{point}")
+
+
+def settle(board: Board, body: Body, direction: str = ZERO) -> None:
+    """Lay down the link's own direction on a drawing of the link: at the angle `direction` to its x axis."""
+    if body.local:
+        board.turn(body.local, direction)
+        local_mark(board, body.link, body.pin)
+
+
+def coordinates(board: Board, body: Body, key: str, x: str, y: str) -> tuple[str, str]:
+    """Return the names of a place on the link along and across its direction, counted from its pin."""
+    if body.local is None:
+        return x, y
+    number = body.link.number
+    board.place(f"_{number}_{key}", x, y)
+    along, across = f"_{number}_{key}_along", f"_{number}_{key}_across"
+    board.calc(along, "along_axis", body.local, f"_{number}_{body.pin}", f"_{number}_{key}")
+    board.calc(across, "across_axis", body.local, f"_{number}_{body.pin}", f"_{number}_{key}")
+    return along, across
+
+
+def lay_off(board: Board, name: str, start: str, direction: str, along: str, across: str) -> None:
+    """Mark the point at `along` and `across` from `start`."""
+    if (along, across) == (ZERO, ZERO):
+        board.same(name, start)
+        return
+    if along != ZERO:
+        foot = name if across == ZERO else f"_{name.lstrip('_')}_along"
+        board.lay(foot, start, direction, along)
+        start = foot
+    if across != ZERO:
+        board.lay(name, start, normal_of(direction), across)
+
+
+def place_points(board: Board, body: Body, placed: Iterable[str]) -> None:
+    """Mark the points of a link with one joint, those `placed` apart."""
+    for point, place in body.link.points.items():
+        if point not in placed:
+            lay_off(board, point, body.pin, body.direction, *coordinates(board, body, point, *place))
+
+
+def move_points(board: Board, mechanism: Mechanism, body: Body, plan: str, placed: Iterable[str]) -> None:
+    """Mark the points of a link with one joint on a plan, those `placed` apart."""
+    for point in body.link.points:
+        if point not in placed:
+            carry(board, mechanism, body, plan, point, point)
+
+
+def carry(
+    board: Board, mechanism: Mechanism, body: Body, plan: str, letter: str, at: str, pin_at: str | None = None
+) -> None:
+    """Mark on a plan the point `letter` of a link that now stands at the mark `at`: it turns about the link's pin.
+
+    `pin_at` is the mark at which the pin stands if it has another letter.
+    """
+    tip, start, symbol = f"{plan}.{letter}", mechanism.mark(plan, body.pin), SYMBOLS[plan]
+    if body.omega is None:
+        board.same(tip, start)
+    else:
+        arm = f"_r_{letter}_{body.pin}"
+        if plan == "velocity":
+            board.read(arm, pin_at or body.pin, at)
+        for law, rate, vector, mark in _parts(body, plan, letter):
+            board.calc(vector, law, rate, arm)
+            board.chain(mark, start, vector)
+            start = mark
+    board.read(f"{symbol}_{letter}", f"{plan}.p", tip)
+
+
+def _parts(body: Body, plan: str, letter: str) -> Iterator[tuple[str, str, str, str]]:
+    """Go through the vectors of a turn about the pin: law, rate, name, mark at its tip."""
+    whole, tip = f"{letter}{body.pin}", f"{plan}.{letter}"
+    if plan == "velocity":
+        yield "transport_speed", str(body.omega), f"V_{whole}", tip
+        return
+    normal = tip if body.epsilon is None else f"{plan}.n_{whole}"
+    yield "transport_normal", str(body.omega), f"a_{whole}_n", normal
+    if body.epsilon is not None:
+        yield "transport_tangential", body.epsilon, f"a_{whole}_t", tip
+
+
+def turn_with(board: Board, body: Body, other: Body, plan: str) -> None:
+    """Note that a link turns like the one on which it slides."""
+    rates = (body.omega, other.omega) if plan == "velocity" else (body.epsilon, other.epsilon)
+    if rates[0] and rates[1]:
+        board.calc(rates[0], "same_turning", rates[1])
+
+
+def turning(number: int, like: Body | None) -> tuple[str | None, str | None]:
+    """Return the names of omega and epsilon of a link that slides on another, None where they are zero by form."""
+    omega = f"omega_{number}" if like and like.omega else None
+    return omega, f"epsilon_{number}" if like and like.epsilon else None
+
+
+def moments_about(
+    board: Board, loads: Iterable[tuple[str, str]], link: int, about: str, arms: str = "h_{0}", always: bool = False
+) -> list[str]:
+    """Take the moments of the loads on a link about a point; those that stand there have none, `always` names them too.
+
+    `arms` names the arms: `{0}` is the link for its force of inertia, the force for another.
+    """
+    moments = []
+    for force, at in loads:
+        if at != about or always:
+            own = str(link) if force == f"F_i{link}" else force.removeprefix("R_")
+            board.moment(f"_M_{force}_{about}", arms.format(own), force, at, about)
+            moments.append(f"_M_{force}_{about}")
+    return moments
+
+
+def hang(board: Board, plan: str, forces: Iterable[str], first: int = 0) -> str:
+    """Hang forces on one another from mark number `first` of a force plan; return the last mark."""
+    for number, force in enumerate(forces, start=first):
+        board.chain(f"{plan}.{number + 1}", f"{plan}.{number}", force)
+        first = number + 1
+    return f"{plan}.{first}"

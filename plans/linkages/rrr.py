@@ -1,0 +1,136 @@
+"""The dyad of the first kind, RRR: two links with three revolute pairs, such as a connecting rod and a rocker.
+
+A and C are the outer pairs, B the inner one. Determinant of all its problems: the sine of the angle between AB and CB,
+zero when A, B, C stand in line.
+
+Source: Artobolevsky, Theory of mechanisms and machines; Kinytskyi, the same (class II, kind 1).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..board import Board
+from .mechanism import Link, Mechanism, Revolute
+from .parts import Bodies, Body, Couples, Forces, Passed, Span, hang, measure_link, moments_about, move_link, place_link
+from .structure import Group
+
+
+@dataclass(frozen=True, slots=True)
+class Dyad:
+    """The names that the constructions of one RRR dyad use."""
+
+    mechanism: Mechanism
+    name: str
+    links: tuple[Link, Link]
+    A: str
+    B: str
+    C: str
+    before: tuple[int, int]  # the links that carry A and C
+    branch: str
+
+    @property
+    def spans(self) -> tuple[Span, Span]:
+        """The links between their pairs, AB and CB."""
+        return Span(self.links[0], self.A, self.B), Span(self.links[1], self.C, self.B)
+
+    @property
+    def bodies(self) -> tuple[Body, Body]:
+        """The links for those attached to them."""
+        first, second = (span.body(f"omega_{span.link.number}", f"epsilon_{span.link.number}") for span in self.spans)
+        return first, second
+
+    def passed(self) -> tuple[Passed, ...]:
+        """Reactions on the links before."""
+        return tuple(
+            Passed(f"R_{span.link.number}{before}", before, span.start)
+            for span, before in zip(self.spans, self.before, strict=True)
+        )
+
+
+def dyad(mechanism: Mechanism, group: Group, bodies: Bodies) -> Dyad:
+    """Name the parts of an RRR group."""
+    links = (mechanism.link(group.links[0]), mechanism.link(group.links[1]))
+    inner, (first, second) = group.inner[0], group.before
+    branch = inner.branch if isinstance(inner, Revolute) and inner.branch else "one"
+    A, C = (pair.point for pair in group.outer)
+    return Dyad(mechanism, group.name, links, A, inner.point, C, (first, second), branch)
+
+
+def position(board: Board, d: Dyad) -> None:
+    """B is where the arc of radius AB about A crosses the arc of radius CB about C."""
+    AB, CB = d.spans
+    for span in d.spans:
+        measure_link(board, span)
+    board.arcs(d.B, d.A, AB.length, d.C, CB.length, d.branch)
+    for span in d.spans:
+        place_link(board, span)
+
+
+def velocity(board: Board, d: Dyad) -> None:
+    """Through a the normal to AB, through c the normal to CB: b. Other points by similarity."""
+    AB, CB = d.spans
+    a, c, b = (d.mechanism.mark("velocity", joint) for joint in (d.A, d.C, d.B))
+    board.meet(b, a, AB.n, c, CB.n)
+    board.read(f"V_{d.B}{d.A}", a, b)
+    board.read(f"V_{d.B}{d.C}", c, b)
+    board.read(f"V_{d.B}", "velocity.p", b)
+    for span in d.spans:
+        move_link(board, d.mechanism, span, "velocity")
+    for span in d.spans:
+        board.calc(f"omega_{span.link.number}", "turning", f"V_{d.B}{span.start}", span.n, span.length)
+
+
+def acceleration(board: Board, d: Dyad) -> None:
+    """From a' and c' the normal parts, through their ends the normals to AB and CB: b'."""
+    AB, CB = d.spans
+    b, ends = f"acceleration.{d.B}", []
+    for span in d.spans:
+        start, end = d.mechanism.mark("acceleration", span.start), f"acceleration.n_{d.B}{span.start}"
+        part = f"a_{d.B}{span.start}_n"
+        board.calc(f"_{part}", "normal_part", f"V_{d.B}{span.start}", span.length)
+        board.back(end, start, span.e, f"_{part}")
+        board.read(part, start, end)
+        ends.append(end)
+    board.meet(b, ends[0], AB.n, ends[1], CB.n)
+    for span, end in zip(d.spans, ends, strict=True):
+        board.read(f"a_{d.B}{span.start}_t", end, b)
+        board.read(f"a_{d.B}{span.start}", d.mechanism.mark("acceleration", span.start), b)
+    board.read(f"a_{d.B}", "acceleration.p", b)
+    for span in d.spans:
+        move_link(board, d.mechanism, span, "acceleration")
+    for span in d.spans:
+        board.calc(f"epsilon_{span.link.number}", "turning", f"a_{d.B}{span.start}_t", span.n, span.length)
+
+
+def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
+    """Force plan of the group: R_12^t, loads of both links, R_43^t; the normal parts along AB and CB close it.
+
+    The tangential parts follow from the moments of each link about B; the inner reaction is a chord of the plan.
+    """
+    plan = f"forces_{d.name}"
+    (i, m), (j, k) = d.before, (link.number for link in d.links)
+    for span, before in zip(d.spans, d.before, strict=True):
+        number = span.link.number
+        moments = moments_about(board, loads[number], number, d.B)
+        # R^t stands on the arm of the link and turns about B against the sense in which it points along the normal
+        board.calc(f"_R_{before}{number}_t", "moment_equation", span.length, *moments, *couples[number])
+
+    AB, CB = d.spans
+    board.pole(f"{plan}.0")
+    board.lay(f"{plan}.1", f"{plan}.0", AB.n, f"_R_{i}{j}_t")
+    board.read(f"R_{i}{j}_t", f"{plan}.0", f"{plan}.1")
+    count = len(loads[j]) + len(loads[k]) + 1
+    parted = hang(board, plan, [force for force, _ in loads[j]], 1)
+    chained = hang(board, plan, [force for force, _ in loads[k]], 1 + len(loads[j]))
+    last, closing = f"{plan}.{count + 1}", f"{plan}.{count + 2}"
+    board.lay(last, chained, CB.n, f"_R_{m}{k}_t")
+    board.read(f"R_{m}{k}_t", chained, last)
+    board.meet(closing, last, CB.e, f"{plan}.0", AB.e)
+    board.read(f"R_{i}{j}_n", closing, f"{plan}.0")
+    board.read(f"R_{i}{j}", closing, f"{plan}.1")
+    board.read(f"R_{m}{k}_n", last, closing)
+    board.read(f"R_{m}{k}", chained, closing)
+    board.read(f"R_{k}{j}", parted, closing)
+    for first, second in ((i, j), (k, j), (m, k)):
+        board.calc(f"R_{second}{first}", "opposite", f"R_{first}{second}")
