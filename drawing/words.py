@@ -85,8 +85,9 @@ class Words:
 
     def _composed(self, name: str) -> tuple[str, str, str]:
         letters = self.notation.get("letters", {})
-        if name.startswith("mu_F"):
-            return "μ", "", "_{F}"
+        if name.startswith("mu_"):
+            kind = name.split("_")[1]  # forces of a group or of the driver alike
+            return "μ", "", f"_{{{letters.get(kind, kind)}}}"
         if name.startswith("h_lever_"):
             return _lever_arm(name)
         if "_couple" in name:
