@@ -16,6 +16,9 @@ from .limits import limiting_angles
 from .mechanism import ZERO, Mechanism
 from .structure import Structure
 
+# which operands of a step are pins that must not coincide
+COINCIDENT = {"arcs": (0, 2), "tangent": (0, 1), "measure": (0, 1)}
+
 
 @dataclass(frozen=True, slots=True)
 class Solved:
@@ -53,7 +56,10 @@ class Solved:
         if trouble.status == "no-assembly":
             return self._apart(trouble)
         step = next(step for step in self.program if step.name == trouble.name)
-        key = f"singular-{step.plan}" if step.plan in ("velocity", "acceleration") else "singular-forces"
+        if step.verb != "meet":
+            pins = [step.operands[i] for i in COINCIDENT[step.verb]]
+            return PositionError("singular-pins", status_word="singular", first=pins[0], second=pins[1])
+        key = f"singular-{step.plan}" if step.plan in (POSITION, "velocity", "acceleration") else "singular-forces"
         lines = [_spoken(step.operands[i]) for i in (1, 3)]
         return PositionError(
             key, status_word="singular", point=trouble.name.rpartition(".")[2], first=lines[0], second=lines[1]
@@ -64,12 +70,12 @@ class Solved:
         given = {name: value for name, value in self.values.items() if isinstance(value, float)}
         limits = limiting_angles(self.mechanism, given)
         gap = f"{trouble.gap * 1e3:.4g}"
+        step = next(step for step in self.program if step.name == trouble.name)
+        point = step.operands[1] if step.verb == "tangent" else trouble.name
         if limits is None:
-            return PositionError("no-assembly", status_word="no-assembly", point=trouble.name, gap=gap)
+            return PositionError("no-assembly", status_word="no-assembly", point=point, gap=gap)
         low, high = (f"{math.degrees(angle) % 360.0:.7g}" for angle in limits)
-        return PositionError(
-            "no-assembly-here", status_word="no-assembly", point=trouble.name, gap=gap, low=low, high=high
-        )
+        return PositionError("no-assembly-here", status_word="no-assembly", point=point, gap=gap, low=low, high=high)
 
 
 def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:

@@ -1,0 +1,204 @@
+"""Dyads in positions where something vanishes, in singular ones, and in ones that cannot be assembled."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from kulman.plans.batch import batch
+from kulman.plans.exact import STATUSES
+from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
+from kulman.plans.linkages.solved import Solved, solve_linkage
+from kulman.scales.errors import InputError
+
+ORIGIN = (ZERO, ZERO)
+DRIVER = Driver(1, "O", "A", "phi", "n_1", "sense_1")
+CRANK = Link(1, {"O": ORIGIN, "A": ("l_OA", ZERO)})
+PIVOT, PIN = Revolute("O", (0, 1), ORIGIN), Revolute("A", (1, 2))
+VALUES = {
+    **{"phi": 0.7, "l_OA": 0.1, "n_1": 10.0, "sense_1": 1.0, "l_OC": 0.3, "e": 0.0, "l_AB": 0.25, "l_CB": 0.2},
+    **{"branch": 1.0, "m": 2.0, "J": 0.03, "l_S": 0.15, "F": 50.0, "alpha": 0.3, "up": math.pi / 2, "gamma": 0.0},
+}
+
+
+def rocker(number: int, pin: str, *more: str) -> Link:
+    points = {pin: ORIGIN, **dict.fromkeys(more, ("l_CB", ZERO)), "S": ("l_S", ZERO)}
+    return Link(number, points, "S", "m", "J")
+
+
+def mechanism(links: tuple[Link, ...], *pairs: Pair) -> Mechanism:
+    return Mechanism((CRANK, *links), (PIVOT, *pairs), DRIVER, (Load("F", 3, "S", "F", "alpha"),))
+
+
+SLOTTED_LEVER = mechanism(
+    (Link(2, {"A": ORIGIN}), rocker(3, "C")),
+    PIN,
+    Prismatic("A", (2, 3), ORIGIN, ZERO, "e", "branch"),
+    Revolute("C", (3, 0), ("l_OC", ZERO)),
+)
+FOUR_BAR = mechanism(
+    (Link(2, {"A": ORIGIN, "B": ("l_AB", ZERO)}), rocker(3, "C", "B")),
+    PIN,
+    Revolute("B", (2, 3), None, "branch"),
+    Revolute("C", (3, 0), ("l_OC", ZERO)),
+)
+SCOTCH_YOKE = mechanism(
+    (Link(2, {"A": ORIGIN}), Link(3, {"S": ORIGIN}, "S", "m")),
+    PIN,
+    Prismatic("A", (2, 3), ORIGIN, "up"),
+    Prismatic("S", (3, 0), ORIGIN, ZERO),
+)
+TANGENT = mechanism(  # a slider on the crank, a slider on the frame, a common pin
+    (Link(2, {"B": ORIGIN}), Link(3, {"B": ORIGIN, "S": ("l_S", ZERO)}, "S", "m")),
+    Prismatic("B", (2, 1), ORIGIN, ZERO),
+    Revolute("B", (2, 3)),
+    Prismatic("B", (3, 0), ("l_OC", ZERO), "gamma"),
+)
+
+
+def solve(of: Mechanism, **changed: float) -> Solved:
+    return solve_linkage(of, {**VALUES, **changed})
+
+
+def test_crank_in_line_with_the_pivots_of_a_slotted_lever_has_no_sliding_and_no_coriolis() -> None:
+    found = solve(SLOTTED_LEVER, phi=math.pi)
+
+    assert found.status == "ok"
+    assert found.size("V_A3A2") == found.size("a_A3A2_k") == 0.0
+    assert found.values["omega_3"] == pytest.approx(10.0 * 0.1 / 0.4, rel=1e-15)
+    assert math.isfinite(found.values["M_bal"])
+
+
+def test_crank_across_the_slot_stops_the_lever_which_still_accelerates() -> None:
+    found = solve(SLOTTED_LEVER, phi=math.acos(0.1 / 0.3))
+
+    assert found.status == "ok"
+    assert abs(found.values["omega_3"]) < 1e-14
+    assert found.size("a_A3A2_k") < 1e-13
+    assert found.values["epsilon_3"] == pytest.approx(found.size("a_A") / found.values["l_CA"], rel=1e-13)
+
+
+def test_slotted_lever_turns_as_its_closed_form_says() -> None:
+    phi, r, c = np.linspace(0, 7, 200), 0.1, 0.3
+    program = construct(SLOTTED_LEVER)[1]
+
+    results, codes = batch(program, board_givens(SLOTTED_LEVER, {**VALUES, "phi": phi}), ["omega_3", "V_A3A2"])
+
+    square = r * r + c * c - 2 * r * c * np.cos(phi)
+    assert not codes.any()
+    assert np.allclose(results["omega_3"], 10 * (r * r - r * c * np.cos(phi)) / square, rtol=0, atol=1e-13)
+    assert np.allclose(abs(results["V_A3A2"]), abs(10 * r * c * np.sin(phi)) / np.sqrt(square), rtol=0, atol=1e-13)
+
+
+def test_scotch_yoke_moves_by_the_sine() -> None:
+    found = solve(SCOTCH_YOKE)
+
+    assert found.point("S") == pytest.approx(0.1 * math.cos(0.7), rel=1e-15)
+    assert found.point("V_S") == pytest.approx(-math.sin(0.7), rel=1e-14)
+    assert found.point("a_S") == pytest.approx(-10 * math.cos(0.7), rel=1e-14)
+    assert not {"omega_2", "omega_3", "a_A3A2_k"} & set(found.values)
+
+
+def test_tangent_mechanism_moves_by_the_tangent() -> None:
+    found = solve(TANGENT, gamma=math.pi / 2)
+
+    assert found.point("B") == pytest.approx(complex(0.3, 0.3 * math.tan(0.7)), rel=1e-14)
+    assert found.point("V_B") == pytest.approx(3j / math.cos(0.7) ** 2, rel=1e-14)
+    assert found.point("a_B") == pytest.approx(60j * math.tan(0.7) / math.cos(0.7) ** 2, rel=1e-13)
+
+
+def test_coupler_of_a_parallelogram_translates() -> None:
+    found = solve(FOUR_BAR, l_AB=0.3, l_CB=0.1, phi=math.pi / 2)
+
+    assert found.point("B") == pytest.approx(0.3 + 0.1j)
+    assert abs(found.values["omega_2"]) < 1e-14
+    assert abs(found.values["epsilon_2"]) < 1e-13
+    assert found.status == "ok"
+
+
+def test_unloaded_slider_and_guide_without_forces_have_no_arms_out_of_nothing() -> None:
+    found = solve_linkage(replace(SLOTTED_LEVER, loads=()), {**VALUES, "m": 0.0, "J": 0.0})
+
+    assert [found.values[name] for name in ("h_32", "M_32", "M_bal", "M_bal_lever")] == [0.0] * 4
+
+
+def test_couple_on_a_slider_without_a_force_has_no_arm() -> None:
+    yoke = replace(SCOTCH_YOKE, loads=(Load("F", 3, "S", "F", "alpha"),))
+
+    found = solve(yoke, phi=0.0, F=0.0)
+
+    assert found.size("R_03") == 0.0  # the yoke's force of inertia is along the guide, through A
+    assert found.values["h_03"] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("of", "changed", "point", "gap"),
+    [
+        pytest.param(FOUR_BAR, {"phi": math.pi, "l_AB": 0.15}, "B", 50.0, id="two links too short"),
+        pytest.param(FOUR_BAR, {"phi": 0.0, "l_AB": 0.45}, "B", 50.0, id="one link too long"),
+        pytest.param(SLOTTED_LEVER, {"phi": 0.0, "e": 0.25}, "A", 50.0, id="offset larger than the distance of pins"),
+    ],
+)
+def test_dyad_that_cannot_be_assembled_says_by_how_much(
+    of: Mechanism, changed: dict[str, float], point: str, gap: float
+) -> None:
+    found = solve(of, **changed)
+    error = found.error()
+
+    assert found.status == "no-assembly"
+    assert error is not None
+    assert error.key == "no-assembly-here"
+    assert error.data["point"] == point
+    assert float(error.data["gap"]) == pytest.approx(gap, rel=1e-3)
+    assert in_batch(of, changed) == "no-assembly"
+
+
+@pytest.mark.parametrize(
+    ("of", "changed", "key"),
+    [
+        pytest.param(FOUR_BAR, {"phi": math.pi, "l_AB": 0.2}, "singular-velocity", id="four-bar stretched"),
+        pytest.param(FOUR_BAR, {"phi": 0.0, "l_OC": 0.1, "l_AB": 0.2}, "singular-pins", id="equal links on one pin"),
+        pytest.param(SLOTTED_LEVER, {"phi": 0.0, "l_OC": 0.1}, "singular-pins", id="slider on the lever's pivot"),
+        pytest.param(SLOTTED_LEVER, {"phi": 0.0, "e": 0.2}, "singular-velocity", id="slider at the foot of the normal"),
+        pytest.param(TANGENT, {"gamma": 0.7}, "singular-position", id="parallel guides"),
+        pytest.param(SCOTCH_YOKE, {"up": 0.0}, "singular-position", id="slot along the guide"),
+    ],
+)
+def test_singular_position_names_its_cause(of: Mechanism, changed: dict[str, float], key: str) -> None:
+    found = solve(of, **changed)
+    error = found.error()
+
+    assert found.status == "singular"
+    assert error is not None
+    assert error.key == key
+    assert in_batch(of, changed) == "singular"
+
+
+def in_batch(of: Mechanism, changed: dict[str, float]) -> str:
+    values = {**VALUES, **changed}
+    _, codes = batch(construct(of)[1], board_givens(of, {**values, "phi": np.full(3, values["phi"])}), ["M_bal"])
+    assert len(set(codes)) == 1
+    return STATUSES[codes[0]]
+
+
+@pytest.mark.parametrize("offset", [1e-3, 1e-6, 1e-9])
+def test_position_near_a_singular_one_is_called_ill_conditioned(offset: float) -> None:
+    angle = math.pi - offset
+
+    found = solve(FOUR_BAR, phi=angle, l_AB=0.2)
+
+    assert found.status in ("ill-conditioned", "singular")
+    assert in_batch(FOUR_BAR, {"phi": angle, "l_AB": 0.2}) == found.status
+
+
+def test_slider_of_two_guides_is_refused() -> None:
+    twice = replace(SCOTCH_YOKE, pairs=(PIVOT, PIN, Prismatic("S", (3, 2), ORIGIN, "up"), SCOTCH_YOKE.pairs[3]))
+
+    with pytest.raises(InputError) as refused:
+        construct(twice)
+
+    assert (refused.value.key, refused.value.data) == ("slider-twice", {"link": 3})
