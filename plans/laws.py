@@ -31,6 +31,12 @@ def _sum(first: Any = 0.0, *rest: Any) -> Any:
     return first
 
 
+def _square(vector: Any) -> Any:
+    """Return the square of a length, for division: one for a link whose joints coincide, which has no figure."""
+    square = dot(vector, vector)
+    return square + (square == 0.0)
+
+
 LAWS: dict[str, Law] = {
     # omega = sense * speed, counter-clockwise positive
     "signed": lambda speed, sense: speed * sense,
@@ -56,8 +62,8 @@ LAWS: dict[str, Law] = {
     "along_axis": lambda axis, b, e: dot(axis, e - b),
     "across_axis": lambda axis, b, e: cross(axis, e - b),
     # the same from a to b, in parts of ab
-    "part_along": lambda a, b, e: dot(b - a, e - a) / dot(b - a, b - a),
-    "part_across": lambda a, b, e: cross(b - a, e - a) / dot(b - a, b - a),
+    "part_along": lambda a, b, e: dot(b - a, e - a) / _square(b - a),
+    "part_across": lambda a, b, e: cross(b - a, e - a) / _square(b - a),
     # F_i = -m * a_S
     "inertia_force": lambda mass, a: a * -mass,
     # M_i = -J_S * epsilon

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..plans.linkages.mechanism import FRAME, ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
+from ..plans.linkages.mechanism import FRAME, ZERO, Couple, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import quote
@@ -17,6 +17,7 @@ from .toml_places import Path
 
 _RAD_S, _N, _KG, _KG_M2 = unit("rad/s"), unit("N"), unit("kg"), unit("kg*m^2")
 _M, _RAD = unit("m"), unit("rad")
+_RAD_S2, _N_M = unit("rad/s^2"), unit("N*m")
 
 
 @dataclass(slots=True)
@@ -76,6 +77,7 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | N
         "pair": Field(_rows(lambda c, p, r: _pair(c, p, r, names))),
         "driver": Field(lambda c, p, r: record(c, p, r, _driver_fields(number))),
         "load": Field(_rows(lambda c, p, r: record(c, p, r, _load_fields(number))), required=False),
+        "couple": Field(_rows(lambda c, p, r: record(c, p, r, _couple_fields(number))), required=False),
     }
     read = record(checker, ("mechanism",), raw, kinds)
     if len(checker.faults) > before:
@@ -85,6 +87,7 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | N
         tuple(read["pair"]),
         Driver(**read["driver"]),
         tuple(Load(**x) for x in read.get("load", ())),
+        tuple(Couple(**x) for x in read.get("couple", ())),
     )
     names.positive.add(mechanism.driver.speed)
     _joined(checker, mechanism, names)
@@ -98,12 +101,18 @@ def _rows(read: Callable[[Checker, Path, object], Any]) -> Read:
 
 def _driver_fields(number: Callable[[Unit], Read]) -> dict[str, Field]:
     places = {"link": Field(link_number), "pivot": Field(name), "point": Field(name)}
-    return places | {"angle": Field(number(_RAD)), "speed": Field(number(_RAD_S)), "sense": Field(number(ONE))}
+    turning = {"angle": Field(number(_RAD)), "speed": Field(number(_RAD_S)), "sense": Field(number(ONE))}
+    return places | turning | {"acceleration": Field(number(_RAD_S2), required=False)}
 
 
 def _load_fields(number: Callable[[Unit], Read]) -> dict[str, Field]:
     places = {"name": Field(name), "link": Field(link_number), "point": Field(name)}
     return places | {"magnitude": Field(number(_N)), "direction": Field(number(_RAD))}
+
+
+def _couple_fields(number: Callable[[Unit], Read]) -> dict[str, Field]:
+    places = {"name": Field(name), "link": Field(link_number)}
+    return places | {"magnitude": Field(number(_N_M)), "sense": Field(number(ONE))}
 
 
 def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | None:
@@ -142,7 +151,10 @@ def _pair(checker: Checker, path: Path, raw: object, names: Names) -> Pair | Non
     joins = {"point": Field(name), "links": Field(array_of(link_number, 2))}
     place = Field(array_of(names.value(_M), 2))
     kinds: dict[str, tuple[type[Pair], dict[str, Field]]] = {
-        "revolute": (Revolute, {**joins, "at": Field(place.read, required=False)}),
+        "revolute": (
+            Revolute,
+            {**joins, "at": Field(place.read, required=False), "branch": Field(names.value(ONE), required=False)},
+        ),
         "prismatic": (
             Prismatic,
             {
@@ -177,10 +189,23 @@ def _joined(checker: Checker, mechanism: Mechanism, names: Names) -> None:
     for i, pair in enumerate(mechanism.pairs):
         _pair_joined(checker, ("mechanism", "pair", i), pair, links)
     _driver_joined(checker, mechanism, links)
+    _loads_joined(checker, mechanism, names, links)
+
+
+def _loads_joined(
+    checker: Checker, mechanism: Mechanism, names: Names, links: Mapping[int, Mapping[str, object]]
+) -> None:
+    """Check that loads and couples act on links, forces at their points, each under a name of its own."""
     seen: set[str] = set()
-    for i, load in enumerate(mechanism.loads):
-        path: Path = ("mechanism", "load", i)
-        _on_link(checker, path, "point", load.point, load.link, links)
+    placed: list[tuple[Path, Load | Couple]] = [
+        *((("mechanism", "load", i), load) for i, load in enumerate(mechanism.loads)),
+        *((("mechanism", "couple", i), couple) for i, couple in enumerate(mechanism.couples)),
+    ]
+    for path, load in placed:
+        if isinstance(load, Load):
+            _on_link(checker, path, "point", load.point, load.link, links)
+        elif load.link not in links:
+            checker.fault((*path, "link"), unknown("link-unknown", str(load.link), map(str, links)))
         if load.name in seen or (load.name in names.dimensions and load.name != load.magnitude):
             checker.fault((*path, "name"), InputError("id-twice", name=load.name))
         seen.add(load.name)

@@ -11,7 +11,7 @@ from ..board import Program, RecordingBoard
 from . import driver, prp, rpp, rpr, rrp, rrr
 from .lever import lever
 from .mechanism import FRAME, Link, Mechanism
-from .parts import Bodies, Couples, Dyad, Forces
+from .parts import Bodies, Couples, Dyad, Forces, Span
 from .structure import Structure, analyse
 
 PLANS = ("structure", "position", "velocity", "acceleration", "forces", "lever")
@@ -70,14 +70,24 @@ def _named(mechanism: Mechanism, structure: Structure) -> tuple[list[tuple[Modul
     for group in structure.groups:
         if group.kind not in CONSTRUCTIONS:
             raise InputError("no-construction", kind=group.kind, links=", ".join(map(str, group.links)))
+    _has_length(driver.span(mechanism))
     bodies = {mechanism.driver.link: driver.body(mechanism)}
     dyads = []
     for group in structure.groups:
         module = CONSTRUCTIONS[group.kind]
         dyad: Dyad = module.dyad(mechanism, group, bodies)
+        for span in dyad.spans:
+            _has_length(span)
         bodies |= {body.link.number: body for body in dyad.bodies}
         dyads.append((module, dyad))
     return dyads, bodies
+
+
+def _has_length(span: Span) -> None:
+    """Refuse a link whose joints coincide by form."""
+    points = span.link.points
+    if points[span.start] == points[span.end]:
+        raise InputError("joints-coincide", link=span.link.number, first=span.start, second=span.end)
 
 
 def _place_frame(board: RecordingBoard, mechanism: Mechanism) -> None:

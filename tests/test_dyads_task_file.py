@@ -1,0 +1,126 @@
+"""A task file with dyads of other kinds: a four-bar linkage that speeds up, a slotted lever, a couple."""
+
+from __future__ import annotations
+
+import pytest
+
+from kulman.plans.linkages.mechanism import Couple, Revolute
+from kulman.plans.linkages.solved import solve_linkage
+from kulman.variants.reader import read_text
+
+TASK = """
+id = "mine"
+source = "own"
+notation = "nau"
+plans = ["position", "velocity", "acceleration", "forces", "lever"]
+[title]
+en = "Mine"
+uk = "Моя"
+ru = "Моя"
+[givens]
+phi = { unit = "deg" }
+n_1 = { unit = "rpm" }
+eps = { unit = "rad/s^2" }
+l_AB = { unit = "mm" }
+M_3 = { unit = "N*m" }
+[[mechanism.link]]
+number = 1
+points = { O = ["0 mm", "0 mm"], A = ["100 mm", "0 mm"] }
+[[mechanism.link]]
+number = 2
+points = { A = ["0 mm", "0 mm"], B = ["l_AB", "0 mm"] }
+[[mechanism.link]]
+number = 3
+points = { C = ["0 mm", "0 mm"], B = ["300 mm", "0 mm"], D = ["100 mm", "50 mm"] }
+[[mechanism.link]]
+number = 4
+points = { D = ["0 mm", "0 mm"] }
+[[mechanism.link]]
+number = 5
+points = { E = ["0 mm", "0 mm"] }
+[[mechanism.pair]]
+kind = "revolute"
+point = "O"
+links = [0, 1]
+at = ["0 mm", "0 mm"]
+[[mechanism.pair]]
+kind = "revolute"
+point = "A"
+links = [1, 2]
+[[mechanism.pair]]
+kind = "revolute"
+point = "B"
+links = [2, 3]
+branch = BRANCH
+[[mechanism.pair]]
+kind = "revolute"
+point = "C"
+links = [3, 0]
+at = ["350 mm", "0 mm"]
+[[mechanism.pair]]
+kind = "revolute"
+point = "D"
+links = [3, 4]
+[[mechanism.pair]]
+kind = "prismatic"
+point = "D"
+links = [4, 5]
+through = ["0 mm", "0 mm"]
+direction = "0 deg"
+branch = 1
+[[mechanism.pair]]
+kind = "revolute"
+point = "E"
+links = [5, 0]
+at = ["500 mm", "200 mm"]
+[mechanism.driver]
+link = 1
+pivot = "O"
+point = "A"
+angle = "phi"
+speed = "n_1"
+sense = 1
+acceleration = "eps"
+[[mechanism.couple]]
+name = "M_3"
+link = LINK
+magnitude = "M_3"
+sense = -1
+[[variant]]
+id = "0"
+phi = 50
+n_1 = 60
+eps = 12
+l_AB = 350
+M_3 = 40
+"""
+GOOD = TASK.replace("BRANCH", "1").replace("LINK", "3")
+
+
+def test_task_with_two_dyads_a_couple_and_an_acceleration_is_read_and_solved() -> None:
+    task, faults = read_text(GOOD, "mine.toml")
+    assert task is not None, faults
+
+    found = solve_linkage(task.mechanism, task.values())
+
+    assert task.mechanism.couples == (Couple("M_3", 3, "M_3", task.mechanism.couples[0].sense),)
+    assert [p.branch is not None for p in task.mechanism.pairs if isinstance(p, Revolute)].count(True) == 1
+    assert [group.kind for group in found.structure.groups] == ["RRR", "RPR"]
+    assert found.status == "ok"
+    assert found.values["M_3"] == -40.0
+    assert found.values["epsilon_1"] == 12.0
+    assert found.values["M_bal"] == pytest.approx(40 * found.values["omega_3"] / found.values["omega_1"], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        pytest.param(TASK.replace("BRANCH", "2").replace("LINK", "3"), "sign-bad", id="branch"),
+        pytest.param(TASK.replace("BRANCH", "1").replace("LINK", "7"), "link-unknown", id="couple on no link"),
+        pytest.param(GOOD.replace('["l_AB", "0 mm"]', '["0 mm", "0 mm"]'), "joints-coincide", id="no length"),
+    ],
+)
+def test_fault_in_the_new_keys_is_named(text: str, key: str) -> None:
+    _, faults = read_text(text, "mine.toml")
+
+    assert key in [getattr(fault, "cause", fault).key for fault in faults]
