@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ...plans.board import POSITION
 from ...plans.linkages.solved import Solved
 from ...scales.choose import UNITS, Choosers, CrankScale, Round
 from ...scales.errors import InputError
@@ -23,9 +24,7 @@ def ladders_of(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...
 
     def value(name: str) -> float:
         if name in plans.values():
-            drawn = [
-                q.value or 0.0 for q in solved.quantities.values() if plans.get(shown.get(q.name, "position")) == name
-            ]
+            drawn = [q.value or 0.0 for q in solved.quantities.values() if plans.get(_plan_of(q.name, shown)) == name]
             size = max(map(abs, drawn), default=0.0)
         else:
             item = solved.quantities.get(name)
@@ -41,6 +40,11 @@ def ladders_of(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...
             chooser.ladder(value, ladders["mu_l"]) if isinstance(chooser, CrankScale) else chooser.ladder(value)
         )
     return ladders
+
+
+def _plan_of(quantity: str, shown: Mapping[str, str]) -> str:
+    """Return the plan that shows a quantity: lengths are those of the plan of the mechanism."""
+    return POSITION if quantity.startswith("l_") else shown.get(quantity, "")
 
 
 def by_plan(solved: Solved, mus: Mapping[str, float]) -> dict[str, Scale]:

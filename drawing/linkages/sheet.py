@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ...plans.linkages.views import require_views
 from ...scales.errors import InputError
 from ...scales.scale import Scale
 from ..compose import arrange, compose
@@ -35,8 +36,10 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
     Raises
     ------
     InputError
-        When a plan cannot fit at the scale factor that was asked for: it names what would fit.
+        When the mechanism has links that no view can show yet, or a plan cannot fit at the scale factor that was
+        asked for: then it names what would fit.
     """
+    require_views(contents.solved.mechanism, contents.solved.structure)
     fitting = Fitting(contents)
     formats = [sheet] if sheet is not None else _worth_trying(fitting)
     for candidate in formats:
