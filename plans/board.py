@@ -14,6 +14,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain as concatenate
 
+from ..scales.errors import InputError
+
 POSITION = "position"
 
 
@@ -134,16 +136,25 @@ class RecordingBoard(Board):
     """A board that notes the steps, each once, and computes nothing."""
 
     def __init__(self) -> None:
-        self._steps: dict[Step, None] = {}
+        self._steps: dict[str, Step] = {}
 
     @property
     def steps(self) -> tuple[Step, ...]:
         """The steps in order."""
-        return tuple(self._steps)
+        return tuple(self._steps.values())
 
     def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
-        """Note the step; two dyads on one pivot of the frame need it once."""
-        self._steps[Step(verb, name, operands, law)] = None
+        """Note the step, once where two dyads need it.
+
+        Raises
+        ------
+        InputError
+            When a name is made in two ways, such as two points with one letter.
+        """
+        step = Step(verb, name, operands, law)
+        made = self._steps.setdefault(name, step)
+        if made is not step and made != step:
+            raise InputError("name-twice", name=name.lstrip("_"))
 
 
 @dataclass(frozen=True, slots=True)

@@ -43,6 +43,8 @@ class Workshop:
     joints: dict[str, Array] = field(default_factory=dict)
     pairs: list[Pair] = field(default_factory=list)
     sines: list[Array] = field(default_factory=list)
+    numbers: tuple[int, int] = (4, 5)
+    letters: str = "PQRTU"
 
     def anywhere(self) -> Array:
         """Draw a place on a sheet of two metres."""
@@ -176,12 +178,13 @@ def feeder(w: Workshop) -> None:
 
 
 def rrr(w: Workshop, before: tuple[int, int], carries: tuple[bool, ...]) -> None:
+    (first, second), (p, q, r, _, _) = w.numbers, w.letters
     P, Q, R = (w.anywhere() for _ in range(3))
-    w.link(4, P, direction(w, P, R))
-    w.link(5, Q, direction(w, Q, R))
-    w.hinge("P", (4, before[0]), P)
-    w.hinge("Q", (5, before[1]), Q)
-    w.hinge("R", (4, 5), R, w.given("branch_R", np.sign(cross(Q - P, R - P))))
+    w.link(first, P, direction(w, P, R))
+    w.link(second, Q, direction(w, Q, R))
+    w.hinge(p, (first, before[0]), P)
+    w.hinge(q, (second, before[1]), Q)
+    w.hinge(r, (first, second), R, w.given(f"branch_{r}", np.sign(cross(Q - P, R - P))))
     w.sines.append(cross(unit(R - P), unit(R - Q)))
 
 
@@ -200,46 +203,52 @@ def joined(w: Workshop, new: int, known: int, at: Array, point: str, carries: bo
 
 
 def rrp(w: Workshop, before: tuple[int, int], carries: tuple[bool, ...]) -> None:
+    (first, second), (p, _, r, t, _) = w.numbers, w.letters
     P, R = w.anywhere(), w.anywhere()
-    w.link(4, P, direction(w, P, R))
-    w.values["branch_R"] = np.zeros(w.count)
-    u = joined(w, 5, before[1], R, "T", carries[0], "branch_R")
-    w.values["branch_R"] = np.sign(dot(u, R - P))
-    w.hinge("P", (4, before[0]), P)
-    w.hinge("R", (4, 5), R)
+    w.link(first, P, direction(w, P, R))
+    u = joined(w, second, before[1], R, t, carries[0], f"branch_{r}")
+    w.given(f"branch_{r}", np.sign(dot(u, R - P)))
+    w.hinge(p, (first, before[0]), P)
+    w.hinge(r, (first, second), R)
     w.sines.append(dot(u, unit(R - P)))
 
 
 def rpr(w: Workshop, before: tuple[int, int], carries: tuple[bool, ...]) -> None:
+    """The second link carries the guide, or (`carries`) the first."""
+    (first, second), (p, q, _, t, _) = w.numbers, w.letters
     P, Q = w.anywhere(), w.anywhere()
-    slider, guide = (5, 4) if carries[0] else (4, 5)
+    slider, guide = (second, first) if carries[0] else (first, second)
     along = w.angle()
     w.link(slider, Q if carries[0] else P, along)
     w.link(guide, P if carries[0] else Q, w.angle() if w.bent else along)
     u = np.exp(1j * along)
     way = (Q - P) if carries[0] else (P - Q)  # from the guide's pin to the slider's
-    w.hinge("P", (4, before[0]), P)
-    w.hinge("Q", (5, before[1]), Q)
+    w.hinge(p, (first, before[0]), P)
+    w.hinge(q, (second, before[1]), Q)
     at = w.anywhere() if w.bent else (Q if carries[0] else P) + 0.3 * u
-    w.slide("T", slider, guide, at, w.given("branch_T", np.sign(dot(u, way))))
+    w.slide(t, slider, guide, at, w.given(f"branch_{t}", np.sign(dot(u, way))))
     w.sines.append(dot(u, unit(way)))
 
 
 def prp(w: Workshop, before: tuple[int, int], carries: tuple[bool, ...]) -> None:
+    numbers, (_, _, r, *ends) = w.numbers, w.letters
     R = w.anywhere()
-    first = joined(w, 4, before[0], R, "T", carries[0])
-    second = joined(w, 5, before[1], R, "U", carries[1])
-    w.hinge("R", (4, 5), R)
-    w.sines.append(cross(first, second))
+    directions = [joined(w, numbers[i], before[i], R, ends[i], carries[i]) for i in (0, 1)]
+    w.hinge(r, numbers, R)
+    w.sines.append(cross(directions[0], directions[1]))
 
 
 def rpp(w: Workshop, before: tuple[int, int], carries: tuple[bool, ...]) -> None:
-    """Link 4 is hinged, link 5 slides on the link before; `carries` tells who has the guides: 5 outside, 4 inside."""
+    """The first link is hinged, the second slides on the link before.
+
+    `carries` tells whether the second has the guide outside, and whether the first has that between them.
+    """
+    (first, second), (p, q, _, t, u) = w.numbers, w.letters
     P, Q = w.anywhere(), w.anywhere()
-    outside = joined(w, 5, before[1], Q, "T", carries[0])
-    w.put("Q5", 5, Q)
-    inside = joined(w, 4, 5, P, "U", carries[1])
-    w.hinge("P", (4, before[0]), P)
+    outside = joined(w, second, before[1], Q, t, carries[0])
+    w.put(f"{q}{second}", second, Q)
+    inside = joined(w, first, second, P, u, carries[1])
+    w.hinge(p, (first, before[0]), P)
     w.sines.append(cross(outside, inside))
 
 
@@ -253,6 +262,24 @@ def random_dyads(
     w = Workshop(np.random.default_rng(seed), count * 3 // 2 + 20, bent)
     feeder(w)
     KINDS[kind](w, before, carries)
-    mechanism, values, places = w.finish(5)
+    return chosen(w, count, 5)
+
+
+def chosen(w: Workshop, count: int, links: int) -> tuple[Mechanism, dict[str, Array], Array]:
+    """Finish the mechanisms and keep the first `count` that are not near a singular position."""
+    mechanism, values, places = w.finish(links)
     good = np.flatnonzero(np.min(np.abs(w.sines), axis=0) > LEAST_SINE)[:count]
     return mechanism, {name: value[good] for name, value in values.items()}, places[good]
+
+
+def random_trains(
+    kinds: tuple[str, str], before: tuple[tuple[int, int], tuple[int, int]], seed: int, count: int
+) -> tuple[Mechanism, dict[str, Array], Array]:
+    """Return mechanisms with two dyads (links 4, 5 and 6, 7) after the first, in series or in parallel."""
+    w = Workshop(np.random.default_rng(seed), count * 4 + 50)
+    feeder(w)
+    for kind, joints, numbers, letters in zip(kinds, before, ((4, 5), (6, 7)), ("PQRTU", "KLNWX"), strict=True):
+        w.numbers, w.letters = numbers, letters
+        KINDS[kind](w, joints, {"RPP": (False, False), "PRP": (False, True)}.get(kind, (True,)))
+        w.sines[-1] = w.sines[-1] * (LEAST_SINE / LEAST_SINE_BEFORE)
+    return chosen(w, count, 7)

@@ -20,7 +20,7 @@ from kulman.plans.board import Program
 from kulman.plans.exact import STATUSES, run
 from kulman.plans.linkages.chain import board_givens, construct
 from kulman.plans.linkages.mechanism import Mechanism, Prismatic, Revolute
-from kulman.tests.dyads import random_dyads
+from kulman.tests.dyads import KINDS, random_dyads, random_trains
 from kulman.tests.jacobian_solver import JacobianSolver
 
 COUNT, MANY = 300, 2_000
@@ -182,3 +182,21 @@ def test_mechanism_of_another_size_agrees(both: Both, k: float) -> None:
 
     assert max(scaled.codes) == STATUSES.index("ok")
     assert wrong(scaled.results, scaled.second.expected(), ALL_KINDS) == {}
+
+
+@pytest.mark.parametrize("last", KINDS)
+@pytest.mark.parametrize("middle", KINDS)
+@pytest.mark.parametrize(
+    "before",
+    [
+        pytest.param(((1, 3), (5, 4)), id="series"),
+        pytest.param(((2, 3), (1, 4)), id="crank and dyad"),
+        pytest.param(((1, 2), (1, 3)), id="parallel"),
+    ],
+)
+def test_three_dyads_agree(middle: str, last: str, before: tuple[tuple[int, int], tuple[int, int]]) -> None:
+    both = solve_both(*random_trains((middle, last), before, 5, 100))
+
+    assert max(both.codes) == STATUSES.index("ok")
+    assert len(both.codes) == 100
+    assert wrong(both.results, both.second.expected(), ALL_KINDS) == {}

@@ -202,3 +202,30 @@ def test_slider_of_two_guides_is_refused() -> None:
         construct(twice)
 
     assert (refused.value.key, refused.value.data) == ("slider-twice", {"link": 3})
+
+
+def test_two_points_with_one_letter_are_refused() -> None:
+    links = (CRANK, Link(2, {**FOUR_BAR.links[1].points, "S": ("l_S", ZERO)}), FOUR_BAR.links[2])
+
+    with pytest.raises(InputError) as refused:
+        construct(replace(FOUR_BAR, links=links))
+
+    assert (refused.value.key, refused.value.data) == ("name-twice", {"name": "S"})
+
+
+def test_two_dyads_on_one_crank_pin_and_one_pivot_of_the_frame_move_as_alone() -> None:
+    """Two equal dyads side by side: each moves as alone, and the crank and the pivot bear both."""
+    twin = (
+        Link(4, {"A": ORIGIN, "D": ("l_AB", ZERO)}),
+        Link(5, {"C": ORIGIN, "D": ("l_CB", ZERO), "S5": ("l_S", ZERO)}, "S5", "m", "J"),
+    )
+    pairs = (Revolute("A", (1, 4)), Revolute("D", (4, 5), None, "branch"), Revolute("C", (5, 0), ("l_OC", ZERO)))
+    load = Load("F_5", 5, "S5", "F", "alpha")
+    both = Mechanism((*FOUR_BAR.links, *twin), (*FOUR_BAR.pairs, *pairs), FOUR_BAR.driver, (*FOUR_BAR.loads, load))
+
+    alone, found = solve(FOUR_BAR), solve(both)
+
+    assert found.point("V_D") == found.point("V_B") == alone.point("V_B")
+    assert found.point("R_14") == found.point("R_12") == alone.point("R_12")
+    assert found.values["M_bal"] == pytest.approx(2 * alone.values["M_bal"], rel=1e-14)
+    assert found.point("R_01") == pytest.approx(2 * alone.point("R_01"), rel=1e-14)

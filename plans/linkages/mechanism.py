@@ -118,7 +118,8 @@ class Mechanism:
 
     def mark(self, plan: str, point: str) -> str:
         """Return the mark of `point` on a plan of velocities or accelerations; points of the frame are at the pole."""
-        return f"{plan}.p" if point in self.frame_points else f"{plan}.{point}"
+        still = any(p.point == point and FRAME in p.links for p in self.pairs if isinstance(p, Revolute))
+        return f"{plan}.p" if still else f"{plan}.{point}"
 
     def loads_on(self, number: int) -> tuple[Load, ...]:
         """Return the loads on link `number`."""
