@@ -229,3 +229,11 @@ def test_two_dyads_on_one_crank_pin_and_one_pivot_of_the_frame_move_as_alone() -
     assert found.point("R_14") == found.point("R_12") == alone.point("R_12")
     assert found.values["M_bal"] == pytest.approx(2 * alone.values["M_bal"], rel=1e-14)
     assert found.point("R_01") == pytest.approx(2 * alone.point("R_01"), rel=1e-14)
+
+
+def test_given_with_the_name_of_a_result_is_refused() -> None:
+    """The distance of the pins of a slotted lever is measured; a given of that name would be overwritten."""
+    with pytest.raises(InputError) as refused:
+        construct(replace(SLOTTED_LEVER, pairs=(*SLOTTED_LEVER.pairs[:3], Revolute("C", (3, 0), ("l_CA", ZERO)))))
+
+    assert (refused.value.key, refused.value.data) == ("name-twice", {"name": "l_CA"})

@@ -41,7 +41,7 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = PLANS) -> tuple[Struc
     Raises
     ------
     InputError
-        When the mechanism has no structure of known groups.
+        When the mechanism has no structure of known groups, or a name stands for two things.
     """
     structure = analyse(mechanism)
     board = RecordingBoard()
@@ -62,7 +62,10 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = PLANS) -> tuple[Struc
         _lever(board, mechanism, dyads, bodies)
     if {"forces", "lever"} <= set(plans):
         board.calc("delta_M_bal", "difference", "M_bal_lever", "M_bal")
-    return structure, Program(board.steps)
+    program = Program(board.steps)
+    for name in sorted(mechanism.givens.intersection(program.names)):
+        raise InputError("name-twice", name=name)
+    return structure, program
 
 
 def _named(mechanism: Mechanism, structure: Structure) -> tuple[list[tuple[ModuleType, Dyad]], Bodies]:

@@ -112,6 +112,19 @@ class Mechanism:
         return next(link for link in self.links if link.number == number)
 
     @property
+    def givens(self) -> frozenset[str]:
+        """Names of the values that it needs under their own names; sizes of loads and the crank's rates are not."""
+        names = [xy for link in self.links for place in link.points.values() for xy in place]
+        names += [name for link in self.links for name in (link.mass, link.inertia) if name]
+        for pair in self.pairs:
+            if isinstance(pair, Revolute):
+                names += [*(pair.at or ()), pair.branch or ZERO]
+            else:
+                names += [*pair.through, pair.direction, pair.offset, pair.branch or ZERO]
+        names += [load.direction for load in self.loads] + [couple.sense for couple in self.couples]
+        return frozenset((*names, self.driver.angle, self.driver.sense))
+
+    @property
     def frame_points(self) -> dict[str, tuple[str, str]]:
         """Points of the frame, the pivots on it, with their coordinates."""
         return {p.point: p.at or (ZERO, ZERO) for p in self.pairs if isinstance(p, Revolute) and FRAME in p.links}
