@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 
+from kulman.drawing.linkages.supported import require_views
 from kulman.plans.batch import batch
 from kulman.plans.exact import run
 from kulman.plans.linkages.chain import board_givens, construct
 from kulman.plans.linkages.mechanism import ZERO, Link, Load, Mechanism, Prismatic, Revolute
-from kulman.plans.linkages.views import require_views
 from kulman.scales.errors import InputError
 from kulman.tests.mechanisms import ORIGIN, nau_slider_crank, nau_values
 from kulman.tests.second_solver import SecondSolver

@@ -11,6 +11,7 @@ from ...scales.errors import InputError
 from ...scales.scale import Scale
 
 Ladders = Mapping[str, tuple[float, ...]]
+LONGEST = 100.0  # mm, the longest segment of a plan whose scale factor nobody has chosen
 
 
 def first_scales(solved: Solved, choosers: Choosers) -> dict[str, Scale]:
@@ -20,14 +21,13 @@ def first_scales(solved: Solved, choosers: Choosers) -> dict[str, Scale]:
 
 def ladders_of(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...]]:
     """Return for each scale factor of the plans its values from the wanted one to ever coarser ones."""
-    plans, shown = solved.scale_of_plan, solved.shown_on
+    plans = solved.scale_of_plan
 
     def value(name: str) -> float:
+        item = solved.quantities.get(name)
         if name in plans.values():
-            drawn = [q.value or 0.0 for q in solved.quantities.values() if plans.get(_plan_of(q.name, shown)) == name]
-            size = max(map(abs, drawn), default=0.0)
+            size = _largest(solved, name)
         else:
-            item = solved.quantities.get(name)
             size = abs(item.value or 0.0) if item is not None else abs(float(solved.values.get(name, 0.0)))
         if not size > 0.0:
             raise InputError("scale-of-zero", quantity=name)
@@ -35,11 +35,21 @@ def ladders_of(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...
 
     ladders: dict[str, tuple[float, ...]] = {}
     for symbol in dict.fromkeys(plans.values()):
-        chooser = choosers.get(symbol, Round(symbol, 100.0))
-        ladders[symbol] = (
-            chooser.ladder(value, ladders["mu_l"]) if isinstance(chooser, CrankScale) else chooser.ladder(value)
-        )
+        chooser = choosers.get(symbol)
+        if chooser is None:  # nobody has chosen: round, and any at all for a plan on which everything is zero
+            ladders[symbol] = Round(symbol, LONGEST).ladder(value) if _largest(solved, symbol) > 0.0 else (1.0,)
+        elif isinstance(chooser, CrankScale):
+            ladders[symbol] = chooser.ladder(value, ladders["mu_l"])
+        else:
+            ladders[symbol] = chooser.ladder(value)
     return ladders
+
+
+def _largest(solved: Solved, symbol: str) -> float:
+    """Return the largest quantity on the plans of a scale factor."""
+    plans, shown = solved.scale_of_plan, solved.shown_on
+    drawn = (q.value or 0.0 for q in solved.quantities.values() if plans.get(_plan_of(q.name, shown)) == symbol)
+    return max(map(abs, drawn), default=0.0)
 
 
 def _plan_of(quantity: str, shown: Mapping[str, str]) -> str:

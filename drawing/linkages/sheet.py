@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ...plans.linkages.views import require_views
 from ...scales.errors import InputError
 from ...scales.scale import Scale
 from ..compose import arrange, compose
@@ -14,6 +13,7 @@ from ..packing import Placement
 from ..page import Page
 from ..titleblock import Stamp
 from .fitting import SMALLEST_FIRST, Contents, Fitted, Fitting
+from .supported import require_views
 
 # part of the area on the largest format that the same figures take on a smaller one, with its smaller letters
 LIGHTER = {"A4": 0.5, "A3": 0.55, "A2": 0.9, "A1": 1.0}

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from ...plans.linkages import driver
+from ...plans.linkages.mechanism import FRAME, ZERO, Mechanism, Prismatic
+from ...plans.linkages.parts import Span
+from ...plans.linkages.structure import Group, Structure
 from ...scales.errors import InputError
-from . import driver
-from .mechanism import FRAME, ZERO, Mechanism, Prismatic
-from .parts import Span
-from .structure import Group, Structure
 
 
 def require_views(mechanism: Mechanism, structure: Structure) -> None:
