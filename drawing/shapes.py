@@ -148,16 +148,16 @@ Shape: TypeAlias = Line | Polyline | Circle | Arc | Head | Text | Vector | Arrow
 def shifted(shape: Shape, by: complex) -> Shape:
     """Return `shape` moved by the vector `by` (mm)."""
     match shape:
-        case Line(a=a, b=b):
-            return replace(shape, a=a + by, b=b + by)
+        case Line(a=a, b=b):  # the most numerous ones without the detour of `replace`
+            return Line(a + by, b + by, shape.pen, shape.role, shape.name, shape.colour)
         case Polyline(points=points):
             return replace(shape, points=tuple(point + by for point in points))
         case Circle(centre=centre) | Arc(centre=centre):
             return replace(shape, centre=centre + by)
         case Head(tip=tip):
             return replace(shape, tip=tip + by)
-        case Text(at=at):
-            return replace(shape, at=at + by)
+        case Text(at=at, markup=markup, height=height, anchor=anchor, angle=angle):
+            return Text(at + by, markup, height, anchor, angle, shape.role, shape.name, shape.colour, shape.squeeze)
         case Vector(tail=tail, tip=tip) | Arrow(tail=tail, tip=tip):
             return replace(shape, tail=tail + by, tip=tip + by)
         case Group(shapes=shapes):
