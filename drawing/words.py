@@ -71,8 +71,13 @@ class Words:
         return format_unit(unit, self.language, raised=True)
 
     def scale(self, scale: Scale) -> str:
-        """Return a scale factor as `μ_V = 0,05 (м/с)/мм`."""
-        return f"{self.symbol(scale.symbol)} = {self.short(scale.mu)} {self.unit(scale.per_mm_unit)}"
+        """Return a scale factor as `μ_V = 0,05 (м/с)/мм`, or as `μ_V = 20 мм/(м/с)` where the notation says so."""
+        symbol = self.symbol(scale.symbol)
+        if self.notation.get("scales") == "mm per unit":
+            unit = self.unit(scale.unit)
+            per = f"({unit})" if "/" in unit else unit
+            return f"{symbol} = {self.short(scale.per_unit, 6)} {self['unit.mm']}/{per}"
+        return f"{symbol} = {self.short(scale.mu)} {self.unit(scale.per_mm_unit)}"
 
     def symbol(self, name: str, bar: bool = False) -> str:
         """Return the markup of a quantity's symbol, with a vector bar where wanted."""

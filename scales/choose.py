@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from .errors import InputError
+from .numbers import split_number
 from .scale import SEGMENTS, rounded, steps
 from .units import parse, unit
 
@@ -74,7 +75,7 @@ class Round:
 class CrankScale:
     """mu_V = omega_1 * mu_l and mu_a = omega_1^2 * mu_l: the segment of the crank shows its velocity, its acceleration.
 
-    Such a scale factor goes with mu_l and is not rounded, so that pa = OA exactly.
+    Such a scale factor goes with mu_l; six digits keep pa = OA to a ten thousandth of a millimetre.
     """
 
     power: int
@@ -82,7 +83,7 @@ class CrankScale:
 
     def ladder(self, value: Callable[[str], float], base: tuple[float, ...] = ()) -> tuple[float, ...]:
         """Return the ladder of mu_l times omega_1 or its square."""
-        return tuple(mu * value("omega_1") ** self.power for mu in base)
+        return tuple(rounded(mu * value("omega_1") ** self.power, 6) for mu in base)
 
 
 Chooser = Fixed | Segment | Round | CrankScale
@@ -95,7 +96,7 @@ def chooser(symbol: str, text: str, firm: bool = False) -> Chooser:
     Parameters
     ----------
     text : str
-        `15 N/mm` or `0.05` (a given mu), `pa=80 mm` (a chosen segment), `round` or `round 120 mm`
+        `15 N/mm`, `20 mm/(m/s)` or `0.05` (a given mu), `pa=80 mm` (a chosen segment), `round` or `round 120 mm`
         (the customary series, the longest segment at most so long), `crank` (the crank scale).
     firm : bool
         Said by the user: no other scale factor will do.
@@ -117,6 +118,9 @@ def chooser(symbol: str, text: str, firm: bool = False) -> Chooser:
         return Round(symbol, _positive(parse(rest, unit("mm"), unit("mm")) * 1e3, text) if rest else 100.0, firm)
     if text.strip() == "crank" and kind in CRANK:
         return CrankScale(CRANK[kind], firm)
+    if split_number(text)[1].replace("мм", "mm").startswith("mm/"):  # the other convention: millimetres per unit
+        per_unit = parse(text, unit(f"mm/({UNITS[kind]})")) * 1e3
+        return Fixed(1.0 / _positive(per_unit, text), firm)
     per_mm = unit(f"({UNITS[kind]})/mm")
     return Fixed(_positive(parse(text, per_mm, per_mm) / 1e3, text), firm)
 

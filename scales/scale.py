@@ -41,6 +41,11 @@ class Scale:
         """Unit of the scale factor, `m/mm` or `(m/s)/mm`."""
         return f"({self.unit})/mm" if "/" in self.unit or "*" in self.unit else f"{self.unit}/mm"
 
+    @property
+    def per_unit(self) -> float:
+        """The same scale factor in the other convention: millimetres per unit of the value."""
+        return 1.0 / self.mu
+
 
 def rounded(mu: float, digits: int = 3) -> float:
     """Round a scale factor to so many significant digits: what is printed is what is drawn."""
