@@ -9,11 +9,10 @@ from typing import assert_never
 
 from .labels import Obstacles, Request, place
 from .page import extent
+from .pens import HEAD_HALF_WIDTH
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
 from .style import Style
-from .text import lay_out
-
-Box = tuple[float, float, float, float]
+from .text import Box, lay_out
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,6 +145,6 @@ def _gather(
 
 def _head_box(tip: complex, direction: complex, length: float) -> Box:
     along = direction / abs(direction) * length
-    half = abs(along) * 0.18
+    half = abs(along) * HEAD_HALF_WIDTH
     xs, ys = (tip.real, (tip - along).real), (tip.imag, (tip - along).imag)
     return min(xs) - half, min(ys) - half, max(xs) + half, max(ys) + half

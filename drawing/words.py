@@ -30,6 +30,7 @@ class Words:
     language: str
     texts: dict[str, str]
     notation: dict[str, Any]
+    starts: frozenset[str] = frozenset()  # `2_A`: where the second force of a couple on link 2 hangs, letter F″
 
     @classmethod
     def of(cls, language: str, notation: str) -> Words:
@@ -94,17 +95,24 @@ class Words:
             kind = name.split("_")[1]  # forces of a group or of the driver alike
             return "μ", "", f"_{{{letters.get(kind, kind)}}}"
         if name.startswith("h_lever_"):
-            return _lever_arm(name)
+            return self._lever_arm(name)
         if "_couple" in name:
             link = name.removeprefix("F_i").partition("_")[0]
             end = name.rpartition("couple")[2]
-            return "F", "″" if end == "_A" else "′", f"_{{i{link}}}"
+            return "F", "″" if f"{link}{end}" in self.starts else "′", f"_{{i{link}}}"
         head, _, rest = name.partition("_")
         head = letters.get(head, GREEK.get(head, head))
         stem, _, part = rest.rpartition("_")
         if part in PARTS and stem:
             return head, f"^{{{PARTS[part]}}}", f"_{{{stem}}}"
         return head, "", f"_{{{rest}}}" if rest else ""
+
+    def _lever_arm(self, name: str) -> tuple[str, str, str]:
+        thing = name.removeprefix("h_lever_")
+        if thing.startswith("M_i"):
+            ends = thing.removeprefix("M_i")
+            return "h", "″" if ends in self.starts else "′", f"_{{{ends.partition('_')[0]}}}"
+        return "h", "", f"_{{{thing.replace('_', '')}}}"
 
     def mark(self, mark: str) -> str:
         """Return the letter of a mark: `velocity.S2` is s_2, `forces_23.1` is a, `A` is A."""
@@ -130,14 +138,6 @@ def _indexed(letter: str) -> str:
 def _split(special: str) -> tuple[str, str, str]:
     cut = min((i for i in (special.find("^"), special.find("_")) if i >= 0), default=len(special))
     return special[:cut], "", special[cut:]
-
-
-def _lever_arm(name: str) -> tuple[str, str, str]:
-    thing = name.removeprefix("h_lever_")
-    if thing.startswith("M_i"):
-        link, _, end = thing.removeprefix("M_i").partition("_")
-        return "h", "″" if end == "A" else "′", f"_{{{link}}}"
-    return "h", "", f"_{{{thing.replace('_', '')}}}"
 
 
 def _plain(value: float, digits: int) -> str:

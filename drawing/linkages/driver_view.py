@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from cmath import phase, rect
 
+from ...plans.linkages.parts import arm_of
 from ..shapes import Arrow, Group, Line, Shape
 from ..symbols import fixed_pivot, force_arrow, link, revolute, turning_arrow
 from ..view import Canvas, View
@@ -21,11 +22,12 @@ def driver_view(scene: Scene) -> View:
     canvas.add(link(o, a, str(driver.link), style))
     canvas.add(fixed_pivot(o, driver.pivot, style), revolute(a, driver.point, style))
     forces = [(f"R_{d.rod.number}{driver.link}", d.A) for d in scene.dyads if d.before == driver.link]
-    for name, point in (*forces, *loads(scene, driver.link)):
+    forces += loads(scene, driver.link)
+    for name, point in forces:
         if scene.direction(name) == 0 or point == driver.pivot:
             continue
         letter_arrow(canvas, scene, *force_arrow(scene.mm(point), scene.direction(name), name, [-e], [], style))
-        force_arm(canvas, scene, [name], [f"h_{name.removeprefix('R_')}"], scene.mm(point), o)
+        force_arm(canvas, scene, [name], [arm_of(name, driver.link)], scene.mm(point), o)
     name = f"R_0{driver.link}"
     if scene.direction(name) != 0:
         letter_arrow(canvas, scene, *force_arrow(o, scene.direction(name), name, [e, -1j], [], style))
@@ -36,7 +38,7 @@ def driver_view(scene: Scene) -> View:
     for point in (driver.pivot, driver.point):
         canvas.label(words.mark(point), scene.mm(point), clear=style.pair + 0.8)
     canvas.label(str(driver.link), (o, a))
-    arms = [f"h_{force.removeprefix('R_')}" for force, _ in forces if scene.direction(force) != 0]
+    arms = [arm_of(force, driver.link) for force, _ in forces if scene.direction(force) != 0]
     notes = (words["said.arrows"], *zeros(scene, [*(force for force, _ in forces), name, "M_bal"], arms))
     return canvas.finish("driver", scene.heading("heading.driver", "position"), notes)
 

@@ -143,7 +143,8 @@ class Fitting:
         solved, contents = self.contents.solved, self.contents
         dyads = tuple(dyad(solved.mechanism, group) for group in solved.structure.groups)
         scales = by_plan(solved, mus)
-        return Scene(solved, dyads, scales, contents.words, STYLES[sheet.letters], contents.givens)
+        words = replace(contents.words, starts=frozenset(f"{d.rod.number}_{d.A}" for d in dyads))
+        return Scene(solved, dyads, scales, words, STYLES[sheet.letters], contents.givens)
 
     def _does_not_fit(self, sheet: Format, symbol: str, size: tuple[float, float]) -> InputError:
         """Say which format, or which scale factor, would do."""
@@ -169,5 +170,5 @@ def _reach(solved: Solved, symbol: str) -> float:
     for plan in (plan for plan, name in solved.scale_of_plan.items() if name == symbol):
         steps_here = (step for step in solved.program.on(plan) if step.verb in MARKS)
         marks = [solved.point(step.name) for step in steps_here if not step.name.startswith("_")]
-        longest = max((abs(a - b) for a in marks for b in marks), default=longest)
+        longest = max((longest, *(abs(a - b) for a in marks for b in marks)))
     return longest

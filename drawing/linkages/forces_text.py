@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
+from ...plans.linkages.parts import arm_of
 from ...plans.linkages.rrp import Dyad
 from ..printed import calculation, value_text
 from ..table import text_block
@@ -51,12 +51,12 @@ def inertia_lines(scene: Scene) -> Lines:
     return lines
 
 
-def arm_terms(scene: Scene, hung: list[tuple[str, str]], about: str, arm_of: Callable[[str], str]) -> list[Term]:
-    """Return the moments of forces about a joint as F * h * mu_l, those that are not zero."""
+def arm_terms(scene: Scene, hung: list[tuple[str, str]], about: str, link: int) -> list[Term]:
+    """Return the moments of forces on a link about a joint as F * h * mu_l, those that are not zero."""
     w, s, mu = scene.words, scene.solved, scene.scales["position"].mu
     terms = []
     for name, _ in hung:
-        moment, arm = s.values.get(f"_M_{name}_{about}", 0.0), arm_of(name)
+        moment, arm = s.values.get(f"_M_{name}_{about}", 0.0), arm_of(name, link)
         if moment != 0.0 and scene.defined(arm):
             symbol = f"{w.symbol(name)}·{w.symbol(arm)}·{w.symbol('mu_l')}"
             factors = ((size_of(scene, name), False), (size_of(scene, arm) / mu, False), (mu, True))
@@ -70,7 +70,7 @@ def _group_lines(scene: Scene, d: Dyad) -> Lines:
     i, j, k = d.before, d.rod.number, d.slider.number
     tangential = f"R_{i}{j}_t"
     on_rod = [(name, point) for name, point in loads(scene, j) if point != d.B]
-    terms = arm_terms(scene, on_rod, d.B, lambda name: f"h_{j}" if name == f"F_i{j}" else f"h_{name}")
+    terms = arm_terms(scene, on_rod, d.B, j)
     couple = s.values.get(f"M_i{j}", 0.0)
     if couple != 0.0:
         terms.append(Term(couple, w.symbol(f"M_i{j}"), ((abs(couple), False),)))
@@ -99,7 +99,7 @@ def _slider_lines(scene: Scene, d: Dyad) -> Lines:
     w, k = scene.words, d.slider.number
     h = f"h_0{k}"
     off = [(name, point) for name, point in loads(scene, k) if point != d.B]
-    terms = arm_terms(scene, off, d.B, lambda name: f"h_{k}" if name == f"F_i{k}" else f"h_{name}")
+    terms = arm_terms(scene, off, d.B, k)
     head, product = f"ΣM_{{{d.B}}}({k}) = 0:", f"{w.symbol(f'R_0{k}')}·{w.symbol(h)}"
     if not terms:
         return [(head, f"{product} = 0,", f"{w.symbol(h)} = {value_text(w, scene.solved.quantities[h].value or 0.0)}")]
@@ -122,8 +122,7 @@ def _balance_lines(scene: Scene) -> Lines:
     hung = [(f"R_{d.rod.number}{crank}", d.A) for d in scene.dyads if d.before == crank]
     hung += loads(scene, crank)
     lines: Lines = [vector_sum(_bars(scene, [name for name, _ in hung]), [], w.symbol(f"R_0{crank}", bar=True))]
-    own = f"F_i{crank}"
-    terms = arm_terms(scene, hung, driver.pivot, lambda n: f"h_{crank}" if n == own else f"h_{n.removeprefix('R_')}")
+    terms = arm_terms(scene, hung, driver.pivot, crank)
     head = f"ΣM_{{{driver.pivot}}}({crank}) = 0:"
     if not terms:
         return [*lines, (head, f"{w.symbol('M_bal')} = 0")]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from ...plans.laws import cross
+from ...plans.linkages.parts import arm_of
 from ...plans.linkages.rrp import Dyad
 from ..shapes import Arrow, Line, Pen
 from ..symbols import arm, force_arrow, revolute, slider, turning_arrow
@@ -34,13 +35,12 @@ def group_view(scene: Scene, d: Dyad) -> View:
         inside = point not in (d.A, d.B)
         _force(canvas, scene, name, scene.mm(point), [along, -along] if inside else [-along], [] if inside else at_b)
         if point != d.B:
-            arm_name = f"h_{j}" if name == f"F_i{j}" else f"h_{name}"
-            force_arm(canvas, scene, [name], [arm_name], scene.mm(point), b)
+            force_arm(canvas, scene, [name], [arm_of(name, j)], scene.mm(point), b)
     moment = f"M_i{j}"
     if d.rod.inertia and scene.defined(moment):
         _moment(canvas, scene, moment, a + (b - a) * 0.5, along)
     forces = [f"R_{i}{j}_n", f"R_{i}{j}_t", f"R_0{k}", *(name for name, _ in (*loads(scene, k), *loads(scene, j)))]
-    zero = zeros(scene, [*forces, moment], [f"h_{j}"] if scene.direction(f"F_i{j}") != 0 else [])
+    zero = zeros(scene, [*forces, moment], [arm_of(n, j) for n, _ in loads(scene, j) if scene.direction(n) != 0])
     notes = (scene.words["said.arrows"], *zero)
     return canvas.finish(f"group_{d.name}", scene.heading("heading.group", "position", links=f"{j}, {k}"), notes)
 

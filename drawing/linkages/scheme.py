@@ -12,7 +12,6 @@ from ..symbols import (
     angle_dimension,
     centre_of_mass,
     fixed_pivot,
-    hatching,
     link,
     revolute,
     slider,
@@ -178,11 +177,8 @@ def _frame_number(canvas: Canvas, scene: Scene, pivot: complex) -> None:
         b, u = scene.mm(d.B), scene.solved.point(d.u)
         length, height = scene.style.slider
         corners = [
-            b + u * (s * length * 1.1) + 1j * u * (t * (height / 2 + scene.style.hatch[0]))
+            b + u * (s * length * 1.1) + slider_up(u) * (t * (height / 2 + scene.style.hatch[0]))
             for s in (-1, 1)
             for t in (-1, 0)
         ]
         canvas.keep_clear(*corners)
-
-
-__all__ = ["crank", "hatching", "rod_and_slider", "scheme"]

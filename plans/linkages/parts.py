@@ -271,10 +271,14 @@ def moments_about(
     moments = []
     for force, at in loads:
         if at != about or always:
-            own = str(link) if force == f"F_i{link}" else force.removeprefix("R_")
-            board.moment(f"_M_{force}_{about}", arms.format(own), force, at, about)
+            board.moment(f"_M_{force}_{about}", arm_of(force, link, arms), force, at, about)
             moments.append(f"_M_{force}_{about}")
     return moments
+
+
+def arm_of(force: str, link: int, arms: str = "h_{0}") -> str:
+    """Return the name of a force's arm: `h_2` for the link's own force of inertia, `h_21` for R_21, `h_F_3` for F_3."""
+    return arms.format(link if force == f"F_i{link}" else force.removeprefix("R_"))
 
 
 def hang(board: Board, plan: str, forces: Iterable[str], first: int = 0) -> str:
