@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ..drawing.linkages.scene import Given
-from ..plans.linkages.solved import Solved, solve_linkage
+from ..plans.linkages.solved import SMALL, Solved, solve_linkage
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
 from ..scales.errors import InputError
 from ..scales.names import unknown
@@ -17,7 +17,6 @@ from .arguments import by_name, of_kind, plans_wanted
 from .reader import load_task
 from .task import LocatedError, Task
 
-DRAWN_ANGLE = math.radians(20.0)  # lines that meet at a smaller angle make a drawing lose digits
 Settings = Mapping[str, str | float]
 
 
@@ -50,7 +49,7 @@ class Case:
         if self.solved.trouble is not None:
             return ()
         mark, sine = self.solved.worst_sine()
-        if sine >= math.sin(DRAWN_ANGLE):
+        if sine >= SMALL:
             return ()
         point = mark.rpartition(".")[2]
         angle = math.degrees(math.asin(sine))

@@ -7,12 +7,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from ...plans.board import Step
+from ...plans.linkages.solved import SMALL
 from ..shapes import Circle, Group, Line, Pen
 from ..view import Canvas, View
 from .scene import Scene
 
 PAST = 6.0  # mm by which a construction line runs past the point that it finds
-SMALL = math.sin(math.radians(20.0))  # sine of an angle at which a drawing loses much
 SHORT = 2.0  # mm below which a vector cannot be drawn as an arrow
 
 
