@@ -11,7 +11,7 @@ from ..board import Program, RecordingBoard
 from . import driver, prp, rpp, rpr, rrp, rrr
 from .lever import lever
 from .mechanism import FRAME, Link, Mechanism
-from .parts import Bodies, Couples, Dyad, Forces, Span
+from .parts import AssurGroup, Bodies, Couples, Forces, Span
 from .structure import Structure, analyse
 
 PLANS = ("structure", "position", "velocity", "acceleration", "forces", "lever")
@@ -23,6 +23,7 @@ NEEDS = {
     "forces": ("acceleration",),
     "lever": ("acceleration",),
 }
+Attached = list[tuple[ModuleType, AssurGroup]]
 CONSTRUCTIONS: dict[str, ModuleType] = {"RRR": rrr, "RRP": rrp, "RPR": rpr, "PRP": prp, "RPP": rpp}
 
 
@@ -68,7 +69,7 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = PLANS) -> tuple[Struc
     return structure, program
 
 
-def _named(mechanism: Mechanism, structure: Structure) -> tuple[list[tuple[ModuleType, Dyad]], Bodies]:
+def _named(mechanism: Mechanism, structure: Structure) -> tuple[Attached, Bodies]:
     """Name the parts of all groups, each for those attached to it."""
     for group in structure.groups:
         if group.kind not in CONSTRUCTIONS:
@@ -78,7 +79,7 @@ def _named(mechanism: Mechanism, structure: Structure) -> tuple[list[tuple[Modul
     dyads = []
     for group in structure.groups:
         module = CONSTRUCTIONS[group.kind]
-        dyad: Dyad = module.dyad(mechanism, group, bodies)
+        dyad: AssurGroup = module.dyad(mechanism, group, bodies)
         for span in dyad.spans:
             _has_length(span)
         bodies |= {body.link.number: body for body in dyad.bodies}
@@ -138,7 +139,7 @@ def _hung(mechanism: Mechanism, bodies: Bodies) -> tuple[Forces, Couples]:
     return forces, couples
 
 
-def _forces(board: RecordingBoard, mechanism: Mechanism, dyads: list[tuple[ModuleType, Dyad]], bodies: Bodies) -> None:
+def _forces(board: RecordingBoard, mechanism: Mechanism, dyads: Attached, bodies: Bodies) -> None:
     """Solve the groups from the last to the first, pass each reaction on to the link it acts on, balance the driver."""
     forces, couples = _hung(mechanism, bodies)
     reactions: Forces = {link: [] for link in forces}
@@ -155,7 +156,7 @@ def _forces(board: RecordingBoard, mechanism: Mechanism, dyads: list[tuple[Modul
     driver.forces(board, mechanism, forces, couples)
 
 
-def _lever(board: RecordingBoard, mechanism: Mechanism, dyads: list[tuple[ModuleType, Dyad]], bodies: Bodies) -> None:
+def _lever(board: RecordingBoard, mechanism: Mechanism, dyads: Attached, bodies: Bodies) -> None:
     """Hang all forces on the lever, and the couples: as pairs of forces on links with two joints, else as powers."""
     forces, couples = _hung(mechanism, bodies)
     spans = [span for _, dyad in dyads for span in dyad.spans]

@@ -16,13 +16,19 @@ FRAME = 0
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """A rigid link: its lettered points in local coordinates (x, y), its centre of mass, mass and moment of inertia."""
+    """A rigid link: its lettered points in local coordinates (x, y), its centre of mass, mass and moment of inertia.
+
+    With `per_length`, kg/m, the mass follows from the distance of its two joints, m = k l; with `inertia_factor` the
+    moment of inertia follows from both, J_S = k m l^2. `mass` and `inertia` then name these results.
+    """
 
     number: int
     points: Mapping[str, tuple[str, str]]
     centre: str | None = None
     mass: str | None = None
     inertia: str | None = None
+    per_length: str | None = None
+    inertia_factor: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +67,7 @@ class Driver:
     """The crank: link `link` turns about `pivot`, carries `point`, at `angle`, with `speed`, in the sense `sense`.
 
     `acceleration`, in the sense of rotation too, is positive while the crank speeds up; without it the crank turns
-    steadily.
+    steadily. `balance` says what keeps it moving so: a `moment`, or a `force` at `point` normal to the crank.
     """
 
     link: int
@@ -71,27 +77,82 @@ class Driver:
     speed: str
     sense: str
     acceleration: str | None = None
+    balance: str = "moment"
+
+
+@dataclass(frozen=True, slots=True)
+class SlidingDriver:
+    """The driver that slides on the frame: the prismatic pair of link `link` says along which guide.
+
+    `point`, which runs in the guide, stands at `travel` from the point through which the guide passes, and moves with
+    `speed` and `acceleration`, all positive along the guide's direction. A force along the guide keeps it moving so.
+    """
+
+    link: int
+    point: str
+    travel: str
+    speed: str
+    acceleration: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """The output of a mechanism: link `link` on the frame, which moves to and fro between two dead positions.
+
+    Its working stroke is the one in the sense `sense`: +1 along the direction of its guide, or counter-clockwise for a
+    rocker; -1 the other way. The zero position of the mechanism is where it begins.
+    """
+
+    link: int
+    sense: str = "one"
+
+
+@dataclass(frozen=True, slots=True)
+class Diagram:
+    """A load diagram: `values` at the places `at`, joined by straight lines; `back` in the idle stroke, if it differs.
+
+    `over` is "stroke", and the places are parts of the mechanism's stroke, from 0 to 1, counted from where the working
+    stroke begins; or "angle", and the places are angles of the driver.
+    """
+
+    name: str
+    over: str
+    at: tuple[str, ...]
+    values: tuple[str, ...]
+    back: tuple[str, ...] | None = None
+
+
+BOTH, WORKING, IDLE = "both", "working", "idle"
 
 
 @dataclass(frozen=True, slots=True)
 class Load:
-    """A force `name` on a point of a link, with its magnitude and the angle of its direction."""
+    """A force `name` on a point of a link, with its magnitude and the angle of its direction.
+
+    Without `direction` it resists the motion of its point. `magnitude` may name a diagram. `stroke` says when it acts:
+    in the mechanism's working stroke, in the idle one, or in both.
+    """
 
     name: str
     link: int
     point: str
     magnitude: str
-    direction: str
+    direction: str | None = None
+    stroke: str = BOTH
 
 
 @dataclass(frozen=True, slots=True)
 class Couple:
-    """A moment `name` on a link: its magnitude and its sense, +1 counter-clockwise, -1 clockwise."""
+    """A moment `name` on a link: its magnitude and its sense, +1 counter-clockwise, -1 clockwise.
+
+    Without `sense` it resists the link's turning. `magnitude` may name a diagram; `stroke` as for a load.
+    """
 
     name: str
     link: int
     magnitude: str
-    sense: str = "one"
+    sense: str | None = "one"
+    stroke: str = BOTH
 
 
 Pair = Revolute | Prismatic
@@ -103,9 +164,12 @@ class Mechanism:
 
     links: tuple[Link, ...]
     pairs: tuple[Pair, ...]
-    driver: Driver
+    driver: Driver | SlidingDriver
     loads: tuple[Load, ...] = field(default=())
     couples: tuple[Couple, ...] = field(default=())
+    diagrams: tuple[Diagram, ...] = field(default=())
+    stroke: Stroke | None = None
+    gravity: str | None = None  # acceleration of free fall, downwards
 
     def link(self, number: int) -> Link:
         """Return the moving link with this number."""

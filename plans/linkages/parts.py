@@ -48,12 +48,12 @@ class Passed:
     couple: str | None = None
 
 
-class Dyad(Protocol):
-    """What the chain asks of a dyad of any kind."""
+class AssurGroup(Protocol):
+    """What the chain asks of a group of any kind."""
 
     @property
     def name(self) -> str:
-        """The dyad's links as a word."""
+        """The group's links as a word."""
 
     @property
     def spans(self) -> tuple[Span, ...]:

@@ -40,6 +40,16 @@ class Dyad:
         first, second = (span.body(f"omega_{span.link.number}", f"epsilon_{span.link.number}") for span in self.spans)
         return first, second
 
+    def about(self, span: Span) -> str:
+        """Letters of B's motion about the start of a link: `BA`, or `B` alone about a pivot of the frame, absolute.
+
+        Where both outer pairs are such pivots, the group stands still, and only the second is left out.
+        """
+        absolute = span.start in self.mechanism.frame_points and (
+            span == self.spans[1] or self.C not in self.mechanism.frame_points
+        )
+        return self.B if absolute else self.B + span.start
+
     def passed(self) -> tuple[Passed, ...]:
         """Reactions on the links before."""
         return tuple(
@@ -72,13 +82,13 @@ def velocity(board: Board, d: Dyad) -> None:
     AB, CB = d.spans
     a, c, b = (d.mechanism.mark("velocity", joint) for joint in (d.A, d.C, d.B))
     board.meet(b, a, AB.n, c, CB.n)
-    board.read(f"V_{d.B}{d.A}", a, b)
-    board.read(f"V_{d.B}{d.C}", c, b)
+    board.read(f"V_{d.about(AB)}", a, b)
+    board.read(f"V_{d.about(CB)}", c, b)
     board.read(f"V_{d.B}", "velocity.p", b)
     for span in d.spans:
         move_link(board, d.mechanism, span, "velocity")
     for span in d.spans:
-        board.calc(f"omega_{span.link.number}", "turning", f"V_{d.B}{span.start}", span.n, span.length)
+        board.calc(f"omega_{span.link.number}", "turning", f"V_{d.about(span)}", span.n, span.length)
 
 
 def acceleration(board: Board, d: Dyad) -> None:
@@ -87,20 +97,20 @@ def acceleration(board: Board, d: Dyad) -> None:
     b, ends = f"acceleration.{d.B}", []
     for span in d.spans:
         start, end = d.mechanism.mark("acceleration", span.start), f"acceleration.n_{d.B}{span.start}"
-        part = f"a_{d.B}{span.start}_n"
-        board.calc(f"_{part}", "normal_part", f"V_{d.B}{span.start}", span.length)
+        part = f"a_{d.about(span)}_n"
+        board.calc(f"_{part}", "normal_part", f"V_{d.about(span)}", span.length)
         board.back(end, start, span.e, f"_{part}")
         board.read(part, start, end)
         ends.append(end)
     board.meet(b, ends[0], AB.n, ends[1], CB.n)
     for span, end in zip(d.spans, ends, strict=True):
-        board.read(f"a_{d.B}{span.start}_t", end, b)
-        board.read(f"a_{d.B}{span.start}", d.mechanism.mark("acceleration", span.start), b)
+        board.read(f"a_{d.about(span)}_t", end, b)
+        board.read(f"a_{d.about(span)}", d.mechanism.mark("acceleration", span.start), b)
     board.read(f"a_{d.B}", "acceleration.p", b)
     for span in d.spans:
         move_link(board, d.mechanism, span, "acceleration")
     for span in d.spans:
-        board.calc(f"epsilon_{span.link.number}", "turning", f"a_{d.B}{span.start}_t", span.n, span.length)
+        board.calc(f"epsilon_{span.link.number}", "turning", f"a_{d.about(span)}_t", span.n, span.length)
 
 
 def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
