@@ -1,0 +1,94 @@
+"""A diagram: two axes to scale with numbered divisions, and the curves over them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from ..scales.scale import Scale
+from .shapes import Group, Head, Line, Pen, Polyline
+from .view import Canvas
+
+PAST = 8.0  # mm by which an axis runs past its last division
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """An axis: its letter, its scale factor, its ends and the divisions with what stands beside them, in its unit."""
+
+    letter: str
+    scale: Scale
+    low: float
+    high: float
+    divisions: Mapping[float, str]
+
+    def mm(self, value: float) -> float:
+        """Return a value in mm from the zero of the axis."""
+        return self.scale.drawn(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """The area of a diagram: where x = 0 meets y = 0 on the view, and the two axes."""
+
+    origin: complex
+    x: Axis
+    y: Axis
+
+    def at(self, x: float, y: float) -> complex:
+        """Return a place of the diagram on the view, mm."""
+        return self.origin + complex(self.x.mm(x), self.y.mm(y))
+
+
+def axes(canvas: Canvas, field: Field, lettered: bool = True) -> None:
+    """Draw both axes with arrows, letters and divisions; a thin line through each division of x.
+
+    `lettered` is false for the upper of several diagrams over one axis x: its divisions have their numbers below.
+    """
+    x, y = field.x, field.y
+    left, right = field.at(x.low, 0.0), field.at(x.high, 0.0) + PAST
+    foot, top = field.at(0.0, y.low), field.at(0.0, y.high) + 1j * PAST
+    for a, b in ((left, right), (foot, top)):
+        canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
+    canvas.label(y.letter, top, prefer=1.0 - 0.3j, clear=1.2)
+    canvas.label(x.letter, right, prefer=1j, clear=1.2)
+    tick, text = 0.4 * canvas.style.text, canvas.style.text
+    for value, number in x.divisions.items():
+        canvas.add(Line(field.at(value, y.low), field.at(value, y.high), Pen.THIN, role="section"))
+        if lettered and number:
+            canvas.label(number, field.at(value, y.low), prefer=-1j, clear=0.8, height=text)
+    for value, number in y.divisions.items():
+        at = field.at(0.0, value)
+        canvas.add(Line(at - tick, at + tick, Pen.THIN, role="division"))
+        if number:
+            canvas.label(number, at - tick, prefer=-1.0 + 0j, clear=0.8, height=text)
+
+
+def curve(
+    canvas: Canvas,
+    field: Field,
+    places: Iterable[tuple[float, float]],
+    name: str,
+    pen: Pen = Pen.MAIN,
+    role: str = "curve",
+) -> None:
+    """Draw a curve through `places` (x, y); it breaks where a value is not a number."""
+    pieces: list[list[complex]] = [[]]
+    for x, y in places:
+        if math.isfinite(y):
+            pieces[-1].append(field.at(x, y))
+        elif pieces[-1]:
+            pieces.append([])
+    lines = tuple(Polyline(tuple(piece), pen) for piece in pieces if len(piece) > 1)
+    if lines:
+        canvas.add(Group(lines, role, name))
+
+
+def divisions(high: float, low: float, mu: float, apart: float = 12.0) -> Sequence[float]:
+    """Return round values from `low` to `high`, at least `apart` mm from one another, zero left out."""
+    least = apart * mu
+    power = 10.0 ** math.floor(math.log10(least))
+    step = next(m * power for m in (1.0, 2.0, 5.0, 10.0) if m * power >= least * (1 - 1e-9))
+    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+    return [k * step for k in range(first, last + 1) if k]
