@@ -106,6 +106,10 @@ class Board:
         """Measure the distance of two marks."""
         self.step("measure", name, start, end)
 
+    def distance(self, name: str, start: str, end: str) -> None:
+        """Measure a distance as a result: marks may coincide."""
+        self.step("distance", name, start, end)
+
     def similar(self, name: str, start: str, end: str, along: str, across: str) -> None:
         """Mark the third point of a figure on start-end similar to the link: parts of it along and to the left."""
         self.step("similar", name, start, end, along, across)

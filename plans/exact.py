@@ -194,6 +194,10 @@ class ExactBoard(Board):
         between = self._read(start, end)
         return self._apart(self._sqrt(dot(between, between)))
 
+    def _distance(self, start: Any, end: Any) -> Any:
+        between = self._read(start, end)
+        return self._sqrt(dot(between, between))
+
     def _similar(self, start: Any, end: Any, along: Any, across: Any) -> Any:
         base = self._read(start, end)
         return self._chain(start, base * along + (base * 1j) * across)

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 Law = Callable[..., Any]
+NAN = float("nan")
 
 
 def dot(u: Any, w: Any) -> Any:
@@ -35,6 +36,12 @@ def _square(vector: Any) -> Any:
     """Return the square of a length, for division: one for a link whose joints coincide, which has no figure."""
     square = dot(vector, vector)
     return square + (square == 0.0)
+
+
+def _part_of(value: Any, whole: Any) -> Any:
+    """Return value / whole, NaN where the whole is zero: NaN to the power of one, which is not so to that of zero."""
+    none = whole == 0.0
+    return value / (whole + none) * NAN**none
 
 
 LAWS: dict[str, Law] = {
@@ -77,6 +84,8 @@ LAWS: dict[str, Law] = {
     # sum of moments = 0, solved for a moment
     "closing_moment": lambda *moments: -_sum(*moments),
     "sum": _sum,
+    # where an instant centre divides the line of two pivots: it is nowhere while the link does not turn
+    "part_of": _part_of,
     "excess": lambda whole, part: whole - part,
     # the moment of a couple on the lever, turned by +90 degrees, is minus its power, like those of forces
     "couple_on_lever": lambda moment, omega: -moment * omega,

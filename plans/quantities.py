@@ -80,7 +80,7 @@ def quantities(program: Program, values: Mapping[str, Any], lengths: Mapping[str
     for step in program:
         if step.name.startswith("_") or "." in step.name:
             continue
-        if step.verb in ("read", "calc", "arm"):
+        if step.verb in ("read", "calc", "arm", "distance"):
             found[step.name] = _quantity(step.name, values[step.name])
         elif step.verb in POINTS:
             point = values[step.name]

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ..drawing.linkages.scene import Given
-from ..plans.linkages.solved import SMALL, Solved, solve_linkage
+from ..plans.linkages.solved import SMALL, Solved, scale_symbols, solve_linkage
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
 from ..scales.errors import InputError
 from ..scales.names import unknown
@@ -82,7 +82,7 @@ def solve_case(
 def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser]:
     """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
     choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
-    known = solved.structure.scale_symbols
+    known = scale_symbols(solved.structure, solved.program)
     for name, text in scales.items():
         if name.startswith("mu_") and name not in known:
             raise unknown("scale-unknown", name, known, task=task.id)

@@ -15,6 +15,7 @@ from typing import Any
 from ..drawing.words import notations
 from ..plans.linkages.chain import PLANS, construct
 from ..plans.linkages.mechanism import Mechanism
+from ..plans.linkages.solved import scale_symbols
 from ..scales.choose import Segment, chooser
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.names import unknown
@@ -232,14 +233,15 @@ def _constructed(checker: Checker, mechanism: Mechanism, head: dict[str, Any]) -
     """Check that the mechanism has a structure, constructions for its groups, and plans for the scale factors."""
     try:
         construct(mechanism, head["plans"])
-        structure, program = construct(mechanism)
+        # a task that never splits a motion may use the names of what that would measure
+        structure, program = construct(mechanism, {*PLANS} - {"compound"} | {*head["plans"]})
     except InputError as error:
         checker.fault(("mechanism",), error)
         return
+    symbols = scale_symbols(structure, program)
     lengths = {x for link in mechanism.links for x, _ in link.points.values()}
     for name, said in head.get("scales", {}).items():
-        if name not in structure.scale_symbols:
-            symbols = structure.scale_symbols
+        if name not in symbols:
             checker.fault(("scales", name), unknown("scale-unknown", name, symbols, task=head.get("id", "")))
             continue
         choice = chooser(name, said)

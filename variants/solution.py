@@ -9,7 +9,7 @@ from typing import Any
 
 from ..drawing.linkages.ladders import first_scales
 from ..drawing.words import Words
-from ..plans.linkages.solved import Solved
+from ..plans.linkages.solved import Solved, disagreement
 from ..plans.quantities import Quantity, measured
 from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
@@ -19,6 +19,7 @@ from .case import Settings, solve_case
 from .task import Task
 
 LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
+COMPOUND_AGREES = 1e-9  # part of the longest vector by which two routes to one vector may differ
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -44,11 +45,19 @@ class Solution:
 
     @property
     def checks(self) -> dict[str, dict[str, Any]]:
-        """What a second route says, by name: `lever` compares the balancing moment with Zhukovsky's lever, per cent."""
+        """What a second route says, by name.
+
+        `lever` compares the balancing moment with Zhukovsky's lever, per cent; `compound` the plans of velocities and
+        accelerations with the sums of compound motion, in parts of their longest vectors.
+        """
+        found: dict[str, dict[str, Any]] = {}
         delta = self.quantities.get("delta_M_bal")
-        if delta is None or delta.value is None:
-            return {}
-        return {"lever": {"ok": abs(delta.value) < LEVER_AGREES, "value": delta.value, "unit": "%"}}
+        if delta is not None and delta.value is not None:
+            found["lever"] = {"ok": abs(delta.value) < LEVER_AGREES, "value": delta.value, "unit": "%"}
+        gap = disagreement(self.solved)
+        if gap is not None:
+            found["compound"] = {"ok": gap < COMPOUND_AGREES, "value": gap, "unit": ""}
+        return found
 
     def __getitem__(self, name: str) -> Quantity:
         """Return a quantity by its name."""

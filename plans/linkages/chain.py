@@ -8,18 +8,19 @@ from typing import Any
 
 from ...scales.errors import InputError
 from ..board import Program, RecordingBoard
-from . import driver, prp, rpp, rpr, rrp, rrr
+from . import compound, driver, prp, rpp, rpr, rrp, rrr
 from .lever import lever
 from .mechanism import FRAME, Link, Mechanism
 from .parts import AssurGroup, Bodies, Couples, Forces, Span
 from .structure import Structure, analyse
 
-PLANS = ("structure", "position", "velocity", "acceleration", "forces", "lever")
+PLANS = ("structure", "position", "velocity", "acceleration", "compound", "forces", "lever")
 NEEDS = {
     "structure": (),
     "position": (),
     "velocity": ("position",),
     "acceleration": ("velocity",),
+    "compound": ("acceleration",),
     "forces": ("acceleration",),
     "lever": ("acceleration",),
 }
@@ -55,6 +56,8 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = PLANS) -> tuple[Struc
                 _place_frame(board, mechanism)
             for module, dyad in dyads:
                 getattr(module, plan)(board, dyad)
+    if "compound" in plans:
+        compound.compound(board, compound.couplers(mechanism, (dyad for _, dyad in dyads), bodies))
     if "acceleration" in plans and {"forces", "lever"} & set(plans):
         _loads(board, mechanism, bodies)
     if "forces" in plans:
@@ -67,6 +70,12 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = PLANS) -> tuple[Struc
     for name in sorted(mechanism.givens.intersection(program.names)):
         raise InputError("name-twice", name=name)
     return structure, program
+
+
+def hinged(mechanism: Mechanism, structure: Structure) -> tuple[compound.Coupler, ...]:
+    """Return the couplers whose motion the plan `compound` splits."""
+    dyads, bodies = _named(mechanism, structure)
+    return compound.couplers(mechanism, (dyad for _, dyad in dyads), bodies)
 
 
 def _named(mechanism: Mechanism, structure: Structure) -> tuple[Attached, Bodies]:

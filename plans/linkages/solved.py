@@ -11,7 +11,8 @@ from ...scales.errors import PositionError
 from ..board import POSITION, Program
 from ..exact import Status, Trouble, run
 from ..quantities import Quantity, quantities, shown_on
-from .chain import PLANS, board_givens, construct
+from . import compound
+from .chain import PLANS, board_givens, construct, hinged
 from .limits import limiting_angles
 from .mechanism import ZERO, Mechanism
 from .structure import Structure
@@ -85,8 +86,21 @@ def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:
     symbols[f"forces_{structure.driver}"] = f"mu_F_{structure.driver}"
     for group in structure.groups:
         symbols |= {f"forces_{links}": f"mu_F_{group.name}" for links in (group.name, *map(str, group.links))}
+    symbols |= {plan: symbol for plan in program.plans if (symbol := compound.scale_symbol(plan))}
     drawn = set(program.plans)
     return {plan: symbol for plan, symbol in symbols.items() if plan in drawn}
+
+
+def scale_symbols(structure: Structure, program: Program) -> tuple[str, ...]:
+    """Return the symbols of all scale factors that a task or a user may choose."""
+    return tuple(dict.fromkeys((*structure.scale_symbols, *_scale_of_plan(structure, program).values())))
+
+
+def disagreement(solved: Solved) -> float | None:
+    """Return by how much compound motion and the plans differ, in parts of the longest vectors; None without both."""
+    if solved.trouble is not None or not any(plan.startswith(compound.ACCELERATION) for plan in solved.program.plans):
+        return None
+    return compound.disagreement(hinged(solved.mechanism, solved.structure), solved.values)
 
 
 def _is_given(name: str) -> bool:

@@ -1,0 +1,213 @@
+"""Compound motion of a hinged coupler: it rotates with the link that carries its hinge, and about that hinge.
+
+Link AB hangs at A on link OA, which turns about the pivot O of the frame. Transport motion: AB rotates with OA about O
+at omega_e, epsilon_e; relative motion: AB rotates about A at omega_r, epsilon_r. Then v = v^e + v^r, and
+a = a^rn + a^en + a^et + a^k + a^rt with the acceleration of Coriolis a^k = 2 omega_e x v^r, for every point of AB.
+
+Each point has two plans of its own, drawn at the point itself: `V_at_B` and `a_at_B`.
+
+Source: Bertyaev and others, Mechanics: course works with Mathcad, section 4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from ..board import Board
+from . import rrp, rrr
+from .mechanism import FRAME, ZERO, Mechanism, Revolute
+from .parts import AssurGroup, Bodies, Body, Span
+
+VELOCITY, ACCELERATION = "V_at_", "a_at_"
+PARTS = {"V": ("e", "r"), "a": ("rn", "en", "et", "k", "rt")}  # of a vector, in the order in which they are hung
+
+
+class Closing(NamedTuple):
+    """What is known of the absolute motion of the coupler's end: a straight guide, or a circle about a fixed pivot."""
+
+    direction: str  # along which its velocity lies
+    normal: str | None  # its normal acceleration on the circle
+
+
+@dataclass(frozen=True, slots=True)
+class Coupler:
+    """A link between two joints, whose `start` hangs on the body `carrier`, which turns about a pivot of the frame."""
+
+    span: Span
+    carrier: Body
+    letters: Mapping[str, str]  # its points without the hinge; a point of two couplers takes the link's number, too
+    closing: Closing | None  # None where the other outer pair of its group moves
+
+    @property
+    def number(self) -> int:
+        """Number of the link."""
+        return self.span.link.number
+
+    @property
+    def hinge(self) -> str:
+        """The joint about which it turns relative to the carrier."""
+        return self.span.start
+
+    @property
+    def pivot(self) -> str:
+        """The joint about which the carrier turns."""
+        return self.carrier.pin
+
+    @property
+    def omega_e(self) -> str:
+        """Name of the angular velocity of the transport rotation."""
+        return str(self.carrier.omega)
+
+    @property
+    def epsilon_e(self) -> str:
+        """Name of its angular acceleration, `zero` where the carrier turns steadily."""
+        return self.carrier.epsilon or ZERO
+
+    @property
+    def centre(self) -> str:
+        """Name of its instant centre of velocities."""
+        return f"P_{self.number}"
+
+
+def couplers(mechanism: Mechanism, groups: Iterable[AssurGroup], bodies: Bodies) -> tuple[Coupler, ...]:
+    """Return all links with two joints that hang on a turning link, in order of attachment."""
+    found: list[Coupler] = []
+    taken: set[str] = set()
+    for group in groups:
+        for span in group.spans:
+            carrier = _carrier(mechanism, span, bodies)
+            if carrier is None:
+                continue
+            points = (span.end, *span.others)
+            letters = {point: f"{point}{span.link.number}" if point in taken else point for point in points}
+            taken.update(points)
+            found.append(Coupler(span, carrier, letters, _closing(mechanism, group, span)))
+    return tuple(found)
+
+
+def _carrier(mechanism: Mechanism, span: Span, bodies: Bodies) -> Body | None:
+    """Return the link that turns about a pivot of the frame and carries the start of `span`."""
+    pinned = {n for p in mechanism.pairs if isinstance(p, Revolute) and FRAME in p.links for n in p.links}
+    for number, body in bodies.items():
+        turns = number in pinned and body.pin in mechanism.frame_points and body.omega
+        if turns and number != span.link.number and span.start in body.link.points and span.start != body.pin:
+            return body
+    return None
+
+
+def _closing(mechanism: Mechanism, group: AssurGroup, span: Span) -> Closing | None:
+    match group:
+        case rrr.Dyad(spans=(first, second)):
+            other = second if span == first else first
+            if other.start in mechanism.frame_points:
+                return Closing(other.n, f"a_{group.about(other)}_n")
+        case rrp.Dyad(slide=slide) if slide.known is None:
+            return Closing(slide.u, None)
+    return None
+
+
+def compound(board: Board, found: Iterable[Coupler]) -> None:
+    """Split the motion of every hinged coupler, and mark its instant centre."""
+    found = tuple(found)
+    for coupler in found:
+        _velocities(board, coupler)
+        _instant_centre(board, coupler)
+    for coupler in found:
+        _accelerations(board, coupler)
+
+
+def _velocities(board: Board, c: Coupler) -> None:
+    """v^e = omega_e x OB is normal to OB, v^r normal to AB: it is closed by the line on which v_B lies.
+
+    Where that is not known, and for other points than the end, omega_r = omega - omega_e gives v^r = omega_r x AB.
+    """
+    omega_r = f"omega_r_{c.number}"
+    if c.closing is None:
+        board.calc(omega_r, "excess", f"omega_{c.number}", c.omega_e)
+    for point, letter in c.letters.items():
+        plan = VELOCITY + letter
+        e, tip = f"{plan}.e", f"{plan}.{letter}"
+        board.distance(f"l_{c.pivot}{point}", c.pivot, point)
+        board.read(f"_from_{c.pivot}_{point}", c.pivot, point)
+        board.calc(f"V_{letter}_e", "transport_speed", c.omega_e, f"_from_{c.pivot}_{point}")
+        board.pole(f"{plan}.p")
+        board.chain(e, f"{plan}.p", f"V_{letter}_e")
+        if point == c.span.end and c.closing is not None:
+            board.meet(tip, e, c.span.n, f"{plan}.p", c.closing.direction)
+            board.read(f"V_{letter}_r", e, tip)
+            board.calc(omega_r, "turning", f"V_{letter}_r", c.span.n, c.span.length)
+        else:
+            board.read(f"_from_{c.hinge}_{point}", c.hinge, point)
+            board.calc(f"V_{letter}_r", "transport_speed", omega_r, f"_from_{c.hinge}_{point}")
+            board.chain(tip, e, f"V_{letter}_r")
+        board.read(f"_V_{letter}_total", f"{plan}.p", tip)
+
+
+def _instant_centre(board: Board, c: Coupler) -> None:
+    """P is where both rotations cancel, OP * omega_e = -AP * omega_r: it divides OA in the ratio omega_r : omega."""
+    P = c.centre
+    board.calc(f"_{P}_part", "part_of", f"omega_r_{c.number}", f"omega_{c.number}")
+    board.divide(P, c.pivot, c.hinge, f"_{P}_part", "one")
+    for end in (c.hinge, c.pivot):
+        board.distance(f"l_{end}P{c.number}", end, P)
+
+
+def _accelerations(board: Board, c: Coupler) -> None:
+    """The chain a^rn (B to A), a^en (B to O), a^et (normal to OB), a^k (v^r turned in the sense of omega_e), a^rt.
+
+    For the end a^rt is the line normal to AB; the normal part of the absolute acceleration, towards its pivot, and the
+    line of the tangential part, or the parallel to the guide, close the figure.
+    """
+    omega_r, epsilon_r = f"omega_r_{c.number}", f"epsilon_r_{c.number}"
+    if c.closing is None:
+        board.calc(epsilon_r, "excess", f"epsilon_{c.number}", c.epsilon_e)
+    for point, letter in c.letters.items():
+        plan, a = ACCELERATION + letter, f"a_{letter}"
+        arm_e, arm_r = f"_from_{c.pivot}_{point}", f"_from_{c.hinge}_{point}"
+        board.read(arm_r, c.hinge, point)
+        board.calc(f"{a}_rn", "transport_normal", omega_r, arm_r)
+        board.calc(f"{a}_en", "transport_normal", c.omega_e, arm_e)
+        board.calc(f"{a}_et", "transport_tangential", c.epsilon_e, arm_e)
+        board.calc(f"{a}_k", "coriolis", c.omega_e, f"V_{letter}_r")
+        board.pole(f"{plan}.p")
+        last, tip = f"{plan}.p", f"{plan}.{letter}"
+        for part in PARTS["a"][:-1]:
+            board.chain(f"{plan}.{part}", last, f"{a}_{part}")
+            last = f"{plan}.{part}"
+        if point == c.span.end and c.closing is not None:
+            _close(board, c, c.closing, plan, letter)
+            board.read(f"{a}_rt", last, tip)
+            board.calc(epsilon_r, "turning", f"{a}_rt", c.span.n, c.span.length)
+        else:
+            board.calc(f"{a}_rt", "transport_tangential", epsilon_r, arm_r)
+            board.chain(tip, last, f"{a}_rt")
+        board.read(f"_{a}_total", f"{plan}.p", tip)
+
+
+def _close(board: Board, c: Coupler, closing: Closing, plan: str, letter: str) -> None:
+    """Meet the normal to AB with the line on which the end of the absolute acceleration lies."""
+    start = f"{plan}.p"
+    if closing.normal is not None:
+        board.chain(f"{plan}.n", start, closing.normal)
+        start = f"{plan}.n"
+    board.meet(f"{plan}.{letter}", f"{plan}.k", c.span.n, start, closing.direction)
+
+
+def scale_symbol(plan: str) -> str | None:
+    """Return the scale factor of a plan at a point: `mu_V` for all velocities, one for the accelerations of each."""
+    if plan.startswith(VELOCITY):
+        return "mu_V"
+    return f"mu_a_{plan.removeprefix(ACCELERATION)}" if plan.startswith(ACCELERATION) else None
+
+
+def disagreement(found: Iterable[Coupler], values: Mapping[str, Any]) -> float | None:
+    """Return the largest difference of both routes, in parts of the longest vector of its figure; None without any."""
+    worst = None
+    for point, letter in ((p, letter) for coupler in found for p, letter in coupler.letters.items()):
+        for kind, parts in PARTS.items():
+            longest = max(abs(complex(values[f"{kind}_{letter}_{part}"])) for part in parts)
+            gap = abs(complex(values[f"_{kind}_{letter}_total"]) - complex(values[f"{kind}_{point}"]))
+            worst = max(worst or 0.0, gap / (longest or 1.0))
+    return worst
