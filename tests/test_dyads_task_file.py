@@ -124,3 +124,19 @@ def test_fault_in_the_new_keys_is_named(text: str, key: str) -> None:
     _, faults = read_text(text, "mine.toml")
 
     assert key in [getattr(fault, "cause", fault).key for fault in faults]
+
+
+def test_minus_before_a_length_lays_it_off_the_other_way() -> None:
+    crank = 'A = ["r", "0 mm"], Q = ["-r", "0 mm"]'
+    text = GOOD.replace('A = ["100 mm", "0 mm"]', crank).replace(
+        "[givens]\n", '[givens]\nr = { unit = "mm", default = 100 }\n'
+    )
+
+    task, faults = read_text(text, "mine.toml")
+    assert task is not None, faults
+    found = solve_linkage(task.mechanism, task.values(None, {"r": 80}))
+
+    assert found.point("Q") == -found.point("A") != 0
+    assert "r" in task.mechanism.givens
+    refused, _ = read_text(text.replace('"-r", "0 mm"', '"-q", "0 mm"'), "mine.toml")
+    assert refused is None

@@ -6,7 +6,19 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..plans.linkages.mechanism import FRAME, ZERO, Couple, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
+from ..plans.linkages.mechanism import (
+    FRAME,
+    MINUS,
+    ZERO,
+    Couple,
+    Driver,
+    Link,
+    Load,
+    Mechanism,
+    Pair,
+    Prismatic,
+    Revolute,
+)
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import quote
@@ -34,14 +46,18 @@ class Names:
     signs: set[str] = field(default_factory=set)
 
     def value(self, wanted: Unit) -> Read:
-        """Return a reader of a value of the dimension of `wanted`: a name, or a literal with its unit."""
+        """Return a reader of a value of the dimension of `wanted`: a name, or a literal with its unit.
+
+        A minus may stand before the name of a length.
+        """
 
         def read(checker: Checker, path: Path, raw: object) -> str | None:
-            if isinstance(raw, str) and NAME.fullmatch(raw):
-                if raw not in self.dimensions:
-                    checker.fault(path, unknown("value-unknown", raw, self.dimensions))
+            bare = raw.removeprefix("-") if isinstance(raw, str) and wanted == _M else raw
+            if isinstance(bare, str) and NAME.fullmatch(bare):
+                if bare not in self.dimensions:
+                    checker.fault(path, unknown("value-unknown", bare, self.dimensions))
                     return None
-                found, written = raw, self.dimensions[raw]
+                found, written = bare if bare == raw else MINUS + bare, self.dimensions[bare]
             else:
                 setting = literal(checker, path, raw)
                 if setting is None:
@@ -125,7 +141,7 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | Non
         lettered = {name(checker, (*path, key), key): place(checker, (*path, key), at) for key, at in raw.items()}
         for at in lettered.values():
             if at and ZERO in at:
-                names.positive.update(at)
+                names.positive.update(length.removeprefix(MINUS) for length in at)
         return None if None in lettered or None in lettered.values() else lettered  # type: ignore[return-value]
 
     place = array_of(names.value(_M), 2)

@@ -47,6 +47,8 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = PLANS) -> tuple[Struc
     """
     structure = analyse(mechanism)
     board = RecordingBoard()
+    for opposite, length in mechanism.opposites.items():
+        board.calc(opposite, "opposite", length)
     plans = with_needs(plans)
     dyads, bodies = _named(mechanism, structure)
     for plan in ("position", "velocity", "acceleration"):

@@ -2,7 +2,8 @@
 
 Every numeric field is the *name* of a value (`"l_AB"`), never a number: the values come separately, as one position
 or as arrays, so that one mechanism serves a variant, a sweep and a batch. The name `zero` stands for a value that is
-zero by the form of the mechanism (a point at the origin of its link, a guide without offset).
+zero by the form of the mechanism (a point at the origin of its link, a guide without offset); `_minus_` before the name
+of a length stands for its opposite (a second crank on the other side of the shaft).
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 ZERO = "zero"
+MINUS = "_minus_"
 FRAME = 0
 
 
@@ -186,7 +188,15 @@ class Mechanism:
             else:
                 names += [*pair.through, pair.direction, pair.offset, pair.branch or ZERO]
         names += [load.direction for load in self.loads] + [couple.sense for couple in self.couples]
-        return frozenset((*names, self.driver.angle, self.driver.sense))
+        return frozenset((*names, self.driver.angle, self.driver.sense)) - self.opposites.keys()
+
+    @property
+    def opposites(self) -> dict[str, str]:
+        """Names of opposite lengths, with the lengths."""
+        places: list[tuple[str, ...]] = [place for link in self.links for place in link.points.values()]
+        for pair in self.pairs:
+            places.append((*pair.through, pair.offset) if isinstance(pair, Prismatic) else pair.at or ())
+        return {name: name.removeprefix(MINUS) for place in places for name in place if name.startswith(MINUS)}
 
     @property
     def frame_points(self) -> dict[str, tuple[str, str]]:
