@@ -47,43 +47,43 @@ class ArrayBoard(ExactBoard):
         np.maximum(self.codes, np.where(where, np.int8(_CODE[status]), np.int8(0)), out=self.codes)
 
     def _lines_sine(self, sine: Any) -> Any:
-        size = np.abs(sine)
-        if size.min() >= ILL:  # false for NaN as well
+        if np.min(sine) >= ILL or np.max(sine) <= -ILL:  # false for NaN as well
             return sine
+        size = np.abs(sine)
         self._mark(size < ILL, "ill-conditioned")
         self._mark(size < SINGULAR, "singular")
         return np.where(size < SINGULAR, NAN, sine)
 
-    def _half_chord(self, radius: Any, distance: Any) -> Any:
-        square = (radius - distance) * (radius + distance)
-        if not np.min(square) >= ILL * ILL * np.max(radius) ** 2:
-            out = square < -TANGENT * radius * radius
-            self._mark(square < ILL * ILL * radius * radius, "ill-conditioned")
-            self._mark(out, "no-assembly")
-            square = np.where(out, NAN, np.maximum(square, 0.0))
-        return np.sqrt(square)
+    def _reaches(self, square: Any, radius: Any, distance: Any) -> Any:
+        if np.min(square) >= (ILL * np.max(radius)) ** 2:
+            return square
+        out = square < -TANGENT * radius * radius
+        self._mark(square < ILL * ILL * radius * radius, "ill-conditioned")
+        self._mark(out, "no-assembly")
+        return np.where(out, NAN, np.maximum(square, 0.0))
 
-    def _height(self, first: Any, second: Any, base: Any) -> Any:
-        total, double, product = heron(first, second, base)
-        if not np.min(product - (ILL * double) ** 2) >= 0.0 or not np.min(base) > 0.0:
-            out = product < -2.0 * TANGENT * total * total * first * second
-            self._mark(product < (ILL * double) ** 2, "ill-conditioned")
-            self._mark(base == 0.0, "singular")
-            self._mark(out, "no-assembly")
-            product = np.where(out | (base == 0.0), NAN, np.maximum(product, 0.0))
-        return np.sqrt(product) / (base * 2.0)
+    def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, double: Any) -> Any:
+        if np.min(product) > (ILL * np.max(double)) ** 2:
+            return product
+        out = product < -2.0 * TANGENT * total * total * first * second
+        self._mark(product < (ILL * double) ** 2, "ill-conditioned")
+        self._mark(base == 0.0, "singular")
+        self._mark(out, "no-assembly")
+        return np.where(out | (base == 0.0), NAN, np.maximum(product, 0.0))
 
     def _apart(self, distance: Any) -> Any:
-        if not np.min(distance) > 0.0:
-            self._mark(distance == 0.0, "singular")
-            distance = np.where(distance == 0.0, NAN, distance)
-        return distance
+        if np.min(distance) > 0.0:
+            return distance
+        self._mark(distance == 0.0, "singular")
+        return np.where(distance == 0.0, NAN, distance)
 
-    def _arm(self, moment: Any, force: Any) -> Any:
-        size = np.sqrt(force.real * force.real + force.imag * force.imag)
-        if not size.min() > 0.0:
-            size = np.where(size == 0.0, np.where(moment == 0.0, 1.0, NAN), size)
-        return np.abs(moment) / size
+    def _divisor(self, size: Any) -> Any:
+        return size if np.min(size) > 0.0 else np.where(size == 0.0, 1.0, size)
+
+    def _bears(self, size: Any, moment: Any) -> Any:
+        if np.min(size) > 0.0:
+            return size
+        return np.where(size == 0.0, np.where(moment == 0.0, 1.0, NAN), size)
 
 
 def _without_rounding(component: Any) -> Any:

@@ -97,26 +97,34 @@ class ExactBoard(Board):
 
     def _half_chord(self, radius: Any, distance: Any) -> Any:
         """Half the chord that a circle cuts from a line at `distance` from its centre, factored, not to cancel."""
-        square = (radius - distance) * (radius + distance)
+        return self._sqrt(self._reaches((radius - distance) * (radius + distance), radius, distance))
+
+    def _reaches(self, square: Any, radius: Any, distance: Any) -> Any:
+        """Return the square of the half chord; an arc that does not reach the line cuts no chord."""
         if square < -TANGENT * radius * radius:
             self._fail("no-assembly", gap=distance - radius)
             return NAN
-        half = self._sqrt(max(square, 0.0))
-        self.sines[self._name] = half / radius if radius else 0.0
-        return half
+        square = max(square, 0.0)
+        self.sines[self._name] = math.sqrt(square) / radius if radius else 0.0
+        return square
 
     def _height(self, first: Any, second: Any, base: Any) -> Any:
         """Height of the triangle of two radii on `base` by the factored formula of Heron, not to cancel."""
         total, double, product = heron(first, second, base)
+        product = self._assembles(product, first, second, base, total, double)
+        return self._sqrt(product) / (self._divisor(base) * 2.0)
+
+    def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, double: Any) -> Any:
+        """Return Heron's product; arcs that do not meet make no triangle, nor do those about one centre."""
         if product < -2.0 * TANGENT * total * total * first * second:
             self._fail("no-assembly", gap=max(base - total, abs(first - second) - base))
             return NAN
         if base == 0.0:
             self._fail("singular")
             return NAN
-        root = self._sqrt(max(product, 0.0))
-        self.sines[self._name] = root / double
-        return root / (base * 2.0)
+        product = max(product, 0.0)
+        self.sines[self._name] = math.sqrt(product) / double
+        return product
 
     def _apart(self, distance: Any) -> Any:
         """Two joints that coincide settle no direction."""
@@ -125,11 +133,15 @@ class ExactBoard(Board):
             return NAN
         return distance
 
-    def _arm(self, moment: Any, force: Any) -> Any:
-        size = self._sqrt(dot(force, force))
+    def _divisor(self, size: Any) -> Any:
+        """Return a size to divide by: one in the place of zero, where what is divided is known to fail."""
+        return size or 1.0
+
+    def _bears(self, size: Any, moment: Any) -> Any:
+        """Return the size of a force to divide its moment by; a moment without a force is a couple: it has no arm."""
         if size == 0.0:
-            return 0.0 if moment == 0.0 else NAN  # a moment without a force is a couple: it has no arm
-        return abs(moment) / size
+            return 1.0 if moment == 0.0 else NAN
+        return size
 
     # The verbs, the same for one and for many.
 
@@ -172,8 +184,9 @@ class ExactBoard(Board):
         between = self._read(first, second)
         base = self._sqrt(dot(between, between))
         height = self._height(radius, other, base)
-        along = between * (1.0 / (base + (base == 0.0)))
-        foot = (base * base + (radius - other) * (radius + other)) / (base * 2.0 + (base == 0.0))
+        base = self._divisor(base)
+        along = between * (1.0 / base)
+        foot = (base * base + (radius - other) * (radius + other)) / (base * 2.0)
         return self._chain(first, along * foot + (along * 1j) * (side * height))
 
     def _tangent(self, centre: Any, point: Any, offset: Any, side: Any) -> Any:
@@ -213,6 +226,9 @@ class ExactBoard(Board):
 
     def _moment(self, force: Any, at: Any, about: Any) -> Any:
         return cross(self._read(about, at), force)
+
+    def _arm(self, moment: Any, force: Any) -> Any:
+        return abs(moment) / self._bears(self._sqrt(dot(force, force)), moment)
 
     @property
     def status(self) -> Status:
