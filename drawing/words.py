@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from importlib.resources import files
+from string import ascii_lowercase
 from typing import Any
 
 from ..scales.errors import LANGUAGES, InputError
@@ -13,9 +16,19 @@ from ..scales.packaged import packaged
 from ..scales.scale import Scale
 from ..scales.units import format_unit
 
-GREEK = {"omega": "ω", "epsilon": "ε", "mu": "μ", "phi": "φ", "delta": "Δ"}
-PARTS = {"n": "n", "t": "t", "k": "k", "r": "r"}  # normal, tangential, Coriolis, sliding part of a vector
-FORCE_LETTERS = "abcdefghijklm"
+GREEK = {
+    **{"alpha": "α", "beta": "β", "gamma": "γ", "delta": "Δ", "epsilon": "ε", "eta": "η", "theta": "θ", "kappa": "κ"},
+    **{"lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "rho": "ρ", "sigma": "σ", "tau": "τ", "phi": "φ", "psi": "ψ"},
+    "omega": "ω",
+}
+# Superscripts of the parts of a vector: normal, tangential, Coriolis, sliding; in compound motion those of transport
+# (e) and relative rotation (r).
+PARTS = {
+    **dict.fromkeys(("V", "a"), ("n", "t", "k", "r", "e", "en", "et", "rn", "rt")),
+    **dict.fromkeys(("R",), ("n", "t")),
+}
+OF_LINKS = ("R", "M", "h")  # quantities whose two digits are the links of a pair
+PER_UNIT_DIGITS = 6
 
 
 def notations() -> tuple[str, ...]:
@@ -25,12 +38,19 @@ def notations() -> tuple[str, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """Texts, numbers and symbols for a sheet in `language` and `notation`."""
+    """Texts, numbers and symbols for a sheet in `language` and `notation`.
+
+    What depends on the mechanism is set when it is known: `seconds` are the forces and arms with two primes, the second
+    of each couple; `letters` are marks whose letters need an index, such as one of several ends of normal parts;
+    `frame` is the number of the frame.
+    """
 
     language: str
     texts: dict[str, str]
     notation: dict[str, Any]
-    starts: frozenset[str] = frozenset()  # `2_A`: where the second force of a couple on link 2 hangs, letter F″
+    seconds: frozenset[str] = frozenset()
+    letters: Mapping[str, str] = field(default_factory=dict)
+    frame: str = "0"
 
     @classmethod
     def of(cls, language: str, notation: str) -> Words:
@@ -71,62 +91,102 @@ class Words:
         """Return a unit in the language, powers as true superscripts."""
         return format_unit(unit, self.language, raised=True)
 
+    @property
+    def per_unit(self) -> bool:
+        """Whether scale factors are millimetres per unit, not the value of a millimetre."""
+        return bool(self.notation["scales"] == "mm per unit")
+
+    def factor(self, scale: Scale) -> float:
+        """Return the number of a scale factor as it is printed."""
+        return float(f"{scale.per_unit:.{PER_UNIT_DIGITS}g}") if self.per_unit else scale.mu
+
     def scale(self, scale: Scale) -> str:
         """Return a scale factor as `μ_V = 0,05 (м/с)/мм`, or as `μ_V = 20 мм/(м/с)` where the notation says so."""
-        symbol = self.symbol(scale.symbol)
-        if self.notation.get("scales") == "mm per unit":
-            unit = self.unit(scale.unit)
-            per = f"({unit})" if "/" in unit else unit
-            return f"{symbol} = {self.short(scale.per_unit, 6)} {self['unit.mm']}/{per}"
-        return f"{symbol} = {self.short(scale.mu)} {self.unit(scale.per_mm_unit)}"
+        unit = self.unit(scale.unit)
+        per = f"({unit})" if "/" in unit else unit
+        written = f"{self['unit.mm']}/{per}" if self.per_unit else self.unit(scale.per_mm_unit)
+        return f"{self.symbol(scale.symbol)} = {self.short(self.factor(scale))} {written}"
 
     def symbol(self, name: str, bar: bool = False) -> str:
         """Return the markup of a quantity's symbol, with a vector bar where wanted."""
-        special = self.notation["symbols"][self.language].get(name)
-        if special is not None:
-            head, mark, rest = _split(special)
-        else:
-            head, mark, rest = self._composed(name)
-        return f"\\bar{{{head}}}{mark}{rest}" if bar else f"{head}{mark}{rest}"
+        head, rest = self._parts(name)
+        return f"\\bar{{{head}}}{rest}" if bar else f"{head}{rest}"
 
-    def _composed(self, name: str) -> tuple[str, str, str]:
-        letters = self.notation.get("letters", {})
-        if name.startswith("mu_"):
-            kind = name.split("_")[1]  # forces of a group or of the driver alike
-            return "μ", "", f"_{{{letters.get(kind, kind)}}}"
-        if name.startswith("h_lever_"):
-            return self._lever_arm(name)
-        if "_couple" in name:
-            link = name.removeprefix("F_i").partition("_")[0]
-            end = name.rpartition("couple")[2]
-            return "F", "″" if f"{link}{end}" in self.starts else "′", f"_{{i{link}}}"
-        head, _, rest = name.partition("_")
+    def _parts(self, name: str) -> tuple[str, str]:
+        """Return the letter of a quantity and its scripts."""
+        if name.startswith("h_"):
+            return self._arm(name)
+        pair, couple, _ = name.partition("_couple")
+        special = self._special(pair + couple)
+        if special is None:
+            special = self._composed(pair)
+        head, rest = _split(special)
+        return (head + ("″" if name in self.seconds else "′") if couple else head), rest
+
+    def _special(self, name: str) -> str | None:
+        """Return the symbol that the notation has for a name; `#` in its table stands for a number."""
+        table: Mapping[str, str] = self.notation["symbols"][self.language]
+        numbers = re.findall(r"\d+", name)
+        pattern = table.get(name) or table.get(re.sub(r"\d+", "#", name))
+        return None if pattern is None else pattern.replace("#", "".join(numbers[:1]))
+
+    def _composed(self, name: str) -> str:
+        """Return a symbol made from the name's own letters: `a_BA_n` is a with n above and BA below."""
+        letters = self.notation["letters"]
+        head, *rest = name.split("_")
+        if head == "mu":  # forces of a group or of the driver alike
+            return f"μ_{{{letters.get(f'mu_{rest[0]}', letters.get(rest[0], rest[0]))}}}"
+        above = ""
+        if len(rest) > 1 and rest[-1] in PARTS.get(head, ()):
+            above = self.notation["parts"].get(rest.pop()) or name.rpartition("_")[2]
+        elif len(rest) > 1 and head in ("omega", "epsilon") and rest[0] == "r":
+            above = rest.pop(0)
+        below = self._links(head, "".join(rest))
         head = letters.get(head, GREEK.get(head, head))
-        stem, _, part = rest.rpartition("_")
-        if part in PARTS and stem:
-            return head, f"^{{{PARTS[part]}}}", f"_{{{stem}}}"
-        return head, "", f"_{{{rest}}}" if rest else ""
+        return head + (f"^{{{above}}}" if above else "") + (f"_{{{below}}}" if below else "")
 
-    def _lever_arm(self, name: str) -> tuple[str, str, str]:
-        thing = name.removeprefix("h_lever_")
-        if thing.startswith("M_i"):
-            ends = thing.removeprefix("M_i")
-            return "h", "″" if ends in self.starts else "′", f"_{{{ends.partition('_')[0]}}}"
-        return "h", "", f"_{{{thing.replace('_', '')}}}"
+    def _links(self, head: str, index: str) -> str:
+        """Return an index; the two links of a pair in the notation's order, the frame by its number."""
+        if head not in OF_LINKS or not re.fullmatch(r"\d\d", index):
+            return index
+        first, second = (self.frame if digit == "0" else digit for digit in index)
+        return first + second if self.notation["reaction"] == "ij" else second + first
+
+    def _arm(self, name: str) -> tuple[str, str]:
+        """Return the symbol of an arm: of a link's own force of inertia, of a reaction or of another force."""
+        lever, thing = name.startswith("h_lever_"), name.removeprefix("h_lever_").removeprefix("h_")
+        if lever and thing.startswith("M_"):
+            moment = re.sub(r"(?<=.)_[A-Z][^_]*$", "", thing)
+            _, rest = self._parts(f"F_{moment.removeprefix('M_')}_couple")
+            return "h" + ("″" if name in self.seconds else "′"), rest
+        if thing[:1].isdigit():
+            return "h", f"_{{{self._links('h', thing.replace('_', ''))}}}"
+        return "h", f"_{{{re.sub(r'[_^{}]', '', self.symbol(thing))}}}"
 
     def mark(self, mark: str) -> str:
         """Return the letter of a mark: `velocity.S2` is s_2, `forces_23.1` is a, `A` is A."""
+        if mark in self.letters:
+            return self.letters[mark]
         plan, _, point = mark.rpartition(".")
         if not plan:
             return _indexed(point)
         if plan.startswith("forces"):
-            return self.notation["force_pole"] if point == "0" else FORCE_LETTERS[int(point) - 1]
+            return self._force_letter(int(point))
         if point == "p":
             return str(self.notation[f"{plan}_pole"])
+        if point.startswith(("n_", "k_")):
+            return str(self.notation["normal_end" if point[0] == "n" else "coriolis_end"])
         prime = self.notation["acceleration_prime"] if plan == "acceleration" else ""
-        if point.startswith("n_"):
-            return str(self.notation["normal_end"])
         return _indexed(point[0].lower() + prime + point[1:])
+
+    def _force_letter(self, number: int) -> str:
+        """Return the pole's letter, then a, b, c, ... without it, then a_1, b_1, c_1, ..."""
+        pole = str(self.notation["force_pole"])
+        if number == 0:
+            return pole
+        letters = ascii_lowercase.replace(pole, "")
+        turn, at = divmod(number - 1, len(letters))
+        return letters[at] + (f"_{{{turn}}}" if turn else "")
 
 
 def _indexed(letter: str) -> str:
@@ -135,9 +195,10 @@ def _indexed(letter: str) -> str:
     return f"{letter.removesuffix(digits)}_{{{digits}}}" if digits else letter
 
 
-def _split(special: str) -> tuple[str, str, str]:
-    cut = min((i for i in (special.find("^"), special.find("_")) if i >= 0), default=len(special))
-    return special[:cut], "", special[cut:]
+def _split(symbol: str) -> tuple[str, str]:
+    """Cut a symbol into its letter and its scripts."""
+    cut = min((i for i in (symbol.find("^"), symbol.find("_")) if i >= 0), default=len(symbol))
+    return symbol[:cut], symbol[cut:]
 
 
 def _plain(value: float, digits: int) -> str:

@@ -1,0 +1,75 @@
+"""Letters that depend on the mechanism: guides x–x, y–y; ends n_2, n_3 on one plan; second forces of couples."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import lru_cache
+
+from ...plans.board import Program
+from ...plans.linkages.mechanism import ZERO
+from ...plans.linkages.solved import Solved
+from ..words import Words
+from .reading import Reading, read
+
+AXES = "xyzuvw"
+
+
+def lettered(words: Words, solved: Solved) -> Words:
+    """Return the words for the sheet of one mechanism."""
+    reading = read(solved.program)
+    frame = str(len(solved.mechanism.links) + 1) if words.notation["frame"] == "last" else "0"
+    return replace(words, seconds=_seconds(reading), letters=_ends(reading, words), frame=frame)
+
+
+@lru_cache(maxsize=16)
+def guide_letters(program: Program) -> Mapping[str, str]:
+    """Return the letters of guides by the name of their direction: `u_30` is x–x, the next one y–y.
+
+    The guide along the line of two pins needs none: it is named by them, as any link.
+    """
+    letters: dict[str, str] = {}
+    for step in program:
+        if step.name.startswith("u_") and not (step.verb == "tangent" and step.operands[2] == ZERO):
+            turn, at = divmod(len(letters), len(AXES))
+            axis = AXES[at] + "′" * turn
+            letters[step.name] = f"{axis}–{axis}"
+    return letters
+
+
+def _seconds(reading: Reading) -> frozenset[str]:
+    """Return the second force of each couple on the lever, and its arm."""
+    found = set()
+    for step in reading.program:
+        if step.law == "opposite" and "_couple_" in step.name:
+            found.add(step.name)
+            found.update(arm.name for moment in reading.users(step.name) for arm in reading.users(moment.name))
+    return frozenset(name for name in found if "couple" in name or name.startswith("h_"))
+
+
+def _ends(reading: Reading, words: Words) -> dict[str, str]:
+    """Return the letters of ends of normal parts and accelerations of Coriolis where a plan has several of them."""
+    letters: dict[str, str] = {}
+    for kind, key in (("n_", "normal_end"), ("k_", "coriolis_end")):
+        marks = [name for name in reading.made if "." in name and name.rpartition(".")[2].startswith(kind)]
+        links = {mark: _link_of(reading, mark) for mark in marks}
+        for plan in dict.fromkeys(mark.rpartition(".")[0] for mark in marks):
+            here = [mark for mark in marks if mark.startswith(f"{plan}.")]
+            alike = Counter(links[mark] for mark in here)
+            for mark in here if len(here) > 1 else ():
+                link = links[mark]
+                index = link if link and alike[link] == 1 else mark.rpartition(".")[2].removeprefix(kind)
+                letters[mark] = f"{words.notation[key]}_{{{index}}}"
+    return letters
+
+
+def _link_of(reading: Reading, mark: str) -> str:
+    """Return the number of the link whose turning makes the vector that ends at a mark; of a guide for Coriolis."""
+    step = reading.made[mark]
+    made = reading.step(step.operands[1 if step.verb == "chain" else 2])
+    names = made.operands if made else ()
+    # the law of a normal part takes omega itself, or the relative velocity from which omega is read
+    rates = [name for name in names if name.startswith("omega_")]
+    rates += [user.name for name in names for user in reading.users(name) if user.law == "turning"]
+    return rates[0].rpartition("_")[2] if rates else ""

@@ -1,0 +1,118 @@
+"""What a recorded program says: which vectors each plan draws, and by which way a mark is reached from the pole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+from ...plans.board import Program, Step
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """A vector on a plan: the quantity, the marks from which and to which it runs, the number of its step."""
+
+    name: str
+    tail: str
+    tip: str
+    at: int
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A program with what is looked up in it: the step and the number of each name, the vectors of each plan."""
+
+    program: Program
+    made: Mapping[str, Step]
+    number: Mapping[str, int]
+    edges: Mapping[str, tuple[Edge, ...]]
+
+    def step(self, name: str) -> Step | None:
+        """Return the step that makes a name; None for a given."""
+        return self.made.get(name)
+
+    def on(self, plan: str) -> tuple[Edge, ...]:
+        """Return the vectors of a plan in the order in which they are drawn."""
+        return self.edges.get(plan, ())
+
+    def between(self, tail: str, tip: str) -> Edge | None:
+        """Return the vector from one mark to another, the first that is drawn."""
+        return next((e for e in self.on(plan_of(tip)) if (e.tail, e.tip) == (tail, tip)), None)
+
+    def into(self, mark: str, before: int) -> Iterator[Edge]:
+        """Go through the vectors that are drawn to a mark before a certain step."""
+        return (e for e in self.on(plan_of(mark)) if e.tip == mark and e.at < before)
+
+    def way(self, mark: str, before: int) -> list[Edge]:
+        """Return the known vectors that lead from the pole to a mark: its absolute one if it has one.
+
+        Otherwise that which ends at it, hung on the way to where that one begins.
+        """
+        pole = f"{plan_of(mark)}.p"
+        if mark == pole:
+            return []
+        ends = list(self.into(mark, before))
+        absolute = next((e for e in ends if e.tail == pole), None)
+        if absolute is not None:
+            return [absolute]
+        return [*self.way(ends[0].tail, before), ends[0]] if ends else []
+
+    def hung(self, mark: str) -> list[Edge]:
+        """Return the vectors of which a mark's absolute vector is the sum, as they were hung: two at least, or none."""
+        pole, parts = f"{plan_of(mark)}.p", []
+        at: str | None = mark
+        while at is not None and at != pole:
+            edges = [e for e in self.on(plan_of(mark)) if e.tip == at]
+            edge = next((e for e in edges if e.tail == self._foot(at)), None)
+            if edge is None:
+                break
+            parts.insert(0, edge)
+            absolute = next((e for e in edges if e.tail == pole), None)
+            if absolute is not None and at != mark:
+                parts[0] = absolute
+                break
+            at = edge.tail
+        return parts if len(parts) > 1 else []
+
+    def _foot(self, mark: str) -> str:
+        """Return the mark from which another was laid off or hung."""
+        step = self.made[mark]
+        return step.operands[0] if step.verb in ("lay", "back", "chain") else ""
+
+    def visible(self, name: str) -> str:
+        """Return the quantity that a calculated size is: `a_BA_n`, which the plan shows, of `_a_BA_n`."""
+        if not name.startswith("_"):
+            return name
+        for step in self.program:
+            if step.verb in ("lay", "back") and step.operands[2] == name:
+                edge = self.between(step.operands[0], step.name)
+                if edge is not None:
+                    return edge.name
+        return name.lstrip("_")
+
+    def users(self, name: str) -> Iterator[Step]:
+        """Go through the steps that need a name."""
+        return (step for step in self.program if name in step.operands)
+
+
+def plan_of(mark: str) -> str:
+    """Return the plan on which a mark stands."""
+    return mark.rpartition(".")[0]
+
+
+@lru_cache(maxsize=16)
+def read(program: Program) -> Reading:
+    """Look through a program once."""
+    edges: dict[str, list[Edge]] = {}
+    for at, step in enumerate(program):
+        if step.verb == "read":
+            edges.setdefault(step.plan, []).append(Edge(step.name, step.operands[0], step.operands[1], at))
+        elif step.verb == "chain":
+            edges.setdefault(step.plan, []).append(Edge(step.operands[1], step.operands[0], step.name, at))
+    return Reading(
+        program,
+        {step.name: step for step in program},
+        {step.name: at for at, step in enumerate(program)},
+        {plan: tuple(vectors) for plan, vectors in edges.items()},
+    )
