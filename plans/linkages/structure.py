@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from ...scales.errors import InputError
-from .mechanism import FRAME, Mechanism, Pair, Revolute
+from .joints import Joint, joints_of, pairs_of
+from .mechanism import FRAME, Mechanism, Pair, Prismatic, Revolute
 
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 
@@ -83,33 +84,39 @@ def analyse(mechanism: Mechanism) -> Structure:
     Raises
     ------
     InputError
-        When W is not 1, or links are left that form no group.
+        When W is not 1, links are left that form no group, or a joint has a pair too many.
     """
+    joints = joints_of(mechanism.pairs)
     moving, lower = len(mechanism.links), len(mechanism.pairs)
     mobility = 3 * moving - 2 * lower
     if mobility != 1:
         raise InputError("mobility", w=mobility, n=moving, p=lower)
-    known = {FRAME, mechanism.driver.link}
+    known = [FRAME, mechanism.driver.link]
     left = [link.number for link in mechanism.links if link.number not in known]
     groups = []
     while left:
-        group = next(_groups(mechanism.pairs, known, left), None)
+        group = next(_groups(joints, known, left), None)
         if group is None:
             raise InputError("no-group", links=", ".join(map(str, left)))
         groups.append(group)
-        known.update(group.links)
+        known += group.links
         left = [number for number in left if number not in group.links]
     return Structure(moving, lower, 0, mobility, mechanism.driver.link, tuple(groups))
 
 
-def _groups(pairs: tuple[Pair, ...], known: set[int], left: list[int]) -> Iterator[Group]:
-    """Smallest sets of unknown links with 3/2 pairs a link, none of which leads to another unknown link."""
+def _groups(joints: tuple[Joint | Prismatic, ...], known: list[int], left: list[int]) -> Iterator[Group]:
+    """Smallest sets of unknown links with 3/2 pairs a link, of equal ones first those with pairs that the task names.
+
+    Of a joint that leads on to another unknown link, that link is no part of the group: it is attached later.
+    """
     for size in range(2, len(left) + 1, 2):
+        found = []
         for links in combinations(left, size):
-            inner = tuple(pair for pair in pairs if set(pair.links) <= set(links))
-            outer = tuple(pair for pair in pairs if len(set(pair.links) & set(links)) == 1 and set(pair.links) & known)
+            inner, outer, named = pairs_of(joints, links, known)
             if 2 * (len(inner) + len(outer)) == 3 * size and len({_within(p, links) for p in outer}) == len(outer) > 1:
-                yield _dyad(links, inner, outer) if size == 2 else Group(links, inner, outer, _class(size, len(outer)))
+                found.append((named, links, inner, outer))
+        for _, links, inner, outer in sorted(found, key=lambda one: not one[0]):
+            yield _dyad(links, inner, outer) if size == 2 else Group(links, inner, outer, _class(size, len(outer)))
 
 
 def _class(links: int, outer: int) -> str:
