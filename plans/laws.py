@@ -10,6 +10,7 @@ from typing import Any
 
 Law = Callable[..., Any]
 NAN = float("nan")
+NOTHING = 1e-13  # part of what a difference is taken from, below which it is rounding
 
 
 def dot(u: Any, w: Any) -> Any:
@@ -39,8 +40,8 @@ def _square(vector: Any) -> Any:
 
 
 def _part_of(value: Any, whole: Any) -> Any:
-    """Return value / whole, NaN where the whole is zero: NaN to the power of one, which is not so to that of zero."""
-    none = whole == 0.0
+    """Return value / whole; NaN where the whole is zero or rounding (NaN to the power of zero is one)."""
+    none = abs(whole) <= NOTHING * abs(value)
     return value / (whole + none) * NAN**none
 
 

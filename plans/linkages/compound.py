@@ -203,11 +203,12 @@ def scale_symbol(plan: str) -> str | None:
 
 
 def disagreement(found: Iterable[Coupler], values: Mapping[str, Any]) -> float | None:
-    """Return the largest difference of both routes, in parts of the longest vector of its figure; None without any."""
+    """Return the largest difference of both routes, in parts of the longest vector of either; None without any."""
     worst = None
-    for point, letter in ((p, letter) for coupler in found for p, letter in coupler.letters.items()):
+    for c, point, letter in ((coupler, *pair) for coupler in found for pair in coupler.letters.items()):
         for kind, parts in PARTS.items():
-            longest = max(abs(complex(values[f"{kind}_{letter}_{part}"])) for part in parts)
+            vectors = (f"{kind}_{c.hinge}", *(f"{kind}_{letter}_{part}" for part in parts))
+            longest = max(abs(complex(values[name])) for name in vectors)
             gap = abs(complex(values[f"_{kind}_{letter}_total"]) - complex(values[f"{kind}_{point}"]))
             worst = max(worst or 0.0, gap / (longest or 1.0))
     return worst
