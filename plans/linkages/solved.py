@@ -13,8 +13,8 @@ from ..exact import Status, Trouble, run
 from ..quantities import Quantity, quantities, shown_on
 from . import compound
 from .chain import PLANS, board_givens, construct, hinged
-from .limits import limiting_angles
-from .mechanism import ZERO, Mechanism
+from .limits import limiting_places
+from .mechanism import ZERO, Mechanism, SlidingDriver
 from .structure import Structure
 
 SMALL = math.sin(math.radians(20.0))  # sine of an angle at which lines meet so flatly that a drawing loses much
@@ -68,15 +68,19 @@ class Solved:
         )
 
     def _apart(self, trouble: Trouble) -> PositionError:
-        """Return by how much the links miss each other, and the angles of the driver at which they just meet."""
+        """Return by how much the links miss each other, and the places of the driver at which they just meet."""
         given = {name: value for name, value in self.values.items() if isinstance(value, float)}
-        limits = limiting_angles(self.mechanism, given)
+        limits = limiting_places(self.mechanism, given)
         gap = f"{trouble.gap * 1e3:.4g}"
         step = next(step for step in self.program if step.name == trouble.name)
         point = step.operands[1] if step.verb == "tangent" else trouble.name
         if limits is None:
             return PositionError("no-assembly", status_word="no-assembly", point=point, gap=gap)
-        low, high = (f"{math.degrees(angle) % 360.0:.7g}" for angle in limits)
+        found = [place for place in limits if place is not None]
+        if isinstance(self.mechanism.driver, SlidingDriver):
+            places = ", ".join(f"{place * 1e3:.7g}" for place in found)
+            return PositionError("no-assembly-slide", status_word="no-assembly", point=point, gap=gap, places=places)
+        low, high = (f"{math.degrees(angle) % 360.0:.7g}" for angle in found)
         return PositionError("no-assembly-here", status_word="no-assembly", point=point, gap=gap, low=low, high=high)
 
 

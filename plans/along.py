@@ -1,0 +1,69 @@
+"""A program as a function of one of its values: what does not depend on that value is done once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .batch import ArrayBoard
+from .board import Program, Step
+from .exact import ExactBoard, Status
+
+Array = NDArray[np.float64]
+
+
+class Along:
+    """The steps that `wanted` needs, ready to be done for many values of `variable` again and again.
+
+    Parameters
+    ----------
+    givens : mapping of str to float
+        Values in SI, that of `variable` apart.
+    board : type of ArrayBoard
+        A board that notes something besides.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        givens: Mapping[str, Any],
+        variable: str,
+        wanted: Sequence[str],
+        board: type[ArrayBoard] = ArrayBoard,
+    ) -> None:
+        varying, once, each = {variable}, [], []
+        for step in program.needed_for(wanted):
+            if varying.isdisjoint(step.operands):
+                once.append(step)
+            else:
+                each.append(step)
+                varying.add(step.name)
+        fixed = ExactBoard({name: value for name, value in givens.items() if name != variable})
+        Program(tuple(once)).run(fixed)
+        self._variable, self._wanted = variable, tuple(wanted)
+        self._fixed, self._board = fixed, board({}, 0)
+        self._steps = [(self._board.operation(s.verb, s.law), s.name, s.operands) for s in each]
+        self.steps: tuple[Step, ...] = tuple(each)
+
+    @property
+    def status(self) -> Status:
+        """Status of the steps that do not depend on the variable."""
+        return self._fixed.status
+
+    def run(self, at: Array) -> ArrayBoard:
+        """Do the steps for the values `at` of the variable, shape (N,), and return the board."""
+        board = self._board
+        board.restart({**self._fixed.values, self._variable: at}, np.zeros(len(at), np.int8))
+        perform = board.perform
+        with np.errstate(invalid="ignore", divide="ignore"):
+            for operate, name, operands in self._steps:
+                perform(operate, name, operands)
+        return board
+
+    def __call__(self, at: Array) -> dict[str, NDArray[Any]]:
+        """Return the wanted names for the values `at`, each of shape (N,)."""
+        values = self.run(at).values
+        return {name: np.broadcast_to(np.asarray(values[name]), at.shape) for name in self._wanted}

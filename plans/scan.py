@@ -1,0 +1,156 @@
+"""Zeros and extremes along one variable: a grid fine enough to see them, then each cell cut in sections.
+
+A zero is where the sign changes. Between grid points a function may dip to zero and come back: wherever it comes near
+on the grid the dip is followed down. Only signs and sizes are asked for, no derivatives.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Function = Callable[[Array], Array]
+SECTIONS, ROUNDS, DIP_ROUNDS = 32, 6, 8
+LEAST_CELLS = 48
+DIP = 4.0  # a grid value so many second differences away from zero does not come there between the points
+TOUCH = 1e-12  # part of the largest value within which a dip counts as touching zero
+END = 1e-6  # how near the grid comes to the ends of a stretch, in radians of its circle
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """A part of a variable's range, from `low` to `high`; `closed` when the end is the beginning, as of a full turn.
+
+    Its own coordinate `theta` makes what has a vertical tangent at the ends, as the motion at a limit of assembly has,
+    as smooth as it is elsewhere: x = middle - half cos(theta).
+    """
+
+    low: float
+    high: float
+    step: float  # the largest of the grid
+    closed: bool = False
+
+    @property
+    def length(self) -> float:
+        """Length of the stretch."""
+        return self.high - self.low
+
+    @property
+    def cells(self) -> int:
+        """Number of cells of the grid; on an open stretch those in the middle are the longest."""
+        cells = self.length / self.step
+        return round(cells) if self.closed else max(LEAST_CELLS, math.ceil(0.5 * math.pi * cells))
+
+    def place(self, theta: Array) -> Array:
+        """Return the variable at `theta`."""
+        if self.closed:
+            return self.low + theta * (self.length / (2.0 * math.pi))
+        from_low, from_high = (self.length * np.square(part(0.5 * theta)) for part in (np.sin, np.cos))
+        places: Array = np.where(theta < 0.5 * math.pi, self.low + from_low, self.high - from_high)
+        return places
+
+    def grid(self) -> Array:
+        """Return coordinates, one cell more than all the way round where the stretch is closed."""
+        cells = self.cells
+        if self.closed:
+            around: Array = np.arange(cells + 2) * (2.0 * math.pi / cells)
+            return around
+        grid: Array = np.linspace(0.0, math.pi, cells + 1)
+        grid[0], grid[-1] = END, math.pi - END
+        return grid
+
+    def part(self, low: float, high: float) -> Stretch:
+        """Return an open part of it, with as fine a grid."""
+        return Stretch(low, high, self.step)
+
+
+def zeros(function: Function, stretch: Stretch) -> tuple[Array, Array]:
+    """Return where `function` changes its sign on `stretch`, and where it only touches zero, both in order."""
+    theta = stretch.grid()
+
+    def at(theta: Array) -> Array:
+        return function(stretch.place(theta))
+
+    values = at(theta)
+    size = float(np.nanmax(np.abs(values), initial=0.0))
+    above, known = values >= 0.0, np.isfinite(values)
+    cells = np.flatnonzero((above[1:] != above[:-1]) & known[1:] & known[:-1])
+    if stretch.closed:
+        cells = cells[cells < stretch.cells]
+    low, high = theta[cells], theta[cells + 1]
+    inner_low, inner_high, touches = _dips(at, theta, values, size)
+    roots = _refined(at, np.concatenate((low, inner_low)), np.concatenate((high, inner_high)))
+    return _sorted(roots, stretch), _sorted(touches, stretch)
+
+
+def _sorted(theta: Array, stretch: Stretch) -> Array:
+    return np.sort(stretch.place(theta % (2.0 * math.pi) if stretch.closed else theta))
+
+
+def _refined(function: Function, low: Array, high: Array) -> Array:
+    """Return the zeros in cells at whose ends the signs differ: cut, then interpolated."""
+    if not len(low):
+        return low
+    parts = np.linspace(0.0, 1.0, SECTIONS + 1)[:, None]
+    columns = np.arange(len(low))
+    for _ in range(ROUNDS):
+        theta = low + (high - low) * parts
+        values = function(theta.ravel()).reshape(theta.shape)
+        above = values >= 0.0
+        first = np.maximum((above != above[0]).argmax(axis=0), 1)
+        low, high = theta[first - 1, columns], theta[first, columns]
+        left, right = values[first - 1, columns], values[first, columns]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = left / (left - right)
+    return low + (high - low) * np.where((share >= 0.0) & (share <= 1.0), share, 0.5)
+
+
+def _dips(function: Function, theta: Array, values: Array, size: float) -> tuple[Array, Array, Array]:
+    """Follow every dip towards zero: cells in which the sign does change, and places where zero is only touched."""
+    before, here, after = values[:-2], values[1:-1], values[2:]
+    sign = np.where(here >= 0.0, 1.0, -1.0)
+    depth = here * sign
+    bend = (before - 2.0 * here + after) * sign
+    at = np.flatnonzero((before * sign >= depth) & (after * sign >= depth) & (depth < DIP * bend))
+    low, high, sign = theta[at], theta[at + 2], sign[at]
+    cells: list[tuple[float, float]] = []
+    touches: list[float] = []
+    for last in (*(False,) * (DIP_ROUNDS - 1), True):
+        if not len(low):
+            break
+        points = low + (high - low) * np.linspace(0.0, 1.0, SECTIONS + 1)[:, None]
+        found = function(points.ravel()).reshape(points.shape) * sign
+        dips = _Dips(points, np.where(np.isnan(found), np.inf, found))
+        cells += dips.cells()
+        going = dips.going & (not last)
+        touches += list(dips.lowest[~dips.passed & ~going & (dips.depth <= TOUCH * size)])
+        low, high, sign = dips.low[going], dips.high[going], sign[going]
+    ends = np.array(cells).reshape(-1, 2)
+    return ends[:, 0], ends[:, 1], np.array(touches)
+
+
+class _Dips:
+    """Dips cut in sections, one in each column: `found` at the `points` is positive at both ends."""
+
+    def __init__(self, points: Array, found: Array) -> None:
+        self._points, self._found = points, found
+        columns = np.arange(points.shape[1])
+        lowest = np.clip(found.argmin(axis=0), 1, len(points) - 2)
+        self.low, self.lowest, self.high = (points[lowest + k, columns] for k in (-1, 0, 1))
+        left, self.depth, right = (found[lowest + k, columns] for k in (-1, 0, 1))
+        self.passed = (found < 0.0).any(axis=0)
+        with np.errstate(invalid="ignore"):
+            self.going = ~self.passed & (self.depth < DIP * (left - 2.0 * self.depth + right))
+
+    def cells(self) -> list[tuple[float, float]]:
+        """Return the cells in which dips pass zero, on the way down and on the way up."""
+        cells = []
+        for column in np.flatnonzero(self.passed):
+            below, points = np.flatnonzero(self._found[:, column] < 0.0), self._points[:, column]
+            cells += [(points[a], points[a + 1]) for a in (below[0] - 1, below[-1])]
+        return cells
