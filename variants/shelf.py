@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from importlib.resources import files
 from typing import Any
 
 _TASKS = files(__package__) / "tasks"
+# a row of variants begins with its id; rows of a table stand before the mechanism, others after it
+_ID = re.compile(r'^(?:  \{ )?id = "([^"]+)"', re.MULTILINE)
+_TABLE = re.compile(r"^variant = \[\n.*?^\]\n", re.MULTILINE | re.DOTALL)
 
 
 def bundled() -> tuple[str, ...]:
@@ -21,10 +25,15 @@ def bundled_text(task: str) -> str:
 
 
 def summary(task: str) -> dict[str, Any]:
-    """Return what `list` shows of a bundled task: id, title, source, variants, plans, givens with unit or choices."""
-    raw = tomllib.loads(bundled_text(task))
+    """Return what `list` shows of a bundled task: id, title, source, variants, plans, givens with unit or choices.
+
+    To parse whole files would take most of the time of `list`: only what stands before the mechanism is parsed, and of
+    the variants only their ids are read.
+    """
+    text = bundled_text(task)
+    raw = tomllib.loads(_TABLE.sub("", text[: text.index("[[mechanism.")]))
     givens = {name: given.get("unit") or given["choices"] for name, given in raw["givens"].items()}
     return {name: raw[name] for name in ("id", "title", "source", "plans")} | {
-        "variants": [row["id"] for row in raw["variant"]],
+        "variants": _ID.findall(text)[1:],
         "givens": givens,
     }

@@ -1,0 +1,117 @@
+"""The twenty schemes: each has the structure of its kind of machine, and every variant has good plans everywhere."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from kulman.plans.batch import batch
+from kulman.plans.exact import STATUSES
+from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.mechanism import FRAME, Driver, Revolute
+from kulman.plans.linkages.solved import solve_linkage
+from kulman.plans.linkages.structure import Group, analyse
+from kulman.variants import load_task
+from kulman.variants.shelf import bundled, summary
+
+# The customary schemes of course projects: I is the driver, then the groups by class and kind (class III by order) with
+# their links; -> on links of a group before, || on the driver alone.
+FORMULAS = {
+    "scheme-01-compressor": "I -> II2(2,3)",
+    "scheme-02-forging-press": "I -> II2(2,3)",
+    "scheme-03-crank-rocker": "I -> II1(2,3)",
+    "scheme-04-v-engine": "I -> II2(2,3) || II2(4,5)",
+    "scheme-05-articulated-rod": "I -> II2(2,3) -> II2(4,5)",
+    "scheme-06-opposed-compressor": "I -> II2(2,3) || II2(4,5)",
+    "scheme-07-two-stage-compressor": "I -> II2(2,3) -> II2(4,5)",
+    "scheme-08-planer": "I -> II1(2,3) -> II2(4,5)",
+    "scheme-09-shaper": "I -> II3(2,3) -> II2(4,5)",
+    "scheme-10-shaper-two-blocks": "I -> II3(2,3) -> II4(4,5)",
+    "scheme-11-slotter": "I -> II3(2,3) -> II2(4,5)",
+    "scheme-12-shaking-conveyor": "I -> II1(2,3) -> II2(4,5)",
+    "scheme-13-toggle-press": "I -> II1(2,3) -> II2(4,5)",
+    "scheme-14-jaw-crusher": "I -> II1(2,3) -> II1(4,5)",
+    "scheme-15-lever-shears": "I -> II1(2,3) -> II1(4,5)",
+    "scheme-16-hay-baler": "I -> II1(2,3) -> II2(4,5)",
+    "scheme-17-sewing-machine": "I -> II2(2,3) || II1(4,5)",
+    "scheme-19-scotch-yoke": "I -> II5(2,3)",
+}
+VARIANTS = [(scheme, variant) for scheme in FORMULAS for variant in "0123456789"]
+TURN = 360
+LEAST = math.sin(math.radians(20.0))
+
+
+def formula(groups: tuple[Group, ...]) -> str:
+    """Write the structure formula with ASCII letters."""
+    text, before = "I", {FRAME}
+    for group in groups:
+        parallel = bool(before - {FRAME}) and before.isdisjoint({*group.before} - {FRAME})
+        kind = f"II{group.view}" if group.group_class == 2 else f"III{group.order}"
+        text += f" {'||' if parallel else '->'} {kind}({','.join(map(str, sorted(group.links)))})"
+        before |= {*group.links}
+    return text
+
+
+def test_all_schemes_come_with_the_program_under_their_names() -> None:
+    assert [task for task in bundled() if task.startswith("scheme-")] == list(FORMULAS)
+    for scheme in FORMULAS:
+        assert summary(scheme)["variants"] == list("0123456789")
+
+
+@pytest.mark.parametrize("scheme", FORMULAS)
+def test_scheme_has_the_structure_of_its_machine(scheme: str) -> None:
+    assert formula(analyse(load_task(scheme).mechanism).groups) == FORMULAS[scheme]
+
+
+def test_schemes_together_have_all_kinds_of_dyads() -> None:
+    kinds = {group.kind for scheme in FORMULAS for group in analyse(load_task(scheme).mechanism).groups}
+
+    assert kinds >= {"RRR", "RRP", "RPR", "PRP", "RPP"}
+
+
+def test_schemes_have_bent_links_forked_joints_and_shafts_with_two_cranks() -> None:
+    def joints(scheme: str) -> list[str]:
+        return [pair.point for pair in load_task(scheme).mechanism.pairs if isinstance(pair, Revolute)]
+
+    for scheme in ("scheme-04-v-engine", "scheme-07-two-stage-compressor", "scheme-13-toggle-press"):
+        assert len(joints(scheme)) > len(set(joints(scheme))), scheme
+    for scheme, link in (("scheme-05-articulated-rod", 2), ("scheme-08-planer", 3), ("scheme-16-hay-baler", 2)):
+        assert len(load_task(scheme).mechanism.link(link).points) >= 4
+    assert {"O", "A", "C"} == set(load_task("scheme-06-opposed-compressor").mechanism.link(1).points)
+
+
+@pytest.mark.parametrize(("scheme", "variant"), VARIANTS)
+def test_variant_has_plans_that_can_be_drawn(scheme: str, variant: str) -> None:
+    task = load_task(scheme)
+
+    solved = solve_linkage(task.mechanism, task.values(variant))
+
+    mark, sine = solved.worst_sine()
+    assert solved.status == "ok"
+    assert sine > LEAST, mark
+
+
+@pytest.mark.parametrize(("scheme", "variant"), VARIANTS)
+def test_variant_can_be_assembled_in_every_position_of_the_driver(scheme: str, variant: str) -> None:
+    task = load_task(scheme)
+    driver = task.mechanism.driver
+    assert isinstance(driver, Driver)
+    _, program = construct(task.mechanism, ["velocity"])
+    values = {**task.values(variant), driver.angle: np.arange(TURN) * (2.0 * math.pi / TURN)}
+
+    wanted = [name for name in program.names if not name.startswith("_")]
+    _, codes = batch(program, board_givens(task.mechanism, values), wanted)
+
+    assert {STATUSES[code] for code in codes} == {"ok"}
+
+
+@pytest.mark.parametrize("scheme", FORMULAS)
+def test_variants_of_a_scheme_differ(scheme: str) -> None:
+    task = load_task(scheme)
+    rows = [task.variants[variant].values for variant in task.variants]
+
+    assert len({row["phi"] for row in rows}) == len(rows)
+    assert len({tuple(value for name, value in row.items() if name.startswith("l_")) for row in rows}) == len(rows)
+    assert all(len({row[name] for row in rows}) > 2 for name in rows[0])
