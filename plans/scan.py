@@ -9,11 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+Array = NDArray[Any]
 Function = Callable[[Array], Array]
 SECTIONS, ROUNDS, DIP_ROUNDS = 32, 6, 8
 LEAST_CELLS = 48
@@ -89,7 +90,8 @@ def zeros(function: Function, stretch: Stretch) -> tuple[Array, Array]:
 
 
 def _sorted(theta: Array, stretch: Stretch) -> Array:
-    return np.sort(stretch.place(theta % (2.0 * math.pi) if stretch.closed else theta))
+    places: Array = np.sort(stretch.place(theta % (2.0 * math.pi) if stretch.closed else theta))
+    return places
 
 
 def _refined(function: Function, low: Array, high: Array) -> Array:

@@ -80,6 +80,11 @@ def hinged(mechanism: Mechanism, structure: Structure) -> tuple[compound.Coupler
     return compound.couplers(mechanism, (dyad for _, dyad in dyads), bodies)
 
 
+def moving_bodies(mechanism: Mechanism, structure: Structure) -> Bodies:
+    """Return how every moving link is known: a direction that turns with it, its angular velocity, by number."""
+    return _named(mechanism, structure)[1]
+
+
 def _named(mechanism: Mechanism, structure: Structure) -> tuple[Attached, Bodies]:
     """Name the parts of all groups, each for those attached to it."""
     for group in structure.groups:
