@@ -140,3 +140,14 @@ def test_minus_before_a_length_lays_it_off_the_other_way() -> None:
     assert "r" in task.mechanism.givens
     refused, _ = read_text(text.replace('"-r", "0 mm"', '"-q", "0 mm"'), "mine.toml")
     assert refused is None
+
+
+def test_length_that_the_mechanism_states_itself_has_its_customary_name() -> None:
+    task, faults = read_text(GOOD, "mine.toml")
+    assert task is not None, faults
+
+    found = solve_linkage(task.mechanism, task.values())
+
+    assert task.mechanism.link(1).points["A"] == ("l_OA", "zero")
+    assert found.quantities["l_OA"].value == 0.1
+    assert found.quantities["l_CB"].value == 0.3

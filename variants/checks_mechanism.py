@@ -36,12 +36,13 @@ _RAD_S2, _N_M = unit("rad/s^2"), unit("N*m")
 class Names:
     """The values that a mechanism may name, and what it turned out to use.
 
-    `literals` are constants by value and dimension, `positive` the names that must be greater than zero: without
-    a length or a speed of the crank there is no plan.
+    `literals` are constants by value and dimension, `lengths` those of them that are links, by their customary names,
+    `positive` the names that must be greater than zero: without a length or a speed of the crank there is no plan.
     """
 
     dimensions: dict[str, Dimension]
     literals: dict[tuple[float, Dimension], str] = field(default_factory=dict)
+    lengths: dict[str, float] = field(default_factory=dict)
     positive: set[str] = field(default_factory=set)
     signs: set[str] = field(default_factory=set)
 
@@ -81,7 +82,18 @@ class Names:
     @property
     def constants(self) -> dict[str, float]:
         """The literals by their names."""
-        return {constant: value for (value, _), constant in self.literals.items()}
+        return {constant: value for (value, _), constant in self.literals.items()} | self.lengths
+
+    def on_axis(self, points: dict[str, tuple[str, str]]) -> dict[str, tuple[str, str]]:
+        """Call literal distances from the origin of a link by their ends, `l_AB`, where nothing else is called so."""
+        start = next((point for point, at in points.items() if at == (ZERO, ZERO)), "")
+        named = dict(points)
+        for end, (x, y) in points.items():
+            name, value = f"l_{start}{end}", self.constants.get(x, 0.0)
+            free = start and y == ZERO and value > 0.0 and name not in self.dimensions
+            if free and self.lengths.setdefault(name, value) == value:
+                named[end] = (name, y)
+        return named
 
 
 def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | None:
@@ -142,7 +154,7 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | Non
         for at in lettered.values():
             if at and ZERO in at:
                 names.positive.update(length.removeprefix(MINUS) for length in at)
-        return None if None in lettered or None in lettered.values() else lettered  # type: ignore[return-value]
+        return None if None in lettered or None in lettered.values() else names.on_axis(lettered)
 
     place = array_of(names.value(_M), 2)
     fields = {
