@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from string import ascii_lowercase
 from typing import Any
 
+from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import LANGUAGES, InputError
 from ..scales.names import unknown
 from ..scales.packaged import packaged
@@ -42,7 +43,7 @@ class Words:
 
     What depends on the mechanism is set when it is known: `seconds` are the forces and arms with two primes, the second
     of each couple; `letters` are marks whose letters need an index, such as one of several ends of normal parts;
-    `frame` is the number of the frame.
+    `frame` is the number of the frame, `display` the units in which the task shows its results.
     """
 
     language: str
@@ -51,6 +52,7 @@ class Words:
     seconds: frozenset[str] = frozenset()
     letters: Mapping[str, str] = field(default_factory=dict)
     frame: str = "0"
+    display: Display = AS_INSIDE
 
     @classmethod
     def of(cls, language: str, notation: str) -> Words:
@@ -66,6 +68,10 @@ class Words:
         if notation not in notations():
             raise unknown("notation-unknown", notation, notations())
         return cls(language, packaged(__package__, "texts", language), packaged(__package__, "notations", notation))
+
+    def showing(self, display: Display) -> Words:
+        """Return the words for results in the units of `display`."""
+        return replace(self, display=display)
 
     def __getitem__(self, key: str) -> str:
         """Return a text by its key."""
@@ -98,13 +104,15 @@ class Words:
 
     def factor(self, scale: Scale) -> float:
         """Return the number of a scale factor as it is printed."""
-        return float(f"{scale.per_unit:.{PER_UNIT_DIGITS}g}") if self.per_unit else scale.mu
+        shown = self.display.scale(scale)
+        return float(f"{shown.per_unit:.{PER_UNIT_DIGITS}g}") if self.per_unit else shown.mu
 
     def scale(self, scale: Scale) -> str:
         """Return a scale factor as `μ_V = 0,05 (м/с)/мм`, or as `μ_V = 20 мм/(м/с)` where the notation says so."""
-        unit = self.unit(scale.unit)
-        per = f"({unit})" if "/" in unit else unit
-        written = f"{self['unit.mm']}/{per}" if self.per_unit else self.unit(scale.per_mm_unit)
+        shown = self.display.scale(scale)
+        unit, paper = self.unit(shown.unit), self.unit(shown.paper)
+        per = f"({unit})" if "/" in unit or "·" in unit else unit
+        written = f"{paper}/{per}" if self.per_unit else f"{per}/{paper}"
         return f"{self.symbol(scale.symbol)} = {self.short(self.factor(scale))} {written}"
 
     def symbol(self, name: str, bar: bool = False) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ..scales.display import Display
 from ..scales.scale import Scale
 from .board import POSITION, Program
 
@@ -52,6 +53,14 @@ class Quantity:
         if self.scale is not None:
             item |= {"mm": self.mm, "scale": self.scale}
         return item
+
+    def shown(self, display: Display) -> Quantity:
+        """Return the quantity in the units of `display`, its segment too."""
+        value, x, y = (
+            None if part is None else display.value(part, self.unit) for part in (self.value, self.x, self.y)
+        )
+        mm = None if self.mm is None else display.segment(self.mm)
+        return replace(self, value=value, x=x, y=y, unit=display.unit(self.unit), mm=mm)
 
 
 def unit_of(name: str) -> str:

@@ -22,11 +22,14 @@ class Scale:
         Value in `unit` per millimetre.
     unit : str
         Unit of the value drawn, SI: `m`, `m/s`, `m/s^2`, `N`.
+    paper : str
+        What the segments are measured in: millimetres, unless the factor is only shown.
     """
 
     symbol: str
     mu: float
     unit: str
+    paper: str = "mm"
 
     def drawn(self, value: float) -> float:
         """Return the millimetres that show `value`."""
@@ -39,7 +42,7 @@ class Scale:
     @property
     def per_mm_unit(self) -> str:
         """Unit of the scale factor, `m/mm` or `(m/s)/mm`."""
-        return f"({self.unit})/mm" if "/" in self.unit or "*" in self.unit else f"{self.unit}/mm"
+        return f"({self.unit})/{self.paper}" if "/" in self.unit or "*" in self.unit else f"{self.unit}/{self.paper}"
 
     @property
     def per_unit(self) -> float:

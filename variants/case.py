@@ -10,12 +10,13 @@ from dataclasses import dataclass
 from ..drawing.linkages.scene import Given
 from ..plans.linkages.solved import SMALL, Solved, scale_symbols, solve_linkage
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
+from ..scales.display import Display
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import quote
 from .arguments import by_name, of_kind, plans_wanted
 from .reader import load_task
-from .task import LocatedError, Task
+from .task import WITH_FORCES, LocatedError, Task
 
 Settings = Mapping[str, str | float]
 
@@ -42,6 +43,11 @@ class Case:
             else:
                 stated[name] = Given(float(f"{unit.from_si(value):.12g}"), unit.name)
         return stated
+
+    @property
+    def display(self) -> Display:
+        """The units of results: those of the task, but SI where forces are wanted."""
+        return Display(paper=self.task.display.paper) if WITH_FORCES.intersection(self.plans) else self.task.display
 
     @property
     def warnings(self) -> tuple[InputError, ...]:

@@ -8,7 +8,7 @@ import stat
 import tomllib
 from contextlib import suppress
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -17,6 +17,7 @@ from ..plans.linkages.chain import PLANS, construct
 from ..plans.linkages.mechanism import Mechanism
 from ..plans.linkages.solved import scale_symbols
 from ..scales.choose import Segment, chooser
+from ..scales.display import AS_INSIDE, LENGTHS, METRE, PAPER, Display
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.names import unknown
 from ..scales.numbers import quote
@@ -25,7 +26,7 @@ from .checks import Checker, EnoughError, Field, array_of, as_is, label, one_of,
 from .checks_givens import Settings, read_choices, read_givens, read_variants
 from .checks_mechanism import Names, read_mechanism
 from .shelf import bundled, bundled_text
-from .task import Bound, Given, LocatedError, Task
+from .task import WITH_FORCES, Bound, Given, LocatedError, Task
 from .toml_places import Path, Places
 
 LARGEST_FILE = 1_000_000
@@ -182,6 +183,15 @@ def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     return good
 
 
+def _display(checker: Checker, path: Path, raw: object) -> Display:
+    """Read `[display]`: the unit of lengths in results, and that of segments."""
+    units = {"length": LENGTHS, "paper": PAPER}
+    fields = {
+        name: Field(one_of("display-unit", partial(tuple, known)), required=False) for name, known in units.items()
+    }
+    return Display(**record(checker, path, raw, fields))
+
+
 _FIELDS = {
     "id": Field(label),
     "source": Field(text),
@@ -192,6 +202,7 @@ _FIELDS = {
     "choices": Field(as_is, required=False),
     "mechanism": Field(as_is),
     "scales": Field(_scales, required=False),
+    "display": Field(_display, required=False),
     "variant": Field(as_is),
 }
 
@@ -206,6 +217,8 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
     givens = {key: _bounded(given, names) for key, given in givens.items()}
     variants = read_variants(checker, raw["variant"], givens) if "variant" in raw else {}
     _signs(checker, names, choices)
+    if head.get("display", AS_INSIDE).length != METRE and WITH_FORCES.intersection(head.get("plans", ())):
+        checker.fault(("display", "length"), InputError("display-forces"))
     if mechanism is not None and "plans" in head:
         _constructed(checker, mechanism, head)
     if checker.faults or mechanism is None:
@@ -224,6 +237,7 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
         constants=names.constants,
         mechanism=mechanism,
         scales=head.get("scales", {}),
+        display=head.get("display", AS_INSIDE),
         variants=variants,
         file=checker.file,
     )

@@ -129,7 +129,7 @@ def sheet(
     if norm not in get_args(Norm):
         raise unknown("norm-unknown", norm, get_args(Norm))
     case = solve_case(task, variant, set, only, scales)
-    words = Words.of(lang, case.task.notation if notation is None else notation)
+    words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
     error = case.solved.error()
     if error is not None:
         raise error

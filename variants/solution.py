@@ -102,8 +102,10 @@ class Solution:
 
     def table(self, language: str | None = None) -> str:
         """Return the quantities as a readable table: name, value, unit, components, segment in mm."""
-        words = self.words if language is None else Words.of(language, self.task.notation)
-        rows = [_row(words, quantity) for quantity in self.quantities.values()]
+        words = self.words
+        if language is not None:
+            words = Words.of(language, self.task.notation).showing(words.display)
+        rows = [_row(words, quantity.shown(words.display)) for quantity in self.quantities.values()]
         widths = [max((len(row[i]) for row in rows), default=0) for i in range(5)]
         return "\n".join(
             f"{name:{widths[0]}}  {value:>{widths[1]}}  {unit:>{widths[2]}} {parts:{widths[3]}}  {mm}".rstrip()
@@ -117,7 +119,10 @@ def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
     if q.kind == "point":
         return q.name, parts, unit, "", ""
     value = "–" if q.value is None else words.short(q.value, 6)
-    mm = "" if q.mm is None else f"{words.short(round(q.mm, 2))} {format_unit('mm', words.language)}"
+    places = 2 if words.display.paper == "mm" else 3
+    mm = (
+        "" if q.mm is None else f"{words.short(round(q.mm, places))} {format_unit(words.display.paper, words.language)}"
+    )
     return q.name, value, unit, "" if parts == "–" else parts, mm
 
 
@@ -165,6 +170,7 @@ def solve(
     case = solve_case(task, variant, set, only, scales)
     solved = case.solved
     words = Words.of("en" if lang is None else lang, case.task.notation if notation is None else notation)
+    words = words.showing(case.display)
     by_plan = first_scales(solved, case.choosers) if solved.trouble is None else {}
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}

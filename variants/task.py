@@ -9,6 +9,7 @@ from enum import Enum
 from numbers import Real
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
+from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import quote
@@ -16,6 +17,8 @@ from ..scales.units import Unit, parse
 
 # In SI; no drawing has links, masses or forces beyond these, and none of their products leaves the range of a float.
 SMALLEST, LARGEST = 1e-12, 1e9
+
+WITH_FORCES = frozenset(("forces", "lever"))  # plans whose units hang together in SI alone
 
 
 class Bound(Enum):
@@ -102,7 +105,7 @@ class Task:
     """A task of a textbook as data.
 
     `choices` says which values each word of a choice sets, `constants` holds the literals of the mechanism;
-    `file` is what was read, as the user named it, `None` for a bundled task.
+    `file` is what was read, as the user named it, `None` for a bundled task; `display` are the units of results.
     """
 
     id: str
@@ -117,6 +120,7 @@ class Task:
     scales: Mapping[str, str]
     variants: Mapping[str, Variant]
     file: str | None = None
+    display: Display = AS_INSIDE
 
     def variant(self, variant_id: str | None = None) -> Variant:
         """Return a variant, the first one without an id."""
