@@ -33,16 +33,53 @@ def hatching(a: complex, b: complex, below: complex, style: Style) -> tuple[Shap
     return tuple(Line(foot, foot + lean, Pen.THIN, role="hatch") for foot in feet)
 
 
-def fixed_pivot(at: complex, name: str, style: Style) -> Group:
-    """Return a pivot on the frame: circle, triangle, base line, hatching under it."""
+def fixed_pivot(at: complex, name: str, style: Style, down: complex = -1j) -> Group:
+    """Return a pivot on the frame: circle, triangle, base line, hatching on its far side, towards `down`."""
     width, height, base = style.pivot
-    foot = at - 1j * (height + style.pair)
-    sides = (rect(style.pair, -2.15), rect(style.pair, -0.99))
-    legs = tuple(Line(at + side, foot + x * width / 2, Pen.MAIN) for side, x in zip(sides, (-1, 1), strict=True))
-    ground = (foot - base / 2, foot + base / 2)
-    strokes = hatching(*ground, -1j, style)
+    across = 1j * down  # to the right where the foot stands below
+    foot = at + down * (height + style.pair)
+    sides = (rect(style.pair, math.pi / 2 - 2.15), rect(style.pair, math.pi / 2 - 0.99))
+    legs = tuple(
+        Line(at + side * down, foot + across * (x * width / 2), Pen.MAIN) for side, x in zip(sides, (-1, 1), strict=True)
+    )
+    ground = (foot - across * (base / 2), foot + across * (base / 2))
+    strokes = hatching(*ground, down, style)
     circle = Circle(at, style.pair, Pen.MAIN, fill="white")
     return Group((*legs, Line(*ground, Pen.MAIN), *strokes, circle), "pivot", name)
+
+
+def rigid_corner(at: complex, u: complex, w: complex, style: Style, pin: bool) -> Polyline:
+    """Return the filled corner between two sides of one link, along `u` and `w`; around the circle of a `pin`.
+
+    The sharper the angle, the farther it reaches: the sides must leave each other before it can be seen.
+    """
+    sweep = cmath.phase(w / u)
+    apart = math.sin(min(abs(sweep), math.pi / 2))
+    inner = style.pair if pin else 0.0
+    outer = max(inner + 0.65 * style.pair, min(1.1 * style.pair / max(apart, 1e-3), 5.0 * style.pair))
+    arc = tuple(at + u * rect(outer, sweep * k / 12) for k in range(13))
+    rim = arc if pin else (at + u * outer, at + w * outer)
+    return Polyline((at + u * inner, *rim, at + w * inner), Pen.THIN, closed=True, fill="black", role="rigid")
+
+
+def bridge(at: complex, u: complex, style: Style) -> Arc:
+    """Return the arc over a pin through which a link runs along the unit direction `u`: the link does not bend there."""
+    return Arc(at, 1.6 * style.pair, cmath.phase(u), math.pi, Pen.MAIN, role="rigid")
+
+
+def block(at: complex, u: complex, name: str, style: Style) -> Group:
+    """Return a block on a link that moves, turned along the unit direction `u`."""
+    length, height = block_size(style)
+    corners = tuple(
+        at + u * (sx * length / 2) + 1j * u * (sy * height / 2) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    )
+    return Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "link", name)
+
+
+def block_size(style: Style) -> tuple[float, float]:
+    """Return length and height of a block on a link that moves: a little smaller than a slider on the frame."""
+    length, height = style.slider
+    return 0.88 * length, 0.88 * height
 
 
 def slider_up(u: complex) -> complex:

@@ -18,6 +18,8 @@ from ..style import STYLES
 from ..view import View
 from ..words import Words
 from .ladders import Ladders, by_plan, ladders_of
+from .letters import lettered
+from .reach import Reach, reaches
 from .scene import Given, Scene
 from .views import Figure, figures
 
@@ -68,12 +70,14 @@ class Fitting:
 
     contents: Contents
     ladders: Ladders = field(init=False)
+    reaches: Reach = field(init=False)
     _root: dict[str, str] = field(init=False)
     _built: dict[tuple[str, int], Fitted] = field(default_factory=dict)
     _drawings: dict[tuple[str, int], list[tuple[dict[str, Scale], View]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Find the ladders; a crank scale stands on the rung of mu_l."""
+        """Find the ladders and how long guides are; a crank scale stands on the rung of mu_l."""
+        self.reaches = reaches(self.contents.solved)
         choosers = self.contents.choosers
         self.ladders = ladders_of(self.contents.solved, choosers)
         self._root = {s: "mu_l" if isinstance(choosers.get(s), CrankScale) else s for s in self.ladders}
@@ -141,10 +145,10 @@ class Fitting:
 
     def _scene(self, sheet: Format, mus: Mapping[str, float]) -> Scene:
         solved, contents = self.contents.solved, self.contents
-        dyads = tuple(dyad(solved.mechanism, group) for group in solved.structure.groups)
+        dyads = tuple(dyad(solved.mechanism, group) for group in solved.structure.groups if group.kind == "RRP" and 0 in group.before)
         scales = by_plan(solved, mus)
-        words = replace(contents.words, starts=frozenset(f"{d.rod.number}_{d.A}" for d in dyads))
-        return Scene(solved, dyads, scales, words, STYLES[sheet.letters], contents.givens)
+        words = lettered(contents.words, solved)
+        return Scene(solved, scales, words, STYLES[sheet.letters], contents.givens, self.reaches, dyads)
 
     def _does_not_fit(self, sheet: Format, symbol: str, size: tuple[float, float]) -> InputError:
         """Say which format, or which scale factor, would do."""

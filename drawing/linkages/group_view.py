@@ -7,11 +7,11 @@ import math
 from ...plans.laws import cross
 from ...plans.linkages.parts import arm_of
 from ...plans.linkages.rrp import Dyad
-from ..shapes import Arrow, Line, Pen
-from ..symbols import arm, force_arrow, revolute, slider, turning_arrow
+from cmath import phase
+from ..shapes import Arc, Arrow, Line, Pen
+from ..symbols import arm, centre_of_mass, force_arrow, link, revolute, slider, slider_up, turning_arrow
 from ..view import Canvas, View
 from .scene import Scene
-from .scheme import rod_and_slider
 
 
 def group_view(scene: Scene, d: Dyad) -> View:
@@ -140,3 +140,44 @@ def _moment(canvas: Canvas, scene: Scene, name: str, at: complex, along: complex
     middle = math.atan2(along.imag, along.real)
     canvas.add(turning_arrow(at, radius, middle, 2.0, sense, name))
     canvas.label(scene.words.symbol(name), at + along * radius, clear=1.2)
+
+
+def rod_and_slider(canvas: Canvas, scene: Scene, d: Dyad, apart: bool = False) -> None:
+    """Draw the rod, its centre of mass, and the slider on its guide; the compass arc unless drawn apart."""
+    a, b, u = scene.mm(d.A), scene.mm(d.B), scene.solved.point(d.u)
+    style = scene.style
+    if not apart:
+        origin = scene.mm(f"_{d.u}_origin")
+        along = ((b - origin) / u).real
+        reach = sorted((0.0, along))
+        low, high = (b + u * (end - along) for end in (reach[0] - 16.0, reach[1] + 16.0))
+        canvas.add(Line(low, high, Pen.AXIS))
+        # at the pivot's end, where there is no guide
+        canvas.label("x–x", max(low, high, key=lambda end: abs(end - b)), clear=1.0, prefer=-slider_up(u))
+    canvas.add(*slider(b, u, str(d.slider.number), style, guides=not apart))
+    if not apart:
+        # the compass arc runs past the slider on both sides
+        radius, direction = abs(b - a), phase(b - a)
+        spread = (2.4 * style.slider[1] + 4.0) / radius
+        canvas.add(Arc(a, radius, direction - spread / 2, spread, Pen.THIN, role="construction", name=f"arc_{d.B}"))
+    canvas.add(link(a, b, str(d.rod.number), style))
+    canvas.add(revolute(b, d.B, style))
+    canvas.label(str(d.rod.number), (a + (b - a) * 0.58, a + (b - a) * 0.92), clear=0.8)
+    for point in (*d.rod.points, *d.slider.points):
+        if point not in (d.A, d.B):
+            canvas.add(centre_of_mass(scene.mm(point), point, style))
+            canvas.label(scene.words.mark(point), scene.mm(point), clear=style.centre + 0.8)
+    # beside the slider's free edge: the compass arc and the arrows at B leave no room beside the pair itself
+    up = slider_up(u)
+    edge = b + up * (style.slider[1] / 2)
+    half = u * (style.slider[0] / 2)
+    canvas.label(scene.words.mark(d.B), (edge - half, edge + half), clear=1.0, prefer=up, priority=1)
+    # on the side away from the rod: nearer to it the number would seem to be the rod's
+    far = -half if ((a - b) / u).real > 0 else half
+    if apart:
+        foot = edge - up * style.slider[1]
+        canvas.label(str(d.slider.number), (foot, foot + far), clear=1.0, prefer=-up)
+    else:
+        canvas.label(str(d.slider.number), edge + far, clear=0.8, prefer=up)
+
+

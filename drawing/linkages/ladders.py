@@ -12,6 +12,7 @@ from ...scales.scale import Scale
 
 Ladders = Mapping[str, tuple[float, ...]]
 LONGEST = 100.0  # mm, the longest segment of a plan whose scale factor nobody has chosen
+LARGEST = 200.0  # mm, the same for the mechanism from joint to joint
 
 
 def first_scales(solved: Solved, choosers: Choosers) -> dict[str, Scale]:
@@ -37,7 +38,8 @@ def ladders_of(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...
     for symbol in dict.fromkeys(plans.values()):
         chooser = choosers.get(symbol)
         if chooser is None:  # nobody has chosen: round, and any at all for a plan on which everything is zero
-            ladders[symbol] = Round(symbol, LONGEST).ladder(value) if _largest(solved, symbol) > 0.0 else (1.0,)
+            longest = LARGEST if symbol == plans[POSITION] else LONGEST
+            ladders[symbol] = Round(symbol, longest).ladder(value) if _largest(solved, symbol) > 0.0 else (1.0,)
         elif isinstance(chooser, CrankScale):
             ladders[symbol] = chooser.ladder(value, ladders["mu_l"])
         else:
@@ -46,10 +48,18 @@ def ladders_of(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...
 
 
 def _largest(solved: Solved, symbol: str) -> float:
-    """Return the largest quantity on the plans of a scale factor."""
+    """Return the largest quantity on the plans of a scale factor, the size of the mechanism on its own plan."""
     plans, shown = solved.scale_of_plan, solved.shown_on
+    if symbol == plans[POSITION]:
+        return _size(solved)
     drawn = (q.value or 0.0 for q in solved.quantities.values() if plans.get(_plan_of(q.name, shown)) == symbol)
     return max(map(abs, drawn), default=0.0)
+
+
+def _size(solved: Solved) -> float:
+    """Return the longest distance between lettered points of the links, m."""
+    places = [solved.point(point) for link in solved.mechanism.links for point in link.points]
+    return max((abs(a - b) for a in places for b in places), default=0.0)
 
 
 def _plan_of(quantity: str, shown: Mapping[str, str]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ...plans.board import POSITION
 from ...plans.linkages.rrp import Dyad
@@ -13,6 +13,7 @@ from ..printed import segment_decimals
 from ..shapes import Vector
 from ..style import Style
 from ..words import Words
+from .reach import Reach
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,14 +26,15 @@ class Given:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A solved mechanism on a certain format, in certain words; `scales` are by plan."""
+    """A solved mechanism on a certain format, in certain words; `scales` are by plan, `reaches` by guide."""
 
     solved: Solved
-    dyads: tuple[Dyad, ...]
     scales: Mapping[str, Scale]
     words: Words
     style: Style
     givens: Mapping[str, Given]  # what the task states, in its own units
+    reaches: Reach = field(default_factory=dict)
+    dyads: tuple[Dyad, ...] = ()
 
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""

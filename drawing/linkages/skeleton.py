@@ -1,0 +1,210 @@
+"""What the figure of a link is made of: its pins, blocks and guides, the lines that join them, its rigid corners."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+
+from ...plans.linkages.mechanism import Pair, Prismatic, Revolute
+from .reach import guide_name
+from .scene import Scene
+
+NEAR = 0.02  # mm: points so near to one another, or to a line, coincide on the drawing
+Stroke = tuple[complex, complex]
+
+
+@dataclass(frozen=True, slots=True)
+class Skeleton:
+    """The figure of a link, mm: `pins` and centres of `blocks`, main lines between them, corners that do not turn.
+
+    `guides` are the lines on which other links slide, `bars` all others; both end at pins, blocks or corners. A corner
+    is a vertex with the unit directions of its two sides; two opposite ones are those of a line that runs through.
+    """
+
+    number: int
+    pins: tuple[complex, ...]
+    blocks: tuple[Stroke, ...]  # centre and unit direction
+    guides: tuple[Stroke, ...]
+    bars: tuple[Stroke, ...]
+    corners: tuple[tuple[complex, complex, complex], ...]
+
+    @property
+    def strokes(self) -> tuple[Stroke, ...]:
+        """All its lines."""
+        return self.guides + self.bars
+
+
+def pairs_of(scene: Scene, number: int) -> tuple[Pair, ...]:
+    """Return the pairs in which a link takes part."""
+    return tuple(pair for pair in scene.solved.mechanism.pairs if number in pair.links)
+
+
+def pins_of(scene: Scene, number: int) -> tuple[str, ...]:
+    """Return the letters of the revolute pairs of a link, each once."""
+    pairs = pairs_of(scene, number)
+    return tuple(dict.fromkeys(pair.point for pair in pairs if isinstance(pair, Revolute)))
+
+
+def guide_of(scene: Scene, pair: Prismatic) -> complex:
+    """Return the unit direction of a pair's guide."""
+    return scene.solved.point(guide_name(scene.solved, pair))
+
+
+def skeleton(scene: Scene, number: int) -> Skeleton:
+    """Find the figure of a moving link from the points that it has."""
+    sliding = [pair for pair in pairs_of(scene, number) if isinstance(pair, Prismatic)]
+    pins = [scene.mm(point) for point in pins_of(scene, number)]
+    blocks = tuple((scene.mm(p.point), guide_of(scene, p)) for p in sliding if p.links[0] == number)
+    rails = [_rail(scene, pair) for pair in sliding if pair.links[1] == number]
+    link = scene.solved.mechanism.link(number)
+    nodes = [*pins, *(at for at, _ in blocks)]
+    nodes += [scene.mm(point) for point in link.points if point != link.centre]
+    nodes = _apart(nodes)
+    if rails:
+        guides, bars, corners = _on_rails(rails, nodes)
+    else:
+        guides = ()
+        bars, corners = _between(nodes, _pivot(scene, number))
+    return Skeleton(number, tuple(_apart(pins)), blocks, guides, bars, (*corners, *_through(pins, (*guides, *bars))))
+
+
+def _rail(scene: Scene, pair: Prismatic) -> Stroke:
+    """Return the line along which the slider runs on a moving link, longer at both ends than the slider's way."""
+    at, u = scene.mm(pair.point), guide_of(scene, pair)
+    low, high = scene.reaches.get(guide_name(scene.solved, pair), (0.0, 0.0))
+    per_mm, spare = 1.0 / scene.scales["position"].mu, 0.75 * scene.style.slider[0]
+    return at + u * (low * per_mm - spare), at + u * (high * per_mm + spare)
+
+
+def _pivot(scene: Scene, number: int) -> complex | None:
+    """Return where the link turns on the frame, if it does."""
+    held = scene.solved.mechanism.frame_points
+    return next((scene.mm(point) for point in pins_of(scene, number) if point in held), None)
+
+
+def _apart(nodes: list[complex]) -> list[complex]:
+    """Leave out nodes that coincide with earlier ones."""
+    found: list[complex] = []
+    for node in nodes:
+        if all(abs(node - other) > NEAR for other in found):
+            found.append(node)
+    return found
+
+
+Parts = tuple[tuple[Stroke, ...], tuple[tuple[complex, complex, complex], ...]]
+
+
+def _between(nodes: list[complex], pivot: complex | None) -> Parts:
+    """Join the nodes of a link without guides: a line, a lever with arms from its pivot, or a closed figure."""
+    if len(nodes) < 2:
+        return (), ()
+    a, b = max(combinations(nodes, 2), key=lambda ends: abs(ends[1] - ends[0]))
+    if all(_aside(a, b, node) < NEAR for node in nodes):
+        return ((a, b),), ()
+    if pivot is not None:
+        return _arms(pivot, nodes)
+    ring = _hull(nodes)
+    inside = [node for node in nodes if min(_aside(p, q, node) for p, q in _sides(ring)) > NEAR]
+    ties = tuple((node, min(ring, key=lambda corner: abs(corner - node))) for node in inside)
+    corners = tuple(
+        (at, _unit(before - at), _unit(after - at))
+        for before, at, after in zip(ring[-1:] + ring[:-1], ring, ring[1:] + ring[:1], strict=True)
+    )
+    return (*_sides(ring), *ties), corners
+
+
+def _arms(pivot: complex, nodes: list[complex]) -> Parts:
+    """Join a pivot with all others; nodes on one ray share an arm."""
+    ends: list[complex] = []
+    for node in sorted((n for n in nodes if abs(n - pivot) > NEAR), key=lambda n: -abs(n - pivot)):
+        if all(_aside(pivot, end, node) > NEAR or ((node - pivot) / (end - pivot)).real < 0 for end in ends):
+            ends.append(node)
+    rays = sorted((_unit(end - pivot) for end in ends), key=cmath.phase)
+    pairs = list(pairwise(rays)) + ([(rays[-1], rays[0])] if len(rays) > 2 else [])
+    corners = tuple((pivot, u, w) for u, w in pairs if abs((u.conjugate() * w).imag) > 1e-6)
+    return tuple((pivot, end) for end in ends), corners
+
+
+def _on_rails(
+    rails: list[Stroke], nodes: list[complex]
+) -> tuple[tuple[Stroke, ...], tuple[Stroke, ...], tuple[tuple[complex, complex, complex], ...]]:
+    """Join the nodes of a link with its first guide, those beside it square to it or to a pin on it; tie the others."""
+    (low, high), others = rails[0], rails[1:]
+    u = _unit(high - low)
+    on_line = [node for node in nodes if abs(((node - low) / u).imag) < NEAR]
+    reach = [((node - low) / u).real for node in on_line]
+    ends = [0.0, abs(high - low), *reach]
+    bars, corners = [], []
+    for node in (n for n in nodes if n not in on_line):
+        foot = low + u * ((node - low) / u).real
+        root = min(on_line, key=lambda pin: abs(pin - node)) if on_line else foot
+        ends.append(((root - low) / u).real)
+        bars.append((node, root))
+        corners.append((root, _unit(node - root), u if ends[-1] < abs(high - low) / 2 else -u))
+    for start, end in others:
+        bars.append((nearest(start, end, low), nearest(low, high, start)))
+    first = (low + u * min(ends), low + u * max(ends))
+    return (first, *others), tuple(bar for bar in bars if abs(bar[1] - bar[0]) > NEAR), tuple(corners)
+
+
+def _through(
+    pins: list[complex], strokes: tuple[Stroke, ...]
+) -> tuple[tuple[complex, complex, complex], ...]:
+    """Return as corners of 180 degrees the pins through which a line of the link runs."""
+    found = []
+    for at in _apart(pins):
+        rays = [_unit(end - at) for stroke in strokes for end in stroke if _on(stroke, at) and abs(end - at) > NEAR]
+        found += [(at, u, w) for u, w in combinations(rays, 2) if abs(u + w) < 1e-4][:1]
+    return tuple(found)
+
+
+def _on(stroke: Stroke, at: complex) -> bool:
+    a, b = stroke
+    return abs(a - at) + abs(b - at) - abs(b - a) < NEAR
+
+
+def _hull(nodes: list[complex]) -> list[complex]:
+    """Return the corners of the convex hull, counter-clockwise."""
+    ordered = sorted(nodes, key=lambda node: (node.real, node.imag))
+
+    def chain(points: list[complex]) -> list[complex]:
+        kept: list[complex] = []
+        for point in points:
+            while len(kept) > 1 and ((kept[-1] - kept[-2]).conjugate() * (point - kept[-2])).imag <= 1e-9:
+                kept.pop()
+            kept.append(point)
+        return kept[:-1]
+
+    return chain(ordered) + chain(ordered[::-1])
+
+
+def _sides(ring: list[complex]) -> tuple[Stroke, ...]:
+    return tuple(zip(ring, ring[1:] + ring[:1], strict=True))
+
+
+def _unit(way: complex) -> complex:
+    return way / abs(way)
+
+
+def _aside(a: complex, b: complex, point: complex) -> float:
+    """Return the distance of a point from the line a-b."""
+    return abs(((point - a) / _unit(b - a)).imag)
+
+
+def nearest(a: complex, b: complex, point: complex) -> complex:
+    """Return the point of the line from a to b nearest to a point."""
+    along = ((point - a) / (b - a)).real
+    return a + (b - a) * min(max(along, 0.0), 1.0)
+
+
+def is_inside(ring: Sequence[complex], point: complex) -> bool:
+    """Tell whether a point lies within a convex figure whose corners go counter-clockwise."""
+    return all(((b - a).conjugate() * (point - a)).imag > 0 for a, b in _sides(list(ring)))
+
+
+def spread_of(u: complex, w: complex) -> float:
+    """Return the angle between two unit directions, radians."""
+    return abs(math.remainder(cmath.phase(w / u), 2 * math.pi))
