@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,8 @@ from .board import Program, Step
 from .exact import ExactBoard, Status
 
 Array = NDArray[np.float64]
+Result = TypeVar("Result")
+KEPT = 8
 
 
 class Along:
@@ -67,3 +69,18 @@ class Along:
         """Return the wanted names for the values `at`, each of shape (N,)."""
         values = self.run(at).values
         return {name: np.broadcast_to(np.asarray(values[name]), at.shape) for name in self._wanted}
+
+
+def remembering(function: Callable[[Array], Result]) -> Callable[[Array], Result]:
+    """Return `function` with a memory of its last results: one search often asks for the places of the one before."""
+    kept: dict[bytes, Result] = {}
+
+    def remembered(at: Array) -> Result:
+        key = at.tobytes()
+        if key not in kept:
+            if len(kept) >= KEPT:
+                del kept[next(iter(kept))]
+            kept[key] = function(at)
+        return kept[key]
+
+    return remembered

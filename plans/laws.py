@@ -5,11 +5,14 @@ Each law takes and gives floats, complex vectors, or arrays of them. A sheet, a 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
 Law = Callable[..., Any]
+TURN = 2.0 * math.pi
 NAN = float("nan")
+REST = 1e-12  # part of the driver's rate below which another rate is rounding
 NOTHING = 1e-13  # part of what a difference is taken from, below which it is rounding
 
 
@@ -25,6 +28,13 @@ def cross(u: Any, w: Any) -> Any:
     product = u.real * w.imag
     product -= u.imag * w.real
     return product
+
+
+def inclination(direction: Any) -> Any:
+    """Return the angles of directions given as an array of complex numbers, from -pi to pi."""
+    import numpy as np
+
+    return np.arctan2(direction.imag, direction.real)
 
 
 def _sum(first: Any = 0.0, *rest: Any) -> Any:
@@ -43,6 +53,49 @@ def _part_of(value: Any, whole: Any) -> Any:
     """Return value / whole; NaN where the whole is zero or rounding (NaN to the power of zero is one)."""
     none = abs(whole) <= NOTHING * abs(value)
     return value / (whole + none) * NAN**none
+
+
+def _moves(rate: Any, reference: Any) -> Any:
+    """Return whether a rate is more than rounding beside that of the driver, 1 or 0."""
+    return (abs(rate) > REST * abs(reference)) * 1.0
+
+
+def _sign(rate: Any, reference: Any) -> Any:
+    """Return the sign of a rate: 1, -1, or 0 where it is rounding."""
+    return (rate > REST * abs(reference)) * 1.0 - (rate < -REST * abs(reference)) * 1.0
+
+
+def _resisting(size: Any, v: Any, speed: Any, reference: Any) -> Any:
+    moves = _moves(speed, reference)
+    return v * -(size * moves / (speed + (1.0 - moves)))
+
+
+def _working(rate: Any, reference: Any, acceleration: Any) -> Any:
+    # at a dead position the stroke that is about to begin
+    starts = (1.0 - _moves(rate, reference)) * (acceleration > 0.0)
+    return (rate > REST * abs(reference)) * 1.0 + starts
+
+
+def _above(value: Any) -> Any:
+    """Return a value where it is above zero, else zero; exactly, and alike for one and for many."""
+    return (value + abs(value)) * 0.5
+
+
+def _within(value: Any, most: Any) -> Any:
+    """Return a value kept between zero and `most`."""
+    return most - _above(most - _above(value))
+
+
+def _piecewise(x: Any, *nodes: Any) -> Any:
+    """Return the value at `x` of straight lines between nodes: first all places, then all values."""
+    places, values = nodes[: len(nodes) // 2], nodes[len(nodes) // 2 :]
+    found = values[0]
+    for a, b, low, high in zip(places, places[1:], values, values[1:], strict=False):
+        width = b - a
+        jump = (width == 0.0) * 1.0
+        part = _within(x - a, width) / (width + jump) + jump * (x > a)
+        found = found + (high - low) * part
+    return found
 
 
 LAWS: dict[str, Law] = {
@@ -76,12 +129,40 @@ LAWS: dict[str, Law] = {
     "inertia_force": lambda mass, a: a * -mass,
     # M_i = -J_S * epsilon
     "inertia_moment": lambda inertia, epsilon: -inertia * epsilon,
+    # m = k * l, J_S = k * m * l^2
+    "mass_by_length": lambda factor, length: factor * length,
+    "inertia_by_length": lambda factor, mass, length: factor * mass * length * length,
+    # G = m * g, downwards
+    "weight": lambda mass, g, up: up * -(mass * g),
+    # part of a vector along a direction, place of a point along it
+    "component": dot,
+    # F against v, M against omega; none where nothing moves
+    "resisting_force": _resisting,
+    "resisting_moment": lambda size, omega, reference: -size * _sign(omega, reference),
+    # a length that none in the mechanism exceeds, and an angular velocity that goes with it
+    "reach": lambda *lengths: _sum(*map(abs, lengths)),
+    "rate_over": lambda v, length: v / length,
+    # 1 in the working stroke, 0 in the idle one
+    "working": _working,
+    "in_working": lambda size, working: size * working,
+    "in_idle": lambda size, working: size * (1.0 - working),
+    "by_stroke": lambda working, forth, back: forth * working + back * (1.0 - working),
+    # part of the stroke that is done, from 0 to 1
+    "stroke_part": lambda place, begin, end: _within((place - begin) / (end - begin), 1.0),
+    "middle": lambda begin, end: (begin + end) * 0.5,
+    # an angle within the turn that begins at `first`
+    "within_turn": lambda angle, first: angle - TURN * ((angle - first) // TURN),
+    "turn_later": lambda angle: angle + TURN,
+    # a load diagram
+    "piecewise": _piecewise,
     # a moment as a pair of forces on the arm l
     "couple": lambda moment, length: moment / length,
     "along": lambda size, direction: size * direction,
     "opposite": lambda vector: vector * -1.0,
     # sum of moments = 0, solved for a force on the arm l
     "moment_equation": lambda length, *moments: _sum(*moments) / length,
+    # the same for a force at its end, along the normal to it
+    "closing_force": lambda length, *moments: -_sum(*moments) / length,
     # sum of moments = 0, solved for a moment
     "closing_moment": lambda *moments: -_sum(*moments),
     "sum": _sum,

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[Any]
 Function = Callable[[Array], Array]
-SECTIONS, ROUNDS, DIP_ROUNDS = 32, 6, 8
+SECTIONS, ROUNDS, MOST_ROUNDS, DIP_ROUNDS = 24, 4, 9, 8
 LEAST_CELLS = 48
 DIP = 4.0  # a grid value so many second differences away from zero does not come there between the points
 TOUCH = 1e-12  # part of the largest value within which a dip counts as touching zero
@@ -83,44 +83,56 @@ def zeros(function: Function, stretch: Stretch) -> tuple[Array, Array]:
     cells = np.flatnonzero((above[1:] != above[:-1]) & known[1:] & known[:-1])
     if stretch.closed:
         cells = cells[cells < stretch.cells]
-    low, high = theta[cells], theta[cells + 1]
-    inner_low, inner_high, touches = _dips(at, theta, values, size)
-    roots = _refined(at, np.concatenate((low, inner_low)), np.concatenate((high, inner_high)))
+    inner, touches = _dips(at, theta, values, size)
+    low, high, held = (
+        np.concatenate(pair) for pair in zip((theta[cells], theta[cells + 1], above[cells]), inner, strict=True)
+    )
+    roots = _refined(at, low, high, held.astype(bool)) if len(low) else low
     return _sorted(roots, stretch), _sorted(touches, stretch)
 
 
 def _sorted(theta: Array, stretch: Stretch) -> Array:
-    places: Array = np.sort(stretch.place(theta % (2.0 * math.pi) if stretch.closed else theta))
+    places = stretch.place(theta % (2.0 * math.pi) if stretch.closed else theta)
+    places.sort()
     return places
 
 
-def _refined(function: Function, low: Array, high: Array) -> Array:
-    """Return the zeros in cells at whose ends the signs differ: cut, then interpolated."""
-    if not len(low):
-        return low
+def _refined(function: Function, low: Array, high: Array, above: Array) -> Array:
+    """Return the zeros in cells at whose ends the signs differ, cut, then interpolated.
+
+    `above` tells which functions are above zero at `low`.
+    """
     parts = np.linspace(0.0, 1.0, SECTIONS + 1)[:, None]
     columns = np.arange(len(low))
-    for _ in range(ROUNDS):
+    for done in range(MOST_ROUNDS):
         theta = low + (high - low) * parts
         values = function(theta.ravel()).reshape(theta.shape)
-        above = values >= 0.0
-        first = np.maximum((above != above[0]).argmax(axis=0), 1)
+        changed = (values >= 0.0) != above
+        changed[0], changed[-1] = False, True  # as it was found: nearer to the zero a sign may be that of rounding
+        first = changed.argmax(axis=0)
         low, high = theta[first - 1, columns], theta[first, columns]
         left, right = values[first - 1, columns], values[first, columns]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        share = left / (left - right)
-    return low + (high - low) * np.where((share >= 0.0) & (share <= 1.0), share, 0.5)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            share = left / (left - right)
+        between = (share >= 0.0) & (share <= 1.0)  # false for NaN
+        if done >= ROUNDS - 1 and between.all():
+            break
+    zero: Array = low + (high - low) * np.where(between, share, 0.5)
+    return zero
 
 
-def _dips(function: Function, theta: Array, values: Array, size: float) -> tuple[Array, Array, Array]:
-    """Follow every dip towards zero: cells in which the sign does change, and places where zero is only touched."""
+def _dips(function: Function, theta: Array, values: Array, size: float) -> tuple[Array, Array]:
+    """Follow every dip towards zero: cells in which the sign does change, and places where zero is only touched.
+
+    A cell is (low, high, whether the function is above zero at low).
+    """
     before, here, after = values[:-2], values[1:-1], values[2:]
     sign = np.where(here >= 0.0, 1.0, -1.0)
     depth = here * sign
     bend = (before - 2.0 * here + after) * sign
     at = np.flatnonzero((before * sign >= depth) & (after * sign >= depth) & (depth < DIP * bend))
     low, high, sign = theta[at], theta[at + 2], sign[at]
-    cells: list[tuple[float, float]] = []
+    cells: list[tuple[float, float, bool]] = []
     touches: list[float] = []
     for last in (*(False,) * (DIP_ROUNDS - 1), True):
         if not len(low):
@@ -128,12 +140,11 @@ def _dips(function: Function, theta: Array, values: Array, size: float) -> tuple
         points = low + (high - low) * np.linspace(0.0, 1.0, SECTIONS + 1)[:, None]
         found = function(points.ravel()).reshape(points.shape) * sign
         dips = _Dips(points, np.where(np.isnan(found), np.inf, found))
-        cells += dips.cells()
+        cells += dips.cells(sign)
         going = dips.going & (not last)
         touches += list(dips.lowest[~dips.passed & ~going & (dips.depth <= TOUCH * size)])
         low, high, sign = dips.low[going], dips.high[going], sign[going]
-    ends = np.array(cells).reshape(-1, 2)
-    return ends[:, 0], ends[:, 1], np.array(touches)
+    return np.array(cells, float).reshape(-1, 3).T, np.array(touches)
 
 
 class _Dips:
@@ -149,10 +160,12 @@ class _Dips:
         with np.errstate(invalid="ignore"):
             self.going = ~self.passed & (self.depth < DIP * (left - 2.0 * self.depth + right))
 
-    def cells(self) -> list[tuple[float, float]]:
+    def cells(self, sign: Array) -> list[tuple[float, float, bool]]:
         """Return the cells in which dips pass zero, on the way down and on the way up."""
         cells = []
         for column in np.flatnonzero(self.passed):
             below, points = np.flatnonzero(self._found[:, column] < 0.0), self._points[:, column]
-            cells += [(points[a], points[a + 1]) for a in (below[0] - 1, below[-1])]
+            above = bool(sign[column] > 0.0)
+            for a, held in ((below[0] - 1, above), (below[-1], not above)):
+                cells.append((float(points[a]), float(points[a + 1]), held))
         return cells

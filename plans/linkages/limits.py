@@ -8,7 +8,7 @@ and may go on in either of two ways: a change point. Where two guides become par
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..along import Along
+from ..along import Along, remembering
 from ..batch import ArrayBoard
 from ..exact import TANGENT
 from ..scan import Stretch, zeros
@@ -24,9 +24,11 @@ from .chain import board_givens, construct
 from .mechanism import FRAME, Mechanism, Prismatic, Revolute
 from .sweeping import Swept, swept, without_loads
 
-Array = NDArray[np.float64]
+Array = NDArray[Any]
 TURN = 2.0 * math.pi
 TURN_CELLS, SLIDE_CELLS = 360, 720  # grid on which a margin is looked at first: a full turn, the range of a slide
+
+Margins = Callable[[Array], Mapping[str, Array]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +54,11 @@ class Reach:
     changes: tuple[float, ...]
     poles: tuple[float, ...]
 
+    @property
+    def free(self) -> bool:
+        """Whether a crank turns round without anything in its way."""
+        return self.whole.closed and not (self.apart or self.changes or self.poles)
+
     def around(self, place: float) -> Arc:
         """Return the part without an unreachable arc in which `place` lies, or the longest such part."""
         joined: list[Arc] = []
@@ -71,6 +78,11 @@ class MarginBoard(ArrayBoard):
         super().__init__(givens, size)
         self.margins: dict[str, Any] = {}
 
+    def restart(self, givens: Mapping[str, Any], codes: NDArray[np.int8]) -> None:
+        """Begin with other positions and a new list of margins."""
+        super().restart(givens, codes)
+        self.margins = {}
+
     def _reaches(self, square: Any, radius: Any, distance: Any) -> Any:
         self.margins[self._name] = square + TANGENT * radius * radius
         return super()._reaches(square, radius, distance)
@@ -82,25 +94,6 @@ class MarginBoard(ArrayBoard):
     def _lines_sine(self, sine: Any) -> Any:
         self.margins[self._name] = sine
         return super()._lines_sine(sine)
-
-
-@dataclass(slots=True)
-class _Margins:
-    """The margins of a position plan along the driver's range, step by step."""
-
-    position: Along
-    found: dict[bytes, dict[str, Array]]
-
-    def of(self, name: str, at: Array) -> Array:
-        """Return the margin of the step that makes `name`; what one scan asks for the next one often does, too."""
-        key = at.tobytes()
-        if key not in self.found:
-            board = self.position.run(at)
-            assert isinstance(board, MarginBoard)
-            if len(self.found) > 8:
-                self.found.clear()
-            self.found[key] = {mark: np.broadcast_to(margin, at.shape) for mark, margin in board.margins.items()}
-        return self.found[key][name]
 
 
 def reach(mechanism: Mechanism, values: Mapping[str, float], between: Arc | None = None) -> Reach:
@@ -134,7 +127,13 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     stretches = [whole]
     changes: list[float] = []
     poles: list[float] = []
-    margins = _Margins(position, {})
+
+    def margins_at(at: Array) -> dict[str, Array]:
+        board = position.run(at)
+        assert isinstance(board, MarginBoard)
+        return board.margins
+
+    margins = remembering(margins_at)
     for step in position.steps:
         if step.verb in ("arc", "arcs", "tangent", "meet"):
             parts = [_split(margins, step.name, step.verb == "meet", stretch) for stretch in stretches]
@@ -152,11 +151,11 @@ def _range(drive: Swept, values: Mapping[str, float], between: Arc | None) -> St
         return Stretch(0.0, TURN, TURN / TURN_CELLS, closed=True)
     if between is not None:
         return Stretch(between.low, between.high, (between.high - between.low) / SLIDE_CELLS)
-    far = 2.0 * _size(drive.mechanism, values)
+    far = 2.0 * size_of(drive.mechanism, values)
     return Stretch(drive.start - far, drive.start + far, 2.0 * far / SLIDE_CELLS)
 
 
-def _size(mechanism: Mechanism, values: Mapping[str, float]) -> float:
+def size_of(mechanism: Mechanism, values: Mapping[str, float]) -> float:
     """Return a length that no distance in the mechanism exceeds: all coordinates that it names, together."""
     names = [xy for link in mechanism.links for place in link.points.values() for xy in place]
     for pair in mechanism.pairs:
@@ -168,11 +167,11 @@ def _size(mechanism: Mechanism, values: Mapping[str, float]) -> float:
     return sum(abs(given.get(name, 0.0)) for name in set(names)) or 1.0
 
 
-def _split(margins: _Margins, name: str, lines: bool, stretch: Stretch) -> tuple[list[Stretch], list[float]]:
+def _split(margins: Margins, name: str, lines: bool, stretch: Stretch) -> tuple[list[Stretch], list[float]]:
     """Cut a stretch where the margin of one step changes its sign or touches zero; keep the parts that assemble."""
 
     def margin(at: Array) -> Array:
-        return margins.of(name, at)
+        return np.broadcast_to(margins(at)[name], at.shape)
 
     roots, touches = zeros(margin, stretch)
     cuts = np.sort(np.concatenate((roots, touches)))
