@@ -318,3 +318,13 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
     for path in saved:
         click.echo(str(path))
     _warn(drawn.warnings)
+
+
+@commands.command(epilog=_example("kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk"))
+@click.argument("file")
+@click.option("--lang", type=Word(*LANGUAGES), help="Language of the comments.")
+def new(file: str, lang: str | None) -> None:
+    """Write FILE, a task file with comments, to begin a mechanism of one's own: a four-bar linkage, ready to solve."""
+    from .variants.starter import start
+
+    click.echo(str(start(file, lang or system_language())))
