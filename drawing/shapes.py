@@ -18,6 +18,7 @@ class Pen(Enum):
     THIN = "thin"
     DASHED = "dashed"
     AXIS = "axis"
+    EXTREME = "extreme"
 
 
 @dataclass(frozen=True, slots=True)

@@ -142,7 +142,7 @@ class _Writer:
 
     def stroke(self, shape: Line | Polyline | Circle | Arc) -> str:
         style = _stroke(shape.colour, self.pens.width(shape.pen))
-        if shape.pen in (Pen.DASHED, Pen.AXIS):
+        if shape.pen in (Pen.DASHED, Pen.AXIS, Pen.EXTREME):
             dashes = self.pens.dashes(shape.pen, length_of(shape))
             if dashes:
                 style += f' stroke-dasharray="{" ".join(map(_number, dashes))}"'
