@@ -68,7 +68,11 @@ class Along:
     def __call__(self, at: Array) -> dict[str, NDArray[Any]]:
         """Return the wanted names for the values `at`, each of shape (N,)."""
         values = self.run(at).values
-        return {name: np.broadcast_to(np.asarray(values[name]), at.shape) for name in self._wanted}
+        return {name: _as_long_as(at, values[name]) for name in self._wanted}
+
+
+def _as_long_as(at: Array, value: Any) -> NDArray[Any]:
+    return value if np.shape(value) == at.shape else np.broadcast_to(value, at.shape)
 
 
 def remembering(function: Callable[[Array], Result]) -> Callable[[Array], Result]:

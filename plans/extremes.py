@@ -92,7 +92,7 @@ def _candidates(found: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         peak = (heights >= before) & (heights >= after) & (heights + bend >= top) & np.isfinite(top)
         flat = np.ptp(np.where(np.isinf(heights), top, heights), axis=1) <= FLAT * np.abs(top[:, 0])
     peak[flat] = False
-    peak[flat, heights[flat].argmax(axis=1)] = np.isfinite(top[flat, 0])
+    peak[flat, np.isfinite(heights[flat]).argmax(axis=1)] = np.isfinite(top[flat, 0])
     many = np.flatnonzero(peak.sum(axis=1) > PEAKS)
     least = -np.partition(-np.where(peak[many], heights[many], -np.inf), PEAKS - 1, axis=1)[:, PEAKS - 1 : PEAKS]
     peak[many] &= heights[many] >= least
