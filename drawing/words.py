@@ -29,6 +29,7 @@ PARTS = {
     **dict.fromkeys(("R",), ("n", "t")),
 }
 OF_LINKS = ("R", "M", "h")  # quantities whose two digits are the links of a pair
+OF_LINK = ("omega", "epsilon", "P")  # quantities of one link: rates, instant centre
 PER_UNIT_DIGITS = 6
 
 
@@ -43,7 +44,8 @@ class Words:
 
     What depends on the mechanism is set when it is known: `seconds` are the forces and arms with two primes, the second
     of each couple; `letters` are marks whose letters need an index, such as one of several ends of normal parts;
-    `frame` is the number of the frame, `display` the units in which the task shows its results.
+    `frame` is the number of the frame, `ends` are the ends of links by number. `display` are the units in which the
+    task shows its results.
     """
 
     language: str
@@ -52,6 +54,7 @@ class Words:
     seconds: frozenset[str] = frozenset()
     letters: Mapping[str, str] = field(default_factory=dict)
     frame: str = "0"
+    ends: Mapping[str, str] = field(default_factory=dict)
     display: Display = AS_INSIDE
 
     @classmethod
@@ -143,22 +146,42 @@ class Words:
         letters = self.notation["letters"]
         head, *rest = name.split("_")
         if head == "mu":  # forces of a group or of the driver alike
-            return f"μ_{{{letters.get(f'mu_{rest[0]}', letters.get(rest[0], rest[0]))}}}"
+            return f"{letters['mu']}_{{{letters.get(f'mu_{rest[0]}', letters.get(rest[0], rest[0]))}}}"
         above = ""
         if len(rest) > 1 and rest[-1] in PARTS.get(head, ()):
-            above = self.notation["parts"].get(rest.pop()) or name.rpartition("_")[2]
+            above = self._part(rest.pop())
         elif len(rest) > 1 and head in ("omega", "epsilon") and rest[0] == "r":
             above = rest.pop(0)
         below = self._links(head, "".join(rest))
         head = letters.get(head, GREEK.get(head, head))
+        if not head:
+            return below
         return head + (f"^{{{above}}}" if above else "") + (f"_{{{below}}}" if below else "")
 
+    def _part(self, part: str) -> str:
+        """Return the superscript of a part of a vector."""
+        above = self.notation["parts"].get(part, part)
+        return str(above if isinstance(above, str) else above[self.language])
+
     def _links(self, head: str, index: str) -> str:
-        """Return an index; the two links of a pair in the notation's order, the frame by its number."""
+        """Return an index; links by their ends where the notation says so, the frame by its number.
+
+        The two links of a pair stand in the notation's order.
+        """
+        if self.notation["links"] == "ends" and head not in OF_LINKS:
+            return self._by_ends(head, index)
         if head not in OF_LINKS or not re.fullmatch(r"\d\d", index):
             return index
         first, second = (self.frame if digit == "0" else digit for digit in index)
         return first + second if self.notation["reaction"] == "ij" else second + first
+
+    def _by_ends(self, head: str, index: str) -> str:
+        """Return the ends of a link in place of its number, letters with their digits lowered: `O_{1}B`."""
+        if head in OF_LINK:
+            return self.ends.get(index, index)
+        letters, centre, number = index.partition("P") if head == "l" else (index, "", "")
+        lowered = re.sub(r"(?<=[A-Za-z])(\d+)", r"_{\1}", letters)
+        return f"{lowered}P_{{{self.ends.get(number, number)}}}" if number.isdigit() else lowered + centre + number
 
     def _arm(self, name: str) -> tuple[str, str]:
         """Return the symbol of an arm: of a link's own force of inertia, of a reaction or of another force."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
+from itertools import combinations
 
 from ...plans.board import Program
 from ...plans.linkages.mechanism import ZERO
@@ -20,7 +22,7 @@ def lettered(words: Words, solved: Solved) -> Words:
     """Return the words for the sheet of one mechanism."""
     reading = read(solved.program)
     frame = str(len(solved.mechanism.links) + 1) if words.notation["frame"] == "last" else "0"
-    return replace(words, seconds=_seconds(reading), letters=_ends(reading, words), frame=frame)
+    return replace(words, seconds=_seconds(reading), letters=_ends(reading, words), frame=frame, ends=_joints(solved))
 
 
 @lru_cache(maxsize=16)
@@ -46,6 +48,18 @@ def _seconds(reading: Reading) -> frozenset[str]:
             found.add(step.name)
             found.update(arm.name for moment in reading.users(step.name) for arm in reading.users(moment.name))
     return frozenset(name for name in found if "couple" in name or name.startswith("h_"))
+
+
+def _joints(solved: Solved) -> dict[str, str]:
+    """Return links by their ends, `O_{1}B`: by the two joints that are farthest apart, in the order of the link."""
+    named = {}
+    for link in solved.mechanism.links:
+        joints = {pair.point for pair in solved.mechanism.pairs if link.number in pair.links}
+        pairs = combinations([point for point in link.points if point in joints], 2)
+        ends = max(pairs, key=lambda ends: abs(solved.point(ends[1]) - solved.point(ends[0])), default=())
+        if ends:
+            named[str(link.number)] = "".join(re.sub(r"(\d+)", r"_{\1}", end) for end in ends)
+    return named
 
 
 def _ends(reading: Reading, words: Words) -> dict[str, str]:
