@@ -110,6 +110,10 @@ class Board:
         """Measure a distance as a result: marks may coincide."""
         self.step("distance", name, start, end)
 
+    def angle(self, name: str, first: str, second: str) -> None:
+        """Read with the protractor the angle from one unit direction to another, -180 to 180 degrees."""
+        self.step("angle", name, first, second)
+
     def similar(self, name: str, start: str, end: str, along: str, across: str) -> None:
         """Mark the third point of a figure on start-end similar to the link: parts of it along and to the left."""
         self.step("similar", name, start, end, along, across)
@@ -175,6 +179,11 @@ class Program:
     def names(self) -> tuple[str, ...]:
         """All names that the steps make, in order."""
         return tuple(step.name for step in self.steps)
+
+    @property
+    def needs(self) -> frozenset[str]:
+        """All names that the steps need and none of them makes."""
+        return frozenset(name for step in self.steps for name in step.operands).difference(self.names)
 
     @property
     def plans(self) -> tuple[str, ...]:

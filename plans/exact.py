@@ -211,6 +211,12 @@ class ExactBoard(Board):
         between = self._read(start, end)
         return self._sqrt(dot(between, between))
 
+    def _angle(self, first: Any, second: Any) -> Any:
+        import numpy as np  # its arc tangent may differ from the C library's in the last bit, as its cosine
+
+        angle = np.arctan2(cross(first, second), dot(first, second))
+        return angle if np.ndim(angle) else float(angle)
+
     def _similar(self, start: Any, end: Any, along: Any, across: Any) -> Any:
         base = self._read(start, end)
         return self._chain(start, base * along + (base * 1j) * across)

@@ -17,6 +17,9 @@ UNITS = {
     "a": "m/s^2",
     "omega": "rad/s",
     "epsilon": "rad/s^2",
+    "m": "kg",
+    "J": "kg*m^2",
+    "G": "N",
     "F": "N",
     "R": "N",
     "M": "N*m",
@@ -77,7 +80,7 @@ def shown_on(program: Program) -> dict[str, str]:
         if step.verb == "read":
             plans.setdefault(step.name, step.plan)
         elif step.verb == "chain":
-            plans.setdefault(step.operands[1], step.plan)
+            plans.setdefault(step.operands[1].removeprefix("_"), step.plan)
         elif step.verb == "arm":
             plans.setdefault(step.name, "lever" if step.name.startswith("h_lever") else POSITION)
     return plans
@@ -89,7 +92,7 @@ def quantities(program: Program, values: Mapping[str, Any], lengths: Mapping[str
     for step in program:
         if step.name.startswith("_") or "." in step.name:
             continue
-        if step.verb in ("read", "calc", "arm", "distance"):
+        if step.verb in ("read", "calc", "arm", "distance", "measure"):
             found[step.name] = _quantity(step.name, values[step.name])
         elif step.verb in POINTS:
             point = values[step.name]

@@ -8,11 +8,14 @@ from typing import Any
 
 from ...scales.errors import InputError
 from ..board import Program, RecordingBoard
-from . import compound, driver, prp, rpp, rpr, rrp, rrr
+from . import compound, driver, prp, rpp, rpr, rrp, rrr, sliding_driver
 from .lever import lever
-from .mechanism import FRAME, Link, Mechanism
-from .parts import AssurGroup, Bodies, Couples, Forces, Span
+from .loads import hung, lay_loads
+from .mechanism import FRAME, ZERO, Driver, Mechanism, SlidingDriver
+from .output import END, Moving, needs_stroke, stroke_ends
+from .parts import AssurGroup, Bodies, Forces, Span
 from .structure import Structure, analyse
+from .sweeping import without_loads
 
 PLANS = ("structure", "position", "velocity", "acceleration", "compound", "forces", "lever")
 NEEDS = {
@@ -26,6 +29,12 @@ NEEDS = {
 }
 Attached = list[tuple[ModuleType, AssurGroup]]
 CONSTRUCTIONS: dict[str, ModuleType] = {"RRR": rrr, "RRP": rrp, "RPR": rpr, "PRP": prp, "RPP": rpp}
+DRIVERS: dict[type, ModuleType] = {Driver: driver, SlidingDriver: sliding_driver}
+
+
+def driver_of(mechanism: Mechanism) -> ModuleType:
+    """Return the constructions of the mechanism's driver."""
+    return DRIVERS[type(mechanism.driver)]
 
 
 def with_needs(plans: Iterable[str]) -> tuple[str, ...]:
@@ -53,25 +62,43 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = PLANS) -> tuple[Struc
     dyads, bodies = _named(mechanism, structure)
     for plan in ("position", "velocity", "acceleration"):
         if plan in plans:
-            getattr(driver, plan)(board, mechanism)
+            getattr(driver_of(mechanism), plan)(board, mechanism)
             if plan == "position":
                 _place_frame(board, mechanism)
             for module, dyad in dyads:
                 getattr(module, plan)(board, dyad)
     if "compound" in plans:
         compound.compound(board, compound.couplers(mechanism, (dyad for _, dyad in dyads), bodies))
-    if "acceleration" in plans and {"forces", "lever"} & set(plans):
-        _loads(board, mechanism, bodies)
-    if "forces" in plans:
-        _forces(board, mechanism, dyads, bodies)
-    if "lever" in plans:
-        _lever(board, mechanism, dyads, bodies)
-    if {"forces", "lever"} <= set(plans):
-        board.calc("delta_M_bal", "difference", "M_bal_lever", "M_bal")
+    _statics(board, mechanism, set(plans), dyads, bodies)
     program = Program(board.steps)
     for name in sorted(mechanism.givens.intersection(program.names)):
         raise InputError("name-twice", name=name)
     return structure, program
+
+
+def _statics(
+    board: RecordingBoard, mechanism: Mechanism, plans: set[str], dyads: Attached, bodies: Bodies
+) -> None:
+    """Lay down the loads; plans of forces, the lever, and their difference, as far as they are wanted."""
+    if not plans & {"forces", "lever"}:
+        return
+    module = driver_of(mechanism)
+    spans = {span.link.number: span for span in _spans(mechanism, dyads)}
+    resisting = any(couple.sense is None for couple in mechanism.couples) or needs_stroke(mechanism)
+    turning = module.turning_rate(board, mechanism) if resisting else ZERO
+    lay_loads(board, Moving(mechanism, bodies, spans, f"_V_{mechanism.driver.point}", turning))
+    if "forces" in plans:
+        _forces(board, mechanism, dyads, bodies)
+    if "lever" in plans:
+        _lever(board, mechanism, spans, bodies)
+    if {"forces", "lever"} <= plans:
+        name = module.balance(mechanism)
+        board.calc(f"delta_{name}", "difference", f"{name}_lever", name)
+
+
+def _spans(mechanism: Mechanism, dyads: Attached) -> tuple[Span, ...]:
+    """Return all links with two joints, the driver first."""
+    return (*driver_of(mechanism).spans(mechanism), *(span for _, dyad in dyads for span in dyad.spans))
 
 
 def hinged(mechanism: Mechanism, structure: Structure) -> tuple[compound.Coupler, ...]:
@@ -90,8 +117,10 @@ def _named(mechanism: Mechanism, structure: Structure) -> tuple[Attached, Bodies
     for group in structure.groups:
         if group.kind not in CONSTRUCTIONS:
             raise InputError("no-construction", kind=group.kind, links=", ".join(map(str, group.links)))
-    _has_length(driver.span(mechanism))
-    bodies = {mechanism.driver.link: driver.body(mechanism)}
+    first = driver_of(mechanism)
+    for span in first.spans(mechanism):
+        _has_length(span)
+    bodies = {mechanism.driver.link: first.body(mechanism)}
     dyads = []
     for group in structure.groups:
         module = CONSTRUCTIONS[group.kind]
@@ -116,48 +145,24 @@ def _place_frame(board: RecordingBoard, mechanism: Mechanism) -> None:
         board.place(point, *place)
 
 
-def board_givens(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return `values` as the board wants them: the size of a load as `|F_3|`, for `F_3` is the vector."""
-    given = [load.magnitude for load in mechanism.loads] + [couple.magnitude for couple in mechanism.couples]
-    return {**values, **{f"|{name}|": values[name] for name in given}}
+def board_givens(mechanism: Mechanism, values: Mapping[str, Any], program: Program | None = None) -> dict[str, Any]:
+    """Return `values` as the board wants them.
 
-
-def _loads(board: RecordingBoard, mechanism: Mechanism, bodies: Bodies) -> None:
-    """Lay down the outer loads, the inertia force and moment of every link that has a mass."""
-    for load in mechanism.loads:
-        board.turn(f"e_{load.name}", load.direction)
-        board.calc(load.name, "along", f"|{load.magnitude}|", f"e_{load.name}")
-    for couple in mechanism.couples:
-        board.calc(couple.name, "signed", f"|{couple.magnitude}|", couple.sense)
-    for link in mechanism.links:
-        if _has_inertia_force(mechanism, link):
-            board.calc(f"F_i{link.number}", "inertia_force", str(link.mass), f"a_{link.centre}")
-        if link.inertia and bodies[link.number].epsilon:
-            board.calc(f"M_i{link.number}", "inertia_moment", link.inertia, str(bodies[link.number].epsilon))
-
-
-def _has_inertia_force(mechanism: Mechanism, link: Link) -> bool:
-    return bool(link.mass) and link.centre not in mechanism.frame_points
-
-
-def _hung(mechanism: Mechanism, bodies: Bodies) -> tuple[Forces, Couples]:
-    """Forces (name, point) and couples by link: inertia first, then the outer loads."""
-    forces: Forces = {link.number: [] for link in mechanism.links}
-    couples: Couples = {link.number: [] for link in mechanism.links}
-    for link in mechanism.links:
-        if _has_inertia_force(mechanism, link):
-            forces[link.number].append((f"F_i{link.number}", str(link.centre)))
-        forces[link.number] += [(load.name, load.point) for load in mechanism.loads_on(link.number)]
-        if link.inertia and bodies[link.number].epsilon:
-            couples[link.number].append(f"M_i{link.number}")
-    for couple in mechanism.couples:
-        couples[couple.link].append(couple.name)
-    return forces, couples
+    The size of a load is `|F_3|` there, for `F_3` is the vector. Where `program` needs the ends of the working stroke,
+    these are found first.
+    """
+    named = {diagram.name for diagram in mechanism.diagrams}
+    given = [load.magnitude for load in (*mechanism.loads, *mechanism.couples) if load.magnitude not in named]
+    sizes = {f"|{name}|": values[name] for name in given}
+    if program is None or END not in program.needs or END in values:
+        return {**values, **sizes}
+    _, motion = construct(without_loads(mechanism), ("velocity",))
+    return {**values, **sizes, **stroke_ends(mechanism, values, motion.needs)}
 
 
 def _forces(board: RecordingBoard, mechanism: Mechanism, dyads: Attached, bodies: Bodies) -> None:
     """Solve the groups from the last to the first, pass each reaction on to the link it acts on, balance the driver."""
-    forces, couples = _hung(mechanism, bodies)
+    forces, couples = hung(mechanism, bodies)
     reactions: Forces = {link: [] for link in forces}
     for module, dyad in reversed(dyads):
         for link in (body.link.number for body in dyad.bodies):
@@ -167,16 +172,16 @@ def _forces(board: RecordingBoard, mechanism: Mechanism, dyads: Attached, bodies
             if passed.link != FRAME:
                 reactions[passed.link].append((passed.force, passed.point))
                 couples[passed.link] += [passed.couple] if passed.couple else []
-    crank = mechanism.driver.link
-    forces[crank] = reactions[crank] + forces[crank]
-    driver.forces(board, mechanism, forces, couples)
+    first = mechanism.driver.link
+    forces[first] = reactions[first] + forces[first]
+    driver_of(mechanism).forces(board, mechanism, forces, couples)
 
 
-def _lever(board: RecordingBoard, mechanism: Mechanism, dyads: Attached, bodies: Bodies) -> None:
+def _lever(board: RecordingBoard, mechanism: Mechanism, spans: Mapping[int, Span], bodies: Bodies) -> None:
     """Hang all forces on the lever, and the couples: as pairs of forces on links with two joints, else as powers."""
-    forces, couples = _hung(mechanism, bodies)
-    spans = [span for _, dyad in dyads for span in dyad.spans]
-    pairs = [(couple, span) for span in spans for couple in couples[span.link.number]]
-    alone = set(couples) - {span.link.number for span in spans}
-    turning = [(c, omega) for n in couples if n in alone for c in couples[n] if (omega := bodies[n].omega)]
-    lever(board, mechanism, [force for link in forces.values() for force in link], pairs, turning)
+    forces, couples = hung(mechanism, bodies)
+    pairs = [(couple, span) for number, span in spans.items() for couple in couples[number]]
+    alone = {number: bodies[number].omega for number in couples if number not in spans}
+    turning = [(couple, omega) for number, omega in alone.items() if omega for couple in couples[number]]
+    moments = lever(board, mechanism, [force for link in forces.values() for force in link], pairs, turning)
+    driver_of(mechanism).on_lever(board, mechanism, moments)

@@ -1,15 +1,15 @@
-"""The driver: a crank about a fixed pivot. Position, velocity, acceleration, force plan and balancing moment."""
+"""The driver: a crank about a fixed pivot. Position, velocity, acceleration, force plan and what balances it."""
 
 from __future__ import annotations
 
 from ..board import Board
-from .mechanism import Mechanism
+from .mechanism import FORCE, MOMENT, Driver, Mechanism
 from .parts import Body, Couples, Forces, Span, hang, measure_link, moments_about, move_link, place_link
 
 
 def position(board: Board, mechanism: Mechanism) -> None:
     """Mark the pivot, lay off the crank at its angle."""
-    driver, crank = mechanism.driver, span(mechanism)
+    driver, crank = crank_of(mechanism), span(mechanism)
     board.place(driver.pivot, *pivot_place(mechanism))
     board.turn(crank.e, driver.angle)
     measure_link(board, crank)
@@ -19,7 +19,7 @@ def position(board: Board, mechanism: Mechanism) -> None:
 
 def velocity(board: Board, mechanism: Mechanism) -> None:
     """v_A = omega_1 * l_OA is normal to the crank in the sense of omega_1."""
-    driver, crank = mechanism.driver, span(mechanism)
+    driver, crank = crank_of(mechanism), span(mechanism)
     omega = f"omega_{driver.link}"
     board.calc(omega, "signed", driver.speed, driver.sense)
     board.calc(f"_V_{driver.point}", "circular_speed", omega, crank.length)
@@ -31,7 +31,7 @@ def velocity(board: Board, mechanism: Mechanism) -> None:
 
 def acceleration(board: Board, mechanism: Mechanism) -> None:
     """a_A = omega_1^2 * l_OA points from A to O, and epsilon_1 * l_OA across unless the crank turns steadily."""
-    driver, crank = mechanism.driver, span(mechanism)
+    driver, crank = crank_of(mechanism), span(mechanism)
     tip = f"acceleration.{driver.point}"
     normal = "acceleration.n_" + driver.point if driver.acceleration else tip
     board.calc(f"_a_{driver.point}", "centripetal", f"omega_{driver.link}", crank.length)
@@ -49,11 +49,16 @@ def acceleration(board: Board, mechanism: Mechanism) -> None:
 
 
 def forces(board: Board, mechanism: Mechanism, loads: Forces, couples: Couples) -> None:
-    """Balance the crank: R_01 closes its force plan, M_bal its moments about the pivot.
+    """Balance the crank: what balances it follows from the moments about its pivot, R_01 closes its force plan.
 
     `loads` are (force, point) by link, on the crank: reactions of the groups attached to it, inertia force and loads.
     """
-    driver = mechanism.driver
+    {MOMENT: _by_moment, FORCE: _by_force}[crank_of(mechanism).balance](board, mechanism, loads, couples)
+
+
+def _by_moment(board: Board, mechanism: Mechanism, loads: Forces, couples: Couples) -> None:
+    """R_01 closes the plan of the loads; M_bal is a moment beside them."""
+    driver = crank_of(mechanism)
     plan, hung = f"forces_{driver.link}", loads[driver.link]
     board.pole(f"{plan}.0")
     board.read(f"R_0{driver.link}", hang(board, plan, [force for force, _ in hung]), f"{plan}.0")
@@ -61,29 +66,65 @@ def forces(board: Board, mechanism: Mechanism, loads: Forces, couples: Couples) 
     board.calc("M_bal", "closing_moment", *moments, *couples[driver.link])
 
 
+def _by_force(board: Board, mechanism: Mechanism, loads: Forces, couples: Couples) -> None:
+    """F_bal at the crank pin, along the normal to the crank, stands in the plan before R_01 closes it."""
+    driver, crank = crank_of(mechanism), span(mechanism)
+    plan, hung = f"forces_{driver.link}", loads[driver.link]
+    moments = moments_about(board, hung, driver.link, driver.pivot, always=True)
+    board.calc("F_bal", "closing_force", crank.length, *moments, *couples[driver.link])
+    board.calc("_F_bal", "along", "F_bal", crank.n)
+    board.pole(f"{plan}.0")
+    board.read(f"R_0{driver.link}", hang(board, plan, [*(force for force, _ in hung), "_F_bal"]), f"{plan}.0")
+
+
+def on_lever(board: Board, mechanism: Mechanism, moments: list[str]) -> None:
+    """Solve the moments of the lever for a force at the crank pin, along the normal to the crank.
+
+    On the turned plan it has the moment -F * pa about the pole.
+    """
+    driver, crank = crank_of(mechanism), span(mechanism)
+    force = "F_bal" if driver.balance == MOMENT else "F_bal_lever"
+    board.calc(force, "moment_equation", f"_V_{driver.point}", *moments)
+    board.calc(f"_{force}", "along", force, crank.n)
+    if driver.balance == MOMENT:
+        board.calc("M_bal_lever", "crank_moment", force, crank.length)
+
+
+def balance(mechanism: Mechanism) -> str:
+    """Return the name of what balances the driver: of the lever it has `_lever` behind it."""
+    return "M_bal" if crank_of(mechanism).balance == MOMENT else "F_bal"
+
+
+def turning_rate(board: Board, mechanism: Mechanism) -> str:
+    """Return the name of the angular velocity beside which another one is rounding."""
+    return f"omega_{mechanism.driver.link}"
+
+
+def crank_of(mechanism: Mechanism) -> Driver:
+    """Return the driver as the crank that it is."""
+    driver = mechanism.driver
+    assert isinstance(driver, Driver)
+    return driver
+
+
 def span(mechanism: Mechanism) -> Span:
     """Return the crank between its pivot and its pin."""
-    driver = mechanism.driver
+    driver = crank_of(mechanism)
     return Span(mechanism.link(driver.link), driver.pivot, driver.point)
+
+
+def spans(mechanism: Mechanism) -> tuple[Span, ...]:
+    """Return the driver's links with two joints."""
+    return (span(mechanism),)
 
 
 def body(mechanism: Mechanism) -> Body:
     """Return the crank for the links attached to it."""
-    driver = mechanism.driver
+    driver = crank_of(mechanism)
     epsilon = f"epsilon_{driver.link}" if driver.acceleration else None
     return span(mechanism).body(f"omega_{driver.link}", epsilon)
 
 
-def crank_name(mechanism: Mechanism) -> str:
-    """Return the crank by its ends, `OA`."""
-    return span(mechanism).name
-
-
-def crank_length(mechanism: Mechanism) -> str:
-    """Return the name of the crank's length."""
-    return span(mechanism).length
-
-
 def pivot_place(mechanism: Mechanism) -> tuple[str, str]:
     """Return the names of the pivot's coordinates on the frame."""
-    return mechanism.frame_points[mechanism.driver.pivot]
+    return mechanism.frame_points[crank_of(mechanism).pivot]

@@ -81,7 +81,7 @@ def joints_of(pairs: Iterable[Pair]) -> tuple[Joint | Prismatic, ...]:
 def pairs_of(
     joints: Iterable[Joint | Prismatic], links: Collection[int], known: Sequence[int]
 ) -> tuple[tuple[Pair, ...], tuple[Pair, ...], bool]:
-    """Return the pairs of `links` among themselves, those with `known` links, and whether the task names all of them."""
+    """Return the pairs of `links` among themselves, those with `known` ones, and whether the task names all of them."""
     inner: list[Pair] = []
     outer: list[Pair] = []
     named = True

@@ -1,12 +1,12 @@
 """Zhukovsky's lever: the velocity plan turned by +90 degrees, all forces hung on it unturned, moments about its pole.
 
-The sum of moments is zero exactly when the power of all forces is: sum F * v + M_i * omega + M_bal * omega_1 = 0.
+The sum of moments is zero exactly when the power of all forces is: sum F * v + M_i * omega + M_bal * omega_1 = 0. What
+balances the driver follows from it.
 """
 
 from __future__ import annotations
 
 from ..board import Board
-from .driver import crank_length, crank_name
 from .mechanism import Mechanism
 from .parts import Span
 
@@ -17,8 +17,8 @@ def lever(
     forces: list[tuple[str, str]],
     couples: list[tuple[str, Span]],
     turning: list[tuple[str, str]],
-) -> None:
-    """Hang `forces` (name, point) and `couples` (moment, link AB) on the turned plan, solve for F_bal at A.
+) -> list[str]:
+    """Hang `forces` (name, point) and `couples` (moment, link AB) on the turned plan; return their moments.
 
     A couple hangs as two equal opposite forces M / l_AB at B and A, normal to AB. Those in `turning` (moment, omega) on
     links with one joint enter with their power.
@@ -47,7 +47,4 @@ def lever(
     for moment, omega in turning:
         board.calc(f"_{moment}_p", "couple_on_lever", moment, omega)
         moments.append(f"_{moment}_p")
-    # F_bal along the normal to the crank has the moment -F_bal * pa about the pole
-    board.calc("F_bal", "moment_equation", f"_V_{driver.point}", *moments)
-    board.calc("_F_bal", "along", "F_bal", f"n_{crank_name(mechanism)}")
-    board.calc("M_bal_lever", "crank_moment", "F_bal", crank_length(mechanism))
+    return moments

@@ -32,6 +32,12 @@ class Link:
     per_length: str | None = None
     inertia_factor: str | None = None
 
+    @property
+    def givens(self) -> tuple[str, ...]:
+        """Names of its values beside places: mass and moment of inertia, or what they follow from."""
+        names = (self.per_length or self.mass, self.inertia_factor or self.inertia)
+        return tuple(name for name in names if name)
+
 
 @dataclass(frozen=True, slots=True)
 class Revolute:
@@ -64,6 +70,9 @@ class Prismatic:
     branch: str | None = None
 
 
+MOMENT, FORCE = "moment", "force"
+
+
 @dataclass(frozen=True, slots=True)
 class Driver:
     """The crank: link `link` turns about `pivot`, carries `point`, at `angle`, with `speed`, in the sense `sense`.
@@ -79,7 +88,17 @@ class Driver:
     speed: str
     sense: str
     acceleration: str | None = None
-    balance: str = "moment"
+    balance: str = MOMENT
+
+    @property
+    def coordinate(self) -> str:
+        """Name of the value that says where the driver stands."""
+        return self.angle
+
+    @property
+    def givens(self) -> tuple[str, ...]:
+        """Names of the values that it needs under their own names; its rates are not."""
+        return self.angle, self.sense
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +115,16 @@ class SlidingDriver:
     speed: str
     acceleration: str | None = None
 
+    @property
+    def coordinate(self) -> str:
+        """Name of the value that says where the driver stands."""
+        return self.travel
+
+    @property
+    def givens(self) -> tuple[str, ...]:
+        """Names of the values that it needs under their own names; its rates are not."""
+        return (self.travel,)
+
 
 @dataclass(frozen=True, slots=True)
 class Stroke:
@@ -109,12 +138,16 @@ class Stroke:
     sense: str = "one"
 
 
+STROKE, ANGLE = "stroke", "angle"
+
+
 @dataclass(frozen=True, slots=True)
 class Diagram:
     """A load diagram: `values` at the places `at`, joined by straight lines; `back` in the idle stroke, if it differs.
 
     `over` is "stroke", and the places are parts of the mechanism's stroke, from 0 to 1, counted from where the working
-    stroke begins; or "angle", and the places are angles of the driver.
+    stroke begins; or "angle", and the places are angles of the driver, within a turn, after which the first one comes
+    again. Places do not decrease; where two are equal the diagram jumps. Outside of its places it stays level.
     """
 
     name: str
@@ -157,9 +190,6 @@ class Couple:
     stroke: str = BOTH
 
 
-Pair = Revolute | Prismatic
-
-
 @dataclass(frozen=True, slots=True)
 class Mechanism:
     """Links (without the frame, number 0), pairs, the driver and the loads."""
@@ -179,16 +209,18 @@ class Mechanism:
 
     @property
     def givens(self) -> frozenset[str]:
-        """Names of the values that it needs under their own names; sizes of loads and the crank's rates are not."""
+        """Names of the values that it needs under their own names; sizes of loads and the driver's rates are not."""
         names = [xy for link in self.links for place in link.points.values() for xy in place]
-        names += [name for link in self.links for name in (link.mass, link.inertia) if name]
+        names += [name for link in self.links for name in link.givens]
         for pair in self.pairs:
             if isinstance(pair, Revolute):
                 names += [*(pair.at or ()), pair.branch or ZERO]
             else:
                 names += [*pair.through, pair.direction, pair.offset, pair.branch or ZERO]
-        names += [load.direction for load in self.loads] + [couple.sense for couple in self.couples]
-        return frozenset((*names, self.driver.angle, self.driver.sense)) - self.opposites.keys()
+        names += [load.direction or ZERO for load in self.loads] + [couple.sense or ZERO for couple in self.couples]
+        names += [name for d in self.diagrams for name in (*d.at, *d.values, *(d.back or ()))]
+        names += [self.gravity or ZERO, self.stroke.sense if self.stroke else ZERO]
+        return frozenset((*names, *self.driver.givens)) - self.opposites.keys()
 
     @property
     def opposites(self) -> dict[str, str]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ..board import Board
-from .mechanism import ZERO, Link, Mechanism
+from .mechanism import MINUS, ZERO, Link, Mechanism
 
 SYMBOLS = {"velocity": "V", "acceleration": "a"}
 Forces = dict[int, list[tuple[str, str]]]
@@ -84,14 +84,18 @@ class Span:
     def straight(self) -> bool:
         """Whether all points stand on the x axis, `start` at the origin."""
         points = self.link.points
-        return points[self.start] == (ZERO, ZERO) != points[self.end] and all(y == ZERO for _, y in points.values())
+        return not self.measured and points[self.end] != (ZERO, ZERO) and all(y == ZERO for _, y in points.values())
+
+    @property
+    def measured(self) -> bool:
+        """Whether the distance of the joints is measured: it is given where `end` stands on the x axis from `start`."""
+        start, (x, y) = self.link.points[self.start], self.link.points[self.end]
+        return start != (ZERO, ZERO) or y != ZERO or x.startswith(MINUS)
 
     @property
     def length(self) -> str:
-        """Name of the distance of the joints: a given where `end` stands on the x axis from `start`."""
-        points = self.link.points
-        on_axis = points[self.start] == (ZERO, ZERO) and points[self.end][1] == ZERO
-        return points[self.end][0] if on_axis else f"_l_{self.name}"
+        """Name of the distance of the joints."""
+        return f"l_{self.name}" if self.measured else self.link.points[self.end][0]
 
     @property
     def e(self) -> str:
@@ -110,9 +114,7 @@ class Span:
 
     def body(self, omega: str, epsilon: str | None) -> Body:
         """Return the link for those attached to it."""
-        points = self.link.points
-        on_axis = points[self.start] == (ZERO, ZERO) and points[self.end][1] == ZERO
-        local = None if on_axis else f"_g_{self.link.number}"
+        local = f"_g_{self.link.number}" if self.measured else None
         return Body(self.link, self.start, self.e, local, omega, epsilon)
 
 
@@ -130,7 +132,7 @@ def local_mark(board: Board, link: Link, point: str) -> str:
 
 def measure_link(board: Board, span: Span) -> None:
     """Measure a link on a drawing of its own, where its length is not given."""
-    if span.length == f"_l_{span.name}":
+    if span.measured:
         start, end = (local_mark(board, span.link, point) for point in (span.start, span.end))
         board.measure(span.length, start, end)
         board.direction(f"_g_{span.link.number}", start, end, span.length)

@@ -1,0 +1,170 @@
+"""Loads: outer forces and couples, weights and inertia of all links, as they act in a position.
+
+What is not given follows first: masses from lengths, in which stroke the mechanism is, values of load diagrams.
+"""
+
+from __future__ import annotations
+
+from ...scales.errors import InputError
+from ..board import Board
+from .mechanism import ANGLE, BOTH, WORKING, ZERO, Couple, Diagram, Link, Load, Mechanism, Revolute
+from .output import PART, Moving, lay_stroke, needs_stroke
+from .parts import Bodies, Couples, Forces, Span, local_mark
+
+
+def lay_loads(board: Board, moving: Moving) -> None:
+    """Lay down outer loads, weights, the inertia force and moment of every link that has a mass, and sums of couples.
+
+    Raises
+    ------
+    InputError
+        When a mass is to follow from the length of a link that has none, or a load resists the motion of a pivot.
+    """
+    mechanism = moving.mechanism
+    for link in mechanism.links:
+        _mass(board, moving, link)
+    if needs_stroke(mechanism):
+        lay_stroke(board, moving)
+    for diagram in mechanism.diagrams:
+        _diagram(board, mechanism, diagram)
+    for load in mechanism.loads:
+        _load(board, moving, load)
+    for couple in mechanism.couples:
+        _couple(board, moving, couple)
+    if mechanism.gravity and any(link.mass for link in mechanism.links):
+        board.turn("_right", ZERO)
+        board.normal("_up", "_right")
+    for link in mechanism.links:
+        _inertia(board, moving, link)
+    for name, couples in _sums(mechanism, moving.bodies).items():
+        board.calc(name, "sum", *couples)
+
+
+def hung(mechanism: Mechanism, bodies: Bodies) -> tuple[Forces, Couples]:
+    """Return forces (name, point) and couples by link: inertia first, weight, then outer loads; couples as one sum."""
+    forces: Forces = {link.number: [] for link in mechanism.links}
+    couples = _couples(mechanism, bodies)
+    for link in mechanism.links:
+        if has_inertia_force(mechanism, link):
+            forces[link.number].append((f"F_i{link.number}", str(link.centre)))
+        if has_weight(mechanism, link):
+            forces[link.number].append((f"G_{link.number}", str(link.centre)))
+        forces[link.number] += [(load.name, load.point) for load in mechanism.loads_on(link.number)]
+    for name, parts in _sums(mechanism, bodies).items():
+        couples[next(number for number in couples if couples[number] == parts)] = [name]
+    return forces, couples
+
+
+def has_inertia_force(mechanism: Mechanism, link: Link) -> bool:
+    """Whether a link has a mass whose centre moves."""
+    return bool(link.mass) and link.centre not in mechanism.frame_points
+
+
+def has_weight(mechanism: Mechanism, link: Link) -> bool:
+    """Whether gravity acts on a link."""
+    return bool(link.mass and mechanism.gravity)
+
+
+def _couples(mechanism: Mechanism, bodies: Bodies) -> Couples:
+    found: Couples = {link.number: [] for link in mechanism.links}
+    for link in mechanism.links:
+        if link.inertia and bodies[link.number].epsilon:
+            found[link.number].append(f"M_i{link.number}")
+    for couple in mechanism.couples:
+        found[couple.link].append(couple.name)
+    return found
+
+
+def _sums(mechanism: Mechanism, bodies: Bodies) -> dict[str, list[str]]:
+    """Return the sums of couples on links that have several: `M_sum`, of more such links `M_sum_3`."""
+    several = {number: parts for number, parts in _couples(mechanism, bodies).items() if len(parts) > 1}
+    return {"M_sum" if len(several) == 1 else f"M_sum_{number}": parts for number, parts in several.items()}
+
+
+def _inertia(board: Board, moving: Moving, link: Link) -> None:
+    if has_inertia_force(moving.mechanism, link):
+        board.calc(f"F_i{link.number}", "inertia_force", str(link.mass), f"a_{link.centre}")
+    if has_weight(moving.mechanism, link):
+        board.calc(f"G_{link.number}", "weight", str(link.mass), str(moving.mechanism.gravity), "_up")
+    epsilon = moving.bodies[link.number].epsilon
+    if link.inertia and epsilon:
+        board.calc(f"M_i{link.number}", "inertia_moment", link.inertia, epsilon)
+
+
+def _mass(board: Board, moving: Moving, link: Link) -> None:
+    """Let mass and moment of inertia follow from the distance of the link's two joints."""
+    if not (link.per_length or link.inertia_factor):
+        return
+    length = _length(board, moving, link)
+    if link.per_length:
+        board.calc(str(link.mass), "mass_by_length", link.per_length, length)
+    if link.inertia_factor:
+        board.calc(str(link.inertia), "inertia_by_length", link.inertia_factor, str(link.mass), length)
+
+
+def _length(board: Board, moving: Moving, link: Link) -> str:
+    if link.number in moving.spans:
+        return moving.spans[link.number].length
+    pairs = (pair for pair in moving.mechanism.pairs if isinstance(pair, Revolute) and link.number in pair.links)
+    joints = sorted({pair.point for pair in pairs}, key=lambda point: (link.points[point] != (ZERO, ZERO), point))
+    if len(joints) != 2:
+        raise InputError("no-length", link=link.number)
+    span = Span(link, joints[0], joints[1])
+    if span.measured:
+        board.measure(span.length, *(local_mark(board, link, point) for point in joints))
+    return span.length
+
+
+def _load(board: Board, moving: Moving, load: Load) -> None:
+    """Lay down a force: along its direction, or against the velocity of its point."""
+    size = _size(board, moving.mechanism, load)
+    if load.direction is not None:
+        board.turn(f"e_{load.name}", load.direction)
+        board.calc(load.name, "along", size, f"e_{load.name}")
+    elif load.point in moving.mechanism.frame_points:
+        raise InputError("load-still", name=load.name, point=load.point)
+    else:
+        board.distance(f"_V_of_{load.name}", "velocity.p", f"velocity.{load.point}")
+        board.calc(load.name, "resisting_force", size, f"V_{load.point}", f"_V_of_{load.name}", moving.speed)
+
+
+def _couple(board: Board, moving: Moving, couple: Couple) -> None:
+    """Lay down a moment: in its sense, or against the turning of its link."""
+    size, omega = _size(board, moving.mechanism, couple), moving.bodies[couple.link].omega
+    if couple.sense is not None:
+        board.calc(couple.name, "signed", size, couple.sense)
+    elif omega is None:
+        board.calc(couple.name, "signed", size, ZERO)
+    else:
+        board.calc(couple.name, "resisting_moment", size, omega, moving.turning)
+
+
+def _size(board: Board, mechanism: Mechanism, load: Load | Couple) -> str:
+    """Return the name of a load's magnitude in this position."""
+    diagrams = {diagram.name for diagram in mechanism.diagrams}
+    size = f"_diagram_{load.magnitude}" if load.magnitude in diagrams else f"|{load.magnitude}|"
+    if load.stroke == BOTH:
+        return size
+    board.calc(f"_acting_{load.name}", "in_working" if load.stroke == WORKING else "in_idle", size, "_working")
+    return f"_acting_{load.name}"
+
+
+def _diagram(board: Board, mechanism: Mechanism, diagram: Diagram) -> None:
+    """Read a load diagram in this position."""
+    if diagram.over == ANGLE:
+        _over_angle(board, mechanism, diagram)
+        return
+    name, forth = f"_diagram_{diagram.name}", f"_diagram_{diagram.name}_forth"
+    board.calc(forth if diagram.back else name, "piecewise", PART, *diagram.at, *diagram.values)
+    if diagram.back:
+        board.calc(f"{name}_back", "piecewise", PART, *diagram.at, *diagram.back)
+        board.calc(name, "by_stroke", "_working", forth, f"{name}_back")
+
+
+def _over_angle(board: Board, mechanism: Mechanism, diagram: Diagram) -> None:
+    """Read a diagram over the driver's angle; behind its last place it runs on to the first one of the next turn."""
+    name, first = f"_diagram_{diagram.name}", diagram.at[0]
+    board.calc(f"{name}_angle", "within_turn", mechanism.driver.coordinate, first)
+    board.calc(f"{name}_next", "turn_later", first)
+    places, values = (*diagram.at, f"{name}_next"), (*diagram.values, diagram.values[0])
+    board.calc(name, "piecewise", f"{name}_angle", *places, *values)
