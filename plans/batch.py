@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .board import Program
-from .exact import ILL, NAN, RIGHT, SINGULAR, STATUSES, TANGENT, ExactBoard, Status, heron
+from .exact import ILL, NAN, RIGHT, SINGULAR, STATUSES, TANGENT, ExactBoard, Status
+from .template import CLOSED, FOLDED
 
 CHUNK = 8192
 _CODE = {status: code for code, status in enumerate(STATUSES)}
@@ -25,6 +26,7 @@ class ArrayBoard(ExactBoard):
     def restart(self, givens: Mapping[str, Any], codes: NDArray[np.int8]) -> None:
         """Begin with other positions; the status of each goes into `codes`."""
         self.values, self.codes, self._sine_of = dict(givens), codes, {}
+        self.lift_templates()
 
     @staticmethod
     def _sqrt(square: Any) -> Any:
@@ -76,6 +78,17 @@ class ArrayBoard(ExactBoard):
             return distance
         self._mark(distance == 0.0, "singular")
         return np.where(distance == 0.0, NAN, distance)
+
+    def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
+        size = np.abs(determinant)
+        if np.min(size) >= ILL and np.max(apart) <= CLOSED and not np.any(astray):
+            return determinant
+        reached, folded = astray == 0.0, size < FOLDED
+        apart_here = ~(reached & (folded | (apart <= CLOSED)))
+        self._mark(size < ILL, "ill-conditioned")
+        self._mark(reached & folded, "singular")
+        self._mark(apart_here, "no-assembly")
+        return np.where(folded | apart_here, NAN, determinant)
 
     def _divisor(self, size: Any) -> Any:
         return size if np.min(size) > 0.0 else np.where(size == 0.0, 1.0, size)

@@ -94,6 +94,13 @@ class Board:
         """
         self.step("tangent", name, centre, point, offset, side)
 
+    def template(self, name: str, point: str, *where: str) -> None:
+        """Lay a template of a link on the paths of its three joints and mark `point` through it.
+
+        `where` are the operands of `template.TemplateBoard`: where it lies already, about, and the paths.
+        """
+        self.step("template", name, point, *where)
+
     def incline(self, name: str, direction: str, slope: str) -> None:
         """Lay off with the protractor, from `direction`, the angle of the unit direction `slope` of another drawing."""
         self.step("incline", name, direction, slope)

@@ -11,8 +11,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from .board import Board, Program
+from .board import Program
 from .laws import LAWS, cross, dot
+from .template import CLOSED, FOLDED, TemplateBoard
 
 SINGULAR = 1e-13  # sine of the angle of two lines below which they count as parallel
 ILL = 1e-3  # sine below which three digits and more are lost: the position is called ill-conditioned
@@ -37,13 +38,14 @@ POLE = 0j
 RIGHT = 2.0**-50  # component of a unit direction that is rounding: the direction is at a multiple of 90 degrees
 
 
-class ExactBoard(Board):
+class ExactBoard(TemplateBoard):
     """One position on Python numbers: `values` by name, and `trouble`, the first step that cannot be done.
 
     What hangs on a failed step becomes NaN; what does not is computed all the same.
     """
 
     def __init__(self, givens: Mapping[str, Any]) -> None:
+        super().__init__()
         self.values: dict[str, Any] = {"zero": 0.0, "one": 1.0, **givens}
         self.sines: dict[str, float] = {}
         self.trouble: Trouble | None = None
@@ -142,6 +144,17 @@ class ExactBoard(Board):
         if size == 0.0:
             return 1.0 if moment == 0.0 else NAN
         return size
+
+    def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
+        """Return the determinant of the legs that hold a template: they must reach it, and must not concur."""
+        self.sines[self._name] = abs(determinant)
+        if astray == 0.0 and abs(determinant) < FOLDED:
+            self._fail("singular", determinant)
+            return NAN
+        if not (astray == 0.0 and apart <= CLOSED):
+            self._fail("no-assembly", gap=astray or missing)
+            return NAN
+        return determinant
 
     # The verbs, the same for one and for many.
 
