@@ -76,10 +76,11 @@ def block(at: complex, u: complex, name: str, style: Style) -> Group:
     return Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "link", name)
 
 
-def block_size(style: Style) -> tuple[float, float]:
-    """Return length and height of a block on a link that moves: a little smaller than a slider on the frame."""
+def block_size(style: Style, on_frame: bool = False) -> tuple[float, float]:
+    """Return length and height of a block: on a link that moves it is a little smaller than a slider on the frame."""
     length, height = style.slider
-    return 0.88 * length, 0.88 * height
+    part = 1.0 if on_frame else 0.88
+    return part * length, part * height
 
 
 def slider_up(u: complex) -> complex:

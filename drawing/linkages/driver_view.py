@@ -1,56 +1,86 @@
-"""The driver drawn apart with its forces, the arm of R_21 and the balancing moment."""
+"""The driver drawn apart with its forces, their arms, and what balances it: a moment, or a force."""
 
 from __future__ import annotations
 
 import math
 from cmath import phase, rect
 
-from ...plans.linkages.parts import arm_of
+from ...plans.board import POSITION
+from ...plans.linkages.mechanism import FRAME, Driver, Prismatic
 from ..shapes import Arrow, Group, Line, Shape
-from ..symbols import fixed_pivot, force_arrow, link, revolute, turning_arrow
+from ..symbols import turning_arrow
 from ..view import Canvas, View
-from .group_view import force_arm, letter_arrow, loads, zeros
+from .acting import Contact, couples, handed, loads, moments_of
+from .group_view import Sketch
+from .links import draw_frame, draw_links, foot_of, letter_links
 from .scene import Scene
+from .skeleton import guide_of
 
 
 def driver_view(scene: Scene) -> View:
-    """Draw the crank with R_21, R_01, M_bal and the arm h_21 measured from the pivot."""
-    canvas = Canvas(scene.style)
-    driver, words, style = scene.solved.mechanism.driver, scene.words, scene.style
-    o, a = scene.mm(driver.pivot), scene.mm(driver.point)
-    e = (a - o) / abs(a - o)
-    canvas.add(link(o, a, str(driver.link), style))
-    canvas.add(fixed_pivot(o, driver.pivot, style), revolute(a, driver.point, style))
-    forces = [(f"R_{d.rod.number}{driver.link}", d.A) for d in scene.dyads if d.before == driver.link]
-    forces += loads(scene, driver.link)
-    for name, point in forces:
-        if scene.direction(name) == 0 or point == driver.pivot:
-            continue
-        letter_arrow(canvas, scene, *force_arrow(scene.mm(point), scene.direction(name), name, [-e], [], style))
-        force_arm(canvas, scene, [name], [arm_of(name, driver.link)], scene.mm(point), o)
-    name = f"R_0{driver.link}"
-    if scene.direction(name) != 0:
-        letter_arrow(canvas, scene, *force_arrow(o, scene.direction(name), name, [e, -1j], [], style))
-    _, height, base = style.pivot
-    foot = o - 1j * (height + style.pair)
-    canvas.keep_clear(foot - base / 2 - 1j * style.hatch[0], foot + base / 2)
-    _balance(canvas, scene, o, e)
-    for point in (driver.pivot, driver.point):
-        canvas.label(words.mark(point), scene.mm(point), clear=style.pair + 0.8)
-    canvas.label(str(driver.link), (o, a))
-    arms = [arm_of(force, driver.link) for force, _ in forces if scene.direction(force) != 0]
-    notes = (words["said.arrows"], *zeros(scene, [*(force for force, _ in forces), name, "M_bal"], arms))
-    return canvas.finish("driver", scene.heading("heading.driver", "position"), notes)
+    """Draw the driver with all reactions on it, its own loads, R_01, what balances it, and the arms of the forces."""
+    canvas, number = Canvas(scene.style), scene.solved.structure.driver
+    figures = draw_links(canvas, scene, (number,))
+    draw_frame(canvas, scene, (number,), figures)
+    sketch = Sketch(canvas, scene, figures)
+    hung = [*handed(scene, number), *loads(scene, number)]
+    for name, point in hung:
+        if point not in scene.solved.mechanism.frame_points:
+            sketch.force(name, scene.mm(point))
+    sketch.arms(moments_of(scene, (number,)))
+    driver = scene.solved.mechanism.driver
+    if isinstance(driver, Driver):
+        _crank(sketch, driver)
+    else:
+        _slider(sketch, number)
+    for count, name in enumerate(couples(scene, number)):
+        sketch.couple(name, figures[0], count)
+    letter_links(canvas, scene, (number,), figures)
+    return canvas.finish("driver", scene.heading("heading.driver", POSITION), sketch.notes())
 
 
-def _balance(canvas: Canvas, scene: Scene, o: complex, e: complex) -> None:
-    value = scene.solved.values.get("M_bal")
+def _crank(sketch: Sketch, driver: Driver) -> None:
+    """Hang R_01 on the pivot, loads that stand there, and what balances the crank."""
+    scene, o = sketch.scene, sketch.scene.mm(driver.pivot)
+    foot = foot_of(scene, driver.pivot, sketch.figures)
+    sketch.bar(o, *(foot * rect(1.0, lean) for lean in (-0.5, 0.0, 0.5)))
+    sketch.force(f"R_{FRAME}{driver.link}", o)
+    for name, point in loads(scene, driver.link):
+        if point in scene.solved.mechanism.frame_points:
+            sketch.force(name, scene.mm(point))
+    if "M_bal" in scene.solved.values:
+        _balance(sketch, o)
+    else:
+        sketch.force("_F_bal", scene.mm(driver.point))
+
+
+def _slider(sketch: Sketch, number: int) -> None:
+    """Hang the guide's reaction where it acts, and the balancing force along the guide."""
+    scene = sketch.scene
+    pair = next(p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and number in p.links)
+    pin, u, reaction = scene.mm(pair.point), guide_of(scene, pair), f"R_{FRAME}{number}"
+    sketch.force("_F_bal", pin)
+    moment, size = scene.solved.values[f"M_{FRAME}{number}"], scene.direction(reaction)
+    across = ((complex(scene.solved.values[reaction]) / u).imag) if size != 0 else 0.0
+    couple = f"M_{FRAME}{number}" if across == 0.0 and moment != 0.0 else ""
+    found = Contact(f"h_{FRAME}{number}", pair.point, u, moment / across if across else 0.0, couple)
+    sketch.force(reaction, sketch.contact(found, reaction))
+    if couple:
+        sketch.couple(couple, sketch.figures[0], 0)
+
+
+def _balance(sketch: Sketch, o: complex) -> None:
+    """Draw M_bal about the pivot."""
+    scene, canvas = sketch.scene, sketch.canvas
+    value = scene.solved.values["M_bal"]
     if not value or value != value:
+        sketch.zero.append("M_bal")
         return
     sense, radius = math.copysign(1.0, value), 0.62 * scene.style.force
     # on the freest side of O: the pivot's foot, the crank, the reaction and the arms of forces leave from there too
     ends = [end for shape in canvas.shapes for end in _ends(shape) if 0.1 < abs(end - o) < 3 * radius]
-    busy = [-1j, 1 - 1.5j, -1 - 1.5j, e, *((end - o) / abs(end - o) for end in ends)]
+    rays = [end - o for figure in sketch.figures for stroke in figure.strokes for end in stroke if abs(end - o) > 0.1]
+    busy = [-1j, 1 - 1.5j, -1 - 1.5j, *rays, *((end - o) / abs(end - o) for end in ends)]
     middle = max(
         (k * math.pi / 12 for k in range(24)),
         key=lambda angle: (round(min(abs(phase(rect(1.0, angle) / ray)) for ray in busy), 6), -angle),

@@ -1,84 +1,201 @@
-"""A group drawn apart with all its forces, and a slider drawn apart with its own."""
+"""A group drawn apart with all its forces, and one of its links drawn apart with its own."""
 
 from __future__ import annotations
 
 import math
-
-from ...plans.laws import cross
-from ...plans.linkages.parts import arm_of
-from ...plans.linkages.rrp import Dyad
 from cmath import phase
-from ..shapes import Arc, Arrow, Line, Pen
-from ..symbols import arm, centre_of_mass, force_arrow, link, revolute, slider, slider_up, turning_arrow
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+from ...plans.board import POSITION
+from ...plans.linkages.mechanism import Pair, Prismatic
+from ...plans.linkages.structure import Group
+from ..shapes import Arrow, Head, Line, Pen, Shape
+from ..shapes import Group as Shapes
+from ..symbols import arm, block_size, force_arrow, turning_arrow
 from ..view import Canvas, View
+from .acting import Contact, Moment, contact, couples, handed, loads, moments_of, pin_of, reactions
+from .links import draw_links, letter_links, rays_at
 from .scene import Scene
+from .skeleton import NEAR, Skeleton, guide_of
+
+__all__ = ["group_view", "link_view", "loads"]
 
 
-def group_view(scene: Scene, d: Dyad) -> View:
-    """Draw group (rod, slider) without the crank: loads, reactions at its outer pairs, the arm of each moment."""
+@dataclass(slots=True)
+class Sketch:
+    """A part of the mechanism drawn apart, on which forces are hung: what lies at each place is known."""
+
+    canvas: Canvas
+    scene: Scene
+    figures: Sequence[Skeleton]
+    arrows: dict[complex, list[complex]] = field(default_factory=dict)
+    zero: list[str] = field(default_factory=list)
+    hung: list[str] = field(default_factory=list)
+    barred: dict[complex, list[complex]] = field(default_factory=dict)  # directions where something else stands
+
+    def force(self, name: str, at: complex) -> None:
+        """Hang the arrow of a force on a point, clear of links and of other arrows there, and letter it."""
+        if name in self.hung or not self.scene.defined(name):
+            return
+        self.hung.append(name)
+        e = self.scene.direction(name)
+        if e == 0:
+            self.zero.append(name)
+            return
+        place = complex(round(at.real, 2), round(at.imag, 2))
+        arrows, style = self.arrows.setdefault(place, []), self.scene.style
+        lines = [*rays_at(at, self.figures), *self.barred.get(place, ())]
+        arrow, ray = force_arrow(at, e, name, lines, arrows, style, self._gap(at, e))
+        letter_arrow(self.canvas, self.scene, arrow, ray)
+
+    def bar(self, at: complex, *directions: complex) -> None:
+        """Let no arrow leave a place in these directions."""
+        self.barred.setdefault(complex(round(at.real, 2), round(at.imag, 2)), []).extend(directions)
+
+    def _gap(self, at: complex, e: complex) -> float:
+        """Return where an arrow along `e` may begin beside a block at its point."""
+        for figure in self.figures:
+            for centre, u in figure.blocks:
+                if abs(((at - centre) / u).imag) < NEAR and abs(at - centre) < self.scene.style.slider[0] / 2:
+                    length, height = block_size(self.scene.style, self._on_frame(figure.number, centre))
+                    along, across = abs((e / u).real), abs((e / u).imag)
+                    ahead = length / 2 + abs(at - centre) if along > across else length / 2
+                    return min(ahead / max(along, 1e-9), height / 2 / max(across, 1e-9))
+        return 0.0
+
+    def _on_frame(self, number: int, centre: complex) -> bool:
+        pairs = self.scene.solved.mechanism.pairs
+        own = (p for p in pairs if isinstance(p, Prismatic) and p.links == (number, 0))
+        return any(abs(self.scene.mm(pair.point) - centre) < NEAR for pair in own)
+
+    def couple(self, name: str, figure: Skeleton, number: int) -> None:
+        """Draw the turning arrow of a couple about the middle of a link, `number` others being there already."""
+        value = self.scene.solved.values[name]
+        if value == 0.0:
+            self.zero.append(name)
+            return
+        at, along = _middle(figure, (0.5, 0.32, 0.68, 0.2)[number % 4])
+        radius = 0.5 * self.scene.style.force
+        self.canvas.add(turning_arrow(at, radius, phase(along), 2.0, math.copysign(1.0, value), name))
+        self.canvas.label(self.scene.words.symbol(couple_name(name, figure.number)), at + along * radius, clear=1.2)
+
+    def contact(self, found: Contact | None, reaction: str) -> complex:
+        """Draw how far from its pin the reaction of a guide acts, and hang it there; return the place."""
+        scene = self.scene
+        if found is None:
+            return 0j
+        pin = scene.mm(found.pin)
+        at = pin + found.u * (found.offset / scene.scales[POSITION].mu)
+        if found.couple:
+            return pin
+        if abs(at - pin) > 0.05:
+            length_along(self.canvas, scene, found.arm, pin, at)
+        elif scene.defined(found.arm) and scene.direction(reaction) != 0:
+            self.zero.append(found.arm)
+        return at
+
+    def arms(self, moments: Iterable[Moment]) -> None:
+        """Draw the arm of each force from the joint about which its moment is taken."""
+        drawn: dict[tuple[str, complex], list[Moment]] = {}
+        for moment in moments:
+            e = self.scene.direction(moment.force)
+            if e == 0:
+                continue
+            at, about = self.scene.mm(moment.at), self.scene.mm(moment.about)
+            foot = at + e * ((about - at) / e).real
+            if self.scene.solved.values[moment.arm] == 0.0:
+                self.zero.append(moment.arm)
+            key = moment.about, complex(round(foot.real, 3), round(foot.imag, 3))
+            drawn.setdefault(key, []).append(moment)
+        for sharing in drawn.values():
+            at, about = self.scene.mm(sharing[0].at), self.scene.mm(sharing[0].about)
+            names = list(dict.fromkeys(moment.arm for moment in sharing))
+            force_arm(self.canvas, self.scene, [m.force for m in sharing], names, at, about)
+
+    def notes(self) -> tuple[str, ...]:
+        """Say that arrows have no scale, and what is zero."""
+        return self.scene.words["said.arrows"], *zeros(self.scene, self.zero)
+
+
+def group_view(scene: Scene, group: Group) -> View:
+    """Draw a group without the links before it: its loads, reactions at its outer pairs, the arm of each moment."""
     canvas = Canvas(scene.style)
-    a, b, u = scene.mm(d.A), scene.mm(d.B), scene.solved.point(d.u)
-    rod_and_slider(canvas, scene, d, apart=True)
-    canvas.add(revolute(a, d.A, scene.style))
-    canvas.label(scene.words.mark(d.A), a, clear=scene.style.pair + 0.8)
-    along = (b - a) / abs(b - a)
-    i, j, k = d.before, d.rod.number, d.slider.number
-    at_a: list[complex] = []
-    at_b: list[complex] = []
-    _force(canvas, scene, f"R_{i}{j}_n", a, [along], at_a)
-    _force(canvas, scene, f"R_{i}{j}_t", a, [along], at_a)
-    for name, point in loads(scene, k):
-        _force(canvas, scene, name, scene.mm(point), [-along], at_b, gap=scene.style.slider[0] / 2)
-    guide = b + u * (guide_offset(scene, d) / scene.scales["position"].mu)
-    _force(canvas, scene, f"R_0{k}", guide, [-along], at_b, gap=scene.style.slider[1] / 2)
-    for name, point in loads(scene, j):
-        inside = point not in (d.A, d.B)
-        _force(canvas, scene, name, scene.mm(point), [along, -along] if inside else [-along], [] if inside else at_b)
-        if point != d.B:
-            force_arm(canvas, scene, [name], [arm_of(name, j)], scene.mm(point), b)
-    moment = f"M_i{j}"
-    if d.rod.inertia and scene.defined(moment):
-        _moment(canvas, scene, moment, a + (b - a) * 0.5, along)
-    forces = [f"R_{i}{j}_n", f"R_{i}{j}_t", f"R_0{k}", *(name for name, _ in (*loads(scene, k), *loads(scene, j)))]
-    zero = zeros(scene, [*forces, moment], [arm_of(n, j) for n, _ in loads(scene, j) if scene.direction(n) != 0])
-    notes = (scene.words["said.arrows"], *zero)
-    return canvas.finish(f"group_{d.name}", scene.heading("heading.group", "position", links=f"{j}, {k}"), notes)
+    sketch = Sketch(canvas, scene, draw_links(canvas, scene, group.links, framed=False))
+    for pair, own, names in reactions(scene, group):
+        _react(sketch, group, pair, own, names)
+    _load(sketch, group.links)
+    sketch.arms(moments_of(scene, group.links))
+    letter_links(canvas, scene, group.links, sketch.figures)
+    links = ", ".join(map(str, group.links))
+    heading = scene.heading("heading.group", POSITION, links=links)
+    return canvas.finish(f"group_{group.name}", heading, sketch.notes())
 
 
-def slider_view(scene: Scene, d: Dyad) -> View:
-    """Draw the slider apart with the forces on it, all of which pass through B when h_03 = 0."""
+def _react(sketch: Sketch, group: Group, pair: Pair, own: int, names: list[str]) -> None:
+    """Hang a reaction on its joint, or where it acts on a slider; a pure couple stands in its place."""
+    scene = sketch.scene
+    if not isinstance(pair, Prismatic):
+        for name in names:
+            sketch.force(name, scene.mm(pair.point))
+        return
+    other = next(number for number in pair.links if number != own)
+    found = contact(scene, group, pair, own, other)
+    at = sketch.contact(found, names[0]) if found else scene.mm(pin_of(scene, group, pair))
+    on_guide = scene.mm(pair.point)
+    u = guide_of(scene, pair)
+    for name in names:
+        sketch.force(name, on_guide + u * ((at - on_guide) / u).real)
+    if found and found.couple:
+        sketch.couple(found.couple, next(figure for figure in sketch.figures if figure.number == own), 0)
+
+
+def _load(sketch: Sketch, numbers: Iterable[int]) -> None:
+    """Hang all loads of links, what later groups hand on, and the couples."""
+    for number, figure in zip(numbers, sketch.figures, strict=True):
+        for name, point in (*loads(sketch.scene, number), *handed(sketch.scene, number)):
+            sketch.force(name, sketch.scene.mm(point))
+        for count, name in enumerate(couples(sketch.scene, number)):
+            sketch.couple(name, figure, count)
+
+
+def link_view(scene: Scene, group: Group, number: int) -> View:
+    """Draw a link of a group apart with all its forces, reactions of the rest of the group among them."""
     canvas = Canvas(scene.style)
-    k, j = d.slider.number, d.rod.number
-    b, u = 0j, scene.solved.point(d.u)
-    canvas.add(*slider(b, u, str(k), scene.style, guides=False), revolute(b, d.B, scene.style))
-    taken: list[complex] = []
-    half = scene.style.slider[0] / 2
-    _force(canvas, scene, f"R_{j}{k}", b, [], taken, gap=half)
-    for name, point in loads(scene, k):
-        at = (scene.solved.point(point) - scene.solved.point(d.B)) * (1.0 / scene.scales["position"].mu)
-        _force(canvas, scene, name, at, [], taken if point == d.B else [], gap=half)
-    at = u * (guide_offset(scene, d) / scene.scales["position"].mu)
-    _force(canvas, scene, f"R_0{k}", at, [], taken, gap=half)
-    canvas.label(scene.words.mark(d.B), b, clear=scene.style.pair + 0.8)
-    offset = f"h_0{k}"
-    length = f"{scene.segment(offset)} {scene.words['unit.mm']}" if scene.solved.quantities[offset].value else "0"
-    notes = (scene.words["said.arrows"], f"{scene.words.symbol(offset)} = {length}")
-    return canvas.finish(f"link_{k}", (scene.words["heading.link"].format(link=k),), notes)
+    sketch = Sketch(canvas, scene, draw_links(canvas, scene, (number,), framed=False))
+    for pair in (p for p in group.inner if number in p.links):
+        other = next(n for n in pair.links if n != number)
+        _react(sketch, group, pair, number, [f"R_{other}{number}"])
+    _load(sketch, (number,))
+    for pair, own, names in reactions(scene, group):
+        if own == number:
+            _react(sketch, group, pair, own, names)
+    letter_links(canvas, scene, (number,), sketch.figures)
+    return canvas.finish(f"link_{number}", scene.heading("heading.link", POSITION, link=str(number)), sketch.notes())
 
 
-def guide_offset(scene: Scene, d: Dyad) -> float:
-    """Return where along the guide from B the guide's reaction stands, so that it balances the slider's moments."""
-    k = d.slider.number
-    moment, reaction = scene.solved.values.get(f"_M_{k}", 0.0), scene.solved.values[f"R_0{k}"]
-    size = cross(scene.solved.point(d.u), complex(reaction))
-    return -float(moment) / size if moment and size else 0.0
+def couple_name(name: str, number: int) -> str:
+    """Return the name by which a couple is written: that of a guide on link 3 is `M_43`, also where it was a sum."""
+    return f"M_{name.removeprefix('_M_')}{number}" if name.startswith("_M_") else name
 
 
-def loads(scene: Scene, number: int) -> list[tuple[str, str]]:
-    """Return (force, point) of the loads on a link: its inertia force, then outer ones."""
-    force, link = f"F_i{number}", scene.solved.mechanism.link(number)
-    inertia = [(force, str(link.centre))] if force in scene.solved.quantities else []
-    return inertia + [(load.name, load.point) for load in scene.solved.mechanism.loads_on(number)]
+def _middle(figure: Skeleton, share: float) -> tuple[complex, complex]:
+    """Return a place on the longest line of a link, or in its block, and the direction of it."""
+    if not figure.strokes:
+        return figure.blocks[0] if figure.blocks else (figure.pins[0], 1 + 0j)
+    a, b = max(figure.strokes, key=lambda stroke: round(abs(stroke[1] - stroke[0]), 3))
+    return a + (b - a) * share, (b - a) / abs(b - a)
+
+
+def length_along(canvas: Canvas, scene: Scene, name: str, start: complex, end: complex) -> None:
+    """Draw the arm of a guide's reaction along the guide, from the pin to where it acts, with its millimetres."""
+    e = (end - start) / abs(end - start)
+    parts: list[Shape] = [Line(start, end, Pen.THIN)]
+    if abs(end - start) > 2.2 * scene.style.arrow:
+        parts += [Head(end, e), Head(start, -e)]
+    canvas.add(Shapes(tuple(parts), "arm", name))
+    text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
+    canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True)
 
 
 def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str], at: complex, about: complex) -> None:
@@ -100,28 +217,12 @@ def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str],
     canvas.label(text, (about, foot), clear=0.9, height=scene.style.text, strict=True)
 
 
-def zeros(scene: Scene, loads_and_couples: list[str], arms: list[str]) -> tuple[str, ...]:
-    """Say in one line which forces, couples and arms are zero: the figure cannot show them."""
-    w, values = scene.words, scene.solved.values
-    names = [name for name in loads_and_couples if scene.defined(name) and scene.solved.size(name) == 0.0]
-    parts = [w.symbol(name.removeprefix("_"), bar=not name.startswith("M")) for name in names]
-    parts += [w.symbol(name) for name in arms if scene.defined(name) and values[name] == 0.0]
+def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
+    """Say in one line which of these forces, couples and arms are zero: the figure cannot show them."""
+    w = scene.words
+    gone = [name for name in dict.fromkeys(names) if scene.defined(name) and scene.solved.size(name) == 0.0]
+    parts = [w.symbol(name.removeprefix("_"), bar=not name.startswith(("M", "h", "_M"))) for name in gone]
     return (f"{' = '.join(parts)} = 0",) if parts else ()
-
-
-def _force(
-    canvas: Canvas,
-    scene: Scene,
-    name: str,
-    at: complex,
-    lines: list[complex],
-    arrows: list[complex],
-    gap: float = 0.0,
-) -> None:
-    """Hang the arrow of a force on a point, clear of links and of other arrows there, and letter it."""
-    e = scene.direction(name)
-    if e != 0:
-        letter_arrow(canvas, scene, *force_arrow(at, e, name, lines, arrows, scene.style, gap))
 
 
 def letter_arrow(canvas: Canvas, scene: Scene, arrow: Arrow, ray: complex) -> None:
@@ -130,54 +231,3 @@ def letter_arrow(canvas: Canvas, scene: Scene, arrow: Arrow, ray: complex) -> No
     far = arrow.tip if abs((arrow.tip - arrow.tail) / abs(arrow.tip - arrow.tail) - ray) < 1.0 else arrow.tail
     name = scene.words.symbol(arrow.name.removeprefix("_"), bar=True)
     canvas.label(name, (far - ray * 0.55 * scene.style.force, far), clear=0.9)
-
-
-def _moment(canvas: Canvas, scene: Scene, name: str, at: complex, along: complex) -> None:
-    value = scene.solved.values[name]
-    if value == 0.0:
-        return
-    sense, radius = math.copysign(1.0, value), 0.5 * scene.style.force
-    middle = math.atan2(along.imag, along.real)
-    canvas.add(turning_arrow(at, radius, middle, 2.0, sense, name))
-    canvas.label(scene.words.symbol(name), at + along * radius, clear=1.2)
-
-
-def rod_and_slider(canvas: Canvas, scene: Scene, d: Dyad, apart: bool = False) -> None:
-    """Draw the rod, its centre of mass, and the slider on its guide; the compass arc unless drawn apart."""
-    a, b, u = scene.mm(d.A), scene.mm(d.B), scene.solved.point(d.u)
-    style = scene.style
-    if not apart:
-        origin = scene.mm(f"_{d.u}_origin")
-        along = ((b - origin) / u).real
-        reach = sorted((0.0, along))
-        low, high = (b + u * (end - along) for end in (reach[0] - 16.0, reach[1] + 16.0))
-        canvas.add(Line(low, high, Pen.AXIS))
-        # at the pivot's end, where there is no guide
-        canvas.label("x–x", max(low, high, key=lambda end: abs(end - b)), clear=1.0, prefer=-slider_up(u))
-    canvas.add(*slider(b, u, str(d.slider.number), style, guides=not apart))
-    if not apart:
-        # the compass arc runs past the slider on both sides
-        radius, direction = abs(b - a), phase(b - a)
-        spread = (2.4 * style.slider[1] + 4.0) / radius
-        canvas.add(Arc(a, radius, direction - spread / 2, spread, Pen.THIN, role="construction", name=f"arc_{d.B}"))
-    canvas.add(link(a, b, str(d.rod.number), style))
-    canvas.add(revolute(b, d.B, style))
-    canvas.label(str(d.rod.number), (a + (b - a) * 0.58, a + (b - a) * 0.92), clear=0.8)
-    for point in (*d.rod.points, *d.slider.points):
-        if point not in (d.A, d.B):
-            canvas.add(centre_of_mass(scene.mm(point), point, style))
-            canvas.label(scene.words.mark(point), scene.mm(point), clear=style.centre + 0.8)
-    # beside the slider's free edge: the compass arc and the arrows at B leave no room beside the pair itself
-    up = slider_up(u)
-    edge = b + up * (style.slider[1] / 2)
-    half = u * (style.slider[0] / 2)
-    canvas.label(scene.words.mark(d.B), (edge - half, edge + half), clear=1.0, prefer=up, priority=1)
-    # on the side away from the rod: nearer to it the number would seem to be the rod's
-    far = -half if ((a - b) / u).real > 0 else half
-    if apart:
-        foot = edge - up * style.slider[1]
-        canvas.label(str(d.slider.number), (foot, foot + far), clear=1.0, prefer=-up)
-    else:
-        canvas.label(str(d.slider.number), edge + far, clear=0.8, prefer=up)
-
-

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import combinations, pairwise
+
 from ..shapes import Line, Pen
 from ..symbols import force_arrow
 from ..view import Canvas, View
@@ -9,54 +11,81 @@ from .group_view import force_arm, letter_arrow, zeros
 from .plan_view import letter_marks
 from .scene import Scene
 
+BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
+
 
 def lever_view(scene: Scene) -> View:
     """Draw the lever: forces keep their directions, couples hang as pairs, arms run from the pole."""
     canvas = Canvas(scene.style)
-    words, style, driver = scene.words, scene.style, scene.solved.mechanism.driver
-    steps = scene.solved.program.on("lever")
-    marks = [step.name for step in steps if step.verb == "normal"]
-    p = scene.mm("lever.p")
-    lines = _lines(scene, marks)
+    words, style, point = scene.words, scene.style, scene.solved.mechanism.driver.point
+    marks = dict.fromkeys(("lever.p", *_images(scene)))
+    p = image(scene, "lever.p")
+    lines = _lines(scene, list(marks))
     canvas.add(*(Line(a, b, Pen.MAIN, role="lever", name=name) for a, b, name in lines))
-    rays = {
-        mark: [(q - scene.mm(mark)) for a, b, _ in lines for q in (a, b) if scene.mm(mark) in (a, b)] for mark in marks
-    }
-    lines_at = {mark: [ray for ray in rays[mark] if abs(ray) > 1e-6] for mark in marks}
     arrows_at: dict[complex, list[complex]] = {}
     feet: dict[complex, list[tuple[str, complex]]] = {}
-    for name, mark in hung_on_lever(scene):
+    hung = hung_on_lever(scene)
+    for name, mark in hung:
         e = scene.direction(name)
         if e == 0:
             continue
-        at = scene.mm(mark)
+        at = image(scene, mark)
+        rays = [q - at for a, b, _ in lines for q in (a, b) if at in (a, b) and abs(q - at) > 1e-6]
         arrows = arrows_at.setdefault(complex(round(at.real, 3), round(at.imag, 3)), [])
-        letter_arrow(canvas, scene, *force_arrow(at, e, name, lines_at[mark], arrows, style))
-        if name != "_F_bal" and scene.defined(arm_of(name)):
+        letter_arrow(canvas, scene, *force_arrow(at, e, name, rays, arrows, style))
+        if name not in BALANCE and scene.defined(arm_of(name)):
             foot = at + e * (((p - at) / e).real)
             feet.setdefault(complex(round(foot.real, 4), round(foot.imag, 4)), []).append((name, at))
     # forces on one line share their arm
     for sharing in feet.values():
         force_arm(canvas, scene, [name for name, _ in sharing], [arm_of(name) for name, _ in sharing], sharing[0][1], p)
-    canvas.label(
-        f"{words.mark('velocity.p')}{words.mark('velocity.' + driver.point)} = {scene.segment('V_' + driver.point)}",
-        (p, scene.mm(f"lever.{driver.point}")),
-        clear=0.9,
-        height=style.text,
-    )
+    text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{point}')} = {scene.segment(f'V_{point}')}"
+    canvas.label(text, (p, image(scene, f"lever.{point}")), clear=0.9, height=style.text)
     letters = {mark: words.mark(f"velocity.{mark.removeprefix('lever.')}") for mark in marks}
-    letter_marks(canvas, scene, {"lever.p": words.mark("lever.p"), **letters}, ("lever.p",))
-    hung = hung_on_lever(scene)
-    zero = zeros(scene, [name for name, _ in hung], [arm_of(name) for name, _ in hung if scene.direction(name) != 0])
+    letter_marks(canvas, scene, {**letters, "lever.p": words.mark("lever.p")}, ("lever.p",), image)
+    arms = [arm_of(name) for name, _ in hung if scene.direction(name) != 0]
+    zero = zeros(scene, [*(name for name, _ in hung), *arms])
     return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"], *zero))
 
 
+def image(scene: Scene, mark: str) -> complex:
+    """Return a mark of the lever, mm: that of the velocity plan turned by +90 degrees where nothing hangs on it."""
+    if mark in scene.solved.values:
+        return scene.mm(mark)
+    return scene.mm(f"velocity.{mark.removeprefix('lever.')}") * 1j
+
+
+def _images(scene: Scene) -> list[str]:
+    """Return the marks of the lever: those on which something hangs, and the images of all joints."""
+    hung = [step.name for step in scene.solved.program.on("lever") if step.verb == "normal"]
+    joints = [f"lever.{point}" for points in _joints(scene) for point in points]
+    return [*hung, *joints]
+
+
+def _joints(scene: Scene) -> list[list[str]]:
+    """Return for each link the letters of its joints, and of its points over others, that have marks of velocity."""
+    mechanism, names = scene.solved.mechanism, set(scene.solved.program.names)
+    found = []
+    for link in mechanism.links:
+        joints = [p.point for p in mechanism.pairs if link.number in p.links and p.point in link.points]
+        over = [p.point + str(link.number) for p in mechanism.pairs if link.number in p.links]
+        found.append([point for point in dict.fromkeys((*joints, *over)) if f"velocity.{point}" in names])
+    return found
+
+
 def _lines(scene: Scene, marks: list[str]) -> list[tuple[complex, complex, str]]:
-    """Return the lines of the turned velocity plan: from the pole, and between the ends of each rod."""
-    p = scene.mm("lever.p")
-    lines = [(p, scene.mm(mark), mark) for mark in marks]
-    lines += [(scene.mm(f"lever.{d.A}"), scene.mm(f"lever.{d.B}"), d.AB) for d in scene.dyads]
-    return [line for line in lines if abs(line[1] - line[0]) > 1e-6]
+    """Return the lines of the turned velocity plan: from the pole, and between the images of each link's joints."""
+    p = image(scene, "lever.p")
+    lines = [(p, image(scene, mark), mark) for mark in marks[1:]]
+    for points in _joints(scene):
+        ways = combinations(points, 2) if len(points) < 4 else pairwise([*points, points[0]])
+        lines += [(image(scene, f"lever.{a}"), image(scene, f"lever.{b}"), a + b) for a, b in ways]
+    kept: dict[frozenset[complex], tuple[complex, complex, str]] = {}
+    for a, b, name in lines:
+        ends = frozenset(complex(round(end.real, 4), round(end.imag, 4)) for end in (a, b))
+        if len(ends) == 2:
+            kept.setdefault(ends, (a, b, name))
+    return list(kept.values())
 
 
 def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
@@ -66,7 +95,8 @@ def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
         for step in scene.solved.program
         if step.verb == "moment" and step.operands[2] == "lever.p"
     ]
-    return [*hung, ("_F_bal", f"lever.{scene.solved.mechanism.driver.point}")]
+    balance = next(name for name in BALANCE if name in scene.solved.values)
+    return [*hung, (balance, f"lever.{scene.solved.mechanism.driver.point}")]
 
 
 def arm_of(force: str) -> str:

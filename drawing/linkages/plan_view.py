@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from ...plans.board import Step
@@ -56,6 +56,7 @@ def _construction(canvas: Canvas, scene: Scene, steps: tuple[Step, ...]) -> None
 
 def _vectors(canvas: Canvas, scene: Scene, vectors: list[tuple[str, str, str]]) -> None:
     named: dict[frozenset[complex], None] = {}
+    shared = {(tail, tip): [name for name, *ends in vectors if ends == [tail, tip]] for _, tail, tip in vectors}
     for quantity, tail, tip in vectors:
         vector = scene.vector(quantity, tail, tip)
         short = abs(vector.tip - vector.tail) < SHORT
@@ -64,11 +65,19 @@ def _vectors(canvas: Canvas, scene: Scene, vectors: list[tuple[str, str, str]]) 
         ends = frozenset((_rounded(vector.tail), _rounded(vector.tip)))
         if short:
             continue  # said in words under the heading
+        names = list(dict.fromkeys(shared[tail, tip]))
+        if quantity != names[0]:
+            continue  # its letter stands beside that of the first of them
         across = 1j * (vector.tip - vector.tail)
         # the first of two vectors on one line has its letter above it or to the right
         side = (-across if (across / (0.3 + 1j)).real > 0 else across) if ends in named else 0j
         named[ends] = None
-        canvas.label(scene.words.symbol(quantity, bar=True), (vector.tail, vector.tip), prefer=side, clear=0.9)
+        text = " = ".join(_symbol(scene, name) for name in names)
+        canvas.label(text, (vector.tail, vector.tip), prefer=side, clear=0.9)
+
+
+def _symbol(scene: Scene, quantity: str) -> str:
+    return scene.words.symbol(quantity.removeprefix("_"), bar=True)
 
 
 def _letters(canvas: Canvas, scene: Scene, plan: str, tips: list[str]) -> None:
@@ -78,19 +87,26 @@ def _letters(canvas: Canvas, scene: Scene, plan: str, tips: list[str]) -> None:
     letter_marks(canvas, scene, {mark: scene.words.mark(mark) for mark in (*poles, *tips)}, poles)
 
 
-def letter_marks(canvas: Canvas, scene: Scene, letters: Mapping[str, str], poles: Sequence[str]) -> None:
+def letter_marks(
+    canvas: Canvas,
+    scene: Scene,
+    letters: Mapping[str, str],
+    poles: Sequence[str],
+    place_of: Callable[[Scene, str], complex] = Scene.mm,
+) -> None:
     """Draw poles and points with their letters outside of the figure; marks that coincide share one letter."""
-    middle = sum(scene.mm(mark) for mark in letters) / len(letters)
+    places = {mark: place_of(scene, mark) for mark in letters}
+    middle = sum(places.values()) / len(places)
     at: dict[complex, list[str]] = {}
     for mark, letter in letters.items():
-        at.setdefault(_rounded(scene.mm(mark)), []).append(letter)
+        at.setdefault(_rounded(places[mark]), []).append(letter)
     for mark in poles:
-        canvas.add(Group((Circle(scene.mm(mark), scene.style.node, Pen.MAIN, fill="white"),), "point", mark))
+        canvas.add(Group((Circle(places[mark], scene.style.node, Pen.MAIN, fill="white"),), "point", mark))
     for place, names in at.items():
         canvas.label(", ".join(names), place, prefer=place - middle, clear=1.0, priority=1)
     for mark in letters:
         if mark not in poles:
-            canvas.add(Group((Circle(scene.mm(mark), 0.3, Pen.THIN, fill="black"),), "point", mark))
+            canvas.add(Group((Circle(places[mark], 0.3, Pen.THIN, fill="black"),), "point", mark))
 
 
 def _said(scene: Scene, plan: str, vectors: list[tuple[str, str, str]]) -> list[str]:
@@ -104,11 +120,11 @@ def _said(scene: Scene, plan: str, vectors: list[tuple[str, str, str]]) -> list[
     for quantity, tail, tip in dict.fromkeys(vectors):
         length = abs(scene.mm(tip) - scene.mm(tail))
         if length < 1e-6:
-            lines.append(scene.words["said.zero"].format(vector=scene.words.symbol(quantity, bar=True)))
+            lines.append(scene.words["said.zero"].format(vector=_symbol(scene, quantity)))
         elif length < SHORT:
             lines.append(
                 scene.words["said.short"].format(
-                    vector=scene.words.symbol(quantity, bar=True), mm=scene.words.number(length, 2)
+                    vector=_symbol(scene, quantity), mm=scene.words.number(length, 2)
                 )
             )
     return lines

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from ...plans.linkages.rrp import Dyad, dyad
+from ...plans.linkages.mechanism import Prismatic
 from ...plans.linkages.solved import Solved
+from ...plans.linkages.structure import Group
 from ..view import View
 from .driver_view import driver_view
 from .forces_text import forces_block
-from .group_view import group_view, slider_view
+from .group_view import group_view, link_view
 from .kinematics_text import kinematics_block
 from .lever_text import lever_block
 from .lever_view import lever_view
@@ -53,18 +54,45 @@ def _forces(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Fi
     if "forces" in plans:
         symbols, link = solved.scale_of_plan, str(solved.structure.driver)
         for group in reversed(solved.structure.groups):
-            yield from _group(dyad(solved.mechanism, group), symbols[f"forces_{group.name}"])
+            yield from _group(solved, group)
         yield Figure(driver_view, "mu_l")
         yield _plan(f"forces_{link}", "heading.link_forces", symbols[f"forces_{link}"], link=link)
         yield Figure(lambda scene: forces_block(scene, width))
 
 
-def _group(d: Dyad, symbol: str) -> Iterator[Figure]:
-    links, rod = f"{d.rod.number}, {d.slider.number}", str(d.rod.number)
-    yield Figure(lambda scene: group_view(scene, d), "mu_l")
-    yield _plan(f"forces_{d.name}", "heading.group_forces", symbol, links=links)
-    yield _plan(f"forces_{rod}", "heading.link_forces", symbol, link=rod)
-    yield Figure(lambda scene: slider_view(scene, d))
+def _group(solved: Solved, group: Group) -> Iterator[Figure]:
+    """Go through a group, its plans of forces in the order of construction, and its sliders apart.
+
+    A slider whose plan the construction draws stands before it; that of a rod beside it stands after the plans.
+    """
+    symbols, sliding = solved.scale_of_plan, _sliding(group)
+    plans = [plan for plan in symbols if plan in {f"forces_{n}" for n in (group.name, *group.links)}]
+    plans.sort(key=solved.program.plans.index)
+    alone = [number for number in group.links if f"forces_{number}" in plans]
+    yield _apart(group, None)
+    for plan in plans:
+        link = plan.removeprefix("forces_")
+        if link == group.name:
+            yield _plan(plan, "heading.group_forces", symbols[plan], links=", ".join(map(str, group.links)))
+            continue
+        if int(link) in sliding:
+            yield _apart(group, int(link))
+        yield _plan(plan, "heading.link_forces", symbols[plan], link=link)
+    if alone and not sliding & {*alone}:
+        yield from (_apart(group, number) for number in group.links if number in sliding)
+
+
+def _sliding(group: Group) -> set[int]:
+    """Return the links of a group that have sliding pairs."""
+    pairs = (pair for pair in (*group.inner, *group.outer) if isinstance(pair, Prismatic))
+    return {number for pair in pairs for number in pair.links if number in group.links}
+
+
+def _apart(group: Group, number: int | None) -> Figure:
+    """Return the figure of a whole group, or of one of its links."""
+    if number is None:
+        return Figure(lambda scene: group_view(scene, group), "mu_l")
+    return Figure(lambda scene: link_view(scene, group, number), "mu_l")
 
 
 def _lever(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
