@@ -8,7 +8,7 @@ from typing import Any
 
 from ...scales.errors import InputError
 from ..board import Program, RecordingBoard
-from . import compound, driver, prp, rpp, rpr, rrp, rrr, sliding_driver
+from . import compound, driver, prp, rpp, rpr, rrp, rrr, sliding_driver, triad
 from .lever import lever
 from .loads import hung, lay_loads
 from .mechanism import FRAME, ZERO, Driver, Mechanism, SlidingDriver
@@ -28,7 +28,7 @@ NEEDS = {
     "lever": ("acceleration",),
 }
 Attached = list[tuple[ModuleType, AssurGroup]]
-CONSTRUCTIONS: dict[str, ModuleType] = {"RRR": rrr, "RRP": rrp, "RPR": rpr, "PRP": prp, "RPP": rpp}
+CONSTRUCTIONS: dict[str, ModuleType] = {"RRR": rrr, "RRP": rrp, "RPR": rpr, "PRP": prp, "RPP": rpp, "III": triad}
 DRIVERS: dict[type, ModuleType] = {Driver: driver, SlidingDriver: sliding_driver}
 
 
@@ -151,6 +151,10 @@ def board_givens(mechanism: Mechanism, values: Mapping[str, Any], program: Progr
     The size of a load is `|F_3|` there, for `F_3` is the vector. Where `program` needs the ends of the working stroke,
     these are found first.
     """
+    if mechanism.starts:
+        from .following import followed  # which asks for position plans itself
+
+        values = {**values, **followed(mechanism, values)}
     named = {diagram.name for diagram in mechanism.diagrams}
     given = [load.magnitude for load in (*mechanism.loads, *mechanism.couples) if load.magnitude not in named]
     sizes = {f"|{name}|": values[name] for name in given}

@@ -191,6 +191,26 @@ class Couple:
 
 
 @dataclass(frozen=True, slots=True)
+class Start:
+    """Where the central link of a group of class III stands, about, when the driver is at `driver`.
+
+    `x`, `y` are the place of the origin of its own coordinates, `angle` is that of its x axis; from there the group is
+    followed to any other position. `legs` are the two links whose lines make its special point; without them the two
+    are taken that make the best one.
+    """
+
+    link: int
+    x: str
+    y: str
+    angle: str
+    driver: str
+    legs: tuple[int, int] | None = None
+
+
+Pair = Revolute | Prismatic
+
+
+@dataclass(frozen=True, slots=True)
 class Mechanism:
     """Links (without the frame, number 0), pairs, the driver and the loads."""
 
@@ -202,6 +222,11 @@ class Mechanism:
     diagrams: tuple[Diagram, ...] = field(default=())
     stroke: Stroke | None = None
     gravity: str | None = None  # acceleration of free fall, downwards
+    starts: tuple[Start, ...] = field(default=())
+
+    def start(self, number: int) -> Start | None:
+        """Return where link `number` starts."""
+        return next((start for start in self.starts if start.link == number), None)
 
     def link(self, number: int) -> Link:
         """Return the moving link with this number."""
@@ -218,6 +243,7 @@ class Mechanism:
             else:
                 names += [*pair.through, pair.direction, pair.offset, pair.branch or ZERO]
         names += [load.direction or ZERO for load in self.loads] + [couple.sense or ZERO for couple in self.couples]
+        names += [name for start in self.starts for name in (start.x, start.y, start.angle, start.driver)]
         names += [name for d in self.diagrams for name in (*d.at, *d.values, *(d.back or ()))]
         names += [self.gravity or ZERO, self.stroke.sense if self.stroke else ZERO]
         return frozenset((*names, *self.driver.givens)) - self.opposites.keys()

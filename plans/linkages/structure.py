@@ -22,7 +22,7 @@ class Group:
     """An Assur group: its links, its pairs within, its pairs with what came before.
 
     For a dyad `links` is (first, second), `inner` has one pair, `outer` that of the first link and that of the second,
-    in the order of the letters of `kind`.
+    in the order of the letters of `kind`. A triad has its links by number, its pairs by the numbers of the legs.
     """
 
     links: tuple[int, ...]
@@ -42,8 +42,18 @@ class Group:
 
     @property
     def view(self) -> int | None:
-        """Kind 1 to 5 of a class II group."""
-        return KINDS.index(self.kind) + 1 if self.kind in KINDS else None
+        """Kind 1 to 5 of a class II group; of a triad its order, 3."""
+        return self.order if self.kind == TRIAD else KINDS.index(self.kind) + 1 if self.kind in KINDS else None
+
+    @property
+    def central(self) -> int:
+        """The link of a triad that its three inner pairs have in common."""
+        return next(number for number in self.links if all(number in pair.links for pair in self.inner))
+
+    @property
+    def legs(self) -> tuple[int, ...]:
+        """The other links of a triad."""
+        return tuple(number for number in self.links if number != self.central)
 
     @property
     def before(self) -> tuple[int, ...]:
