@@ -195,3 +195,12 @@ def force_arrow(
     arrows.append(ray * (start + style.force))
     tail, tip = (near, far) if outward else (far, near)
     return Arrow(tail, tip, Pen.MAIN, name=name), ray
+
+
+def dimension(a: complex, b: complex, name: str, style: Style) -> Group:
+    """Return a dimension line from `a` to `b`, its heads outside where they have no room between."""
+    e, reach = (b - a) / abs(b - a), abs(b - a)
+    if reach > 2.5 * style.arrow:
+        return Group((Line(a, b, Pen.THIN), Head(a, -e), Head(b, e)), "dimension", name)
+    out = 2.0 * style.arrow
+    return Group((Line(a - e * out, b + e * out, Pen.THIN), Head(a, e), Head(b, -e)), "dimension", name)

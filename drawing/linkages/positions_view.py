@@ -12,6 +12,7 @@ from ...plans.linkages.cycle import Cycle
 from ...plans.linkages.solved import solve_linkage
 from ...plans.linkages.strokes import OutputMotion
 from ..shapes import Circle, Line, Pen, Polyline
+from ..symbols import slider_up
 from ..view import Canvas, View
 from .links import draw_frame, draw_links, letter_links
 from .scene import Scene
@@ -147,8 +148,12 @@ def _number(canvas: Canvas, scene: Scene, stands: list[Stand], point: str) -> No
         key = next((other for other in at if abs(other - place) < CLOSE), place)
         at.setdefault(key, []).append(str(stand.number))
     middle = sum(at) / len(at) if at else 0j
+    ends = [place - middle for place in at]
+    far = max(ends, key=abs, default=0j)
+    straight = bool(far) and all(abs((way / far).imag) * abs(far) < STRAIGHT for way in ends)
     for place, numbers in at.items():
-        away = place - middle
+        # beside a straight path all on one side, outside of a curved one
+        away = -slider_up(far / abs(far)) if straight else place - middle
         canvas.label(", ".join(numbers), place, prefer=away, clear=scene.style.node + 0.6, height=scene.style.text)
 
 

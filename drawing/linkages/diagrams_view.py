@@ -1,0 +1,173 @@
+"""Kinematic diagrams of the output: travel, velocity and acceleration over the cycle, by plans and by chords."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...plans.graphs import Diagrams, pole_distance
+from ...plans.linkages.cycle import Cycle
+from ...plans.linkages.motions import diagrams
+from ...plans.linkages.strokes import OutputMotion
+from ...scales.scale import Scale, rounded, steps
+from ..diagram import Axis, Field, axes, curve
+from ..shapes import Circle, Group, Line, Pen, Polyline
+from ..symbols import dimension
+from ..view import Canvas, View
+from .positions_view import main_output
+from .scene import Scene
+
+Array = NDArray[Any]
+DENSE = 180  # sections through whose ends a smooth curve is drawn
+LENGTH = {5.0: 180.0, 3.5: 120.0}  # mm of the axis of angles, by the height of letters
+TALL = 0.36  # height of a diagram in parts of that length
+FARTHEST = 50.0  # mm from the axis beyond which no pole stands
+GAP = 12.0  # mm between diagrams
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """One of the diagrams over one another: its smooth curve, the points found by chords, its scale factor."""
+
+    name: str
+    scale: Scale
+    curve: Array
+    chords: tuple[Array, Array] | None = None  # seconds, values
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The least and largest ordinate, zero included."""
+        every = self.curve if self.chords is None else np.concatenate((self.curve, self.chords[1]))
+        return min(0.0, float(np.nanmin(every))), max(0.0, float(np.nanmax(every)))
+
+
+def diagrams_view(scene: Scene, cycle: Cycle) -> View:
+    """Draw the three diagrams of the main output; its letter is the point's, or the link's number.
+
+    Raises
+    ------
+    ValueError
+        When there is no output that moves to and fro.
+    """
+    motion = main_output(cycle)
+    if motion is None:
+        raise ValueError("no output has a stroke")
+    canvas, sections = Canvas(scene.style), len(cycle.angles)
+    of = str(motion.output.link)
+    drawn = diagrams(cycle, of, sections)
+    length = LENGTH[scene.style.label]
+    duration = float(drawn.times[-1])
+    across = Scale("mu_t", rounded(duration / length, 6), "s")
+    bands = _bands(scene, drawn, diagrams(cycle, of, DENSE), across, motion)
+    low = 0.0
+    for number, band in enumerate(bands):
+        least, most = (band.scale.drawn(end) for end in band.ends)
+        low -= most + (GAP + scene.style.label * 2 if number else 0.0)
+        _draw(canvas, scene, _field(scene, band, across, drawn, 1j * low), band, sections)
+        if number:
+            pair = bands[number - 1 : number + 1]
+            _pole(canvas, scene, _field(scene, band, across, drawn, 1j * low), pair, f"P_{{{number}}}")
+        low += least
+    _chords(canvas, scene, _field(scene, bands[0], across, drawn, -1j * bands[0].scale.drawn(bands[0].ends[1])), drawn)
+    heading = (
+        scene.words["heading.diagrams"].format(link=of),
+        scene.words.scale(across),
+        _turning(scene, cycle, length),
+    )
+    return canvas.finish("diagrams", tuple(filter(None, heading)), _notes(scene, drawn, bands))
+
+
+def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion: OutputMotion) -> tuple[Band, ...]:
+    """Choose the scale factors: round ones with which the diagrams are tall enough and the poles near enough."""
+    tall = TALL * LENGTH[scene.style.label]
+    slides, link = motion.output.slides, motion.output.link
+    names = (f"s_{link}", f"V_{link}", f"a_{link}") if slides else (f"phi_{link}", f"omega_{link}", f"epsilon_{link}")
+    unit = "m" if slides else "rad"
+    travel = dense.s - np.nanmin(dense.s)
+    bands = [Band(names[0], _round(f"mu_{names[0].split('_')[0]}", travel, tall, unit), travel)]
+    for name, values, found, per in zip(
+        names[1:], (dense.v, dense.a), (drawn.velocity, drawn.acceleration), ("s", "s^2"), strict=True
+    ):
+        scale = _round(f"mu_{name.split('_')[0]}", values, tall, f"{unit}/{per}")
+        for mu in steps(scale.mu):
+            scale = Scale(scale.symbol, mu, scale.unit)
+            if pole_distance(bands[-1].scale.mu, across.mu, mu) <= FARTHEST:
+                break
+        bands.append(Band(name, scale, values, (found.times, found.chords)))
+    return tuple(bands)
+
+
+def _round(symbol: str, values: Array, tall: float, unit: str) -> Scale:
+    reach = max(float(np.nanmax(values)), 0.0) - min(float(np.nanmin(values)), 0.0)
+    return Scale(symbol, steps(reach / tall)[0] if reach > 0.0 else 1.0, unit)
+
+
+def _field(scene: Scene, band: Band, across: Scale, drawn: Diagrams, origin: complex) -> Field:
+    times = drawn.times.tolist()
+    x = Axis("t", across, 0.0, times[-1], {t: str(k) for k, t in enumerate(times)})
+    low, high = band.ends
+    letter = f"{scene.words.symbol(band.name)};  {scene.words.scale(band.scale)}"
+    return Field(origin, x, Axis(letter, band.scale, low, high, {}))
+
+
+def _draw(canvas: Canvas, scene: Scene, field: Field, band: Band, sections: int) -> None:
+    """Draw the axes, the curve by plans in main lines, the points by chords on a dashed line."""
+    axes(canvas, field)
+    places = np.linspace(0.0, field.x.high, len(band.curve))
+    curve(canvas, field, zip(places.tolist(), band.curve.tolist(), strict=True), band.name)
+    if band.chords is None:
+        return
+    found = list(zip(*(values.tolist() for values in band.chords), strict=True))
+    curve(canvas, field, found, f"{band.name}_chords", Pen.DASHED)
+    points = (field.at(t, y) for t, y in found if math.isfinite(y))
+    canvas.add(*(Circle(at, scene.style.node, Pen.THIN, fill="white", role="chord-point") for at in points))
+
+
+def _pole(canvas: Canvas, scene: Scene, field: Field, bands: Sequence[Band], letter: str) -> None:
+    """Draw the pole at its distance to the left of the axis, and a ray parallel to each chord of the diagram above."""
+    above, band = bands
+    reach = pole_distance(above.scale.mu, field.x.scale.mu, band.scale.mu)
+    pole = field.origin - reach
+    assert band.chords is not None
+    cuts = {round(field.y.mm(y), 4) for y in band.chords[1].tolist() if math.isfinite(y)}
+    canvas.add(*(Line(pole, field.origin + 1j * cut, Pen.THIN, role="ray") for cut in sorted(cuts)))
+    canvas.add(Line(pole - 3.0, field.origin, Pen.THIN, role="axis"))
+    canvas.add(Circle(pole, scene.style.node, Pen.MAIN, fill="white", role="pole"))
+    canvas.label(letter, pole, prefer=-1.0 + 1j, clear=1.0, height=scene.style.text)
+    below = field.origin + 1j * (field.y.mm(field.y.low) - 4.0)
+    feet = complex(pole.real, below.imag), complex(field.origin.real, below.imag)
+    for start, end in zip((pole, field.at(0.0, field.y.low)), feet, strict=True):
+        canvas.add(Line(start, end - 1.5j, Pen.THIN, role="extension"))
+    name = f"H_{band.name.split('_')[0]}"
+    canvas.add(dimension(*feet, name, scene.style))
+    text = f"{scene.words.symbol(name)} = {scene.words.number(reach, 2)}"
+    canvas.label(text, feet, prefer=-1j, clear=0.8, height=scene.style.text)
+
+
+def _chords(canvas: Canvas, scene: Scene, field: Field, drawn: Diagrams) -> None:
+    """Draw the chords of the travel."""
+    least = float(np.nanmin(drawn.s))
+    points = [field.at(t, s - least) for t, s in zip(drawn.times.tolist(), drawn.s.tolist(), strict=True)]
+    known = tuple(point for point in points if math.isfinite(point.imag))
+    canvas.add(Group((Polyline(known, Pen.THIN),), "chords", "s"))
+
+
+def _turning(scene: Scene, cycle: Cycle, length: float) -> str:
+    """Return the scale factor of the crank's angle; a sliding driver has none."""
+    if not cycle.drive.turns:
+        return ""
+    return scene.words.scale(Scale("mu_phi", rounded(2.0 * math.pi / length, 6), "rad"))
+
+
+def _notes(scene: Scene, drawn: Diagrams, bands: Sequence[Band]) -> tuple[str, ...]:
+    """Say how far the chords are from the plans."""
+    parts = []
+    for band, found in zip(bands[1:], (drawn.velocity, drawn.acceleration), strict=True):
+        most = float(np.nanmax(found.per_cent, initial=0.0))
+        parts.append(f"{scene.words.symbol(band.name)} {scene.words.number(most, 1)} %")
+    return (scene.words["said.chords"], scene.words["said.chords_off"].format(values="; ".join(parts)))
