@@ -126,12 +126,18 @@ def _groups(joints: tuple[Joint | Prismatic, ...], known: list[int], left: list[
             if 2 * (len(inner) + len(outer)) == 3 * size and len({_within(p, links) for p in outer}) == len(outer) > 1:
                 found.append((named, links, inner, outer))
         for _, links, inner, outer in sorted(found, key=lambda one: not one[0]):
-            yield _dyad(links, inner, outer) if size == 2 else Group(links, inner, outer, _class(size, len(outer)))
+            yield _dyad(links, inner, outer) if size == 2 else _of_four(links, inner, outer)
 
 
-def _class(links: int, outer: int) -> str:
-    """Return III for a triad, a tree of four links; IV for a closed contour of four; `?` for larger groups."""
-    return {(4, 3): "III", (4, 2): "IV"}.get((links, outer), "?")
+def _of_four(links: tuple[int, ...], inner: tuple[Pair, ...], outer: tuple[Pair, ...]) -> Group:
+    """Tell III, a triad, from IV, a closed contour of four links, and from larger groups, `?`."""
+    links, size = tuple(sorted(links)), (len(links), len(outer))
+    centres = [number for number in links if all(number in pair.links for pair in inner)]
+    if size != (4, 3) or not centres:
+        return Group(links, inner, outer, "IV" if size == (4, 2) else "?")
+    legs = [number for number in links if number != centres[0]]
+    by_leg = [next(pair for pair in pairs if number in pair.links) for pairs in (inner, outer) for number in legs]
+    return Group(links, tuple(by_leg[:3]), tuple(by_leg[3:]), TRIAD)
 
 
 def _within(pair: Pair, links: tuple[int, ...]) -> int:
