@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import get_args
+from typing import TYPE_CHECKING, get_args
 
 from ..drawing.formats import format_named
 from ..drawing.linkages.fitting import Contents
@@ -21,8 +21,11 @@ from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.scale import Scale
 from .arguments import of_kind
-from .case import Settings, solve_case
+from .case import Case, Settings, solve_case
 from .task import Task
+
+if TYPE_CHECKING:
+    from ..plans.linkages.cycle import Cycle
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -147,5 +150,16 @@ def sheet(
         document_type=words["sheet.document"],
         language=lang,
     )
-    drawn = draw(Contents(case.solved, case.plans, case.choosers, case.givens, words, norm), stamp, paper)
+    contents = Contents(case.solved, case.plans, case.choosers, case.givens, words, norm, _cycle(case))
+    drawn = draw(contents, stamp, paper)
     return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, case.warnings)
+
+
+def _cycle(case: Case) -> Cycle | None:
+    """Return the whole cycle where the task draws it; drawing a single position does not import it."""
+    if "cycle" not in case.plans:
+        return None
+    from ..plans.linkages.cycle import cycle
+
+    values = case.task.values(case.variant, case.settings)
+    return cycle(case.solved.mechanism, values, ("position", "velocity", "acceleration"))

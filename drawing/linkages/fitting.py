@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from ...plans.linkages.rrp import dyad
 from ...plans.linkages.solved import Solved
@@ -23,6 +24,9 @@ from .reach import Reach, reaches
 from .scene import Given, Scene
 from .views import Figure, figures
 
+if TYPE_CHECKING:
+    from ...plans.linkages.cycle import Cycle
+
 SMALLEST_FIRST = ("A4", "A3", "A2", "A1")
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 FORCES_ONLY = 3
@@ -40,6 +44,7 @@ class Contents:
     givens: Mapping[str, Given]
     words: Words
     norm: Norm = "gost"
+    cycle: Cycle | None = None
 
 
 class Watched(Mapping[str, Scale]):
@@ -110,7 +115,7 @@ class Fitting:
         while True:
             scene = self._scene(sheet, {s: ladder[rungs[root[s]]] for s, ladder in self.ladders.items()})
             views, too_large = [], {}
-            for number, figure in enumerate(figures(contents.solved, contents.plans, text_width)):
+            for number, figure in enumerate(figures(contents.solved, contents.plans, text_width, contents.cycle)):
                 view = self._drawn(sheet, number, figure, scene)
                 views.append(view)
                 if figure.symbol and (view.size[0] > width or view.size[1] > height):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from ...plans.linkages.mechanism import Prismatic
 from ...plans.linkages.solved import Solved
@@ -21,6 +22,9 @@ from .scheme import scheme
 from .structure_text import structure_block
 from .tables import givens_table, kinds_of_results, results_table
 
+if TYPE_CHECKING:
+    from ...plans.linkages.cycle import Cycle
+
 
 @dataclass(frozen=True, slots=True)
 class Figure:
@@ -30,9 +34,14 @@ class Figure:
     symbol: str = ""
 
 
-def figures(solved: Solved, plans: tuple[str, ...], width: float) -> list[Figure]:
+def figures(solved: Solved, plans: tuple[str, ...], width: float, cycle: Cycle | None = None) -> list[Figure]:
     """Return the figures for `plans` in the order of the work; lines of text are at most `width` long."""
-    return [*_kinematics(solved, plans, width), *_forces(solved, plans, width), *_lever(solved, plans, width)]
+    return [
+        *_kinematics(solved, plans, width),
+        *_cycle(cycle),
+        *_forces(solved, plans, width),
+        *_lever(solved, plans, width),
+    ]
 
 
 def _kinematics(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
@@ -48,6 +57,17 @@ def _kinematics(solved: Solved, plans: tuple[str, ...], width: float) -> Iterato
     if {"velocity", "acceleration"} & set(plans):
         yield Figure(lambda scene: kinematics_block(scene, width, plans))
     yield from (_results(kind) for kind in ("velocity", "acceleration") if kind in results and kind in plans)
+
+
+def _cycle(cycle: Cycle | None) -> Iterator[Figure]:
+    if cycle is not None:
+        # a sheet of one position does not pay for the import
+        from .diagrams_view import diagrams_view
+        from .positions_view import main_output, positions_view
+
+        yield Figure(lambda scene: positions_view(scene, cycle), "mu_l")
+        if main_output(cycle) is not None:
+            yield Figure(lambda scene: diagrams_view(scene, cycle))
 
 
 def _forces(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:

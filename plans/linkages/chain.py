@@ -17,13 +17,14 @@ from .parts import AssurGroup, Bodies, Forces, Span
 from .structure import Structure, analyse
 from .sweeping import without_loads
 
-PLANS = ("structure", "position", "velocity", "acceleration", "compound", "forces", "lever")
+PLANS = ("structure", "position", "velocity", "acceleration", "compound", "forces", "lever", "cycle")
 NEEDS = {
     "structure": (),
     "position": (),
     "velocity": ("position",),
     "acceleration": ("velocity",),
     "compound": ("acceleration",),
+    "cycle": ("acceleration",),
     "forces": ("acceleration",),
     "lever": ("acceleration",),
 }
