@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import difflib
+import textwrap
 from collections.abc import Iterable
 from typing import Any
 
 from .errors import InputError
 from .numbers import quote
+
+LONGEST = 200  # characters of a list of names in a message
 
 
 def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> InputError:
@@ -26,5 +29,5 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Input
     like = difflib.get_close_matches(text, names, n=1, cutoff=0.6) if 2 < len(text) < 100 else []
     if like:
         return InputError(f"{key}-like", text=quote(text), like=like[0], **data)
-    shown = ", ".join(names[:20]) + (", …" if len(names) > 20 else "")
+    shown = textwrap.shorten(", ".join(names), LONGEST, placeholder=" …")
     return InputError(key, text=quote(text), known=shown or "—", **data)

@@ -71,7 +71,7 @@ FILES = {
     "driver about no pivot": ('pivot = "O"', 'pivot = "A"', "driver-pivot"),
     "driver without a crank": ('point = "A"\nangle', 'point = "O"\nangle', "driver-point"),
     "load named like a length": ('name = "F_3"', 'name = "l_OA"', "id-twice"),
-    "no structure": ("links = [3, 0]", "links = [2, 0]", "no-group"),
+    "no structure": ("links = [3, 0]", "links = [2, 0]", "link-loose"),
     "driver with a speed in newtons": ('speed = "n_1"', 'speed = "F_3"', "value-wrong"),
     "load in millimetres": ('magnitude = "F_3"', 'magnitude = "l_OA"', "value-wrong"),
     "load on no link": ('name = "F_3"\nlink = 3', 'name = "F_3"\nlink = 4', "link-unknown"),

@@ -14,7 +14,7 @@ from .checks import Checker, Field, array_of, as_is, label, name, record, rows, 
 from .task import Bound, Given, Variant
 from .toml_places import Path
 
-_NEVER_NEGATIVE = {unit("kg").dimension, unit("kg*m^2").dimension, unit("rad/s").dimension}
+NEVER_NEGATIVE = {unit("kg").dimension, unit("kg*m^2").dimension, unit("rad/s").dimension}
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,7 @@ def read_givens(checker: Checker, raw: object) -> dict[str, Given]:
 
 def _with_default(checker: Checker, path: Path, given: Given, read: Mapping[str, Any]) -> Given:
     """Return `given` with the bound of its dimension and its default."""
-    if given.unit is not None and given.unit.dimension in _NEVER_NEGATIVE:
+    if given.unit is not None and given.unit.dimension in NEVER_NEGATIVE:
         given = replace(given, bound=Bound.NOT_NEGATIVE)
     if "default" not in read:
         return given

@@ -24,7 +24,7 @@ from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import ONE, Dimension, Unit, unit
 from .checks import NAME, Checker, Field, Read, array_of, link_number, name, one_of, record, rows
-from .checks_givens import literal
+from .checks_givens import NEVER_NEGATIVE, literal
 from .toml_places import Path
 
 _RAD_S, _N, _KG, _KG_M2 = unit("rad/s"), unit("N"), unit("kg"), unit("kg*m^2")
@@ -63,15 +63,26 @@ class Names:
                 setting = literal(checker, path, raw)
                 if setting is None:
                     return None
+                if setting.value < 0.0 and setting.dimension in NEVER_NEGATIVE:
+                    checker.fault(path, InputError("negative", text=quote(raw)))
+                    return None
                 found, written = self.constant(setting.value, setting.dimension), setting.dimension
             if written != wanted.dimension:
                 checker.fault(path, InputError("value-wrong", text=quote(raw), expected=wanted.name))
                 return None
-            if wanted == ONE:
-                self.signs.add(found)
             return found
 
         return read
+
+    def sign(self, checker: Checker, path: Path, raw: object) -> str | None:
+        """Read a sense or a branch: +1 or -1, or the name of one that a choice sets."""
+        found: str | None = self.value(ONE)(checker, path, raw)
+        if found in self.dimensions:
+            self.signs.add(found)
+        elif found is not None and abs(self.constants.get(found, 0.0)) != 1.0:
+            checker.fault(path, InputError("sign-bad", text=quote(raw)))
+            return None
+        return found
 
     def constant(self, value: float, dimension: Dimension) -> str:
         """Return the name of a literal; zero has the name that the plans know."""
@@ -103,9 +114,9 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | N
     kinds = {
         "link": Field(_rows(lambda c, p, r: _link(c, p, r, names))),
         "pair": Field(_rows(lambda c, p, r: _pair(c, p, r, names))),
-        "driver": Field(lambda c, p, r: record(c, p, r, _driver_fields(number))),
+        "driver": Field(lambda c, p, r: _driver(c, p, r, names)),
         "load": Field(_rows(lambda c, p, r: record(c, p, r, _load_fields(number))), required=False),
-        "couple": Field(_rows(lambda c, p, r: record(c, p, r, _couple_fields(number))), required=False),
+        "couple": Field(_rows(lambda c, p, r: record(c, p, r, _couple_fields(names))), required=False),
     }
     read = record(checker, ("mechanism",), raw, kinds)
     if len(checker.faults) > before:
@@ -127,10 +138,18 @@ def _rows(read: Callable[[Checker, Path, object], Any]) -> Read:
     return lambda checker, path, raw: [read(checker, row_path, row) for row_path, row in rows(checker, path, raw)]
 
 
-def _driver_fields(number: Callable[[Unit], Read]) -> dict[str, Field]:
+def _driver(checker: Checker, path: Path, raw: object, names: Names) -> dict[str, str]:
+    """Read the only driver; it moves."""
+    if isinstance(raw, list):
+        checker.fault(path, InputError("driver-twice"))
+        return {}
     places = {"link": Field(link_number), "pivot": Field(name), "point": Field(name)}
-    turning = {"angle": Field(number(_RAD)), "speed": Field(number(_RAD_S)), "sense": Field(number(ONE))}
-    return places | turning | {"acceleration": Field(number(_RAD_S2), required=False)}
+    turning = {"angle": Field(names.value(_RAD)), "speed": Field(names.value(_RAD_S)), "sense": Field(names.sign)}
+    speeding = {"acceleration": Field(names.value(_RAD_S2), required=False)}
+    read = record(checker, path, raw, places | turning | speeding)
+    if read.get("speed") == ZERO:
+        checker.fault((*path, "speed"), InputError("not-positive", text="0"))
+    return read
 
 
 def _load_fields(number: Callable[[Unit], Read]) -> dict[str, Field]:
@@ -138,9 +157,9 @@ def _load_fields(number: Callable[[Unit], Read]) -> dict[str, Field]:
     return places | {"magnitude": Field(number(_N)), "direction": Field(number(_RAD))}
 
 
-def _couple_fields(number: Callable[[Unit], Read]) -> dict[str, Field]:
+def _couple_fields(names: Names) -> dict[str, Field]:
     places = {"name": Field(name), "link": Field(link_number)}
-    return places | {"magnitude": Field(number(_N_M)), "sense": Field(number(ONE))}
+    return places | {"magnitude": Field(names.value(_N_M)), "sense": Field(names.sign)}
 
 
 def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | None:
@@ -181,7 +200,7 @@ def _pair(checker: Checker, path: Path, raw: object, names: Names) -> Pair | Non
     kinds: dict[str, tuple[type[Pair], dict[str, Field]]] = {
         "revolute": (
             Revolute,
-            {**joins, "at": Field(place.read, required=False), "branch": Field(names.value(ONE), required=False)},
+            {**joins, "at": Field(place.read, required=False), "branch": Field(names.sign, required=False)},
         ),
         "prismatic": (
             Prismatic,
@@ -190,7 +209,7 @@ def _pair(checker: Checker, path: Path, raw: object, names: Names) -> Pair | Non
                 "through": place,
                 "direction": Field(names.value(_RAD)),
                 "offset": Field(names.value(_M), required=False),
-                "branch": Field(names.value(ONE), required=False),
+                "branch": Field(names.sign, required=False),
             },
         ),
     }
@@ -230,7 +249,9 @@ def _loads_joined(
         *((("mechanism", "couple", i), couple) for i, couple in enumerate(mechanism.couples)),
     ]
     for path, load in placed:
-        if isinstance(load, Load):
+        if load.link == FRAME:
+            checker.fault((*path, "link"), InputError("load-frame", known=", ".join(map(str, links))))
+        elif isinstance(load, Load):
             _on_link(checker, path, "point", load.point, load.link, links)
         elif load.link not in links:
             checker.fault((*path, "link"), unknown("link-unknown", str(load.link), map(str, links)))

@@ -25,6 +25,7 @@ from .arguments import of_kind
 from .checks import Checker, EnoughError, Field, array_of, as_is, label, one_of, record, text
 from .checks_givens import Settings, read_choices, read_givens, read_variants
 from .checks_mechanism import Names, read_mechanism
+from .checks_structure import branched, place_of
 from .shelf import bundled, bundled_text
 from .task import WITH_FORCES, Bound, Given, LocatedError, Task
 from .toml_places import Path, Places
@@ -250,8 +251,9 @@ def _constructed(checker: Checker, mechanism: Mechanism, head: dict[str, Any]) -
         # a task that never splits a motion may use the names of what that would measure
         structure, program = construct(mechanism, {*PLANS} - {"compound"} | {*head["plans"]})
     except InputError as error:
-        checker.fault(("mechanism",), error)
+        checker.fault(place_of(mechanism, error), error)
         return
+    branched(checker, mechanism, structure)
     symbols = scale_symbols(structure, program)
     lengths = {x for link in mechanism.links for x, _ in link.points.values()}
     for name, said in head.get("scales", {}).items():
@@ -281,12 +283,9 @@ def _bounded(given: Given, names: Names) -> Given:
 
 
 def _signs(checker: Checker, names: Names, choices: Settings) -> None:
-    """Check that senses and branches are +1 or -1."""
+    """Check that senses and branches that a choice sets are +1 or -1."""
     for choice, words in choices.items():
         for word, settings in words.items():
             for key, setting in settings.items():
                 if key in names.signs and abs(setting.value) != 1.0:
                     checker.fault(("choices", choice, word, key), InputError("sign-bad", text=f"{setting.value:g}"))
-    for (value, _), constant in names.literals.items():
-        if constant in names.signs and abs(value) != 1.0:
-            checker.fault(("mechanism",), InputError("sign-bad", text=f"{value:g}"))

@@ -13,7 +13,9 @@ from itertools import combinations
 from ...scales.errors import InputError
 from .joints import Joint, joints_of, pairs_of
 from .mechanism import FRAME, Mechanism, Pair, Prismatic, Revolute
+from .mobility import MANY, no_structure
 
+TRIAD = "III"
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 
 
@@ -99,18 +101,17 @@ def analyse(mechanism: Mechanism) -> Structure:
     joints = joints_of(mechanism.pairs)
     moving, lower = len(mechanism.links), len(mechanism.pairs)
     mobility = 3 * moving - 2 * lower
-    if mobility != 1:
-        raise InputError("mobility", w=mobility, n=moving, p=lower)
+    if mobility != 1 and moving > MANY:
+        raise no_structure(mechanism, mobility)
     known = [FRAME, mechanism.driver.link]
     left = [link.number for link in mechanism.links if link.number not in known]
-    groups = []
-    while left:
-        group = next(_groups(joints, known, left), None)
-        if group is None:
-            raise InputError("no-group", links=", ".join(map(str, left)))
+    groups: list[Group] = []
+    while left and (group := next(_groups(joints, known, left), None)):
         groups.append(group)
         known += group.links
         left = [number for number in left if number not in group.links]
+    if mobility != 1 or left:
+        raise no_structure(mechanism, mobility, left)
     return Structure(moving, lower, 0, mobility, mechanism.driver.link, tuple(groups))
 
 
@@ -153,4 +154,4 @@ def _dyad(links: tuple[int, ...], inner: tuple[Pair, ...], outer: tuple[Pair, ..
         kind = "".join(map(letter, pairs))
         if kind in KINDS:
             return Group((first, second), inner, (pairs[0], pairs[2]), kind)
-    raise InputError("no-group", links=", ".join(map(str, links)))
+    raise InputError("no-revolute", links=", ".join(map(str, links)))

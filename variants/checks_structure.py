@@ -1,0 +1,34 @@
+"""Checking what follows from links and pairs together: where a fault of the structure shows, which side is meant."""
+
+from __future__ import annotations
+
+import re
+
+from ..plans.linkages.mechanism import Mechanism, Revolute
+from ..plans.linkages.structure import Structure
+from ..scales.errors import InputError
+from .checks import Checker
+from .toml_places import Path
+
+
+def place_of(mechanism: Mechanism, error: InputError) -> Path:
+    """Return where an error of the structure shows: the first link that it names, or the point."""
+    named = re.search("[0-9]+", str(error.data.get("link", error.data.get("links", ""))).replace("0, ", "", 1))
+    for i, link in enumerate(mechanism.links):
+        if named and link.number == int(named[0]):
+            return "mechanism", "link", i
+    point = error.data.get("name", error.data.get("point"))
+    holders = [i for i, link in enumerate(mechanism.links) if point in link.points]
+    return ("mechanism", "link", holders[-1], "points", str(point)) if holders else ("mechanism",)
+
+
+def branched(checker: Checker, mechanism: Mechanism, structure: Structure) -> None:
+    """Check that every dyad of three revolute pairs says on which side its inner pair lies."""
+    for group in structure.groups:
+        if group.kind == "RRR" and group.inner[0].branch is None:
+            point = group.inner[0].point
+            number = next(i for i, p in enumerate(mechanism.pairs) if isinstance(p, Revolute) and p.point == point)
+            ends = sorted(zip(group.links, group.outer, strict=True))
+            data = {"links": ", ".join(map(str, sorted(group.links))), "point": point}
+            error = InputError("branch-missing", start=ends[0][1].point, end=ends[1][1].point, **data)
+            checker.fault(("mechanism", "pair", number), error)
