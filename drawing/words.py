@@ -146,7 +146,8 @@ class Words:
         letters = self.notation["letters"]
         head, *rest = name.split("_")
         if head == "mu":  # forces of a group or of the driver alike
-            return f"{letters['mu']}_{{{letters.get(f'mu_{rest[0]}', letters.get(rest[0], rest[0]))}}}"
+            of = rest[0]
+            return f"{letters['mu']}_{{{letters.get(f'mu_{of}', letters.get(of, GREEK.get(of, of)))}}}"
         above = ""
         if len(rest) > 1 and rest[-1] in PARTS.get(head, ()):
             above = self._part(rest.pop())
