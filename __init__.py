@@ -7,11 +7,12 @@ if TYPE_CHECKING:
     from .variants import load_task as load_task
     from .variants import sheet as sheet
     from .variants import solve as solve
+    from .variants import sweep as sweep
 
 __version__ = "0.1.0"
-__all__ = ["KulmanError", "__version__", "load_task", "sheet", "solve"]
+__all__ = ["KulmanError", "__version__", "load_task", "sheet", "solve", "sweep"]
 
-_HOMES = {"KulmanError": "scales", "load_task": "variants", "sheet": "variants", "solve": "variants"}
+_HOMES = {"KulmanError": "scales", **dict.fromkeys(("load_task", "sheet", "solve", "sweep"), "variants")}
 
 
 def __getattr__(name: str) -> Any:

@@ -320,6 +320,75 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
     _warn(drawn.warnings)
 
 
+def _columns_out(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
+    """Refuse, before any work, files that a sweep cannot be written to."""
+    from .drawing.writers import check_outputs
+    from .variants.sweeps import SAVERS
+
+    paths = tuple(map(Path, values))
+    check_outputs(*paths, known=SAVERS)
+    return paths
+
+
+def _count(ctx: click.Context, param: click.Parameter, value: str) -> int:
+    """Read a whole number."""
+    try:
+        return int(value)
+    except ValueError:
+        raise InputError("cli-number", option=param.opts[0], text=quote(value)) from None
+
+
+@commands.command(
+    epilog=_example(
+        "kulman sweep nau-slider-crank -v 3 --only velocity",
+        "kulman sweep nau-slider-crank -v 3 --positions 24 -o cycle.csv",
+        "kulman sweep nau-slider-crank --points B,S2 --chords B --from '30 deg'",
+    )
+)
+@_of_task
+@click.option(
+    "--positions",
+    metavar="N",
+    default="12",
+    show_default=True,
+    callback=_count,
+    help="How many positions: 8, 12, 24, ...",
+)
+@click.option(
+    "--points", metavar="POINT,...", multiple=True, callback=_given, help="Only these points, or numbered links."
+)
+@click.option("--from", "start", metavar="PLACE", help="Where the driver begins; without it at the zero position.")
+@click.option("--to", "end", metavar="PLACE", help="Where a sliding driver stops.")
+@click.option(
+    "--chords", metavar="POINT", help="Velocities and accelerations of a point or link by plans and by chords."
+)
+@click.option(
+    "-o",
+    "--output",
+    "files",
+    metavar="FILE",
+    multiple=True,
+    callback=_columns_out,
+    help="Write all columns there, a .csv for spreadsheets. Repeatable.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def sweep(
+    task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, chords: str | None, **options: Any
+) -> int:
+    """Solve TASK (an id, or a TOML file) over its whole cycle: positions, dead positions, strokes, extremes."""
+    from . import variants
+
+    language = options.pop("lang") or system_language()
+    swept = variants.sweep(task, set=settings, lang=language, **options)
+    for path in swept.save(*files):
+        click.echo(str(path))
+    if as_json:
+        _print_json(swept.to_json())
+    elif swept.reason is None and not files:
+        click.echo(swept.table() if chords is None else swept.chords(chords))
+    return _refuse(swept.reason) if swept.reason is not None else 0
+
+
 @commands.command(epilog=_example("kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk"))
 @click.argument("file")
 @click.option("--lang", type=Word(*LANGUAGES), help="Language of the comments.")

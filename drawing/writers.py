@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
@@ -54,8 +54,8 @@ def writer_for(path: Path) -> Writer:
     return writer
 
 
-def check_outputs(*paths: Path) -> None:
-    """Refuse, before any work, files that cannot be written.
+def check_outputs(*paths: Path, known: Collection[str] = WRITERS) -> None:
+    """Refuse, before any work, files that cannot be written; `known` are the suffixes that can.
 
     Raises
     ------
@@ -65,8 +65,9 @@ def check_outputs(*paths: Path) -> None:
     """
     seen = set()
     for path in paths:
-        writer_for(path)
         shown = quote(path, SHOWN)
+        if path.suffix.lower() not in known:
+            raise InputError("output-suffix", file=shown, known=", ".join(known))
         if "\0" in str(path):
             raise InputError("output-name", file=shown)
         if path.is_dir():
@@ -107,7 +108,7 @@ def write_pages(pages: Sequence[Page], *paths: Path, tile: str | None = None) ->
     files = [file for path in paths for file in _files(pages, path, tile)]
     check_outputs(*(path for path, _ in files))
     for path, data in files:
-        _replace(path, data)
+        write_whole(path, data)
     return [path for path, _ in files]
 
 
@@ -136,8 +137,14 @@ def _tiled(path: Path, paper: str) -> Writer:
     return write
 
 
-def _replace(path: Path, data: bytes) -> None:
-    """Write a file beside `path` that takes its place when it is whole, and vanishes when anything fails."""
+def write_whole(path: Path, data: bytes) -> None:
+    """Write a file beside `path` that takes its place when it is whole, and vanishes when anything fails.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
+    """
     beside = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         with beside.open("xb") as stream:

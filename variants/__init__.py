@@ -6,10 +6,11 @@ if TYPE_CHECKING:
     from .reader import load_task as load_task
     from .sheets import sheet as sheet
     from .solution import solve as solve
+    from .sweeps import sweep as sweep
 
-__all__ = ["load_task", "sheet", "solve"]
+__all__ = ["load_task", "sheet", "solve", "sweep"]
 
-_HOMES = {"load_task": "reader", "sheet": "sheets", "solve": "solution"}
+_HOMES = {"load_task": "reader", "sheet": "sheets", "solve": "solution", "sweep": "sweeps"}
 
 
 def __getattr__(name: str) -> Any:

@@ -242,9 +242,9 @@ class _Ends:
         """Return the dead positions on a stretch, and its two ends as (place, driver's place) unless it has none."""
         speeds = np.abs(self.velocity(stretch.place(stretch.grid())))
         usual = (self.size if self.output.slides else 1.0) / (1.0 if self.drive.turns else self.size)
-        moves = np.nanmax(speeds, initial=0.0) > STILL * usual
-        roots = zeros(self.velocity, stretch)[0] if moves else speeds[:0]
-        roots = roots[np.abs(self.velocity(roots)) <= np.nanmedian(speeds)] if len(roots) else roots
+        median = np.median(speeds[np.isfinite(speeds)]) if np.isfinite(speeds).any() else 0.0
+        roots = zeros(self.velocity, stretch)[0] if median > STILL * usual else speeds[:0]
+        roots = roots[np.abs(self.velocity(roots)) <= median] if len(roots) else roots
         places, ends = self._places(stretch, roots)
         if not len(roots):
             return [], ends
