@@ -43,6 +43,12 @@ def arrange(
     )
 
 
+def arrange_rest(views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] | None:
+    """Place views on as many following pages as they need, counted from 0; None if one has no room on a page."""
+    later = reserved_boxes(sheet, norm, first=False)
+    return pack([[view.size] for view in views], _area(sheet, norm), later, gap=GAP, pages=None)
+
+
 def compose(views: Sequence[View], places: Sequence[Placement], sheet: Format, norm: Norm, stamp: Stamp) -> list[Page]:
     """Return the finished pages: frame, title block and the views at their places."""
     count = max(place.page for place in places) + 1

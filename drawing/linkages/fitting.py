@@ -108,24 +108,32 @@ class Fitting:
         return self._built[key]
 
     def _fitted(self, sheet: Format, step: int) -> Fitted:
-        contents, root = self.contents, self._root
-        width, height = room(sheet, contents.norm)
-        text_width = min(TEXT_WIDTH[sheet.letters], width)
-        rungs = {root[s]: self._rung(s, step, sheet) for s in self.ladders if root[s] == s}
+        width, height = room(sheet, self.contents.norm)
+        rungs = self.rungs(sheet, step)
         while True:
-            scene = self._scene(sheet, {s: ladder[rungs[root[s]]] for s, ladder in self.ladders.items()})
-            views, too_large = [], {}
-            for number, figure in enumerate(figures(contents.solved, contents.plans, text_width, contents.cycle)):
-                view = self._drawn(sheet, number, figure, scene)
-                views.append(view)
-                if figure.symbol and (view.size[0] > width or view.size[1] > height):
-                    too_large[root[figure.symbol]] = view
+            built, scales = self.build(sheet, rungs)
+            too_large = {s: view for view, s in built if s and (view.size[0] > width or view.size[1] > height)}
             if not too_large:
-                return views, scene.scales
+                return [view for view, _ in built], scales
             for symbol, view in too_large.items():
                 rungs[symbol] += 1
                 if rungs[symbol] >= len(self.ladders[symbol]):
                     raise self._does_not_fit(sheet, symbol, view.size)
+
+    def rungs(self, sheet: Format, step: int) -> dict[str, int]:
+        """Return the first rung of every ladder at which the marks alone have room."""
+        return {s: self._rung(s, step, sheet) for s, root in self._root.items() if root == s}
+
+    def build(self, sheet: Format, rungs: Mapping[str, int]) -> tuple[list[tuple[View, str]], Mapping[str, Scale]]:
+        """Draw all figures with the scale factors on these rungs; each with the ladder that sizes it, or ""."""
+        contents, root = self.contents, self._root
+        text_width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
+        scene = self._scene(sheet, {s: ladder[rungs[root[s]]] for s, ladder in self.ladders.items()})
+        built = []
+        for number, figure in enumerate(figures(contents.solved, contents.plans, text_width, contents.cycle)):
+            view = self._drawn(sheet, number, figure, scene)
+            built.append((view, root.get(figure.symbol, "")))
+        return built, scene.scales
 
     def _drawn(self, sheet: Format, number: int, figure: Figure, scene: Scene) -> View:
         """Draw a figure, unless it has been drawn for this format at the same of the scale factors that it used."""

@@ -14,6 +14,7 @@ from ..page import Page
 from ..titleblock import Stamp
 from .fitting import SMALLEST_FIRST, Contents, Fitted, Fitting
 from .supported import require_views
+from .zones import zoned
 
 # part of the area on the largest format that the same figures take on a smaller one, with its smaller letters
 LIGHTER = {"A4": 0.5, "A3": 0.55, "A2": 0.9, "A1": 1.0}
@@ -41,6 +42,12 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
     """
     require_views(contents.solved.mechanism, contents.solved.structure)
     fitting = Fitting(contents)
+    customary = FORMATS["A1"]
+    if contents.cycle is not None and sheet in (None, customary):
+        found = zoned(fitting, customary, contents.norm)
+        if found is not None:
+            views, scales, places = found
+            return _drawn(fitting, stamp, customary, (views, scales), places)
     formats = [sheet] if sheet is not None else _worth_trying(fitting)
     for candidate in formats:
         found = _single(fitting, candidate, COARSER if candidate is formats[-1] else 0)
