@@ -164,14 +164,16 @@ def clear_ray(direction: complex, lines: list[complex], arrows: list[complex]) -
         True when its tail is at the point, false when its tip is.
     """
 
-    def room(ray: complex) -> float:
-        to_lines = min((abs(cmath.phase(other / ray)) for other in lines), default=math.pi)
-        to_arrows = min((abs(cmath.phase(other / ray)) for other in arrows), default=math.pi)
-        # better beyond another arrow on its own line than at a small angle to it
-        return min(to_lines, 0.5 + (to_arrows if to_arrows > 0.02 else 0.25))
-
-    outward, inward = room(direction), room(-direction)
+    outward, inward = room_on(direction, lines, arrows), room_on(-direction, lines, arrows)
     return (direction, True) if outward >= inward - 0.1 else (-direction, False)
+
+
+def room_on(ray: complex, lines: list[complex], arrows: list[complex]) -> float:
+    """Return the angle between a ray and what leaves the same point, radians."""
+    to_lines = min((abs(cmath.phase(other / ray)) for other in lines), default=math.pi)
+    to_arrows = min((abs(cmath.phase(other / ray)) for other in arrows), default=math.pi)
+    # better beyond another arrow on its own line than at a small angle to it
+    return min(to_lines, 0.5 + (to_arrows if to_arrows > 0.02 else 0.25))
 
 
 def force_arrow(

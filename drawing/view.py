@@ -43,6 +43,8 @@ class Canvas:
     _requests: list[Request] = field(default_factory=list)
     _markup: list[tuple[str, float]] = field(default_factory=list)
     _boxes: list[Box] = field(default_factory=list)
+    _spare: set[str] = field(default_factory=set)
+    bounds: Box | None = None  # letters stay inside of it
 
     def add(self, *shapes: Shape) -> None:
         """Draw shapes."""
@@ -63,18 +65,32 @@ class Canvas:
         height: float | None = None,
         priority: int = 0,
         strict: bool = False,
+        spare: bool = False,
     ) -> None:
-        """Ask for a letter beside a node, or beside a line from one point to another."""
+        """Ask for a letter beside a node, or beside a line from one point to another.
+
+        A `spare` one, such as the millimetres of an arm, goes into the notes where it would cover something.
+        """
         height = height or self.style.label
         layout = lay_out(markup, height)
         size = layout.width, layout.top - layout.bottom
         self._requests.append(Request(str(len(self._requests)), *size, anchor, clear, prefer, priority, strict))
         self._markup.append((markup, height))
+        if spare:
+            self._spare.add(self._requests[-1].name)
 
     def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:
         """Place the letters, write the heading lines and smaller notes above, and close the view."""
-        placed = place(self._requests, _obstacles(self.shapes, self._boxes, self.style))
-        for request, (markup, height) in zip(self._requests, self._markup, strict=True):
+        obstacles = _obstacles(self.shapes, self._boxes, self.style)
+        left, moved = self._requests, list[str]()
+        placed = place(left, obstacles, bounds=self.bounds)
+        while crowded := [name for name in placed.failed if name in self._spare]:
+            moved += crowded
+            left = [request for request in left if request.name not in crowded]
+            placed = place(left, obstacles, bounds=self.bounds)
+        notes = (*notes, *_joined([self._markup[int(name)][0] for name in sorted(moved, key=int)]))
+        for request in left:
+            markup, height = self._markup[int(request.name)]
             corner = placed.corners[request.name]
             at = corner - 1j * lay_out(markup, height).bottom
             self.shapes.append(Text(at, markup, height, role="label"))
@@ -85,6 +101,11 @@ class Canvas:
             self.shapes += lines
         x0, _, x1, _ = extent(self.shapes)
         return View(name, tuple(self.shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
+
+
+def _joined(markups: list[str], each: int = 4) -> list[str]:
+    """Return lines of at most so many markups."""
+    return ["; ".join(markups[i : i + each]) for i in range(0, len(markups), each)]
 
 
 def heading_shapes(lines: tuple[str, ...], height: float, middle: float, top: float) -> tuple[list[Shape], float]:

@@ -27,14 +27,15 @@ def driver_view(scene: Scene) -> View:
     for name, point in hung:
         if point not in scene.solved.mechanism.frame_points:
             sketch.force(name, scene.mm(point))
+    sketch.letter_others(point for _, point in hung)
     sketch.arms(moments_of(scene, (number,)))
     driver = scene.solved.mechanism.driver
     if isinstance(driver, Driver):
         _crank(sketch, driver)
     else:
         _slider(sketch, number)
-    for count, name in enumerate(couples(scene, number)):
-        sketch.couple(name, figures[0], count)
+    for name in couples(scene, number):
+        sketch.couple(name, figures[0])
     letter_links(canvas, scene, (number,), figures)
     return canvas.finish("driver", scene.heading("heading.driver", POSITION), sketch.notes())
 
@@ -66,7 +67,7 @@ def _slider(sketch: Sketch, number: int) -> None:
     found = Contact(f"h_{FRAME}{number}", pair.point, u, moment / across if across else 0.0, couple)
     sketch.force(reaction, sketch.contact(found, reaction))
     if couple:
-        sketch.couple(couple, sketch.figures[0], 0)
+        sketch.couple(couple, sketch.figures[0])
 
 
 def _balance(sketch: Sketch, o: complex) -> None:

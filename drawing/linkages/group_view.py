@@ -10,14 +10,17 @@ from dataclasses import dataclass, field
 from ...plans.board import POSITION
 from ...plans.linkages.mechanism import Pair, Prismatic
 from ...plans.linkages.structure import Group
-from ..shapes import Arrow, Head, Line, Pen, Shape
+from ..shapes import Arrow, Circle, Head, Line, Pen, Shape
 from ..shapes import Group as Shapes
-from ..symbols import arm, block_size, force_arrow, turning_arrow
+from ..symbols import arm, block_size, clear_ray, room_on, turning_arrow
 from ..view import Canvas, View
 from .acting import Contact, Moment, contact, couples, handed, loads, moments_of, pin_of, reactions
 from .links import draw_links, letter_links, rays_at
 from .scene import Scene
 from .skeleton import NEAR, Skeleton, guide_of
+
+SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88)  # places on a link where a couple may stand
+FARTHEST = 2.5  # lengths of an arrow that it may stand from its point
 
 __all__ = ["group_view", "link_view", "loads"]
 
@@ -32,6 +35,8 @@ class Sketch:
     arrows: dict[complex, list[complex]] = field(default_factory=dict)
     zero: list[str] = field(default_factory=list)
     hung: list[str] = field(default_factory=list)
+    turning: list[complex] = field(default_factory=list)  # places of couples
+    lying: list[tuple[complex, complex]] = field(default_factory=list)  # arrows drawn so far
     barred: dict[complex, list[complex]] = field(default_factory=dict)  # directions where something else stands
 
     def force(self, name: str, at: complex) -> None:
@@ -46,8 +51,36 @@ class Sketch:
         place = complex(round(at.real, 2), round(at.imag, 2))
         arrows, style = self.arrows.setdefault(place, []), self.scene.style
         lines = [*rays_at(at, self.figures), *self.barred.get(place, ())]
-        arrow, ray = force_arrow(at, e, name, lines, arrows, style, self._gap(at, e))
-        letter_arrow(self.canvas, self.scene, arrow, ray)
+        ray, start = self._where(at, e, lines, arrows)
+        near, far = at + ray * start, at + ray * (start + style.force)
+        arrows.append(far - at)
+        self.lying.append((near, far))
+        tail, tip = (near, far) if abs(ray - e) < 1.0 else (far, near)
+        letter_arrow(self.canvas, self.scene, Arrow(tail, tip, Pen.MAIN, name=name), ray)
+
+    def _where(self, at: complex, e: complex, lines: list[complex], arrows: list[complex]) -> tuple[complex, float]:
+        """Choose the side of a point on which an arrow lies, and how far from it, clear of all on its own line."""
+        gap, length = self._gap(at, e), self.scene.style.force
+        ray, _ = clear_ray(e, lines, arrows)
+        start, other = self._start(at, ray, gap), self._start(at, -ray, gap)
+        if start - other > 0.6 * length and room_on(-ray, lines, arrows) > 0.35:
+            ray, start = -ray, other
+        # far from its point it would not be found: then it lies on the link
+        return (ray, start) if start < gap + FARTHEST * length else (ray, gap)
+
+    def _start(self, at: complex, ray: complex, start: float) -> float:
+        """Return where on a ray there is room for an arrow: beyond links and arrows that lie along it."""
+        length, taken = self.scene.style.force, []
+        strokes = [stroke for figure in self.figures for stroke in figure.strokes]
+        for (a, b), spare in [*((s, self.scene.style.pair + 1.0) for s in strokes), *((s, 2.0) for s in self.lying)]:
+            ends = [(end - at) / ray for end in (a, b)]
+            if all(abs(end.imag) < 0.5 for end in ends):
+                low, high = sorted(end.real for end in ends)
+                taken.append((low, high + spare))
+        for low, high in sorted(taken):
+            if low < start + length and high > start:
+                start = high
+        return start
 
     def bar(self, at: complex, *directions: complex) -> None:
         """Let no arrow leave a place in these directions."""
@@ -69,16 +102,31 @@ class Sketch:
         own = (p for p in pairs if isinstance(p, Prismatic) and p.links == (number, 0))
         return any(abs(self.scene.mm(pair.point) - centre) < NEAR for pair in own)
 
-    def couple(self, name: str, figure: Skeleton, number: int) -> None:
+    def couple(self, name: str, figure: Skeleton) -> None:
         """Draw the turning arrow of a couple about the middle of a link, `number` others being there already."""
         value = self.scene.solved.values[name]
         if value == 0.0:
             self.zero.append(name)
             return
-        at, along = _middle(figure, (0.5, 0.32, 0.68, 0.2)[number % 4])
+        at, along = self._free_place(figure)
+        self.turning.append(at)
         radius = 0.5 * self.scene.style.force
         self.canvas.add(turning_arrow(at, radius, phase(along), 2.0, math.copysign(1.0, value), name))
         self.canvas.label(self.scene.words.symbol(couple_name(name, figure.number)), at + along * radius, clear=1.2)
+
+    def _free_place(self, figure: Skeleton) -> tuple[complex, complex]:
+        """Return the place on a link farthest from its joints, forces and couples so far, and the link's direction."""
+        if not figure.strokes:
+            return figure.blocks[0] if figure.blocks else (figure.pins[0], 1 + 0j)
+        a, b = max(figure.strokes, key=lambda stroke: round(abs(stroke[1] - stroke[0]), 3))
+        busy = [*figure.pins, *(at for at, _ in figure.blocks), *self.arrows]
+        places = [a + (b - a) * share for share in SHARES]
+
+        def room(at: complex) -> float:
+            others = [2.0 * abs(other - at) / self.scene.style.force for other in busy]
+            return round(min([*others, *(abs(other - at) / self.scene.style.force for other in self.turning)]), 3)
+
+        return max(places, key=lambda at: min(room(at), 1.5)), (b - a) / abs(b - a)
 
     def contact(self, found: Contact | None, reaction: str) -> complex:
         """Draw how far from its pin the reaction of a guide acts, and hang it there; return the place."""
@@ -112,6 +160,16 @@ class Sketch:
             at, about = self.scene.mm(sharing[0].at), self.scene.mm(sharing[0].about)
             names = list(dict.fromkeys(moment.arm for moment in sharing))
             force_arm(self.canvas, self.scene, [m.force for m in sharing], names, at, about)
+
+    def letter_others(self, points: Iterable[str]) -> None:
+        """Letter the points of other links at which their forces act on these: pins that slide along their guides."""
+        own = {p for figure in self.figures for p in self.scene.solved.mechanism.link(figure.number).points}
+        for point in dict.fromkeys(points):
+            if point not in own and point not in self.scene.solved.mechanism.frame_points:
+                at = self.scene.mm(point)
+                node = Circle(at, self.scene.style.node, Pen.MAIN, fill="white")
+                self.canvas.add(Shapes((node,), "point", point))
+                self.canvas.label(self.scene.words.mark(point), at, clear=self.scene.style.node + 0.8)
 
     def notes(self) -> tuple[str, ...]:
         """Say that arrows have no scale, and what is zero."""
@@ -147,7 +205,7 @@ def _react(sketch: Sketch, group: Group, pair: Pair, own: int, names: list[str])
     for name in names:
         sketch.force(name, on_guide + u * ((at - on_guide) / u).real)
     if found and found.couple:
-        sketch.couple(found.couple, next(figure for figure in sketch.figures if figure.number == own), 0)
+        sketch.couple(found.couple, next(figure for figure in sketch.figures if figure.number == own))
 
 
 def _load(sketch: Sketch, numbers: Iterable[int]) -> None:
@@ -155,8 +213,10 @@ def _load(sketch: Sketch, numbers: Iterable[int]) -> None:
     for number, figure in zip(numbers, sketch.figures, strict=True):
         for name, point in (*loads(sketch.scene, number), *handed(sketch.scene, number)):
             sketch.force(name, sketch.scene.mm(point))
-        for count, name in enumerate(couples(sketch.scene, number)):
-            sketch.couple(name, figure, count)
+        for name in couples(sketch.scene, number):
+            sketch.couple(name, figure)
+    points = (point for number in numbers for _, point in handed(sketch.scene, number))
+    sketch.letter_others(points)
 
 
 def link_view(scene: Scene, group: Group, number: int) -> View:
@@ -179,14 +239,6 @@ def couple_name(name: str, number: int) -> str:
     return f"M_{name.removeprefix('_M_')}{number}" if name.startswith("_M_") else name
 
 
-def _middle(figure: Skeleton, share: float) -> tuple[complex, complex]:
-    """Return a place on the longest line of a link, or in its block, and the direction of it."""
-    if not figure.strokes:
-        return figure.blocks[0] if figure.blocks else (figure.pins[0], 1 + 0j)
-    a, b = max(figure.strokes, key=lambda stroke: round(abs(stroke[1] - stroke[0]), 3))
-    return a + (b - a) * share, (b - a) / abs(b - a)
-
-
 def length_along(canvas: Canvas, scene: Scene, name: str, start: complex, end: complex) -> None:
     """Draw the arm of a guide's reaction along the guide, from the pin to where it acts, with its millimetres."""
     e = (end - start) / abs(end - start)
@@ -195,7 +247,7 @@ def length_along(canvas: Canvas, scene: Scene, name: str, start: complex, end: c
         parts += [Head(end, e), Head(start, -e)]
     canvas.add(Shapes(tuple(parts), "arm", name))
     text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
-    canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True)
+    canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True, spare=True)
 
 
 def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str], at: complex, about: complex) -> None:
@@ -214,7 +266,7 @@ def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str],
     symbols = " = ".join(scene.words.symbol(name) for name in names)
     # smaller than a node's letter: a number with its symbol is long, and the arms of a lever lie close together
     text = f"{symbols} = {scene.segment(names[0])}"
-    canvas.label(text, (about, foot), clear=0.9, height=scene.style.text, strict=True)
+    canvas.label(text, (about, foot), clear=0.9, height=scene.style.text, strict=True, spare=True)
 
 
 def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:

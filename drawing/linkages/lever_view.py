@@ -21,7 +21,7 @@ def lever_view(scene: Scene) -> View:
     marks = dict.fromkeys(("lever.p", *_images(scene)))
     p = image(scene, "lever.p")
     lines = _lines(scene, list(marks))
-    canvas.add(*(Line(a, b, Pen.MAIN, role="lever", name=name) for a, b, name in lines))
+    canvas.add(*(Line(a, b, pen, role="lever", name=name) for a, b, name, pen in lines))
     arrows_at: dict[complex, list[complex]] = {}
     feet: dict[complex, list[tuple[str, complex]]] = {}
     hung = hung_on_lever(scene)
@@ -30,7 +30,7 @@ def lever_view(scene: Scene) -> View:
         if e == 0:
             continue
         at = image(scene, mark)
-        rays = [q - at for a, b, _ in lines for q in (a, b) if at in (a, b) and abs(q - at) > 1e-6]
+        rays = [q - at for a, b, *_ in lines for q in (a, b) if at in (a, b) and abs(q - at) > 1e-6]
         arrows = arrows_at.setdefault(complex(round(at.real, 3), round(at.imag, 3)), [])
         letter_arrow(canvas, scene, *force_arrow(at, e, name, rays, arrows, style))
         if name not in BALANCE and scene.defined(arm_of(name)):
@@ -40,7 +40,7 @@ def lever_view(scene: Scene) -> View:
     for sharing in feet.values():
         force_arm(canvas, scene, [name for name, _ in sharing], [arm_of(name) for name, _ in sharing], sharing[0][1], p)
     text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{point}')} = {scene.segment(f'V_{point}')}"
-    canvas.label(text, (p, image(scene, f"lever.{point}")), clear=0.9, height=style.text)
+    canvas.label(text, (p, image(scene, f"lever.{point}")), clear=0.9, height=style.text, spare=True)
     letters = {mark: words.mark(f"velocity.{mark.removeprefix('lever.')}") for mark in marks}
     letter_marks(canvas, scene, {**letters, "lever.p": words.mark("lever.p")}, ("lever.p",), image)
     arms = [arm_of(name) for name, _ in hung if scene.direction(name) != 0]
@@ -73,18 +73,22 @@ def _joints(scene: Scene) -> list[list[str]]:
     return found
 
 
-def _lines(scene: Scene, marks: list[str]) -> list[tuple[complex, complex, str]]:
-    """Return the lines of the turned velocity plan: from the pole, and between the images of each link's joints."""
-    p = image(scene, "lever.p")
-    lines = [(p, image(scene, mark), mark) for mark in marks[1:]]
+def _lines(scene: Scene, marks: list[str]) -> list[tuple[complex, complex, str, Pen]]:
+    """Return the lines of the turned velocity plan: from the pole, and between the images of each link's joints.
+
+    Those from the pole to other images than that of the driver's pin are thin.
+    """
+    p, pin = image(scene, "lever.p"), f"lever.{scene.solved.mechanism.driver.point}"
+    lines = [(p, image(scene, pin), pin, Pen.MAIN)]
     for points in _joints(scene):
         ways = combinations(points, 2) if len(points) < 4 else pairwise([*points, points[0]])
-        lines += [(image(scene, f"lever.{a}"), image(scene, f"lever.{b}"), a + b) for a, b in ways]
-    kept: dict[frozenset[complex], tuple[complex, complex, str]] = {}
-    for a, b, name in lines:
-        ends = frozenset(complex(round(end.real, 4), round(end.imag, 4)) for end in (a, b))
+        lines += [(image(scene, f"lever.{a}"), image(scene, f"lever.{b}"), a + b, Pen.MAIN) for a, b in ways]
+    lines += [(p, image(scene, mark), mark, Pen.THIN) for mark in marks[1:]]
+    kept: dict[frozenset[complex], tuple[complex, complex, str, Pen]] = {}
+    for line in lines:
+        ends = frozenset(complex(round(end.real, 4), round(end.imag, 4)) for end in line[:2])
         if len(ends) == 2:
-            kept.setdefault(ends, (a, b, name))
+            kept.setdefault(ends, line)
     return list(kept.values())
 
 
