@@ -48,7 +48,7 @@ FILES = {
     "choice that sets a given": ("cw = { sense_1 = -1 }", "cw = { m_2 = -1 }", "choice-uneven"),
     "point not named": ('points = { B = ["0 mm", "0 mm"] }', 'points = { "1" = ["0 mm", "0 mm"] }', "type-name"),
     "point with one coordinate": ('points = { B = ["0 mm", "0 mm"] }', 'points = { B = ["0 mm"] }', "type-array"),
-    "point without a unit": ('points = { B = ["0 mm", "0 mm"] }', "points = { B = [5, 0] }", "value-wrong"),
+    "point without a unit": ('points = { B = ["0 mm", "0 mm"] }', "points = { B = [5, 0] }", "unit-missing"),
     "point in seconds": ('points = { B = ["0 mm", "0 mm"] }', 'points = { B = ["5 s", "0 mm"] }', "value-wrong"),
     "point by an angle": ('A = ["l_OA", "0 mm"]', 'A = ["phi", "0 mm"]', "value-wrong"),
     "point by an unknown name": ('A = ["l_OA", "0 mm"]', 'A = ["l_0A", "0 mm"]', "value-unknown-like"),

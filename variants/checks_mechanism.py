@@ -24,7 +24,7 @@ from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import ONE, Dimension, Unit, unit
 from .checks import NAME, Checker, Field, Read, array_of, link_number, name, one_of, record, rows
-from .checks_givens import NEVER_NEGATIVE, literal
+from .checks_givens import NEVER_NEGATIVE, Setting, literal
 from .toml_places import Path
 
 _RAD_S, _N, _KG, _KG_M2 = unit("rad/s"), unit("N"), unit("kg"), unit("kg*m^2")
@@ -60,11 +60,8 @@ class Names:
                     return None
                 found, written = bare if bare == raw else MINUS + bare, self.dimensions[bare]
             else:
-                setting = literal(checker, path, raw)
+                setting = self.literal(checker, path, raw, wanted)
                 if setting is None:
-                    return None
-                if setting.value < 0.0 and setting.dimension in NEVER_NEGATIVE:
-                    checker.fault(path, InputError("negative", text=quote(raw)))
                     return None
                 found, written = self.constant(setting.value, setting.dimension), setting.dimension
             if written != wanted.dimension:
@@ -73,6 +70,18 @@ class Names:
             return found
 
         return read
+
+    @staticmethod
+    def literal(checker: Checker, path: Path, raw: object, wanted: Unit) -> Setting | None:
+        """Read a literal with its unit; a mass is not negative."""
+        setting = literal(checker, path, raw)
+        if setting is not None and setting.dimension == ONE.dimension != wanted.dimension:
+            checker.fault(path, InputError("unit-missing", text=quote(raw), expected=wanted.name))
+        elif setting is not None and setting.value < 0.0 and setting.dimension in NEVER_NEGATIVE:
+            checker.fault(path, InputError("negative", text=quote(raw)))
+        else:
+            return setting
+        return None
 
     def sign(self, checker: Checker, path: Path, raw: object) -> str | None:
         """Read a sense or a branch: +1 or -1, or the name of one that a choice sets."""
@@ -187,7 +196,7 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | Non
     if not {"number", "points"} <= read.keys():
         return None
     if read.get("centre", next(iter(read["points"]))) not in read["points"]:
-        checker.fault((*path, "centre"), unknown("point-unknown", read["centre"], read["points"]))
+        checker.fault((*path, "centre"), unknown("point-unknown", read["centre"], read["points"], link=read["number"]))
     if "centre" not in read and ("mass" in read or "inertia" in read):
         checker.fault(path, InputError("key-missing", name="centre"))
     return Link(**read)
@@ -270,7 +279,7 @@ def _driver_joined(checker: Checker, mechanism: Mechanism, links: Mapping[int, M
         return
     pivots = [p.point for p in mechanism.pairs if isinstance(p, Revolute) and {*p.links} == {FRAME, driver.link}]
     if driver.pivot not in pivots:
-        checker.fault((*path, "pivot"), InputError("driver-pivot", text=driver.pivot))
+        checker.fault((*path, "pivot"), InputError("driver-pivot", text=driver.pivot, link=driver.link))
     elif driver.point == driver.pivot:
         checker.fault((*path, "point"), InputError("driver-point", text=driver.point))
 
@@ -302,4 +311,4 @@ def _on_link(
         at = (*path, "links") if (*path, "links") in checker.places else (*path, "link")
         checker.fault(at, unknown("link-unknown", str(number), map(str, links)))
     elif point not in links[number]:
-        checker.fault((*path, key), unknown("point-unknown", point, links[number]))
+        checker.fault((*path, key), unknown("point-unknown", point, links[number], link=number))

@@ -160,7 +160,8 @@ def _syntax(toml: str, file: str, reason: str) -> InputError:
     written = lines[line - 1] if line <= len(lines) else ""
     if re.match("Cannot (overwrite|declare|mutate)|Duplicate", reason):
         column = len(written) - len(written.lstrip()) + 1
-        cause = InputError("toml-twice", text=quote(written.split("=")[0].strip()))
+        key = re.search(r"(?:inline table key |immutable namespace \()'(.*?)'", reason)
+        cause = InputError("toml-twice", text=quote(key[1] if key else written.split("=")[0].strip()))
     else:
         cause = InputError("toml-bad", text=quote(written.strip()))
     return LocatedError(f"{file}:{line}:{column}", cause)
