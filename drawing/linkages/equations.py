@@ -1,12 +1,16 @@
-"""Parts of equations: underlines of known vectors, calculations whose printed numbers recompute, signed sums."""
+"""Parts of equations: underlines of known vectors, sums of products whose printed numbers recompute."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from ..printed import calculation
+from ...plans.quantities import unit_of
+from ...scales.scale import Scale
+from ..printed import calculation, value_text
+from ..words import Words
+from .reading import read
 from .scene import Scene
 
 Lines = list[tuple[str, ...]]
@@ -22,88 +26,154 @@ def by_direction(text: str) -> str:
     return f"\\u{{{text}}}"
 
 
+@dataclass(frozen=True, slots=True)
+class Factor:
+    """A factor of a product: its symbol, its size as it is printed, whether that is exact, its power 1, 2 or -1."""
+
+    symbol: str
+    value: float
+    exact: bool = False
+    power: int = 1
+
+    @property
+    def size(self) -> float:
+        """What it contributes to the product."""
+        return float(self.value**self.power)
+
+
+@dataclass(frozen=True, slots=True)
+class Product:
+    """A term of a sum: a sign and factors."""
+
+    factors: tuple[Factor, ...]
+    sign: float = 1.0
+
+    def written(self, texts: Sequence[str]) -> str:
+        """Return the product of the factors written as `texts`: `a·b^{2}/c`."""
+        above = [squared(t) if f.power == 2 else t for t, f in zip(texts, self.factors, strict=True) if f.power > 0]
+        below = [t for t, f in zip(texts, self.factors, strict=True) if f.power < 0]
+        over = f"({'·'.join(below)})" if len(below) > 1 else "".join(below)
+        return "·".join(above) + (f"/{over}" if over else "")
+
+    @property
+    def symbols(self) -> str:
+        """The product in symbols."""
+        return self.written([factor.symbol for factor in self.factors])
+
+    def of(self, values: Sequence[float]) -> float:
+        """Return the signed product of other values of its factors."""
+        sizes = (value**factor.power for value, factor in zip(values, self.factors, strict=True))
+        return math.copysign(1.0, self.sign) * math.prod(sizes)
+
+
+def squared(text: str) -> str:
+    """Write a square: the 2 stands over the letter, before its index."""
+    if "^" in text:
+        return f"({text})^{{2}}"
+    letter, underscore, index = text.partition("_")
+    return f"{letter}^{{2}}{underscore}{index}"
+
+
+def total(products: Iterable[Product]) -> float:
+    """Return the sum of products."""
+    return sum(product.of([factor.value for factor in product.factors]) for product in products)
+
+
+def signs(products: Sequence[Product], texts: Sequence[str], turn: float = 1.0) -> list[str]:
+    """Return the terms of a sum with their signs, all multiplied by `turn`, a chunk each."""
+    chunks = []
+    for i, (product, text) in enumerate(zip(products, texts, strict=True)):
+        plus = turn * math.copysign(1.0, product.sign) > 0
+        sign = ("" if plus else "−") if i == 0 else ("+ " if plus else "− ")
+        chunks.append(f"{sign}{text}")
+    return chunks
+
+
+def worked(
+    words: Words,
+    head: str,
+    products: Sequence[Product],
+    unit: str,
+    divisor: Product | None = None,
+    turn: float = 1.0,
+) -> tuple[str, ...]:
+    """Return `head = formula = numbers = result unit` of a sum of products, perhaps over a divisor, times `turn`.
+
+    The numbers are printed with as many digits as it takes for the result to come out to its last one.
+    """
+    over = (divisor,) if divisor else ()
+    factors = [factor for product in (*products, *over) for factor in product.factors]
+    cuts = [sum(len(p.factors) for p in products[:i]) for i in range(len(products) + 1)]
+
+    def law(*x: float) -> float:
+        found = sum(product.of(x[a:b]) for product, a, b in zip(products, cuts, cuts[1:], strict=False))
+        return turn * found / math.prod(product.of(x[cuts[-1] :]) for product in over)
+
+    texts, result = calculation(words, law, [(factor.value, factor.exact) for factor in factors])
+    symbols = signs(products, [product.symbols for product in products], turn)
+    numbers = [p.written(texts[a:b]) for p, a, b in zip(products, cuts, cuts[1:], strict=False)]
+    formula = _over(symbols, divisor.symbols if divisor else "")
+    reckoned = _over(signs(products, numbers, turn), divisor.written(texts[cuts[-1] :]) if divisor else "")
+    formula[0] = f"{head} = {formula[0]}"
+    formula[-1] += " ="
+    reckoned[-1] += " ="
+    return (*formula, *reckoned, f"{result} {words.unit(words.display.unit(unit))}".rstrip())
+
+
+def _over(chunks: list[str], divisor: str) -> list[str]:
+    """Put a sum over a divisor, each in parentheses unless it is one product."""
+    if not divisor:
+        return chunks
+    divisor = f"({divisor})" if "·" in divisor else divisor
+    if len(chunks) > 1:
+        return [f"({chunks[0]}", *chunks[1:-1], f"{chunks[-1]})/{divisor}"]
+    plain = not chunks[0].startswith("−") and "/" not in chunks[0]
+    return [f"{chunks[0]}/{divisor}" if plain else f"({chunks[0]})/{divisor}"]
+
+
 def size_of(scene: Scene, name: str) -> float:
     """Return the magnitude of a quantity or of a value of the construction."""
     item = scene.solved.quantities.get(name)
-    return scene.solved.size(name) if item is None else (item.value or 0.0)
+    return abs(scene.solved.size(name)) if item is None else abs(item.value or 0.0)
 
 
-def calculated(
-    scene: Scene, name: str, formula: str, pattern: str, law: Callable[..., float], *inputs: tuple[float, bool]
-) -> tuple[str, ...]:
-    """Return `symbol = formula = numbers = result unit`; `pattern` takes the printed inputs."""
-    texts, result = calculation(scene.words, law, inputs)
-    unit = scene.words.unit(scene.solved.quantities[name].unit)
-    head = f"{scene.words.symbol(name)} = {formula} ="
-    return head, f"{pattern.format(*texts)} =", f"{result} {unit}".rstrip()
+def factor(scene: Scene, name: str, power: int = 1, symbol: str | None = None) -> Factor:
+    """Return a value of the construction as a factor in the units shown; a given is exact."""
+    plain = name.strip("_|")
+    value = scene.words.display.value(size_of(scene, name), unit_of(plain))
+    return Factor(scene.words.symbol(plain) if symbol is None else symbol, value, is_given(scene, name), power)
 
 
-def given(scene: Scene, name: str) -> tuple[float, bool]:
-    """Return a given as the exact input of a calculation."""
-    return scene.solved.values[name], True
+def segment(scene: Scene, symbol: str, plan: str, size: float) -> Factor:
+    """Return what a plan shows as a factor in the paper's unit, without its scale factor."""
+    return Factor(symbol, scene.words.display.segment(size / scene.scales[plan].mu))
 
 
-def vector_sum(w_known: list[str], w_line: list[str], unknown: str = "") -> tuple[str, ...]:
+def is_given(scene: Scene, name: str) -> bool:
+    """Whether a value is stated by the task, not constructed."""
+    return name in scene.solved.values and name not in read(scene.solved.program).made
+
+
+def paper(words: Words, scale: Scale) -> Factor:
+    """Return the factor that makes millimetres of a plan the value that they show: μ, below the bar if mm per unit."""
+    power = -1 if words.per_unit else 1
+    value = words.factor(scale)
+    return Factor(words.symbol(scale.symbol), value, exact=True, power=power)
+
+
+def vector_sum(knowns: Sequence[str], lines: Sequence[str], unknown: str = "") -> tuple[str, ...]:
     """Return a closed sum of vectors: those known in full, those known by direction, the one to be found."""
-    parts = [known(text) for text in w_known] + [by_direction(text) for text in w_line] + ([unknown] if unknown else [])
+    parts = [known(text) for text in knowns] + [by_direction(text) for text in lines] + ([unknown] if unknown else [])
     chunks = [parts[0], *(f"+ {part}" for part in parts[1:])]
     return (*chunks, "= 0")
 
 
-def signed(sign: float, text: str, first: bool = False) -> str:
-    """Return a term of a sum with its sign before it."""
-    if first:
-        return text if sign > 0 else f"−{text}"
-    return f" + {text}" if sign > 0 else f" − {text}"
+def sensed(words: Words, value: float) -> str:
+    """Return the sense of a turning or of a moment in words; nothing for zero."""
+    return "" if value == 0.0 else words["said.ccw" if value > 0 else "said.cw"]
 
 
-@dataclass(frozen=True, slots=True)
-class Term:
-    """A moment in a sum: its value with sign, how it is written, and the factors that make it (value, exact)."""
-
-    value: float
-    symbol: str
-    factors: tuple[tuple[float, bool], ...]
-
-    @property
-    def sign(self) -> float:
-        """+1 counter-clockwise, -1 clockwise."""
-        return math.copysign(1.0, self.value)
-
-
-def sum_of(terms: Sequence[Term], turn: float = 1.0) -> list[str]:
-    """Return the terms as chunks of a sum, all signs multiplied by `turn`."""
-    chunks = [signed(turn * term.sign, term.symbol, first=i == 0) for i, term in enumerate(terms)]
-    return [chunk.strip() for chunk in chunks]
-
-
-def balanced(
-    scene: Scene, terms: Sequence[Term], turn: float, divisor: tuple[float, bool] | None = None
-) -> tuple[list[str], str, str]:
-    """Solve a sum of moments for one more: `turn` * terms / divisor, with numbers that recompute.
-
-    Returns
-    -------
-    numbers : list of str
-        The printed terms, as chunks.
-    below : str
-        The printed divisor, or nothing.
-    result : str
-        The printed result, positive when `turn` is the sense that the sum asks for.
-    """
-    inputs = [factor for term in terms for factor in term.factors]
-
-    def law(*x: float) -> float:
-        total, at = 0.0, 0
-        for term in terms:
-            total += turn * term.sign * math.prod(x[at : at + len(term.factors)])
-            at += len(term.factors)
-        return total / x[-1] if divisor else total
-
-    texts, result = calculation(scene.words, law, [*inputs, divisor] if divisor else inputs)
-    products, at = [], 0
-    for i, term in enumerate(terms):
-        product = "·".join(texts[at : at + len(term.factors)])
-        products.append(signed(turn * term.sign, product, first=i == 0).strip())
-        at += len(term.factors)
-    return products, texts[-1] if divisor else "", result
+def stated(words: Words, symbol: str, value: float, unit: str) -> str:
+    """Return `symbol = number unit` of a value in SI."""
+    shown = words.display.unit(unit)
+    return f"{symbol} = {value_text(words, words.display.value(value, unit))} {words.unit(shown)}"

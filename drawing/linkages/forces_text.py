@@ -1,133 +1,210 @@
-"""Equations of forces: inertia, moments of the rod and the slider, force plans, balance of the driver."""
+"""Equations of forces: loads and inertia, moments, force plans from the last group to the driver, its balance."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import replace
 
-from ...plans.linkages.parts import arm_of
-from ...plans.linkages.rrp import Dyad
-from ..printed import calculation, value_text
+from ...plans.board import POSITION, Step
+from ...plans.linkages.solved import Solved
+from ...scales.display import AS_INSIDE
 from ..table import text_block
 from ..view import View
-from .equations import Lines, Term, balanced, calculated, given, signed, size_of, sum_of, vector_sum
-from .group_view import loads
+from .equations import Factor, Lines, Product, factor, sensed, signs, size_of, stated, worked
+from .moments import about, group_of, link_of, links_in, on_arm, terms
+from .reading import plan_of, read
 from .scene import Scene
+from .vector_equations import closed, ends_of
+
+WHOLE, LOADS = "", "loads"
+Told = Callable[[Scene, Step], list[Factor]]
 
 
-def forces_block(scene: Scene, width: float) -> View:
-    """Return inertia forces, moment equations, vector equations of the force plans, and the driver's balance."""
-    lines: Lines = inertia_lines(scene)
-    for d in reversed(scene.dyads):
-        lines += _group_lines(scene, d)
-    lines += _balance_lines(scene)
-    return text_block("equations_forces", scene.words["heading.equations_forces"], lines, scene.style, width)
+def force_parts(solved: Solved) -> tuple[str, ...]:
+    """Return into which blocks the equations are cut: one where there is one group, else loads, groups, driver."""
+    groups = [group.name for group in reversed(solved.structure.groups)]
+    return (WHOLE,) if len(groups) < 2 else (LOADS, *groups, str(solved.structure.driver))
 
 
-def inertia_lines(scene: Scene) -> Lines:
-    """Return the calculations of the inertia forces and moments."""
-    w = scene.words
+def forces_block(scene: Scene, width: float, part: str = WHOLE) -> View:
+    """Return the equations of forces, all of them or those of one part."""
+    name = f"equations_forces_{part}" if part else "equations_forces"
+    return text_block(name, _heading(scene, part), force_lines(scene, part), scene.style, width)
+
+
+def _heading(scene: Scene, part: str) -> str:
+    words, groups = scene.words, {group.name: group for group in scene.solved.structure.groups}
+    if part in groups:
+        return words["heading.equations_links"].format(links=", ".join(map(str, sorted(groups[part].links))))
+    if part in (WHOLE, LOADS):
+        return words["heading.equations_loads" if part else "heading.equations_forces"]
+    return words["heading.equations_link"].format(link=part)
+
+
+def force_lines(scene: Scene, part: str = WHOLE) -> Lines:
+    """Return the lines of the part in order of construction."""
+    scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
     lines: Lines = []
-    for link in scene.solved.mechanism.links:
-        force, moment = f"F_i{link.number}", f"M_i{link.number}"
-        if link.mass and scene.defined(force):
-            a = f"a_{link.centre}"
-            lines.append(
-                calculated(
-                    scene,
-                    force,
-                    f"{w.symbol(link.mass)}·{w.symbol(a)}",
-                    "{}·{}",
-                    lambda x, y: x * y,
-                    given(scene, link.mass),
-                    (size_of(scene, a), False),
-                )
-            )
-        if link.inertia and scene.defined(moment):
-            rate = f"epsilon_{link.number}"
-            size = abs(scene.solved.values[rate])
-            texts, result = calculation(w, lambda x, y: x * y, [given(scene, link.inertia), (size, False)])
-            head = f"{w.symbol(moment)} = {w.symbol(link.inertia)}·{w.symbol(rate)} ="
-            lines.append((head, f"{texts[0]}·{texts[1]} =", f"{result} {w.unit('N*m')}"))
+    for step in scene.solved.program:
+        told = _load(scene, step) if step.law in LOADING else _force(scene, step)
+        if told and part in (WHOLE, LOADS if step.law in LOADING else _part(scene, step)):
+            lines += told
     return lines
 
 
-def arm_terms(scene: Scene, hung: list[tuple[str, str]], about: str, link: int) -> list[Term]:
-    """Return the moments of forces on a link about a joint as F * h * mu_l, those that are not zero."""
-    w, s, mu = scene.words, scene.solved, scene.scales["position"].mu
-    terms = []
-    for name, _ in hung:
-        moment, arm = s.values.get(f"_M_{name}_{about}", 0.0), arm_of(name, link)
-        if moment != 0.0 and scene.defined(arm):
-            symbol = f"{w.symbol(name)}·{w.symbol(arm)}·{w.symbol('mu_l')}"
-            factors = ((size_of(scene, name), False), (size_of(scene, arm) / mu, False), (mu, True))
-            terms.append(Term(moment, symbol, factors))
-    return terms
+def load_lines(scene: Scene) -> Lines:
+    """Return how masses, loads, forces and moments of inertia were found."""
+    return force_lines(scene, LOADS)
 
 
-def _group_lines(scene: Scene, d: Dyad) -> Lines:
-    """Return the moments of the rod about B, the force plans of the group and the rod, the moments of the slider."""
-    w, s = scene.words, scene.solved
-    i, j, k = d.before, d.rod.number, d.slider.number
-    tangential = f"R_{i}{j}_t"
-    on_rod = [(name, point) for name, point in loads(scene, j) if point != d.B]
-    terms = arm_terms(scene, on_rod, d.B, j)
-    couple = s.values.get(f"M_i{j}", 0.0)
-    if couple != 0.0:
-        terms.append(Term(couple, w.symbol(f"M_i{j}"), ((abs(couple), False),)))
-    lines: Lines = []
-    if terms:
-        # R^t is drawn as it acts; it stands at A and turns about B against the normal to AB
-        turn = math.copysign(1.0, s.values[f"_R_{i}{j}_t"])
-        product = signed(-turn, f"{w.symbol(tangential)}·{w.symbol(d.length)}", first=True)
-        rest = [signed(term.sign, term.symbol).strip() for term in terms]
-        lines.append((f"ΣM_{{{d.B}}}({j}) = 0:", product, *rest, "= 0"))
-        numbers, below, result = balanced(scene, terms, turn, given(scene, d.length))
-        head = f"{w.symbol(tangential)} = ({' '.join(sum_of(terms, turn))})/{w.symbol(d.length)} ="
-        lines.append((head, f"({' '.join(numbers)})/{below} =", f"{result} {w.unit('N')}"))
-    else:
-        product = f"{w.symbol(tangential)}·{w.symbol(d.length)}"
-        lines.append((f"ΣM_{{{d.B}}}({j}) = 0:", f"{product} = 0,", f"{w.symbol(tangential)} = 0"))
-    known = [tangential, *(name for name, _ in (*loads(scene, k), *loads(scene, j)))]
-    lines.append(vector_sum(_bars(scene, known), _bars(scene, [f"R_0{k}", f"R_{i}{j}_n"])))
-    full = [f"R_{i}{j}", *(name for name, _ in loads(scene, j))]
-    lines.append(vector_sum(_bars(scene, full), [], w.symbol(f"R_{k}{j}", bar=True)))
-    return [*lines, *_slider_lines(scene, d)]
+def _part(scene: Scene, step: Step) -> str:
+    """Return the name of the group to which a step of the force plans belongs, or the number of the driver."""
+    plan = plan_of(step.name).removeprefix("forces_")
+    known = [group.name for group in scene.solved.structure.groups]
+    acting = step.operands[1] if step.verb == "arm" else step.name
+    group = group_of(scene, int(plan) if plan and plan not in known else link_of(scene, acting))
+    return plan if plan in known else str(scene.solved.structure.driver) if group is None else group.name
 
 
-def _slider_lines(scene: Scene, d: Dyad) -> Lines:
-    """Return the moments of the slider about B, which say where the guide's reaction stands."""
-    w, k = scene.words, d.slider.number
-    h = f"h_0{k}"
-    off = [(name, point) for name, point in loads(scene, k) if point != d.B]
-    terms = arm_terms(scene, off, d.B, k)
-    head, product = f"ΣM_{{{d.B}}}({k}) = 0:", f"{w.symbol(f'R_0{k}')}·{w.symbol(h)}"
-    if not terms:
-        return [(head, f"{product} = 0,", f"{w.symbol(h)} = {value_text(w, scene.solved.quantities[h].value or 0.0)}")]
-    turn = math.copysign(1.0, scene.solved.values[f"_M_{k}"])
-    numbers, below, result = balanced(scene, terms, turn, (size_of(scene, f"R_0{k}"), False))
-    sums = " ".join(sum_of(terms, turn))
-    value = f"{w.symbol(h)} = ({sums})/{w.symbol(f'R_0{k}')} ="
-    return [(head, value, f"({' '.join(numbers)})/{below} =", f"{result} {w.unit('m')}")]
+# Loads, weights and inertia
 
 
-def _bars(scene: Scene, names: list[str]) -> list[str]:
-    return [scene.words.symbol(name, bar=True) for name in names]
+FORMULAS: dict[str, Told] = {
+    "mass_by_length": lambda scene, s: [factor(scene, name) for name in s.operands],
+    "inertia_by_length": lambda scene, s: [
+        *(factor(scene, name) for name in s.operands[:2]),
+        factor(scene, s.operands[2], 2),
+    ],
+    "weight": lambda scene, s: [factor(scene, name) for name in s.operands[:2]],
+    "inertia_force": lambda scene, s: [factor(scene, name) for name in s.operands],
+    "inertia_moment": lambda scene, s: [factor(scene, name) for name in s.operands],
+}
+UNITS = {"mass_by_length": "kg", "inertia_by_length": "kg*m^2", "inertia_moment": "N*m"}
+RESISTING = ("resisting_force", "resisting_moment")
+LOADING = (*FORMULAS, *RESISTING, "along", "signed", "sum")
 
 
-def _balance_lines(scene: Scene) -> Lines:
-    """Return the force plan of the driver and the moments about its pivot."""
-    w, s = scene.words, scene.solved
-    driver = s.mechanism.driver
-    crank = driver.link
-    hung = [(f"R_{d.rod.number}{crank}", d.A) for d in scene.dyads if d.before == crank]
-    hung += loads(scene, crank)
-    lines: Lines = [vector_sum(_bars(scene, [name for name, _ in hung]), [], w.symbol(f"R_0{crank}", bar=True))]
-    terms = arm_terms(scene, hung, driver.pivot, crank)
-    head = f"ΣM_{{{driver.pivot}}}({crank}) = 0:"
-    if not terms:
-        return [*lines, (head, f"{w.symbol('M_bal')} = 0")]
-    total = math.copysign(1.0, s.values["M_bal"])
-    numbers, _, result = balanced(scene, terms, -total)
-    formula = f"{w.symbol('M_bal')} = {' '.join(sum_of(terms, -total))} ="
-    sense = w["said.ccw" if total > 0 else "said.cw"]
-    return [*lines, (head, formula, f"{' '.join(numbers)} =", f"{result} {w.unit('N*m')},", sense)]
+def _load(scene: Scene, step: Step) -> Lines:
+    """Tell a mass, a load, a weight, a force or moment of inertia, or a sum of couples."""
+    if step.name.startswith("_") or not scene.defined(step.name):
+        return []
+    words = scene.words
+    if step.law in FORMULAS:
+        product = Product(tuple(FORMULAS[step.law](scene, step)))
+        return [worked(words, words.symbol(step.name), [product], UNITS.get(step.law, "N"))]
+    if step.law == "sum":
+        return _sum_of_couples(scene, step)
+    mechanism = scene.solved.mechanism
+    loads = {load.name: load.magnitude for load in (*mechanism.loads, *mechanism.couples)}
+    if step.name not in loads:
+        return []
+    made = read(scene.solved.program).step(step.operands[0])
+    if made is None and step.law not in RESISTING:
+        return []
+    notes = [words["said.diagram"]] if loads[step.name] in {d.name for d in mechanism.diagrams} else []
+    size, unit = size_of(scene, step.name), scene.solved.quantities[step.name].unit
+    if step.law in RESISTING and size > 0.0:
+        against = words.symbol(step.operands[1], bar=step.law == "resisting_force")
+        notes.append(words["said.against"].format(motion=against))
+    elif size == 0.0:
+        notes.append(words["said.idle"])
+    line = stated(words, words.symbol(step.name), size, unit)
+    return [(f"{line},", *(f"{note}," for note in notes[:-1]), notes[-1])] if notes else [(line,)]
+
+
+def _sum_of_couples(scene: Scene, step: Step) -> Lines:
+    """Tell the sum of the couples on one link."""
+    words, value = scene.words, scene.solved.values[step.name]
+    products = terms(scene, step.operands)
+    if not products:
+        return [(f"{words.symbol(step.name)} = 0",)]
+    *line, last = worked(words, words.symbol(step.name), products, "N*m", turn=math.copysign(1.0, value))
+    sense = sensed(words, value)
+    return [(*line, f"{last},", sense)] if sense else [(*line, last)]
+
+
+# Moments and force plans
+
+
+def _force(scene: Scene, step: Step) -> Lines:
+    """Tell a step of the force plans: a sum of moments, or the sums of forces of a plan."""
+    if step.verb == "pole" and step.name.startswith("forces_"):
+        return list(closed(scene, plan_of(step.name)))
+    if step.law in SIGNS and not _on_lever(scene, step):
+        return _for_a_force(scene, step)
+    if step.law == "closing_moment":
+        return _for_a_moment(scene, step, step)
+    if step.law == "opposite" and step.operands[0].startswith("_M_"):
+        return _for_a_moment(scene, step, read(scene.solved.program).made[step.operands[0]])
+    if step.verb == "arm" and step.operands[0].startswith("M_"):
+        return _arm(scene, step)
+    return []
+
+
+SIGNS = {"moment_equation": -1.0, "closing_force": 1.0}  # of the force's own moment in the sum
+
+
+def _on_lever(scene: Scene, step: Step) -> bool:
+    """Whether moments are those about the pole of the lever."""
+    return step.operands[0].startswith("_V_")
+
+
+def _head(scene: Scene, links: str, point: str) -> str:
+    return f"ΣM_{{{scene.words.mark(point)}}}({links}) = 0:"
+
+
+def _for_a_force(scene: Scene, step: Step) -> Lines:
+    """Tell the moments about a joint, solved for a force: drawn as it acts, its moment turns against the others."""
+    words, reading = scene.words, read(scene.solved.program)
+    length, *moments = step.operands
+    name, found = reading.visible(step.name), terms(scene, moments)
+    laid = next((s for s in reading.users(step.name) if s.verb in ("lay", "back")), None)
+    point = about(scene, step)
+    if laid is not None and not any(m.startswith("_M_") for m in moments):
+        point = ends_of(reading, reading.made[laid.operands[1]].operands[0])[laid.verb == "lay"]
+    head = _head(scene, links_in(scene, link_of(scene, step.name), point), point)
+    arm = _reach(scene, name, length)
+    own = f"{words.symbol(name)}·{arm.symbols}"
+    if not found:
+        return [(head, f"{own} = 0,", f"{words.symbol(name)} = 0")]
+    values = scene.solved.values
+    sign, turn = math.copysign(SIGNS[step.law], SIGNS[step.law] * values[length]), math.copysign(1.0, values[step.name])
+    equation = signs([Product((), sign * turn), *found], [own, *(product.symbols for product in found)])
+    return [
+        (head, *equation, "= 0"),
+        worked(words, words.symbol(name), found, "N", arm, -sign * turn),
+    ]
+
+
+def _reach(scene: Scene, name: str, length: str) -> Product:
+    """Return the arm of the force to be found: a length, or what was measured from the point to the force's line."""
+    reading = read(scene.solved.program)
+    made = reading.step(length)
+    if made is None or made.verb == "measure":
+        return Product((factor(scene, length),))
+    arm = next(s for s in reading.program if s.verb == "arm" and s.operands[1] == name)
+    return Product(on_arm(scene, arm.name, POSITION))
+
+
+def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> Lines:
+    """Tell the moments about a joint, solved for a moment: of a guide's reaction, or the balancing one."""
+    words, value = scene.words, scene.solved.values[step.name]
+    found, point = terms(scene, sum_of.operands), about(scene, sum_of)
+    head = _head(scene, str(link_of(scene, step.name)), point)
+    if not found:
+        arm = next((s for s in read(scene.solved.program).users(step.name) if s.verb == "arm"), None)
+        zeros = [f"{words.symbol(arm.operands[1])}·{words.symbol(arm.name)}", words.symbol(arm.name)] if arm else []
+        return [(head, *(f"{zero} = 0," for zero in zeros[:-1]), f"{[words.symbol(step.name), *zeros][-1]} = 0")]
+    *line, last = worked(words, words.symbol(step.name), found, "N*m", turn=-math.copysign(1.0, value))
+    sense = sensed(words, value)
+    return [(head, *line, f"{last},", sense)] if sense else [(head, *line, last)]
+
+
+def _arm(scene: Scene, step: Step) -> Lines:
+    """Tell the arm on which a guide's reaction has the moment found."""
+    words, (moment, reaction) = scene.words, step.operands
+    if not scene.defined(step.name) or scene.solved.values[moment] == 0.0:
+        return []  # a couple has no arm; that of no moment is told with it
+    product = Product((factor(scene, moment), factor(scene, reaction, -1)))
+    return [worked(words, words.symbol(step.name), [product], "m")]

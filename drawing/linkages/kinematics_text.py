@@ -1,128 +1,233 @@
-"""Equations of velocities and accelerations, with their numbers."""
+"""Equations of velocities and accelerations, with their numbers, told step by step from the recorded program."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 
-from ...plans.linkages.rrp import Dyad
-from ..printed import calculation, value_text
+from ...plans.board import POSITION, Step
+from ...plans.linkages.solved import Solved
+from ..printed import calculation
 from ..table import text_block
 from ..view import View
-from .equations import Lines, by_direction, calculated, given, known, size_of
+from .equations import Factor, Lines, Product, factor, is_given, paper, segment, sensed, size_of, stated, worked
+from .reading import Reading, plan_of, read
 from .scene import Scene
+from .vector_equations import meeting, summed
+
+PLANS = ("velocity", "acceleration")
+STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
+Told = Callable[[Scene, Step], list[Factor]]
+
+
+def kinematics_parts(solved: Solved, plans: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
+    """Return for which plans there are blocks: one for both where there is one group, else one for each."""
+    drawn = tuple(plan for plan in PLANS if plan in plans)
+    if len(solved.structure.groups) > 1:
+        return tuple((plan,) for plan in drawn)
+    return (drawn,) if drawn else ()
 
 
 def kinematics_block(scene: Scene, width: float, plans: tuple[str, ...]) -> View:
-    """Return the equations of the plans wanted, of velocities, of accelerations or of both."""
-    lines: Lines = [_speed_line(scene)]
-    if "velocity" in plans:
-        lines.append(_pin_line(scene, "V", "{omega}", "{}·{}", lambda omega, length: omega * length))
-    if "acceleration" in plans:
-        lines.append(_pin_line(scene, "a", "{omega}^{{2}}", "{}^{{2}}·{}", lambda omega, length: omega**2 * length))
-    for d in scene.dyads:
-        lines += _velocity_lines(scene, d) if "velocity" in plans else []
-        lines += _acceleration_lines(scene, d) if "acceleration" in plans else []
-    drawn = [plan for plan in ("velocity", "acceleration") if plan in plans]
-    key = "kinematics" if len(drawn) > 1 else drawn[0]
-    return text_block("equations_kinematics", scene.words[f"heading.equations_{key}"], lines, scene.style, width)
+    """Return the equations of velocities, of accelerations or of both."""
+    told = set[str]()
+    lines = [line for plan in plans for line in kinematics_lines(scene, plan, told)]
+    if "velocity" not in plans:
+        lines = [*_speed(scene), *lines]
+    key, single = "kinematics" if len(plans) > 1 else plans[0], len(scene.solved.structure.groups) < 2
+    name = "equations_kinematics" if single else f"equations_{key}"
+    return text_block(name, scene.words[f"heading.equations_{key}"], lines, scene.style, width)
 
 
-def _speed_line(scene: Scene) -> tuple[str, ...]:
-    """Return omega_1 from revolutions per minute, or as it is given."""
-    w, s = scene.words, scene.solved
-    driver = s.mechanism.driver
-    omega = s.values[f"omega_{driver.link}"]
-    symbol, unit = w.symbol(f"omega_{driver.link}"), w.unit("rad/s")
-    sense = w["said.ccw" if omega > 0 else "said.cw"]
-    stated = scene.givens.get(driver.speed)
-    if stated is None or stated.unit != "rpm" or isinstance(stated.value, str):
-        return f"{symbol} = {value_text(w, abs(omega))} {unit},", sense
-    texts, result = calculation(w, lambda n: math.pi * n / 30.0, [(stated.value, True)])
-    return f"{symbol} = π{w.symbol(driver.speed)}/30 =", f"π·{texts[0]}/30 =", f"{result} {unit},", sense
+def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> Lines:
+    """Return the equations of one plan in order of construction, the vector equation of a group before its numbers.
+
+    `told` are the lengths of which other lines have told already.
+    """
+    story = _Story(scene, read(scene.solved.program), told if told is not None else set())
+    for step in scene.solved.program:
+        if stage_of(step) == plan:
+            story.tell(step)
+    return story.lines
 
 
-def _pin_line(scene: Scene, kind: str, factor: str, pattern: str, law: Callable[..., float]) -> tuple[str, ...]:
-    """Return velocity or acceleration of the crank's pin from omega_1 and the crank's length."""
-    w, s = scene.words, scene.solved
-    driver = s.mechanism.driver
-    omega, length = f"omega_{driver.link}", s.mechanism.link(driver.link).points[driver.point][0]
-    letter, index = w.symbol(omega).split("_", 1)
-    formula = f"{factor.format(omega=letter)}_{index}·{w.symbol(length)}"
-    inputs = (abs(s.values[omega]), False), given(scene, length)
-    return calculated(scene, f"{kind}_{driver.point}", formula, pattern, law, *inputs)
+def stage_of(step: Step) -> str:
+    """Return the plan to which a step of the kinematics belongs; nothing for other steps."""
+    if "." in step.name:
+        return plan_of(step.name)
+    if step.verb == "read":
+        return step.plan
+    return STAGES.get(step.name.lstrip("_").partition("_")[0], "") if step.verb == "calc" else ""
 
 
-def _velocity_lines(scene: Scene, d: Dyad) -> Lines:
-    w = scene.words
-    V, Va, Vba = (w.symbol(name, bar=True) for name in (f"V_{d.B}", f"V_{d.A}", f"V_{d.B}{d.A}"))
-    directions = _directions(scene, d, f"V_{d.B}", f"V_{d.B}{d.A}")
-    lines: Lines = [(f"{by_direction(V)} = {known(Va)} + {by_direction(Vba)},", *directions)]
-    lines += _similarity_lines(scene, d, "velocity", f"V_{d.B}{d.A}")
-    rate = f"omega_{d.rod.number}"
-    v, size = f"V_{d.B}{d.A}", abs(scene.solved.values[rate])
-    line = _rate_line(scene, rate, v, d, size)
-    return [*lines, line]
+@dataclass(slots=True)
+class _Story:
+    """Lines as they are told; `held` are those of a group's known parts, which come after its vector equation."""
+
+    scene: Scene
+    reading: Reading
+    told: set[str]
+    lines: Lines = field(default_factory=list)
+    held: Lines = field(default_factory=list)
+
+    def tell(self, step: Step) -> None:
+        """Tell one step."""
+        if step.verb == "meet":
+            self.lines += [meeting(self.scene, step), *self.held]
+            self.held.clear()
+        elif step.law in FORMULAS:
+            told = self.held if step.law in BEFORE_MEETING else self.lines
+            told += [*self._lengths(step), *_formula(self.scene, self.reading, step)]
+        elif step.law in ("signed", "same_turning"):
+            self.lines += _turning_alike(self.scene, step)
+        elif step.verb in ("divide", "similar"):
+            self.lines += _similarity(self.scene, step)
+        elif step.verb == "read":
+            self.lines += _absolute(self.scene, self.reading, step)
+        if step.name.startswith("epsilon_") and step.law != "same_turning":
+            self.lines.append(_comparison(self.scene, step.name))
+
+    def _lengths(self, step: Step) -> Iterator[tuple[str, ...]]:
+        """Go through the lengths for this step that are not given, each told once.
+
+        They are measured on the plan of the mechanism, or follow from the coordinates of a link's joints.
+        """
+        words = self.scene.words
+        for name in step.operands:
+            made = self.reading.step(name)
+            if made is None or made.verb != "measure" or name in self.told:
+                continue
+            self.told.add(name)
+            symbol = words.symbol(name.lstrip("_"))
+            if made.operands[0].startswith("_"):
+                yield (stated(words, symbol, size_of(self.scene, name), "m"),)
+            else:
+                yield worked(words, symbol, [Product(_segment(self.scene, *made.operands))], "m")
 
 
-def _rate_line(scene: Scene, rate: str, v: str, d: Dyad, size: float) -> tuple[str, ...]:
-    w = scene.words
-    length = given(scene, d.length)
-    texts, result = calculation(w, lambda x, y: x / y, [(size_of(scene, v), False), length])
-    unit = w.unit(scene.solved.quantities[rate].unit)
-    sense = "" if size == 0.0 else w["said.ccw" if scene.solved.values[rate] > 0 else "said.cw"]
-    head = f"{w.symbol(rate)} = {w.symbol(v)}/{w.symbol(d.length)} ="
-    return head, f"{texts[0]}/{texts[1]} =", f"{result} {unit}{',' if sense else ''}", sense
+def _segment(scene: Scene, start: str, end: str) -> tuple[Factor, Factor]:
+    """Return a distance on the plan of the mechanism as its millimetres and the scale factor."""
+    words, size = scene.words, abs(scene.solved.point(end) - scene.solved.point(start))
+    own = segment(scene, words.mark(start) + words.mark(end), POSITION, size)
+    return own, paper(words, scene.scales[POSITION])
 
 
-def _directions(scene: Scene, d: Dyad, along: str, across: str) -> tuple[str, ...]:
-    w = scene.words
-    return (f"{w.symbol(along, bar=True)} ∥ x–x,", f"{w.symbol(across, bar=True)} ⊥ {d.AB}")
+def _arm(scene: Scene, name: str) -> tuple[Factor, Factor]:
+    """Return the arm of a turn about a pin, which was read off the plan of the mechanism."""
+    made = read(scene.solved.program).made[name]
+    return _segment(scene, made.operands[0], made.operands[1])
 
 
-def _similarity_lines(scene: Scene, d: Dyad, plan: str, relative: str) -> Lines:
-    w = scene.words
-    lines: Lines = []
-    for point, (part, _) in d.rod.points.items():
-        if point in (d.A, d.B):
-            continue
-        a, b, s = (w.mark(f"{plan}.{letter}") for letter in (d.A, d.B, point))
-        ab = size_of(scene, relative) / scene.scales[plan].mu
-        law = lambda x, y, z: x * y / z  # noqa: E731
-        texts, result = calculation(w, law, [(ab, False), given(scene, part), given(scene, d.length)])
-        ratio = f"{w.symbol(part)}/{w.symbol(d.length)}"
-        mm = w["unit.mm"]
-        lines.append((f"{a}{s} = {a}{b}·{ratio} =", f"{texts[0]}·{texts[1]}/{texts[2]} =", f"{result} {mm}"))
-    return lines
+FORMULAS: dict[str, Told] = {
+    "circular_speed": lambda scene, s: [factor(scene, s.operands[0]), factor(scene, s.operands[1])],
+    "centripetal": lambda scene, s: [factor(scene, s.operands[0], 2), factor(scene, s.operands[1])],
+    "circular_acceleration": lambda scene, s: [factor(scene, s.operands[0]), factor(scene, s.operands[1])],
+    "normal_part": lambda scene, s: [factor(scene, s.operands[0], 2), factor(scene, s.operands[1], -1)],
+    "turning": lambda scene, s: [factor(scene, s.operands[0]), factor(scene, s.operands[2], -1)],
+    "coriolis": lambda scene, s: [Factor("2", 2.0, exact=True), *(factor(scene, name) for name in s.operands)],
+    "transport_speed": lambda scene, s: [factor(scene, s.operands[0]), *_arm(scene, s.operands[1])],
+    "transport_normal": lambda scene, s: [factor(scene, s.operands[0], 2), *_arm(scene, s.operands[1])],
+    "transport_tangential": lambda scene, s: [factor(scene, s.operands[0]), *_arm(scene, s.operands[1])],
+}
+BEFORE_MEETING = ("normal_part", "coriolis")
 
 
-def _acceleration_lines(scene: Scene, d: Dyad) -> Lines:
-    w = scene.words
-    aB, aA, n, t = (w.symbol(name, bar=True) for name in (f"a_{d.B}", f"a_{d.A}", f"a_{d.B}{d.A}_n", f"a_{d.B}{d.A}_t"))
-    normal = f"a_{d.B}{d.A}_n"
-    v = f"V_{d.B}{d.A}"
-    lines: Lines = [
-        (
-            f"{by_direction(aB)} = {known(aA)} + {known(n)} + {by_direction(t)},",
-            f"{n} ∥ {d.AB} ({d.B} → {d.A}),",
-            f"{t} ⊥ {d.AB}",
-        ),
-        calculated(
-            scene,
-            normal,
-            f"{w.symbol(v).replace('_', '^{2}_', 1)}/{w.symbol(d.length)}",
-            "{}^{{2}}/{}",
-            lambda x, y: x * x / y,
-            (size_of(scene, v), False),
-            given(scene, d.length),
-        ),
-        *_similarity_lines(scene, d, "acceleration", f"a_{d.B}{d.A}"),
-    ]
-    rate, speed = f"epsilon_{d.rod.number}", f"omega_{d.rod.number}"
-    lines.append(_rate_line(scene, rate, f"a_{d.B}{d.A}_t", d, abs(scene.solved.values[rate])))
-    omega, epsilon = scene.solved.values[speed], scene.solved.values[rate]
+def _formula(scene: Scene, reading: Reading, step: Step) -> Lines:
+    """Return what a law gives, with its numbers, and how the vector lies."""
+    words, name = scene.words, reading.visible(step.name)
+    unit = "rad/s" if name.startswith("omega") else "rad/s^2" if name.startswith("epsilon") else ""
+    unit = unit or ("m/s" if name.startswith("V") else "m/s^2")
+    line = worked(words, words.symbol(name), [Product(tuple(FORMULAS[step.law](scene, step)))], unit)
+    note = _lies(scene, reading, step, name)
+    return [(*line[:-1], f"{line[-1]},", *note) if note else line]
+
+
+def _lies(scene: Scene, reading: Reading, step: Step, name: str) -> tuple[str, ...]:
+    """Say in which sense a link turns, which way a normal part is laid off, how that of Coriolis is turned."""
+    words = scene.words
+    if step.law == "turning":
+        sense = sensed(words, scene.solved.values[name])
+        return (sense,) if sense else ()
+    if step.law == "normal_part":
+        back = next(s for s in reading.users(step.name) if s.verb == "back")
+        start, end = (words.mark(point) for point in reading.made[back.operands[1]].operands[:2])
+        return (f"{words.symbol(name, bar=True)} ∥ {start}{end} ({end} → {start})",)
+    if step.law == "coriolis":
+        omega, v = step.operands
+        said = words["said.coriolis"].format(
+            part=words.symbol(name, bar=True), vector=words.symbol(v, bar=True), omega=words.symbol(omega)
+        )
+        return tuple(said.split("|"))
+    return ()
+
+
+def _speed(scene: Scene) -> Lines:
+    """Return the crank's omega alone, for a plan of accelerations without that of velocities."""
+    given = (s for s in scene.solved.program if s.law == "signed" and s.name.startswith("omega_"))
+    return [line for step in given for line in _turning_alike(scene, step)]
+
+
+def _turning_alike(scene: Scene, step: Step) -> Lines:
+    """Return a rate that is given, from revolutions per minute where it is so, or that of another link."""
+    words, value = scene.words, scene.solved.values[step.name]
+    symbol, unit = words.symbol(step.name), "rad/s" if step.name.startswith("omega") else "rad/s^2"
+    sense = sensed(words, value)
+    if step.law == "same_turning":
+        symbol = f"{symbol} = {words.symbol(step.operands[0])}"
+    given = scene.givens.get(step.operands[0])
+    if given is not None and given.unit == "rpm" and not isinstance(given.value, str):
+        texts, result = calculation(words, lambda n: math.pi * n / 30.0, [(given.value, True)])
+        head = f"{symbol} = π{words.symbol(step.operands[0])}/30 =", f"π·{texts[0]}/30 ="
+        last = f"{result} {words.unit(unit)}"
+    else:
+        head, last = (), stated(words, symbol, abs(value), unit)
+    return [(*head, f"{last},", sense) if sense else (*head, last)]
+
+
+def _similarity(scene: Scene, step: Step) -> Lines:
+    """Return where a point of a link stands on a plan by the theorem of similarity."""
+    words = scene.words
+    start, end, first, second = step.operands
+    a, b, s = (words.mark(mark) for mark in (start, end, step.name))
+    if step.verb == "similar":
+        point, made = step.name.rpartition(".")[2], read(scene.solved.program).made
+        # at the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism
+        marks = [made[point].operands[i] if m.endswith(".p") else m for i, m in enumerate((start, end))]
+        A, B, S = (words.mark(mark.rpartition(".")[2]) for mark in (*marks, point))
+        return [tuple(words["said.similar"].format(plan=f"{a}{b}{s}", link=f"{A}{B}{S}").split("|"))]
+    if size_of(scene, first) == 0.0:
+        return []
+    ab = segment(scene, f"{a}{b}", step.plan, abs(scene.solved.point(end) - scene.solved.point(start)))
+    ratio = Product((ab, factor(scene, first), factor(scene, second, -1)))
+    return [worked(words, f"{a}{s}", [ratio], words.display.paper)]
+
+
+def _absolute(scene: Scene, reading: Reading, step: Step) -> Lines:
+    """Return the absolute vector of a point that was hung from parts, moves like another, or is given."""
+    tail, tip = step.operands
+    made = reading.made[tip]
+    if not tail.endswith(".p") or made.name == tail:
+        return []
+    if made.verb == "same":
+        other = reading.absolute(made.operands[0])
+        return [summed(scene, step.name, [other.name])[:1]] if other is not None else []
+    whole = reading.absolute(tip)
+    if made.verb in ("lay", "back") and is_given(scene, made.operands[2]):
+        words, item = scene.words, scene.solved.quantities[step.name]
+        head = f"{words.symbol(step.name)} = {words.symbol(made.operands[2])}"
+        return [(stated(words, head, item.value or 0.0, item.unit),)]
+    if whole is None or whole.name != step.name:
+        return []
+    parts = reading.parts(whole)
+    return [summed(scene, step.name, [edge.name for edge in parts])] if parts else []
+
+
+def _comparison(scene: Scene, rate: str) -> tuple[str, ...]:
+    """Say whether a link speeds up or slows down."""
+    w, values, link = scene.words, scene.solved.values, rate.rpartition("_")[2]
+    speed = f"omega_{link}"
+    omega, epsilon = values[speed], values[rate]
     still = "said.translates" if omega == 0.0 else "said.steady"
     key = still if omega * epsilon == 0.0 else "said.speeds_up" if omega * epsilon > 0 else "said.slows_down"
-    text = w[key].format(link=d.rod.number, omega=w.symbol(speed), epsilon=w.symbol(rate))
-    lines.append(tuple(text.split("|")))
-    return lines
+    return tuple(w[key].format(link=link, omega=w.symbol(speed), epsilon=w.symbol(rate)).split("|"))

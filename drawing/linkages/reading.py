@@ -40,45 +40,37 @@ class Reading:
         """Return the vector from one mark to another, the first that is drawn."""
         return next((e for e in self.on(plan_of(tip)) if (e.tail, e.tip) == (tail, tip)), None)
 
-    def into(self, mark: str, before: int) -> Iterator[Edge]:
-        """Go through the vectors that are drawn to a mark before a certain step."""
-        return (e for e in self.on(plan_of(mark)) if e.tip == mark and e.at < before)
+    def absolute(self, mark: str, before: int | None = None) -> Edge | None:
+        """Return the vector from the pole to a mark; of two names for it the last one."""
+        pole = f"{plan_of(mark)}.p"
+        edges = [e for e in self.on(plan_of(mark)) if (e.tail, e.tip) == (pole, mark)]
+        return next((e for e in reversed(edges) if before is None or e.at < before), None)
 
     def way(self, mark: str, before: int) -> list[Edge]:
         """Return the known vectors that lead from the pole to a mark: its absolute one if it has one.
 
         Otherwise that which ends at it, hung on the way to where that one begins.
         """
-        pole = f"{plan_of(mark)}.p"
-        if mark == pole:
-            return []
-        ends = list(self.into(mark, before))
-        absolute = next((e for e in ends if e.tail == pole), None)
+        absolute = self.absolute(mark, before)
         if absolute is not None:
             return [absolute]
-        return [*self.way(ends[0].tail, before), ends[0]] if ends else []
+        end = next((e for e in self.on(plan_of(mark)) if e.tip == mark and e.at < before), None)
+        return [] if end is None else [*self.way(end.tail, before), end]
 
-    def hung(self, mark: str) -> list[Edge]:
-        """Return the vectors of which a mark's absolute vector is the sum, as they were hung: two at least, or none."""
-        pole, parts = f"{plan_of(mark)}.p", []
-        at: str | None = mark
-        while at is not None and at != pole:
-            edges = [e for e in self.on(plan_of(mark)) if e.tip == at]
-            edge = next((e for e in edges if e.tail == self._foot(at)), None)
-            if edge is None:
-                break
-            parts.insert(0, edge)
-            absolute = next((e for e in edges if e.tail == pole), None)
-            if absolute is not None and at != mark:
-                parts[0] = absolute
-                break
-            at = edge.tail
-        return parts if len(parts) > 1 else []
+    def parts(self, whole: Edge) -> list[Edge]:
+        """Return the vectors of which an absolute one was hung together; none where it was not."""
+        step = self.made[whole.tip]
+        if step.verb not in ("lay", "back", "chain"):
+            return []
+        last = self.between(step.operands[0], step.name)
+        if last is None or last.name == whole.name:
+            return []
+        return [*self.way(step.operands[0], len(self.made)), last]
 
-    def _foot(self, mark: str) -> str:
-        """Return the mark from which another was laid off or hung."""
-        step = self.made[mark]
-        return step.operands[0] if step.verb in ("lay", "back", "chain") else ""
+    def is_hung(self, edge: Edge) -> bool:
+        """Whether a vector was laid off or hung, not read between marks that were there."""
+        step = self.made[edge.tip]
+        return step.verb in ("lay", "back", "chain") and step.operands[0] == edge.tail
 
     def visible(self, name: str) -> str:
         """Return the quantity that a calculated size is: `a_BA_n`, which the plan shows, of `_a_BA_n`."""

@@ -1,22 +1,38 @@
-"""Tables of a linkage sheet: what is given, and what was measured and calculated."""
+"""Tables of a linkage sheet: what is given, and what was measured and calculated; long ones cut by groups of links."""
 
 from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 from ...plans.linkages.solved import Solved
 from ...plans.quantities import Quantity
 from ..printed import segment_decimals, value_text
 from ..table import table
 from ..view import View
+from .reading import read
 from .scene import Scene
 
+KINDS = ("velocity", "acceleration", "compound", "forces", "lever")
 HEADS = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
+ROWS = 30  # most rows of a table
 
 
-def kind_of(name: str) -> str:
-    """Return the table in which a quantity stands."""
-    if name.startswith("h_lever") or name in ("F_bal", "M_bal_lever", "delta_M_bal") or name.endswith("_couple"):
-        return "lever"
-    return HEADS.get(name.partition("_")[0], "forces")
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One table of results: the kind of plan, the names of its rows, the links they belong to ("" for all)."""
+
+    kind: str
+    names: tuple[str, ...]
+    links: str = ""
+
+    @property
+    def name(self) -> str:
+        """The name of its view."""
+        links = self.links.replace(", ", "_")
+        return f"results_{self.kind}_{links}" if links else f"results_{self.kind}"
 
 
 def givens_table(scene: Scene) -> View:
@@ -33,38 +49,142 @@ def givens_table(scene: Scene) -> View:
     return table("givens", words["heading.givens"], rows, scene.style)
 
 
-def kinds_of_results(solved: Solved) -> tuple[str, ...]:
-    """Return which tables of results there are."""
-    return tuple(dict.fromkeys(kind_of(q.name) for q in _results(solved)))
+def results_parts(solved: Solved) -> tuple[Part, ...]:
+    """Return the tables of results, in the order of the work; each quantity stands in one of them."""
+    parts = []
+    for kind in KINDS:
+        names = [q.name for q in _results(solved) if kind_of(solved, q.name) == kind]
+        parts += [Part(kind, tuple(names))] if 0 < len(names) <= ROWS else _cut(solved, kind, names)
+    return tuple(parts)
 
 
-def results_table(scene: Scene, kind: str) -> View:
-    """Return the table of the results of one kind of plan."""
+def kind_of(solved: Solved, name: str) -> str:
+    """Return the kind of table in which a quantity stands."""
+    reading = read(solved.program)
+    if name in _compound(solved):
+        return "compound"
+    pole = reading.number.get("lever.p")
+    if pole is not None and reading.number[name] > pole:
+        return "lever"
+    return HEADS.get(name.partition("_")[0], "forces")
+
+
+def _compound(solved: Solved) -> frozenset[str]:
+    """Return what belongs to compound motion: what its plans show, distances, relative rates."""
+    shown = {name for name, plan in solved.shown_on.items() if "_at_" in plan}
+    apart = {step.name for step in solved.program if step.verb == "distance"}
+    return frozenset(shown | apart | {name for name in solved.quantities if re.match(r"(omega|epsilon)_r_", name)})
+
+
+def _results(solved: Solved) -> Iterator[Quantity]:
+    """Go through what the tables show: all quantities but points, given lengths, and each force of a pair."""
+    made = read(solved.program).made
+    for q in solved.quantities.values():
+        if q.kind != "point" and q.value is not None and q.name in made and "_couple_" not in q.name:
+            yield q
+
+
+def _cut(solved: Solved, kind: str, names: list[str]) -> list[Part]:
+    """Cut a long table by groups of links, in the order in which the groups are dealt with."""
+    order = [(solved.structure.driver,), *(group.links for group in solved.structure.groups)]
+    if kind == "forces":
+        order.reverse()
+    by_group: dict[tuple[int, ...], list[str]] = {links: [] for links in order}
+    for name in names:
+        by_group[_owner(solved, name)].append(name)
+    parts: list[tuple[list[int], list[str]]] = []
+    for links, own in by_group.items():
+        for chunk in _chunks(own):
+            if parts and len(parts[-1][1]) + len(chunk) <= ROWS:
+                parts[-1][0].extend(links)
+                parts[-1][1].extend(chunk)
+            else:
+                parts.append(([*links], [*chunk]))
+    return [Part(kind, tuple(own), ", ".join(map(str, sorted(set(links))))) for links, own in parts]
+
+
+def _chunks(names: list[str]) -> Iterator[list[str]]:
+    """Cut what is too long for one table into equal pieces."""
+    count = math.ceil(len(names) / ROWS)
+    for k in range(count):
+        yield names[k * len(names) // count : (k + 1) * len(names) // count]
+
+
+def _owner(solved: Solved, name: str) -> tuple[int, ...]:
+    """Return the links of the group to which a quantity belongs, the last of those that it concerns."""
+    groups = [(solved.structure.driver,), *(group.links for group in solved.structure.groups)]
+    links = _links_of(solved, name)
+    return next((group for group in reversed(groups) if links & {*group}), groups[0])
+
+
+def _links_of(solved: Solved, name: str) -> set[int]:
+    """Return the links that a quantity concerns: of a point the first that has it, of a reaction both."""
+    mechanism = solved.mechanism
+    loads = {load.name: load.link for load in (*mechanism.loads, *mechanism.couples)}
+    head, _, rest = name.partition("_")
+    if rest in loads or name in loads:
+        return {loads.get(name) or loads[rest]}
+    numbers = {link.number for link in mechanism.links}
+    if head in ("V", "a"):
+        return _first_with(solved, rest)
+    digits = re.sub(r"\D", "", rest.partition("_lever")[0])
+    if digits and int(digits) in numbers:
+        return {int(digits)}
+    found = {number for number in numbers if str(number) in digits}
+    if head == "h" and len(digits) == 2:
+        return {int(digits[1])} & numbers  # the arm of a reaction stands where the link on which it acts is dealt with
+    return found or {link.number for link in mechanism.links if {link.mass, link.inertia} & {name}}
+
+
+def _first_with(solved: Solved, index: str) -> set[int]:
+    """Return the first link that has the point with which an index such as `BA` or `A3A2` begins."""
+    links = [solved.structure.driver, *(number for group in solved.structure.groups for number in group.links)]
+    points = {point: number for number in reversed(links) for point in solved.mechanism.link(number).points}
+    ways = {**{f"{point}{number}": number for point in points for number in links}, **points}
+    return {ways[max((way for way in ways if index.startswith(way)), key=len, default="")]} if points else set()
+
+
+def results_table(scene: Scene, part: Part) -> View:
+    """Return a table of results."""
     words = scene.words
+    heading = words[f"heading.results_{part.kind}"]
+    if part.links.isdigit():
+        heading = words["table.of_link"].format(heading=heading, link=part.links)
+    elif part.links:
+        heading = words["table.of_links"].format(heading=heading, links=part.links)
     head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
-    rows = [_row(scene, q) for q in _results(scene.solved) if kind_of(q.name) == kind]
-    return table(f"results_{kind}", words[f"heading.results_{kind}"], [head, *rows], scene.style)
-
-
-def _results(solved: Solved) -> list[Quantity]:
-    """Return what the tables show: all quantities but points, lengths, and each force of a pair."""
-    shown = (q for q in solved.quantities.values() if q.kind != "point" and q.value is not None)
-    return [q for q in shown if not q.name.startswith("l_") and "_couple_" not in q.name]
+    angles = [words["table.angle"]] if words.notation["angles"] else []
+    quantities = scene.solved.quantities
+    rows = [[*_row(scene, quantities[n]), *(_angle(scene, quantities[n]) for _ in angles)] for n in part.names]
+    return table(part.name, heading, [[*head, *angles], *rows], scene.style)
 
 
 def _row(scene: Scene, q: Quantity) -> list[str]:
-    words, value = scene.words, q.value or 0.0
-    symbol = words.symbol(q.name)
-    unit = words.unit(q.unit)
+    words, value = scene.words, scene.words.display.value(q.value or 0.0, q.unit)
+    symbol, unit = words.symbol(q.name), words.unit(words.display.unit(q.unit))
     plan = scene.solved.shown_on.get(q.name, "")
     if plan not in scene.scales:
-        return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, tidy(scene, q)), unit]
-    mu = scene.scales[plan].mu
+        return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, tidy(q, value)), unit]
+    number = words.factor(scene.scales[plan])
+    mu = 1.0 / number if words.per_unit else number
     places, decimals = segment_decimals(value, mu)
-    return [symbol, words.number(abs(value) / mu, places), words.short(mu), words.number(abs(value), decimals), unit]
+    return [
+        symbol,
+        words.number(abs(value) / mu, places),
+        words.short(number),
+        words.number(abs(value), decimals),
+        unit,
+    ]
 
 
-def tidy(scene: Scene, q: Quantity) -> float:
+def _angle(scene: Scene, q: Quantity) -> str:
+    """Return the angle of a vector from the axis x, degrees."""
+    if q.x is None or q.y is None or math.hypot(q.x, q.y) == 0.0:
+        return scene.words["table.calculated"]
+    return scene.words.number(math.degrees(math.atan2(q.y, q.x)) % 360.0, 1)
+
+
+def tidy(q: Quantity, value: float) -> float:
     """Return the value: of a force its magnitude, of a difference 0 where it is rounding noise."""
-    value = abs(q.value or 0.0) if q.name.startswith("F") else q.value or 0.0
-    return 0.0 if q.name.startswith("delta") and abs(value) < 1e-6 else value
+    size = abs(value) if q.name.startswith("F") else value
+    return 0.0 if q.name.startswith("delta") and abs(size) < 1e-6 else size

@@ -11,16 +11,16 @@ from ...plans.linkages.solved import Solved
 from ...plans.linkages.structure import Group
 from ..view import View
 from .driver_view import driver_view
-from .forces_text import forces_block
+from .forces_text import force_parts, forces_block
 from .group_view import group_view, link_view
-from .kinematics_text import kinematics_block
+from .kinematics_text import kinematics_block, kinematics_parts
 from .lever_text import lever_block
 from .lever_view import lever_view
 from .plan_view import plan_view
 from .scene import Scene
 from .scheme import scheme
 from .structure_text import structure_block
-from .tables import givens_table, kinds_of_results, results_table
+from .tables import Part, givens_table, results_parts, results_table
 
 if TYPE_CHECKING:
     from ...plans.linkages.cycle import Cycle
@@ -45,7 +45,7 @@ def figures(solved: Solved, plans: tuple[str, ...], width: float, cycle: Cycle |
 
 
 def _kinematics(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
-    symbols, results = solved.scale_of_plan, kinds_of_results(solved)
+    symbols = solved.scale_of_plan
     if "structure" in plans:
         yield Figure(givens_table)
         yield Figure(lambda scene: structure_block(scene, width))
@@ -54,9 +54,9 @@ def _kinematics(solved: Solved, plans: tuple[str, ...], width: float) -> Iterato
     for plan in ("velocity", "acceleration"):
         if plan in plans:
             yield _plan(plan, f"heading.{plan}", symbols[plan])
-    if {"velocity", "acceleration"} & set(plans):
-        yield Figure(lambda scene: kinematics_block(scene, width, plans))
-    yield from (_results(kind) for kind in ("velocity", "acceleration") if kind in results and kind in plans)
+    yield from (_kinematics_text(part, width) for part in kinematics_parts(solved, plans))
+    parts = results_parts(solved)
+    yield from (_results(p) for p in parts if p.kind in ("velocity", "acceleration") and p.kind in plans)
 
 
 def _cycle(cycle: Cycle | None) -> Iterator[Figure]:
@@ -77,7 +77,7 @@ def _forces(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Fi
             yield from _group(solved, group)
         yield Figure(driver_view, "mu_l")
         yield _plan(f"forces_{link}", "heading.link_forces", symbols[f"forces_{link}"], link=link)
-        yield Figure(lambda scene: forces_block(scene, width))
+        yield from (_forces_text(part, width) for part in force_parts(solved))
 
 
 def _group(solved: Solved, group: Group) -> Iterator[Figure]:
@@ -119,12 +119,20 @@ def _lever(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Fig
     if "lever" in plans:
         yield Figure(lever_view, "mu_V")
         yield Figure(lambda scene: lever_block(scene, width, with_inertia="forces" not in plans))
-    yield from (_results(kind) for kind in ("forces", "lever") if kind in kinds_of_results(solved) and kind in plans)
+    yield from (_results(p) for p in results_parts(solved) if p.kind in ("forces", "lever") and p.kind in plans)
 
 
 def _plan(plan: str, key: str, symbol: str, **fill: str) -> Figure:
     return Figure(lambda scene: plan_view(scene, plan, key, **fill), symbol)
 
 
-def _results(kind: str) -> Figure:
-    return Figure(lambda scene: results_table(scene, kind))
+def _kinematics_text(plans: tuple[str, ...], width: float) -> Figure:
+    return Figure(lambda scene: kinematics_block(scene, width, plans))
+
+
+def _forces_text(part: str, width: float) -> Figure:
+    return Figure(lambda scene: forces_block(scene, width, part))
+
+
+def _results(part: Part) -> Figure:
+    return Figure(lambda scene: results_table(scene, part))
