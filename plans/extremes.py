@@ -127,8 +127,8 @@ def _climb(search: _Search) -> tuple[Array, Array]:
 
 
 def _topped(search: _Search, value: Array, place: Array, half: Array) -> tuple[Array, Array]:
-    """Put parabolas on the peaks, twice; keep what is higher."""
-    for width in (half, half / 32.0):
+    """Put parabolas on the peaks, narrower and narrower ones; keep what is higher."""
+    for width in (half, half / 32.0, half / 1024.0):
         points = place + width * np.array([-1.0, 0.0, 1.0])[:, None]
         if not search.stretch.closed:
             points = np.clip(points, END, math.pi - END)

@@ -40,7 +40,11 @@ def as_table(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
     shown = [column.shown(words.display) for column in columns]
     head = ["", *(f"{column.name}, {format_unit(column.unit, words.language)}" for column in shown)]
     rows = [
-        [str(k), *(_number(words, column.values[k]) for column in shown), "" if status == "ok" else words[f"status.{status}"]]
+        [
+            str(k),
+            *(_number(words, column.values[k]) for column in shown),
+            "" if status == "ok" else words[f"status.{status}"],
+        ]
         for k, status in enumerate(cycle.statuses)
     ]
     parts = [_aligned([head, *rows]), *_whole_cycle(cycle, words), _extremes(cycle, chosen, words)]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,7 @@ from .mechanism import Mechanism
 from .strokes import Output, OutputMotion, Travel, measured, output_motions, outputs, stroke_of, zero_position
 from .structure import Structure
 from .sweeping import Swept, swept
+from .undetermined import NEAR_LIMIT, strike_out, undetermined_at
 
 __all__ = ["Arc", "Cycle", "Extreme", "Travel", "cycle", "stroke_of"]
 Array = NDArray[Any]
@@ -191,16 +192,21 @@ def cycle(
     structure, program = construct(drive.mechanism, plans)
     program = measured(program, outputs(drive.mechanism, structure))
     places = _places(drive, zero if start is None else start, between, positions)
-    named = quantities(program, defaultdict(float), {})
-    points = [point for link in mechanism.links for point in link.points] + [*mechanism.frame_points]
-    measures = [name for motion in motions for name in motion.output.measures]
-    known = set(program.names)
-    wanted = [name for name in dict.fromkeys((*named, *points, *measures)) if name in known]
-    results, codes = batch(program, _givens(drive, values, program, places), wanted)
+    results, codes = batch(program, _givens(drive, values, program, places), _wanted(mechanism, program, motions))
+    strike_out(results, codes, program, undetermined_at(drive, reach, places))
     speed = abs(float(values[mechanism.driver.speed]))
     with np.errstate(divide="ignore", invalid="ignore"):
         times = np.abs(places - places[0]) / speed
     return Cycle(drive, structure, program, dict(values), places, times, results, codes, reach, motions, zero)
+
+
+def _wanted(mechanism: Mechanism, program: Program, motions: Iterable[OutputMotion]) -> list[str]:
+    """Return what a cycle keeps of every position: quantities, points, the motion of the outputs."""
+    named = quantities(program, defaultdict(float), {})
+    points = [point for link in mechanism.links for point in link.points] + [*mechanism.frame_points]
+    measures = [name for motion in motions for name in motion.output.measures]
+    known = set(program.names)
+    return [name for name in dict.fromkeys((*named, *points, *measures)) if name in known]
 
 
 def _places(drive: Swept, start: float, between: Arc | None, positions: int) -> Array:
@@ -208,7 +214,9 @@ def _places(drive: Swept, start: float, between: Arc | None, positions: int) -> 
     count: Array = np.arange(positions, dtype=float)
     if between is None:
         return start + drive.sense * TURN * (count / positions)
-    low, high = (between.low, between.high) if drive.sense > 0.0 else (between.high, between.low)
+    rounding = NEAR_LIMIT * 0.1 * (between.high - between.low)  # a limit must not lie beyond itself
+    low, high = between.low + rounding, between.high - rounding
+    low, high = (low, high) if drive.sense > 0.0 else (high, low)
     return low + (high - low) * (count / (positions - 1))
 
 
@@ -229,5 +237,7 @@ def _reach(
     high = between.high if end is None else end
     if low <= found.whole.low or high >= found.whole.high:
         raise InputError("travel-endless")
+    own = tuple(place for place, given in ((low, start), (high, end)) if given is None)
     between = Arc(min(low, high), max(low, high))
-    return reach_of(drive, values, between), between
+    found = reach_of(drive, values, between)
+    return replace(found, limits=found.limits + own), between

@@ -44,8 +44,8 @@ class Reach:
     """Where a mechanism can be assembled.
 
     `stretches` are regular inside: they end at limiting positions, at `changes`, where links lie in line, and at
-    `poles`, where guides are parallel. `apart` are the arcs between them that cannot be reached. `bounded` tells
-    whether a sliding driver's range ends within the mechanism's size.
+    `poles`, where guides are parallel. `apart` are the arcs between them that cannot be reached, `limits` the limiting
+    positions.
     """
 
     whole: Stretch
@@ -53,6 +53,7 @@ class Reach:
     apart: tuple[Arc, ...]
     changes: tuple[float, ...]
     poles: tuple[float, ...]
+    limits: tuple[float, ...] = ()
 
     @property
     def free(self) -> bool:
@@ -142,7 +143,10 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     if drive.turns:
         changes, poles = [x % TURN for x in changes], [x % TURN for x in poles]
     apart = _gaps(whole, stretches)
-    return Reach(whole, tuple(stretches), apart, tuple(sorted(changes)), tuple(sorted(poles)))
+    limits = {end for arc in apart for end in (arc.low, arc.high)} - (
+        set() if whole.closed else {whole.low, whole.high}
+    )
+    return Reach(whole, tuple(stretches), apart, tuple(sorted(changes)), tuple(sorted(poles)), tuple(sorted(limits)))
 
 
 def _range(drive: Swept, values: Mapping[str, float], between: Arc | None) -> Stretch:

@@ -27,6 +27,7 @@ from .structure import Structure
 from .sweeping import Swept, at_unit_speed, swept, without_loads
 
 Array = NDArray[Any]
+INSIDE = 1e-14  # part of a stretch by which its end may lie beyond a limit of assembly, by rounding
 STILL = 1e-9  # part of the usual velocity below which an output stands still for good
 
 
@@ -255,7 +256,8 @@ class _Ends:
     def _places(self, stretch: Stretch, roots: Array) -> tuple[list[float], list[tuple[float, float]]]:
         """Return the output's places at `roots`, and at the ends of an open stretch."""
         ends = [] if stretch.closed else [stretch.low, stretch.high]
-        at = np.unique(np.concatenate((stretch.place(stretch.grid()), roots, ends)))
+        inside = [end + s * INSIDE * stretch.length for end, s in zip(ends, (1.0, -1.0), strict=False)]
+        at = np.unique(np.concatenate((stretch.place(stretch.grid()), roots, ends, inside)))
         places = self.output.places(self.along(at))
         known = np.flatnonzero(np.isfinite(places))
         found = [float(places[np.searchsorted(at, root)]) for root in roots]
