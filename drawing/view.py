@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import assert_never
 
-from .labels import Obstacles, Request, place
+from .labels import Labels, Obstacles, Request, place
 from .page import extent
 from .pens import HEAD_HALF_WIDTH
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
@@ -43,7 +43,7 @@ class Canvas:
     _requests: list[Request] = field(default_factory=list)
     _markup: list[tuple[str, float]] = field(default_factory=list)
     _boxes: list[Box] = field(default_factory=list)
-    _spare: set[str] = field(default_factory=set)
+    _spare: dict[str, str] = field(default_factory=dict)
     bounds: Box | None = None  # letters stay inside of it
 
     def add(self, *shapes: Shape) -> None:
@@ -65,11 +65,11 @@ class Canvas:
         height: float | None = None,
         priority: int = 0,
         strict: bool = False,
-        spare: bool = False,
+        spare: str = "",
     ) -> None:
         """Ask for a letter beside a node, or beside a line from one point to another.
 
-        A `spare` one, such as the millimetres of an arm, goes into the notes where it would cover something.
+        One that would cover something and has a `spare` text is left out, and the text goes into the notes.
         """
         height = height or self.style.label
         layout = lay_out(markup, height)
@@ -77,18 +77,13 @@ class Canvas:
         self._requests.append(Request(str(len(self._requests)), *size, anchor, clear, prefer, priority, strict))
         self._markup.append((markup, height))
         if spare:
-            self._spare.add(self._requests[-1].name)
+            self._spare[self._requests[-1].name] = spare
 
     def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:
         """Place the letters, write the heading lines and smaller notes above, and close the view."""
-        obstacles = _obstacles(self.shapes, self._boxes, self.style)
-        left, moved = self._requests, list[str]()
-        placed = place(left, obstacles, bounds=self.bounds)
-        while crowded := [name for name in placed.failed if name in self._spare]:
-            moved += crowded
-            left = [request for request in left if request.name not in crowded]
-            placed = place(left, obstacles, bounds=self.bounds)
-        notes = (*notes, *_joined([self._markup[int(name)][0] for name in sorted(moved, key=int)]))
+        left, placed = self._placed()
+        kept = {request.name for request in left}
+        notes = (*notes, *_joined([text for name, text in self._spare.items() if name not in kept]))
         for request in left:
             markup, height = self._markup[int(request.name)]
             corner = placed.corners[request.name]
@@ -101,6 +96,30 @@ class Canvas:
             self.shapes += lines
         x0, _, x1, _ = extent(self.shapes)
         return View(name, tuple(self.shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
+
+
+    def _placed(self) -> tuple[list[Request], Labels]:
+        """Place the letters; leave out spare ones that cover something, or that stand in the way of others."""
+        obstacles, left = _obstacles(self.shapes, self._boxes, self.style), self._requests
+        placed = place(left, obstacles, bounds=self.bounds)
+        while placed.failed:
+            out = {name for name in placed.failed if name in self._spare}
+            if not out:
+                out = self._in_the_way(placed, {request.name for request in left})
+            if not out:
+                break
+            left = [request for request in left if request.name not in out]
+            placed = place(left, obstacles, bounds=self.bounds)
+        return left, placed
+
+    def _in_the_way(self, placed: Labels, left: set[str]) -> set[str]:
+        """Return for each letter that found no place the nearest spare one."""
+        spare = [name for name in self._spare if name in left]
+        near = {
+            min(spare, key=lambda name: abs(placed.corners[name] - placed.corners[failed]), default="")
+            for failed in placed.failed
+        }
+        return {name for name in near if name}
 
 
 def _joined(markups: list[str], each: int = 4) -> list[str]:

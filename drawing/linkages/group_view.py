@@ -247,7 +247,7 @@ def length_along(canvas: Canvas, scene: Scene, name: str, start: complex, end: c
         parts += [Head(end, e), Head(start, -e)]
     canvas.add(Shapes(tuple(parts), "arm", name))
     text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
-    canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True, spare=True)
+    canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True, spare=text)
 
 
 def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str], at: complex, about: complex) -> None:
@@ -266,7 +266,7 @@ def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str],
     symbols = " = ".join(scene.words.symbol(name) for name in names)
     # smaller than a node's letter: a number with its symbol is long, and the arms of a lever lie close together
     text = f"{symbols} = {scene.segment(names[0])}"
-    canvas.label(text, (about, foot), clear=0.9, height=scene.style.text, strict=True, spare=True)
+    canvas.label(text, (about, foot), clear=0.9, height=scene.style.text, strict=True, spare=text)
 
 
 def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:

@@ -12,7 +12,9 @@ from ...scales.scale import Scale
 
 Ladders = Mapping[str, tuple[float, ...]]
 LONGEST = 100.0  # mm, the longest segment of a plan whose scale factor nobody has chosen
-LARGEST = 200.0  # mm, the same for the mechanism from joint to joint
+LARGEST = 200.0  # mm, the same for the mechanism from joint to joint, and for plans of many vectors
+CROWD = 14  # vectors on one plan
+DRAWN = ("read", "chain")
 
 
 def first_scales(solved: Solved, choosers: Choosers) -> dict[str, Scale]:
@@ -38,13 +40,19 @@ def ladders_of(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...
     for symbol in dict.fromkeys(plans.values()):
         chooser = choosers.get(symbol)
         if chooser is None:  # nobody has chosen: round, and any at all for a plan on which everything is zero
-            longest = LARGEST if symbol == plans[POSITION] else LONGEST
+            longest = LARGEST if symbol == plans[POSITION] or _crowded(solved, symbol) else LONGEST
             ladders[symbol] = Round(symbol, longest).ladder(value) if _largest(solved, symbol) > 0.0 else (1.0,)
         elif isinstance(chooser, CrankScale):
             ladders[symbol] = chooser.ladder(value, ladders["mu_l"])
         else:
             ladders[symbol] = chooser.ladder(value)
     return ladders
+
+
+def _crowded(solved: Solved, symbol: str) -> bool:
+    """Whether the plans of a scale factor draw so many vectors that they need more room."""
+    plans = {plan for plan, name in solved.scale_of_plan.items() if name == symbol}
+    return max((sum(s.plan == plan for s in solved.program if s.verb in DRAWN) for plan in plans), default=0) > CROWD
 
 
 def _largest(solved: Solved, symbol: str) -> float:

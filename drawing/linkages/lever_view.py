@@ -40,7 +40,7 @@ def lever_view(scene: Scene) -> View:
     for sharing in feet.values():
         force_arm(canvas, scene, [name for name, _ in sharing], [arm_of(name) for name, _ in sharing], sharing[0][1], p)
     text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{point}')} = {scene.segment(f'V_{point}')}"
-    canvas.label(text, (p, image(scene, f"lever.{point}")), clear=0.9, height=style.text, spare=True)
+    canvas.label(text, (p, image(scene, f"lever.{point}")), clear=0.9, height=style.text, spare=text)
     letters = {mark: words.mark(f"velocity.{mark.removeprefix('lever.')}") for mark in marks}
     letter_marks(canvas, scene, {**letters, "lever.p": words.mark("lever.p")}, ("lever.p",), image)
     arms = [arm_of(name) for name, _ in hung if scene.direction(name) != 0]

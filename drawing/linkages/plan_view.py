@@ -73,7 +73,8 @@ def _vectors(canvas: Canvas, scene: Scene, vectors: list[tuple[str, str, str]]) 
         side = (-across if (across / (0.3 + 1j)).real > 0 else across) if ends in named else 0j
         named[ends] = None
         text = " = ".join(_symbol(scene, name) for name in names)
-        canvas.label(text, (vector.tail, vector.tip), prefer=side, clear=0.9)
+        ends_of = f"{text} = {scene.words.mark(tail)}{scene.words.mark(tip)}"
+        canvas.label(text, (vector.tail, vector.tip), prefer=side, clear=0.9, spare=ends_of)
 
 
 def _symbol(scene: Scene, quantity: str) -> str:
