@@ -13,7 +13,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kulman.plans.linkages.mechanism import FRAME, Mechanism, Prismatic, Revolute
+from kulman.plans.linkages.mechanism import (
+    ANGLE,
+    FRAME,
+    MOMENT,
+    WORKING,
+    Couple,
+    Diagram,
+    Driver,
+    Link,
+    Load,
+    Mechanism,
+    Prismatic,
+    Revolute,
+)
 
 Array = NDArray[Any]
 LONG = np.longdouble
@@ -99,9 +112,38 @@ class JacobianSolver:
                 turn = self.angle(pair.links[0]) - self.angle(pair.links[1]) - self.v[pair.direction]
                 rows += [np.sin(turn), c * (y - w) - s * (x - z) - self.v[pair.offset]]
         driver = self.m.driver
-        (x, y), (z, w) = (self.local(driver.link, point) for point in (driver.point, driver.pivot))
-        rows.append(np.sin(self.angle(driver.link) + np.arctan2(y - w, x - z) - self.v[driver.angle]))
+        if isinstance(driver, Driver):
+            (x, y), (z, w) = (self.local(driver.link, point) for point in (driver.point, driver.pivot))
+            rows.append(np.sin(self.angle(driver.link) + np.arctan2(y - w, x - z) - self.v[driver.angle]))
+        else:
+            c, s, _, (z, w) = self.guide(self.driving_guide())
+            x, y = self.place(driver.link, self.local(driver.link, driver.point))
+            rows.append(c * (x - z) + s * (y - w) - self.v[driver.travel])
         return np.stack(rows, axis=1)
+
+    def driving_guide(self) -> Prismatic:
+        """Guide of a sliding driver on the frame."""
+        ends = {FRAME, self.m.driver.link}
+        return next(pair for pair in self.m.pairs if isinstance(pair, Prismatic) and {*pair.links} == ends)
+
+    def driven(self) -> tuple[Array, Array, Array]:
+        """Generalised force of a unit of what balances the driver, which is also how its coordinate changes."""
+        driver, one = self.m.driver, np.ones(self.size, LONG)
+        if isinstance(driver, Driver):
+            return 0 * one, 0 * one, one
+        c, s, _, _ = self.guide(self.driving_guide())
+        a, b = self.arm(driver.link, self.local(driver.link, driver.point))
+        return c, s, a * s - b * c
+
+    def balancing(self) -> tuple[Array, Array, Array]:
+        """Generalised force on the driver of a unit of what balances it: a moment, or a force at its point."""
+        driver = self.m.driver
+        if not isinstance(driver, Driver) or driver.balance == MOMENT:
+            return self.driven()
+        (x, y), (z, w) = (self.arm(driver.link, self.local(driver.link, p)) for p in (driver.point, driver.pivot))
+        length = np.sqrt((x - z) ** 2 + (y - w) ** 2)
+        nx, ny = -(y - w) / length, (x - z) / length
+        return nx, ny, x * ny - y * nx
 
     def jacobian(self) -> Array:
         matrix = np.zeros((self.size, 3 * self.count, 3 * self.count), LONG)
@@ -133,18 +175,20 @@ class JacobianSolver:
                 add(guide, row + 1, 1, -c)
                 add(guide, row + 1, 2, -c * d - s * e - s * (y - w) - c * (x - z))
             row += 2
-        add(self.m.driver.link, row, 2, 1)
+        for column, value in enumerate(self.driven()):
+            add(self.m.driver.link, row, column, value)
         return matrix
 
     def _move(self) -> None:
         """Velocities and accelerations of the links."""
         driver, matrix = self.m.driver, self.jacobian()
         right = np.zeros((self.size, 3 * self.count), LONG)
-        right[:, -1] = self.v[driver.speed] * self.v[driver.sense]
+        sense = self.v[driver.sense] if isinstance(driver, Driver) else self.v["one"]
+        right[:, -1] = self.v[driver.speed] * sense
         self.dq = refined(matrix, right).reshape(self.q.shape)
         right = np.zeros((self.size, 3 * self.count), LONG)
         if driver.acceleration:
-            right[:, -1] = self.v[driver.acceleration] * self.v[driver.sense]
+            right[:, -1] = self.v[driver.acceleration] * sense
         for i, pair in enumerate(self.m.pairs):
             rows = slice(2 * i, 2 * i + 2)
             right[:, rows] = self._pinned_rate(pair) if isinstance(pair, Revolute) else self._guided_rate(pair)
@@ -191,6 +235,7 @@ class JacobianSolver:
         right = np.zeros((self.size, self.count, 3), LONG)
         self.power = np.zeros(self.size, LONG)
         self.forces: dict[str, Array] = {}
+        self.couples: dict[str, Array] = {}
 
         def act(number: int, point: str, fx: Array, fy: Array, name: str) -> None:
             x, y = self.arm(number, self.local(number, point))
@@ -200,22 +245,101 @@ class JacobianSolver:
             self.forces[name] = fx + 1j * fy
 
         for link in self.m.links:
-            moment = np.zeros(self.size, LONG)
+            mass, inertia = self.inertia(link)
             if link.mass:
                 a = self.acceleration(link.number, self.local(link.number, str(link.centre)))
-                act(link.number, str(link.centre), *(-self.v[link.mass] * part for part in a), f"F_i{link.number}")
-            if link.inertia:
-                moment = moment - self.v[link.inertia] * self.ddq[:, self.index[link.number], 2]
+                act(link.number, str(link.centre), *(-mass * part for part in a), f"F_i{link.number}")
+                if self.m.gravity:
+                    weight = mass * self.v[self.m.gravity]
+                    act(link.number, str(link.centre), 0 * weight, -weight, f"G_{link.number}")
+            moment = -inertia * self.ddq[:, self.index[link.number], 2]
             for couple in self.m.couples:
                 if couple.link == link.number:
-                    moment = moment + self.v[couple.magnitude] * self.v[couple.sense]
+                    self.couples[couple.name] = self.couple(couple)
+                    moment = moment + self.couples[couple.name]
             right[:, self.index[link.number], 2] -= moment
             self.power += moment * self.dq[:, self.index[link.number], 2]
         for load in self.m.loads:
-            size, angle = self.v[load.magnitude], self.v[load.direction]
-            act(load.link, load.point, size * np.cos(angle), size * np.sin(angle), load.name)
-        solved = refined(self.jacobian().transpose(0, 2, 1), right.reshape(self.size, -1))
-        self._read_reactions(solved)
+            act(load.link, load.point, *self.load(load), load.name)
+        matrix = self.jacobian()
+        matrix[:, -1] = 0
+        row = 3 * self.index[self.m.driver.link]
+        matrix[:, -1, row : row + 3] = np.stack(self.balancing(), axis=1)
+        self._read_reactions(refined(matrix.transpose(0, 2, 1), right.reshape(self.size, -1)))
+
+    def inertia(self, link: Link) -> tuple[Array, Array]:
+        """Mass and moment of inertia of a link, given or by its length."""
+        none = np.zeros(self.size, LONG)
+        joints = {pair.point for pair in self.m.pairs if isinstance(pair, Revolute) and link.number in pair.links}
+        length = none
+        if link.per_length or link.inertia_factor:
+            (x, y), (z, w) = (self.local(link.number, point) for point in joints)
+            length = np.hypot(x - z, y - w)
+        mass = self.v[link.per_length] * length if link.per_length else self.v[link.mass] if link.mass else none
+        if link.inertia_factor:
+            return mass, self.v[link.inertia_factor] * mass * length**2
+        return mass, self.v[link.inertia] if link.inertia else none
+
+    def load(self, load: Load) -> tuple[Array, Array]:
+        """Components of an outer force."""
+        size = self.magnitude(load)
+        if load.direction is not None:
+            return size * np.cos(self.v[load.direction]), size * np.sin(self.v[load.direction])
+        x, y = self.velocity(load.link, self.local(load.link, load.point))
+        speed = np.hypot(x, y)
+        return -size * x / speed, -size * y / speed
+
+    def couple(self, couple: Couple) -> Array:
+        """Outer moment."""
+        rate = self.rate(couple.link)
+        sense = self.v[couple.sense] if couple.sense is not None else -np.sign(rate)
+        return np.asarray(self.magnitude(couple) * sense)
+
+    def magnitude(self, load: Load | Couple) -> Array:
+        """Size of a load: zero in the stroke in which it does not act."""
+        diagram = next((d for d in self.m.diagrams if d.name == load.magnitude), None)
+        size = self.v[load.magnitude] if diagram is None else self.on_diagram(diagram)
+        if load.stroke == "both":
+            return size
+        return np.where(self.works() == (load.stroke == WORKING), size, 0)
+
+    def works(self) -> Array:
+        """Whether the output is in its working stroke."""
+        assert self.m.stroke is not None
+        return np.asarray(self.output()[1] * self.v[self.m.stroke.sense] > 0)
+
+    def output(self) -> tuple[Array, Array]:
+        """Place and velocity of the output: metres along the guide, radians of the direction in which it is given."""
+        assert self.m.stroke is not None
+        number = self.m.stroke.link
+        pair = next(p for p in self.m.pairs if {*p.links} == {FRAME, number})
+        if isinstance(pair, Revolute):
+            return self.angle(number) + self.v["output_angle"], self.rate(number)
+        c, s, point, (z, w) = self.guide(pair)
+        (x, y), (vx, vy) = self.place(number, point), self.velocity(number, point)
+        return c * (x - z) + s * (y - w), c * vx + s * vy
+
+    def on_diagram(self, diagram: Diagram) -> Array:
+        """Value of a load diagram, one position at a time."""
+        turn = 2 * np.pi
+        if diagram.over == ANGLE:
+            x, at = self.v[self.m.driver.coordinate], [self.v[name] for name in diagram.at]
+            x = at[0] + np.mod(x - at[0], turn)
+            at.append(at[0] + turn)
+            return self._interpolated(x, at, [*diagram.values, diagram.values[0]])
+        place, _ = self.output()
+        begin, end = self.v["_stroke_begin"], self.v["_stroke_end"]
+        if isinstance(next(p for p in self.m.pairs if {*p.links} == {FRAME, self.m.stroke.link}), Revolute):
+            middle = (begin + end) / 2
+            place = middle + np.mod(place - middle + np.pi, turn) - np.pi
+        x, at = (place - begin) / (end - begin), [self.v[name] for name in diagram.at]
+        forth = self._interpolated(x, at, list(diagram.values))
+        return forth if diagram.back is None else np.where(self.works(), forth, self._interpolated(x, at, diagram.back))
+
+    def _interpolated(self, x: Array, at: list[Array], names: Any) -> Array:
+        values = [self.v[name] for name in names]
+        rows = [np.interp(x[i], [a[i] for a in at], [value[i] for value in values]) for i in range(self.size)]
+        return np.array(rows, LONG)
 
     def _read_reactions(self, solved: Array) -> None:
         self.reactions: dict[str, Array] = {}
@@ -231,12 +355,15 @@ class JacobianSolver:
                 force = b * (-s + 1j * c)
                 self.moments[first, second, pair.point] = a, force
             self.reactions |= {on_first: force, on_second: -force}
-        self.M_bal = solved[:, -1]
+        self.balance = solved[:, -1]
 
     def expected(self) -> dict[str, Array]:
         """Everything that has a name of its own: points, their motion, links, forces."""
-        found = {**self.forces, **self.reactions, "M_bal": self.M_bal}
-        found["M_bal_lever"] = -self.power / self.rate(self.m.driver.link)
+        name = "M_bal" if getattr(self.m.driver, "balance", "force") == MOMENT else "F_bal"
+        row = self.index[self.m.driver.link]
+        rate = sum(value * self.dq[:, row, column] for column, value in enumerate(self.balancing()))
+        found = {**self.forces, **self.couples, **self.reactions, name: self.balance}
+        found[f"{name}_lever"] = -self.power / rate
         still = [pair.point for pair in self.m.pairs if isinstance(pair, Revolute) and FRAME in pair.links]
         for link in self.m.links:
             i = self.index[link.number]

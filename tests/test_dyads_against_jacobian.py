@@ -110,7 +110,7 @@ def test_positions_motion_and_forces_agree(both: Both) -> None:
     assert max(both.codes) == STATUSES.index("ok")
     assert wrong(both.results, expected, ALL_KINDS) == {}
     # a link that does not turn has no angular velocity, and what acts on the frame may go without a name
-    assert {name for name in unnamed if not re.fullmatch("(omega|epsilon)_[45]|R_[15]0", name)} == set()
+    assert {name for name in unnamed if not re.fullmatch("(omega|epsilon)_[45]|(R|M)_[1-5]0", name)} == set()
 
 
 def test_points_of_one_link_under_a_point_of_another_agree(both: Both) -> None:

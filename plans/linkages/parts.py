@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ..board import Board
-from .mechanism import MINUS, ZERO, Link, Mechanism
+from .mechanism import FRAME, MINUS, ZERO, Link, Mechanism
 
 SYMBOLS = {"velocity": "V", "acceleration": "a"}
 Forces = dict[int, list[tuple[str, str]]]
@@ -281,6 +281,13 @@ def moments_about(
 def arm_of(force: str, link: int, arms: str = "h_{0}") -> str:
     """Return the name of a force's arm: `h_2` for the link's own force of inertia, `h_21` for R_21, `h_F_3` for F_3."""
     return arms.format(link if force == f"F_i{link}" else force.removeprefix("R_"))
+
+
+def answer(board: Board, symbol: str, *on_by: tuple[int, int]) -> None:
+    """Note that a link answers another with the opposite force or moment; what acts on the frame needs no name."""
+    for on, by in on_by:
+        if on != FRAME:
+            board.calc(f"{symbol}_{by}{on}", "opposite", f"{symbol}_{on}{by}")
 
 
 def hang(board: Board, plan: str, forces: Iterable[str], first: int = 0) -> str:

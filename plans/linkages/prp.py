@@ -13,7 +13,20 @@ from dataclasses import dataclass
 from ..board import Board
 from .guides import Slide, place_slide, running_line, slide_of, under_acceleration, under_velocity
 from .mechanism import ZERO, Mechanism, Prismatic
-from .parts import Bodies, Body, Couples, Forces, Passed, Span, hang, moments_about, move_points, normal_of, turn_with
+from .parts import (
+    Bodies,
+    Body,
+    Couples,
+    Forces,
+    Passed,
+    Span,
+    answer,
+    hang,
+    moments_about,
+    move_points,
+    normal_of,
+    turn_with,
+)
 from .structure import Group
 
 
@@ -112,10 +125,9 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     board.read(f"R_{i}{j}", closing, f"{plan}.0")
     board.read(f"R_{m}{k}", last, closing)
     board.read(f"R_{k}{j}", parted, closing)
-    for tail, tip in ((i, j), (k, j), (m, k)):
-        board.calc(f"R_{tip}{tail}", "opposite", f"R_{tail}{tip}")
+    answer(board, "R", (i, j), (k, j), (m, k))
     for other, own in ((i, j), (m, k)):
         moments = moments_about(board, loads[own], own, d.B)
         board.calc(f"M_{other}{own}", "closing_moment", ZERO, *moments, *couples[own])
-        board.calc(f"M_{own}{other}", "opposite", f"M_{other}{own}")
+        answer(board, "M", (other, own))
         board.step("arm", f"h_{other}{own}", f"M_{other}{own}", f"R_{other}{own}")

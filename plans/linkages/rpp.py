@@ -32,6 +32,7 @@ from .parts import (
     Forces,
     Passed,
     Span,
+    answer,
     carry,
     hang,
     moments_about,
@@ -174,17 +175,16 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     board.meet(closing, last, normal_of(d.outer.u), f"{plan}.0", normal_of(d.inner.u))
     board.read(f"R_{j}{k}", closing, f"{plan}.0")
     board.read(f"R_{m}{k}", last, closing)
-    board.calc(f"R_{k}{j}", "opposite", f"R_{j}{k}")
+    answer(board, "R", (j, k))
 
     board.pole(f"{own}.0")
     board.read(f"R_{i}{j}", hang(board, own, [f"R_{k}{j}", *(force for force, _ in loads[j])]), f"{own}.0")
-    for first, second in ((i, j), (m, k)):
-        board.calc(f"R_{second}{first}", "opposite", f"R_{first}{second}")
+    answer(board, "R", (i, j), (m, k))
 
     board.calc(f"M_{k}{j}", "closing_moment", ZERO, *moments_about(board, loads[j], j, d.A), *couples[j])
-    board.calc(f"M_{j}{k}", "opposite", f"M_{k}{j}")
+    answer(board, "M", (k, j))
     moments = moments_about(board, loads[k], k, d.A)
     board.calc(f"M_{m}{k}", "closing_moment", f"M_{j}{k}", *moments, *couples[k])
-    board.calc(f"M_{k}{m}", "opposite", f"M_{m}{k}")
+    answer(board, "M", (m, k))
     board.step("arm", f"h_{k}{j}", f"M_{k}{j}", f"R_{k}{j}")
     board.step("arm", f"h_{m}{k}", f"M_{m}{k}", f"R_{m}{k}")

@@ -21,6 +21,7 @@ from .parts import (
     Forces,
     Passed,
     Span,
+    answer,
     hang,
     moments_about,
     move_points,
@@ -171,8 +172,7 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     board.pole(f"{plan}.0")
     hung = [f"R_{i}{j}", *(force for n in (j, k) for force, _ in loads[n])]
     board.read(f"R_{m}{k}", hang(board, plan, hung), f"{plan}.0")
-    for first, second in ((i, j), (k, j), (m, k)):
-        board.calc(f"R_{second}{first}", "opposite", f"R_{first}{second}")
+    answer(board, "R", (i, j), (k, j), (m, k))
 
     # the guide's reaction stands where it balances the moments of the slider's loads about A
     about_A = moments_about(board, loads[j], j, d.A, f"h_{{0}}_{d.A}")

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from ..board import Board
 from .guides import Slide, place_slide, running_line, slide_of, under_acceleration, under_velocity
-from .mechanism import FRAME, ZERO, Link, Mechanism, Prismatic
+from .mechanism import ZERO, Link, Mechanism, Prismatic
 from .parts import (
     Bodies,
     Body,
@@ -20,6 +20,7 @@ from .parts import (
     Forces,
     Passed,
     Span,
+    answer,
     hang,
     measure_link,
     moments_about,
@@ -80,7 +81,7 @@ class Dyad:
         k, m = self.slider.number, self.slide.other
         return (
             Passed(f"R_{self.rod.number}{self.before}", self.before, self.A),
-            Passed(f"R_{k}{m}", m, self.B, f"_M_{k}"),
+            Passed(f"R_{k}{m}", m, self.B, f"M_{k}{m}"),
         )
 
 
@@ -178,11 +179,10 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     board.pole(f"{own}.0")
     board.chain(f"{own}.1", f"{own}.0", f"R_{i}{j}")
     board.read(f"R_{k}{j}", hang(board, own, [force for force, _ in loads[j]], 1), f"{own}.0")
-    board.calc(f"R_{j}{i}", "opposite", f"R_{i}{j}")
-    board.calc(f"R_{j}{k}", "opposite", f"R_{k}{j}")
+    answer(board, "R", (i, j), (k, j), (m, k))
 
     # the guide's reaction stands where it balances the moments of the slider's loads about B
     board.calc(f"_M_{k}", "sum", ZERO, *moments_about(board, loads[k], k, d.B), *couples[k])
-    board.step("arm", f"h_{m}{k}", f"_M_{k}", f"R_{m}{k}")
-    if m != FRAME:
-        board.calc(f"R_{k}{m}", "opposite", f"R_{m}{k}")
+    board.calc(f"M_{m}{k}", "opposite", f"_M_{k}")
+    board.step("arm", f"h_{m}{k}", f"M_{m}{k}", f"R_{m}{k}")
+    answer(board, "M", (m, k))

@@ -12,7 +12,20 @@ from dataclasses import dataclass
 
 from ..board import Board
 from .mechanism import Link, Mechanism, Revolute
-from .parts import Bodies, Body, Couples, Forces, Passed, Span, hang, measure_link, moments_about, move_link, place_link
+from .parts import (
+    Bodies,
+    Body,
+    Couples,
+    Forces,
+    Passed,
+    Span,
+    answer,
+    hang,
+    measure_link,
+    moments_about,
+    move_link,
+    place_link,
+)
 from .structure import Group
 
 
@@ -142,5 +155,4 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     board.read(f"R_{m}{k}_n", last, closing)
     board.read(f"R_{m}{k}", chained, closing)
     board.read(f"R_{k}{j}", parted, closing)
-    for first, second in ((i, j), (k, j), (m, k)):
-        board.calc(f"R_{second}{first}", "opposite", f"R_{first}{second}")
+    answer(board, "R", (i, j), (k, j), (m, k))
