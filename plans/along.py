@@ -14,6 +14,7 @@ from .exact import ExactBoard, Status
 
 Array = NDArray[np.float64]
 Result = TypeVar("Result")
+More = Callable[[Array], Mapping[str, Array]]
 KEPT = 8
 
 
@@ -26,6 +27,8 @@ class Along:
         Values in SI, that of `variable` apart.
     board : type of ArrayBoard
         A board that notes something besides.
+    more : callable, optional
+        Takes values of the variable, shape (N,), gives other arrays by name that go with them.
     """
 
     def __init__(
@@ -35,17 +38,20 @@ class Along:
         variable: str,
         wanted: Sequence[str],
         board: type[ArrayBoard] = ArrayBoard,
+        more: More | None = None,
     ) -> None:
-        varying, once, each = {variable}, [], []
+        with_it = more(np.zeros(1)) if more else {}
+        given = {name: value for name, value in givens.items() if name not in {variable, *with_it}}
+        varying, once, each = {variable, *with_it}, [], []
         for step in program.needed_for(wanted):
             if varying.isdisjoint(step.operands):
                 once.append(step)
             else:
                 each.append(step)
                 varying.add(step.name)
-        fixed = ExactBoard({name: value for name, value in givens.items() if name != variable})
+        fixed = ExactBoard(given)
         Program(tuple(once)).run(fixed)
-        self._variable, self._wanted = variable, tuple(wanted)
+        self._variable, self._more, self._wanted = variable, more, tuple(wanted)
         self._fixed, self._board = fixed, board({}, 0)
         self._steps = [(self._board.operation(s.verb, s.law), s.name, s.operands) for s in each]
         self.steps: tuple[Step, ...] = tuple(each)
@@ -58,7 +64,8 @@ class Along:
     def run(self, at: Array) -> ArrayBoard:
         """Do the steps for the values `at` of the variable, shape (N,), and return the board."""
         board = self._board
-        board.restart({**self._fixed.values, self._variable: at}, np.zeros(len(at), np.int8))
+        more = self._more(at) if self._more else {}
+        board.restart({**self._fixed.values, **more, self._variable: at}, np.zeros(len(at), np.int8))
         perform = board.perform
         with np.errstate(invalid="ignore", divide="ignore"):
             for operate, name, operands in self._steps:

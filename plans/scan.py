@@ -71,15 +71,18 @@ class Stretch:
 
 
 def zeros(function: Function, stretch: Stretch) -> tuple[Array, Array]:
-    """Return where `function` changes its sign on `stretch`, and where it only touches zero, both in order."""
+    """Return where `function` changes its sign on `stretch`, and where it only touches zero, both in order.
+
+    Where it has no value at all it may be minus infinity: then the zero is the last place that has one.
+    """
     theta = stretch.grid()
 
     def at(theta: Array) -> Array:
         return function(stretch.place(theta))
 
     values = at(theta)
-    size = float(np.nanmax(np.abs(values), initial=0.0))
-    above, known = values >= 0.0, np.isfinite(values)
+    size = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
+    above, known = values >= 0.0, ~np.isnan(values)
     cells = np.flatnonzero((above[1:] != above[:-1]) & known[1:] & known[:-1])
     if stretch.closed:
         cells = cells[cells < stretch.cells]
@@ -114,10 +117,10 @@ def _refined(function: Function, low: Array, high: Array, above: Array) -> Array
         left, right = values[first - 1, columns], values[first, columns]
         with np.errstate(invalid="ignore", divide="ignore"):
             share = left / (left - right)
-        between = (share >= 0.0) & (share <= 1.0)  # false for NaN
+        between = (share >= 0.0) & (share <= 1.0) & np.isfinite(right) & np.isfinite(left)  # false for NaN
         if done >= ROUNDS - 1 and between.all():
             break
-    zero: Array = low + (high - low) * np.where(between, share, 0.5)
+    zero: Array = low + (high - low) * np.where(between, share, above)
     return zero
 
 
@@ -129,7 +132,8 @@ def _dips(function: Function, theta: Array, values: Array, size: float) -> tuple
     before, here, after = values[:-2], values[1:-1], values[2:]
     sign = np.where(here >= 0.0, 1.0, -1.0)
     depth = here * sign
-    bend = (before - 2.0 * here + after) * sign
+    with np.errstate(invalid="ignore"):
+        bend = (before - 2.0 * here + after) * sign
     at = np.flatnonzero((before * sign >= depth) & (after * sign >= depth) & (depth < DIP * bend))
     low, high, sign = theta[at], theta[at + 2], sign[at]
     cells: list[tuple[float, float, bool]] = []

@@ -15,18 +15,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scales.errors import InputError
-from ..along import Along
 from ..batch import batch
 from ..board import Program
 from ..exact import STATUSES
 from ..extremes import Extreme, extremes
 from ..quantities import quantities
-from .chain import PLANS, board_givens, construct
+from .chain import PLANS, construct
 from .limits import TURN, Arc, Reach, reach_of
 from .mechanism import Mechanism
 from .strokes import Output, OutputMotion, Travel, measured, output_motions, outputs, stroke_of, zero_position
 from .structure import Structure
-from .sweeping import Swept, swept
+from .swept import Swept, swept
 from .undetermined import NEAR_LIMIT, strike_out, undetermined_at
 
 __all__ = ["Arc", "Cycle", "Extreme", "Travel", "cycle", "stroke_of"]
@@ -105,7 +104,7 @@ class Cycle:
 
     def at(self, places: Array, names: Sequence[str]) -> dict[str, Array]:
         """Return values by name for other places of the driver."""
-        return batch(self.program, _givens(self.drive, self.givens, self.program, places), names)[0]
+        return batch(self.program, self.drive.givens(self.givens, places, self.program), names)[0]
 
     def extremes(self, names: Iterable[str] | None = None) -> dict[str, tuple[Extreme, Extreme]]:
         """Return the largest and the smallest value of quantities, with the driver's places where they are.
@@ -118,8 +117,7 @@ class Cycle:
             Without it all quantities.
         """
         wanted = tuple(self.quantities if names is None else names)
-        givens = _givens(self.drive, self.givens, self.program, self.drive.start)
-        along = Along(self.program, givens, self.drive.variable, wanted)
+        along = self.drive.along(self.program, self.givens, wanted)
         vectors = [np.iscomplexobj(self.values[name]) for name in wanted]
 
         def sizes(at: Array) -> Array:
@@ -147,10 +145,6 @@ def _rooted(row: tuple[Extreme, Extreme]) -> tuple[Extreme, Extreme]:
     size = float(np.sqrt(most.value))
     low = float(np.sqrt(max(least.value, 0.0)))
     return Extreme(size, most.at), Extreme(low if low > VANISHES * size else 0.0, least.at)
-
-
-def _givens(drive: Swept, values: Mapping[str, float], program: Program, places: Any) -> dict[str, Any]:
-    return board_givens(drive.mechanism, {**values, drive.variable: places}, program)
 
 
 def cycle(
@@ -192,7 +186,7 @@ def cycle(
     structure, program = construct(drive.mechanism, plans)
     program = measured(program, outputs(drive.mechanism, structure))
     places = _places(drive, zero if start is None else start, between, positions)
-    results, codes = batch(program, _givens(drive, values, program, places), _wanted(mechanism, program, motions))
+    results, codes = batch(program, drive.givens(values, places, program), _wanted(mechanism, program, motions))
     strike_out(results, codes, program, undetermined_at(drive, reach, places))
     speed = abs(float(values[mechanism.driver.speed]))
     with np.errstate(divide="ignore", invalid="ignore"):

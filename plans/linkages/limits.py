@@ -1,28 +1,31 @@
 """Where a mechanism can be assembled: stretches of the driver's range, arcs it cannot reach, change points.
 
-Every arc and tangent of the position plan has a margin, the square of what the compass has to spare: where it falls
-below zero the links come apart. Its zeros are the limiting positions. Where it only touches zero the links lie in line
-and may go on in either of two ways: a change point. Where two guides become parallel a joint runs off to infinity.
+Every arc and tangent of the position plan has a margin, the square of what the compass has to spare, a group of class
+III the square of its determinant: where it falls below zero the links come apart. Its zeros are the limiting positions.
+Where it only touches zero the links lie in line and may go on in either of two ways: a change point. Where two guides
+become parallel a joint runs off to infinity.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..along import Along, remembering
+from ..along import remembering
 from ..batch import ArrayBoard
 from ..exact import TANGENT
 from ..scan import Stretch, zeros
+from ..template import CLOSED
 from .chain import board_givens, construct
 from .mechanism import FRAME, Mechanism, Prismatic, Revolute
-from .sweeping import Swept, swept, without_loads
+from .sweeping import without_loads
+from .swept import Swept, swept
 
 Array = NDArray[Any]
 TURN = 2.0 * math.pi
@@ -92,6 +95,11 @@ class MarginBoard(ArrayBoard):
         self.margins[self._name] = product + 2.0 * TANGENT * total * total * first * second
         return super()._assembles(product, first, second, base, total, double)
 
+    def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
+        held = (astray == 0.0) & (apart <= CLOSED)
+        self.margins[self._name] = np.where(held, determinant * determinant, -np.inf)
+        return super()._holds(determinant, apart, astray, missing)
+
     def _lines_sine(self, sine: Any) -> Any:
         self.margins[self._name] = sine
         return super()._lines_sine(sine)
@@ -120,8 +128,7 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     """Find the reach of a mechanism that is ready for a sweep."""
     free = without_loads(drive.mechanism)
     _, program = construct(free, ("position",))
-    givens = board_givens(free, {**values, drive.variable: 0.0})
-    position = Along(program, givens, drive.variable, program.names, MarginBoard)
+    position = drive.along(program, values, program.names, MarginBoard, free)
     whole = _range(drive, values, between)
     if position.status in ("no-assembly", "singular"):
         return Reach(whole, (), (Arc(whole.low, whole.high),), (), ())
@@ -136,7 +143,7 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
 
     margins = remembering(margins_at)
     for step in position.steps:
-        if step.verb in ("arc", "arcs", "tangent", "meet"):
+        if step.name in margins(np.array([whole.low])):
             parts = [_split(margins, step.name, step.verb == "meet", stretch) for stretch in stretches]
             stretches = [piece for pieces, _ in parts for piece in pieces]
             (poles if step.verb == "meet" else changes).extend(place for _, cuts in parts for place in cuts)
@@ -167,7 +174,7 @@ def size_of(mechanism: Mechanism, values: Mapping[str, float]) -> float:
             names += pair.at or ()
         elif isinstance(pair, Prismatic):
             names += [*pair.through, pair.offset]
-    given = board_givens(without_loads(mechanism), values)
+    given = board_givens(replace(without_loads(mechanism), starts=()), values)
     return sum(abs(given.get(name, 0.0)) for name in set(names)) or 1.0
 
 

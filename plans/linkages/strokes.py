@@ -16,15 +16,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scales.errors import InputError
-from ..along import Along, remembering
+from ..along import remembering
 from ..board import Program, Step
 from ..laws import inclination
 from ..scan import Stretch, zeros
-from .chain import board_givens, construct, moving_bodies
+from .chain import construct, moving_bodies
 from .limits import TURN, Reach, reach_of, size_of
 from .mechanism import FRAME, ZERO, Mechanism, Prismatic
 from .structure import Structure
-from .sweeping import Swept, at_unit_speed, swept, without_loads
+from .sweeping import at_unit_speed, without_loads
+from .swept import Swept, swept
 
 Array = NDArray[Any]
 INSIDE = 1e-14  # part of a stretch by which its end may lie beyond a limit of assembly, by rounding
@@ -197,8 +198,7 @@ def output_motions(drive: Swept, values: Mapping[str, float], found: Reach) -> t
     structure, program = construct(mechanism, ("velocity",))
     moved = outputs(mechanism, structure)
     wanted = [name for output in moved for name in (output.place, output.rate) if name]
-    givens = board_givens(mechanism, {**values, drive.variable: 0.0})
-    along = remembering(Along(measured(program, moved), givens, drive.variable, wanted))
+    along = remembering(drive.along(measured(program, moved), values, wanted, mechanism=mechanism))
     size = size_of(mechanism, values)
     return tuple(_Ends(output, along, drive, size).motion(values, found) for output in moved)
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..board import POSITION, Program
 from ..exact import STATUSES
 from .limits import TURN, Reach
-from .sweeping import Swept
+from .swept import Swept
 
 Array = NDArray[Any]
 NEAR_CHANGE, NEAR_LIMIT = 1e-7, 1e-12  # radians, or parts of a slide's travel: how well these places are known

@@ -1,0 +1,70 @@
+"""The driver's variable: what is swept, alone and at unit speed, so that only the geometry of the mechanism speaks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from ..along import Along, More
+from ..batch import ArrayBoard
+from ..board import Program
+from .chain import board_givens
+from .following import Follower, triads
+from .mechanism import ZERO, Driver, Mechanism
+
+OWN = "_driver"  # the driver's variable where the mechanism has a literal in its place
+
+
+@dataclass(frozen=True, slots=True)
+class Swept:
+    """A mechanism whose driver's variable may be swept: an angle that turns round, or the travel of a slide.
+
+    `near` says where groups of class III lie, about, at places of the driver.
+    """
+
+    mechanism: Mechanism
+    variable: str
+    turns: bool
+    start: float  # the variable's value as given
+    sense: float  # of the driver's motion, +1 or -1
+    near: More | None = field(default=None, repr=False)
+
+    def givens(
+        self, values: Mapping[str, Any], places: Any, program: Program | None = None, mechanism: Mechanism | None = None
+    ) -> dict[str, Any]:
+        """Return the board's givens for places of the driver; `mechanism` is this one in another form."""
+        there = {**values, self.variable: places, **(self.near(places) if self.near else {})}
+        return board_givens(replace(mechanism or self.mechanism, starts=()), there, program)
+
+    def along(
+        self,
+        program: Program,
+        values: Mapping[str, Any],
+        wanted: Sequence[str],
+        board: type[ArrayBoard] = ArrayBoard,
+        mechanism: Mechanism | None = None,
+    ) -> Along:
+        """Return a program of `mechanism`, this one in any form, as a function of the driver's variable."""
+        plain = replace(mechanism or self.mechanism, starts=())
+        givens = board_givens(plain, {**values, self.variable: self.start}, program)
+        return Along(program, givens, self.variable, wanted, board, self.near)
+
+
+def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
+    """Return `mechanism` ready for a sweep.
+
+    A literal may stand in other places too, so that the driver gets a variable of its own; a given that also stands
+    elsewhere, as the direction of a load, changes there as well.
+    """
+    driver = mechanism.driver
+    turns = isinstance(driver, Driver)
+    name = driver.coordinate
+    start = float(values.get(name, 0.0))
+    sense = values.get(driver.sense, 1.0) if isinstance(driver, Driver) else values.get(driver.speed, 1.0)
+    if name == ZERO or name.startswith("_"):
+        name = OWN
+        key = "angle" if turns else "travel"
+        mechanism = replace(mechanism, driver=replace(driver, **{key: name}))  # type: ignore[arg-type]
+    near = Follower(mechanism, {**values, name: start}).near if mechanism.starts and triads(mechanism) else None
+    return Swept(mechanism, name, turns, start, -1.0 if sense < 0.0 else 1.0, near)
