@@ -76,10 +76,10 @@ class Sketch:
             ends = [(end - at) / ray for end in (a, b)]
             if all(abs(end.imag) < 0.5 for end in ends):
                 low, high = sorted(end.real for end in ends)
-                taken.append((low, high + spare))
-        for low, high in sorted(taken):
-            if low < start + length and high > start:
-                start = high
+                taken.append((low, high, spare))
+        for low, high, spare in sorted(taken):
+            if low < start + length - 0.5 and high > start + 0.5:
+                start = high + spare
         return start
 
     def bar(self, at: complex, *directions: complex) -> None:
