@@ -194,6 +194,7 @@ class SecondSolver:
             if point != B:
                 arm = f"h_{j}" if name == f"F_i{j}" else f"h_{name}"
                 q[arm] = self._arm(force, self.points[point] - self.points[B])
+        q[f"M_0{k}"] = self.couples[k]
         q[f"h_0{k}"] = abs(self.couples[k]) / abs(R[0, k]) if abs(self.couples[k]) > mpf(10) ** -40 else mpf(0)
         turns_about = {1: self.m.driver.pivot, **{rod: B for _, rod, _, _, B, _ in self.dyads}}[i]
         q[f"h_{j}{i}"] = self._arm(R[j, i], self.points[A] - self.points[turns_about])

@@ -18,6 +18,7 @@ from .structure import Structure, analyse
 from .sweeping import without_loads
 
 PLANS = ("structure", "position", "velocity", "acceleration", "compound", "forces", "lever", "cycle")
+USUAL = tuple(plan for plan in PLANS if plan not in ("compound", "cycle"))  # without a word on which are wanted
 NEEDS = {
     "structure": (),
     "position": (),
@@ -47,7 +48,7 @@ def with_needs(plans: Iterable[str]) -> tuple[str, ...]:
     return tuple(plan for plan in PLANS if plan in wanted)
 
 
-def construct(mechanism: Mechanism, plans: Iterable[str] = PLANS) -> tuple[Structure, Program]:
+def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Structure, Program]:
     """Find the structure and record the construction of `plans` (and of the plans they need).
 
     Raises
@@ -146,13 +147,16 @@ def _place_frame(board: RecordingBoard, mechanism: Mechanism) -> None:
         board.place(point, *place)
 
 
-def board_givens(mechanism: Mechanism, values: Mapping[str, Any], program: Program | None = None) -> dict[str, Any]:
+def board_givens(
+    mechanism: Mechanism, values: Mapping[str, Any], program: Program | None = None, follow: bool = True
+) -> dict[str, Any]:
     """Return `values` as the board wants them.
 
-    The size of a load is `|F_3|` there, for `F_3` is the vector. Where `program` needs the ends of the working stroke,
-    these are found first.
+    The size of a load is `|F_3|` there, for `F_3` is the vector. Groups of class III are followed from their starts,
+    unless the `values` say already where they lie. Where `program` needs the ends of the working stroke, these are
+    found first.
     """
-    if mechanism.starts:
+    if mechanism.starts and follow:
         from .following import followed  # which asks for position plans itself
 
         values = {**values, **followed(mechanism, values)}

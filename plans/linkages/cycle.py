@@ -20,7 +20,7 @@ from ..board import Program
 from ..exact import STATUSES
 from ..extremes import Extreme, extremes
 from ..quantities import quantities
-from .chain import PLANS, construct
+from .chain import USUAL, construct
 from .limits import TURN, Arc, Reach, reach_of
 from .mechanism import Mechanism
 from .strokes import Output, OutputMotion, Travel, measured, output_motions, outputs, stroke_of, zero_position
@@ -150,7 +150,7 @@ def _rooted(row: tuple[Extreme, Extreme]) -> tuple[Extreme, Extreme]:
 def cycle(
     mechanism: Mechanism,
     values: Mapping[str, float],
-    plans: Iterable[str] = PLANS,
+    plans: Iterable[str] = USUAL,
     positions: int = 12,
     start: float | None = None,
     end: float | None = None,

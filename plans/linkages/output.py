@@ -13,6 +13,7 @@ from ...scales.errors import InputError
 from ..board import Board
 from .mechanism import BOTH, FRAME, STROKE, ZERO, Mechanism, Pair, Prismatic, Revolute
 from .parts import Bodies, Body, Span
+from .triad_parts import start_names
 
 BEGIN, END = "_stroke_begin", "_stroke_end"
 PART, RATE, CHANGE = "_stroke_part", "_stroke_rate", "_stroke_change"
@@ -109,7 +110,8 @@ def stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterabl
 
     assert mechanism.stroke is not None
     sense, driver_at = mechanism.stroke.sense, mechanism.driver.coordinate
-    needed = {name: values[name] for name in {*motion, sense} & values.keys() - {driver_at}}
+    followed = {name for start in mechanism.starts for name in start_names(start.link)}
+    needed = {name: values[name] for name in {*motion, sense} & values.keys() - {driver_at} - followed}
     size = max((len(value) for value in needed.values() if getattr(value, "ndim", 0)), default=0)
     found = []
     for row in range(size or 1):

@@ -94,8 +94,12 @@ class Span:
 
     @property
     def length(self) -> str:
-        """Name of the distance of the joints."""
-        return f"l_{self.name}" if self.measured else self.link.points[self.end][0]
+        """Name of the distance of the joints, a hidden one where a coordinate has taken that name."""
+        points = self.link.points
+        if not self.measured:
+            return points[self.end][0]
+        taken = {xy.removeprefix(MINUS) for place in points.values() for xy in place}
+        return f"_l_{self.name}" if f"l_{self.name}" in taken else f"l_{self.name}"
 
     @property
     def e(self) -> str:

@@ -12,7 +12,7 @@ from ..board import POSITION, Program
 from ..exact import Status, Trouble, run
 from ..quantities import Quantity, quantities, shown_on
 from . import compound
-from .chain import PLANS, board_givens, construct, hinged
+from .chain import USUAL, board_givens, construct, hinged
 from .limits import limiting_places
 from .mechanism import ZERO, Mechanism, SlidingDriver
 from .structure import Structure
@@ -119,7 +119,7 @@ def _spoken(direction: str) -> str:
     return {"n": f"⊥{name}", "e": f"∥{name}", "u": "∥x–x"}[kind]
 
 
-def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> Solved:
+def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iterable[str] = USUAL) -> Solved:
     """Solve one position of `mechanism`.
 
     Parameters
@@ -137,7 +137,7 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
         With status `singular` or `no-assembly` when the position has no plan; what is undefined is None.
     """
     structure, program = construct(mechanism, plans)
-    board = run(program, board_givens(mechanism, values))
+    board = run(program, board_givens(mechanism, values, program))
     lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if _is_given(x)}
     items = quantities(program, board.values, lengths)
     return Solved(

@@ -35,7 +35,7 @@ class Swept:
     ) -> dict[str, Any]:
         """Return the board's givens for places of the driver; `mechanism` is this one in another form."""
         there = {**values, self.variable: places, **(self.near(places) if self.near else {})}
-        return board_givens(replace(mechanism or self.mechanism, starts=()), there, program)
+        return board_givens(mechanism or self.mechanism, there, program, follow=False)
 
     def along(
         self,
@@ -46,8 +46,8 @@ class Swept:
         mechanism: Mechanism | None = None,
     ) -> Along:
         """Return a program of `mechanism`, this one in any form, as a function of the driver's variable."""
-        plain = replace(mechanism or self.mechanism, starts=())
-        givens = board_givens(plain, {**values, self.variable: self.start}, program)
+        there = {**values, self.variable: self.start}
+        givens = board_givens(mechanism or self.mechanism, there, program, follow=False)
         return Along(program, givens, self.variable, wanted, board, self.near)
 
 
