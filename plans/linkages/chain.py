@@ -109,6 +109,11 @@ def hinged(mechanism: Mechanism, structure: Structure) -> tuple[compound.Coupler
     return compound.couplers(mechanism, (dyad for _, dyad in dyads), bodies)
 
 
+def named_groups(mechanism: Mechanism) -> tuple[AssurGroup, ...]:
+    """Return the groups with the names that their constructions use, in order of attachment."""
+    return tuple(group for _, group in _named(mechanism, analyse(mechanism))[0])
+
+
 def moving_bodies(mechanism: Mechanism, structure: Structure) -> Bodies:
     """Return how every moving link is known: a direction that turns with it, its angular velocity, by number."""
     return _named(mechanism, structure)[1]

@@ -13,9 +13,11 @@ from ..exact import Status, Trouble, run
 from ..quantities import Quantity, quantities, shown_on
 from . import compound
 from .chain import USUAL, board_givens, construct, hinged
+from .following import Follower, followed
 from .limits import limiting_places
 from .mechanism import ZERO, Mechanism, SlidingDriver
-from .structure import Structure
+from .special_points import with_special_points
+from .structure import TRIAD, Structure
 
 SMALL = math.sin(math.radians(20.0))  # sine of an angle at which lines meet so flatly that a drawing loses much
 # which operands of a step are pins that must not coincide
@@ -55,9 +57,11 @@ class Solved:
         trouble = self.trouble
         if trouble is None:
             return None
+        step = next(step for step in self.program if step.name == trouble.name)
+        if step.verb == "template":
+            return self._template_error(trouble)
         if trouble.status == "no-assembly":
             return self._apart(trouble)
-        step = next(step for step in self.program if step.name == trouble.name)
         if step.verb != "meet":
             pins = [step.operands[i] for i in COINCIDENT[step.verb]]
             return PositionError("singular-pins", status_word="singular", first=pins[0], second=pins[1])
@@ -66,6 +70,23 @@ class Solved:
         return PositionError(
             key, status_word="singular", point=trouble.name.rpartition(".")[2], first=lines[0], second=lines[1]
         )
+
+    def _template_error(self, trouble: Trouble) -> PositionError:
+        """Return why the central link of a group of class III is not where its legs would hold it."""
+        group = next(g for g in self.structure.groups if g.kind == TRIAD and trouble.name in g.joints)
+        link = group.central
+        if trouble.status == "singular":
+            legs = ", ".join(map(str, group.legs))
+            return PositionError("singular-triad", status_word="singular", link=link, legs=legs)
+        given = {name: value for name, value in self.values.items() if isinstance(value, float)}
+        gap = f"{trouble.gap * 1e3:.4g}"
+        limits = Follower(self.mechanism, given).limits()
+        if limits is None:
+            return PositionError("start-far", status_word="no-assembly", link=link, gap=gap)
+        slides = isinstance(self.mechanism.driver, SlidingDriver)
+        low, high = (f"{x * 1e3:.7g}" if slides else f"{math.degrees(x):.7g}" for x in limits)
+        key = "no-way-slide" if slides else "no-way"
+        return PositionError(key, status_word="no-assembly", link=link, gap=gap, low=low, high=high)
 
     def _apart(self, trouble: Trouble) -> PositionError:
         """Return by how much the links miss each other, and the places of the driver at which they just meet."""
@@ -136,8 +157,10 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     Solved
         With status `singular` or `no-assembly` when the position has no plan; what is undefined is None.
     """
+    near = followed(mechanism, values)
+    mechanism = with_special_points(mechanism, values, near)
     structure, program = construct(mechanism, plans)
-    board = run(program, board_givens(mechanism, values, program))
+    board = run(program, board_givens(mechanism, {**values, **near}, program, follow=False))
     lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if _is_given(x)}
     items = quantities(program, board.values, lengths)
     return Solved(

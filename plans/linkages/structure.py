@@ -58,6 +58,11 @@ class Group:
         return tuple(number for number in self.links if number != self.central)
 
     @property
+    def joints(self) -> tuple[str, ...]:
+        """Letters of its inner pairs."""
+        return tuple(pair.point for pair in self.inner)
+
+    @property
     def before(self) -> tuple[int, ...]:
         """The links before it to which its outer pairs join it."""
         return tuple(next(n for n in pair.links if n not in self.links) for pair in self.outer)
