@@ -1,12 +1,13 @@
 """Random mechanisms with dyads of every kind: places of all links are drawn first, their dimensions are read from them.
 
-A crank that speeds up drives a dyad RRR (links 2 and 3); the dyad under test (links 4 and 5) hangs on two of the links
+A crank (or a slider) that speeds up drives a dyad RRR (links 2 and 3); the dyad under test (links 4 and 5) hangs on two of the links
 that move, or on the frame, so that both its outer pairs move, turn and accelerate. All links are bent, have mass and a
 moment of inertia, a force and a couple. Sines and branches are taken from the places, not from the code under test.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -23,6 +24,7 @@ from kulman.plans.linkages.mechanism import (
     Pair,
     Prismatic,
     Revolute,
+    SlidingDriver,
 )
 
 Array = NDArray[Any]
@@ -133,12 +135,25 @@ class Workshop:
         self.given("n_1", self.random.uniform(0.5, 20, self.count))
         self.given("sense_1", self.random.choice([-1.0, 1.0], self.count))
         self.given("acceleration_1", self.random.uniform(-100, 100, self.count))
-        self.given("phi", np.angle(self.joints["A"] - self.joints["O"]))
-        driver = Driver(1, "O", "A", "phi", "n_1", "sense_1", "acceleration_1")
+        driver = self.crank() if "O" in self.joints else self.slider()
         places = np.stack(
             [np.stack([o.real, o.imag, self.angles[i]], axis=1) for i, o in sorted(self.origins.items())], axis=1
         )
         return Mechanism(tuple(made), tuple(self.pairs), driver, tuple(loads), tuple(couples)), self.values, places
+
+
+    def crank(self) -> Driver:
+        self.given("phi", np.angle(self.joints["A"] - self.joints["O"]))
+        return Driver(1, "O", "A", "phi", "n_1", "sense_1", "acceleration_1")
+
+    def slider(self) -> SlidingDriver:
+        """The first link slides on the frame, either way."""
+        guide = next(pair for pair in self.pairs if isinstance(pair, Prismatic) and pair.links == (1, FRAME))
+        x, y = (self.values.get(name, 0.0) for name in guide.through)
+        along = np.exp(1j * self.values[guide.direction])
+        self.given("travel", dot(along, self.joints["A"] - (x + 1j * y)))
+        self.given("v_1", self.values["n_1"] * self.values["sense_1"])
+        return SlidingDriver(1, "A", "travel", "v_1", "acceleration_1")
 
 
 def unit(vector: Array) -> Array:
@@ -171,6 +186,19 @@ def feeder(w: Workshop) -> None:
     w.link(2, A, direction(w, A, B))
     w.link(3, C, direction(w, C, B))
     w.hinge("O", (0, 1), O)
+    w.hinge("A", (1, 2), A)
+    w.hinge("C", (3, 0), C)
+    w.hinge("B", (2, 3), B, w.given("branch_B", np.sign(cross(C - A, B - A))))
+    w.sines.append(cross(unit(B - A), unit(B - C)) * (LEAST_SINE / LEAST_SINE_BEFORE))
+
+
+def sliding_feeder(w: Workshop) -> None:
+    """A slider 1 on the frame and a dyad RRR of links 2 and 3."""
+    A, B, C = (w.anywhere() for _ in range(3))
+    w.link(1, A, w.angle())
+    w.link(2, A, direction(w, A, B))
+    w.link(3, C, direction(w, C, B))
+    w.slide("D", 1, 0, w.anywhere())
     w.hinge("A", (1, 2), A)
     w.hinge("C", (3, 0), C)
     w.hinge("B", (2, 3), B, w.given("branch_B", np.sign(cross(C - A, B - A))))
@@ -256,11 +284,17 @@ KINDS = {"RRR": rrr, "RRP": rrp, "RPR": rpr, "PRP": prp, "RPP": rpp}
 
 
 def random_dyads(
-    kind: str, before: tuple[int, int], carries: tuple[bool, ...], seed: int, count: int, bent: bool = True
+    kind: str,
+    before: tuple[int, int],
+    carries: tuple[bool, ...],
+    seed: int,
+    count: int,
+    bent: bool = True,
+    feed: Callable[[Workshop], None] = feeder,
 ) -> tuple[Mechanism, dict[str, Array], Array]:
     """Return mechanisms with a dyad of `kind` between two links, values, and places; all sines above LEAST_SINE."""
     w = Workshop(np.random.default_rng(seed), count * 3 // 2 + 20, bent)
-    feeder(w)
+    feed(w)
     KINDS[kind](w, before, carries)
     return chosen(w, count, 5)
 

@@ -338,8 +338,12 @@ class JacobianSolver:
 
     def _interpolated(self, x: Array, at: list[Array], names: Any) -> Array:
         values = [self.v[name] for name in names]
-        rows = [np.interp(x[i], [a[i] for a in at], [value[i] for value in values]) for i in range(self.size)]
-        return np.array(rows, LONG)
+        found = np.where(x <= at[0], values[0], values[-1])
+        for a, b, low, high in zip(at, at[1:], values, values[1:], strict=False):
+            wide = b > a
+            line = low + (high - low) * (x - a) / np.where(wide, b - a, 1)
+            found = np.where(wide & (a < x) & (x <= b), line, found)
+        return np.asarray(found)
 
     def _read_reactions(self, solved: Array) -> None:
         self.reactions: dict[str, Array] = {}
