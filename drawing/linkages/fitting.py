@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 SMALLEST_FIRST = ("A4", "A3", "A2", "A1")
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 FORCES_ONLY = 3
+LEAST = {"A1": 60.0, "A2": 60.0, "A3": 45.0, "A4": 40.0}  # mm of a plan that is made smaller for want of room
 MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same")
 Fitted = tuple[list[View], Mapping[str, Scale]]
 
@@ -151,7 +152,9 @@ class Fitting:
         ladder, reach = self.ladders[symbol], _reach(self.contents.solved, symbol)
         diagonal = math.hypot(*room(sheet, self.contents.norm))
         first = step if symbol.startswith("mu_F") else step - FORCES_ONLY
-        for rung in range(min(max(first, 0), len(ladder) - 1), len(ladder)):
+        # several pages are better than a plan on which nothing can be measured
+        legible = sum(reach >= LEAST[sheet.letters] * mu for mu in ladder) - 1
+        for rung in range(max(min(first, legible), 0), len(ladder)):
             if reach <= diagonal * ladder[rung]:
                 return rung
         raise self._does_not_fit(sheet, symbol, (reach / ladder[-1], reach / ladder[-1]))
@@ -186,6 +189,7 @@ def _reach(solved: Solved, symbol: str) -> float:
     longest = 0.0
     for plan in (plan for plan, name in solved.scale_of_plan.items() if name == symbol):
         steps_here = (step for step in solved.program.on(plan) if step.verb in MARKS)
-        marks = [solved.point(step.name) for step in steps_here if not step.name.startswith("_")]
+        # an instant centre may be anywhere: its figure says so in words where it is far
+        marks = [solved.point(step.name) for step in steps_here if not step.name.startswith(("_", "P_"))]
         longest = max((longest, *(abs(a - b) for a in marks for b in marks)))
     return longest
