@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from ...plans.board import POSITION, Step
+from ...plans.linkages.compound import found_here
 from ...plans.linkages.solved import Solved
 from ..printed import calculation
 from ..table import text_block
@@ -46,8 +47,9 @@ def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> L
     `told` are the lengths of which other lines have told already.
     """
     story = _Story(scene, read(scene.solved.program), told if told is not None else set())
+    apart = found_here(scene.solved.program)
     for step in scene.solved.program:
-        if stage_of(step) == plan:
+        if stage_of(step) == plan and step.name not in apart:
             story.tell(step)
     return story.lines
 

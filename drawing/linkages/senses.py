@@ -7,6 +7,7 @@ from cmath import phase, rect
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ...plans.linkages.compound import RELATIVE
 from ..shapes import Arrow, Pen
 from ..symbols import turning_arrow
 from ..view import Canvas
@@ -31,7 +32,7 @@ def turns(scene: Scene) -> Iterator[Turn]:
     """Go through the rates of turning that the construction reads off its plans."""
     made = {step.name: step for step in scene.solved.program}
     for step in scene.solved.program:
-        if step.law == "turning":
+        if step.law == "turning" and not RELATIVE.match(step.name):
             vector, normal, _ = step.operands
             along = made[made[normal].operands[0]]  # the direction whose normal it is, from one joint to another
             yield Turn(step.name, int(step.name.rpartition("_")[2]), vector, *along.operands[:2])

@@ -153,6 +153,7 @@ def results_table(scene: Scene, part: Part) -> View:
     elif part.links:
         heading = words["table.of_links"].format(heading=heading, links=part.links)
     head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
+    head[1] = head[1].format(unit=words.unit(words.display.paper))
     angles = [words["table.angle"]] if words.notation["angles"] else []
     quantities = scene.solved.quantities
     rows = [[*_row(scene, quantities[n]), *(_angle(scene, quantities[n]) for _ in angles)] for n in part.names]

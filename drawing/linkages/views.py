@@ -6,10 +6,14 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ...plans.linkages.chain import hinged
+from ...plans.linkages.compound import ACCELERATION, Coupler, scale_symbol
 from ...plans.linkages.mechanism import Prismatic
 from ...plans.linkages.solved import Solved
 from ...plans.linkages.structure import Group
 from ..view import View
+from .compound_text import compound_block
+from .compound_view import acceleration_figure, velocity_figure
 from .driver_view import driver_view
 from .forces_text import force_parts, forces_block
 from .group_view import group_view, link_view
@@ -38,6 +42,7 @@ def figures(solved: Solved, plans: tuple[str, ...], width: float, cycle: Cycle |
     """Return the figures for `plans` in the order of the work; lines of text are at most `width` long."""
     return [
         *_kinematics(solved, plans, width),
+        *_compound(solved, plans, width),
         *_cycle(cycle),
         *_forces(solved, plans, width),
         *_lever(solved, plans, width),
@@ -57,6 +62,19 @@ def _kinematics(solved: Solved, plans: tuple[str, ...], width: float) -> Iterato
     yield from (_kinematics_text(part, width) for part in kinematics_parts(solved, plans))
     parts = results_parts(solved)
     yield from (_results(p) for p in parts if p.kind in ("velocity", "acceleration") and p.kind in plans)
+
+
+def _compound(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
+    if "compound" not in plans:
+        return
+    couplers = hinged(solved.mechanism, solved.structure)
+    if couplers:
+        yield Figure(lambda scene: velocity_figure(scene, couplers), "mu_V")
+    for coupler in couplers:
+        yield from (_accelerations(coupler, point) for point in coupler.letters)
+    for coupler in couplers:
+        yield from (_compound_text(coupler, kind, width) for kind in ("V", "a"))
+    yield from (_results(p) for p in results_parts(solved) if p.kind == "compound")
 
 
 def _cycle(cycle: Cycle | None) -> Iterator[Figure]:
@@ -120,6 +138,16 @@ def _lever(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Fig
         yield Figure(lever_view, "mu_V")
         yield Figure(lambda scene: lever_block(scene, width, with_inertia="forces" not in plans))
     yield from (_results(p) for p in results_parts(solved) if p.kind in ("forces", "lever") and p.kind in plans)
+
+
+def _accelerations(coupler: Coupler, point: str) -> Figure:
+    """Return the figure of the accelerations of one point of a coupler."""
+    symbol = scale_symbol(f"{ACCELERATION}{coupler.letters[point]}") or ""
+    return Figure(lambda scene: acceleration_figure(scene, coupler, point), symbol)
+
+
+def _compound_text(coupler: Coupler, kind: str, width: float) -> Figure:
+    return Figure(lambda scene: compound_block(scene, width, coupler, kind))
 
 
 def _plan(plan: str, key: str, symbol: str, **fill: str) -> Figure:

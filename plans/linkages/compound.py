@@ -11,16 +11,18 @@ Source: Bertyaev and others, Mechanics: course works with Mathcad, section 4.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from ..board import Board
+from ..board import Board, Program
 from . import rrp, rrr
 from .mechanism import FRAME, ZERO, Mechanism, Revolute
 from .parts import AssurGroup, Bodies, Body, Span
 
 VELOCITY, ACCELERATION = "V_at_", "a_at_"
+RELATIVE = re.compile(r"(omega|epsilon)_r_\d+$")
 PARTS = {"V": ("e", "r"), "a": ("rn", "en", "et", "k", "rt")}  # of a vector, in the order in which they are hung
 
 
@@ -200,6 +202,14 @@ def scale_symbol(plan: str) -> str | None:
     if plan.startswith(VELOCITY):
         return "mu_V"
     return f"mu_a_{plan.removeprefix(ACCELERATION)}" if plan.startswith(ACCELERATION) else None
+
+
+def found_here(program: Program) -> frozenset[str]:
+    """Return the quantities that compound motion alone finds: parts of vectors, and relative rates."""
+    here = [step for step in program if step.plan.startswith((VELOCITY, ACCELERATION))]
+    hung = {step.operands[1] for step in here if step.verb == "chain"} | {s.name for s in here if s.verb == "read"}
+    elsewhere = {step.name for step in program if step.verb == "read" and step not in here}
+    return frozenset(hung - elsewhere) | {step.name for step in program if RELATIVE.match(step.name)}
 
 
 def disagreement(found: Iterable[Coupler], values: Mapping[str, Any]) -> float | None:

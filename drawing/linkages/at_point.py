@@ -1,0 +1,77 @@
+"""The plan that compound motion draws at a point itself: its vectors and construction lines, in place."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ...plans.linkages.compound import ACCELERATION, VELOCITY, Coupler
+from ..shapes import Vector, shifted
+from .letters import guide_letters
+from .plan_view import vectors_of
+from .scene import Scene
+
+PAST = 8.0  # mm by which a construction line runs past the point that it finds
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """The vectors of one point of a coupler: the plan drawn there, and where the point stands."""
+
+    scene: Scene
+    coupler: Coupler
+    point: str
+    kind: str  # "V" or "a"
+
+    @property
+    def letter(self) -> str:
+        """The point's letter in the names of its parts."""
+        return self.coupler.letters[self.point]
+
+    @property
+    def plan(self) -> str:
+        """The plan at the point."""
+        return (VELOCITY if self.kind == "V" else ACCELERATION) + self.letter
+
+    def mm(self, mark: str) -> complex:
+        """Return where a mark of the plan stands in the figure."""
+        return self.scene.mm(mark) + self.scene.mm(self.point)
+
+    def vectors(self) -> Iterator[Vector]:
+        """Go through the vectors as they were drawn, the total last, each with the name of the quantity it shows."""
+        steps = self.scene.solved.program.on(self.plan)
+        found = vectors_of(steps)
+        if f"{self.plan}.n" in self.scene.solved.values:
+            found.append((f"a_{self.point}_t", f"{self.plan}.n", f"{self.plan}.{self.letter}"))
+        total = f"_{self.kind}_{self.letter}_total"
+        for name, tail, tip in sorted(found, key=lambda vector: vector[0] == total):
+            plain = f"{self.kind}_{self.point}" if name == total else name
+            yield shifted_vector(self.scene.vector(plain, tail, tip), self.scene.mm(self.point))
+
+    def lines(self) -> Iterator[tuple[complex, complex, complex, str]]:
+        """Go through the construction lines: whence, the point that they find, their end past it, their direction."""
+        for step in self.scene.solved.program.on(self.plan):
+            if step.verb == "meet":
+                p, u, q, w = step.operands
+                end = self.mm(step.name)
+                for start, direction in ((p, u), (q, w)):
+                    e, tail = self.scene.solved.point(direction), self.mm(start)
+                    sense = 1.0 if ((end - tail) / e).real >= 0 else -1.0
+                    yield tail, end, end + e * sense * PAST, direction
+
+
+def shifted_vector(vector: Vector, by: complex) -> Vector:
+    """Return a vector moved to another place."""
+    moved = shifted(vector, by)
+    assert isinstance(moved, Vector)
+    return moved
+
+
+def direction_words(scene: Scene, direction: str) -> str:
+    """Return a direction as it is written on a construction line: normal to AB, parallel to the guide y-y."""
+    kind, _, name = direction.partition("_")
+    letters = guide_letters(scene.solved.program)
+    if kind == "u":
+        return f"∥{letters.get(direction, name)}"
+    return {"n": "⊥", "e": "∥"}[kind] + re.sub(r"(\d+)", r"_{\1}", name)

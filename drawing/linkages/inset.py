@@ -1,0 +1,190 @@
+"""Insets: the surroundings of vectors that are too short to be read, enlarged in a frame of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from ...scales.scale import Scale
+from ..page import extent
+from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
+from ..style import Style
+from ..text import Box
+from ..view import Canvas, View, heading_shapes
+from .at_point import At, direction_words
+from .scene import Scene
+
+SHORT, READABLE = 1.25, 1.7  # arrowheads: a shorter vector cannot be read; the least length in an inset
+TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
+WIDEST = 85.0  # mm, the largest side of what an inset shows
+MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
+NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
+
+
+def is_short(vector: Vector, style: Style) -> bool:
+    """Whether a vector is too short to be read in its figure."""
+    return abs(vector.tip - vector.tail) < SHORT * style.arrow
+
+
+def with_insets(
+    canvas: Canvas, scene: Scene, name: str, heading: tuple[str, ...], notes: tuple[str, ...], points: Sequence[At]
+) -> View:
+    """Finish a figure: frame the surroundings of short vectors in it, and put each enlarged beside it."""
+    insets = []
+    for at in points:
+        for window in windows(scene, at):
+            numeral = NUMERALS[len(insets) % len(NUMERALS)]
+            canvas.add(_frame(window.box, "window", f"{name}_{numeral}"))
+            canvas.label(numeral, _corners(window.box)[2:], prefer=1j, clear=0.8)
+            insets.append(_inset(scene, at, window, f"{name}_{numeral}", numeral))
+    figure = canvas.finish(name) if insets else canvas.finish(name, heading, notes)
+    return _together(figure, insets, heading, notes, scene.style) if insets else figure
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """What an inset shows: a box of the figure, mm, and how many times it is enlarged."""
+
+    box: Box
+    times: float
+
+
+def windows(scene: Scene, at: At) -> list[Window]:
+    """Return what the insets of a point show: short vectors, each with those beside it that find room."""
+    vectors = [vector for vector in at.vectors() if abs(vector.tip - vector.tail) > 1e-6]
+    left = [vector for vector in vectors if is_short(vector, scene.style)]
+    found = []
+    while left:
+        first = min(left, key=lambda vector: abs(vector.tip - vector.tail))
+        window = _window(scene, first, vectors)
+        left = [vector for vector in left if vector is not first and not shows(window, (vector.tail, vector.tip))]
+        found.append(window)
+    return found
+
+
+def _window(scene: Scene, short: Vector, vectors: Sequence[Vector]) -> Window:
+    """Choose the enlargement at which a short vector can be read, and take in the vectors that hang on it."""
+    least = abs(short.tip - short.tail)
+    times = next((m for m in TIMES if least * m >= READABLE * scene.style.arrow), TIMES[-1])
+    ends = {short.tail, short.tip}
+    for vector in sorted(vectors, key=lambda vector: abs(vector.tip - vector.tail)):
+        wider = ends | {vector.tail, vector.tip}
+        if (_near(vector.tail, ends) or _near(vector.tip, ends)) and max(_size(wider)) * times <= WIDEST:
+            ends = wider
+    x0, y0, x1, y1 = _box(ends)
+    margin = MARGIN / times
+    return Window((x0 - margin, y0 - margin, x1 + margin, y1 + margin), times)
+
+
+def shows(window: Window, ends: tuple[complex, ...]) -> bool:
+    """Whether both ends of a vector stand in a window."""
+    x0, y0, x1, y1 = window.box
+    return all(x0 <= end.real <= x1 and y0 <= end.imag <= y1 for end in ends)
+
+
+def _near(end: complex, ends: set[complex]) -> bool:
+    return any(abs(end - other) < 1e-6 for other in ends)
+
+
+def _box(ends: set[complex]) -> Box:
+    xs, ys = [end.real for end in ends], [end.imag for end in ends]
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def _size(ends: set[complex]) -> tuple[float, float]:
+    x0, y0, x1, y1 = _box(ends)
+    return x1 - x0, y1 - y0
+
+
+def _frame(box: Box, role: str, name: str) -> Polyline:
+    return Polyline(_corners(box), Pen.THIN, closed=True, role=role, name=name)
+
+
+def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
+    """Return the corners of a box, counter-clockwise; the last two are the upper ones."""
+    x0, y0, x1, y1 = box
+    return complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1)
+
+
+def _inset(scene: Scene, at: At, window: Window, name: str, numeral: str) -> View:
+    """Draw what stands in the window, enlarged: vectors to a scale factor of their own, those that leave it cut off."""
+    times, (x0, y0, x1, y1) = window.times, window.box
+    bounds: Box = (x0 * times, y0 * times, x1 * times, y1 * times)
+    canvas = Canvas(scene.style, bounds=bounds)
+    for tail, found, end, direction in at.lines():
+        cut, past = (clipped(start * times, end * times, bounds) for start in (tail, found))
+        if cut is not None:
+            canvas.add(Line(*cut, Pen.DASHED, role="construction", name=f"{name}_{direction}"))
+            canvas.label(direction_words(scene, direction), past or cut, clear=0.8)
+    for vector in at.vectors():
+        _enlarged(canvas, scene, vector, times, bounds)
+    place = scene.mm(at.point) * times
+    if clipped(place, place, bounds) is not None:
+        canvas.add(Group((Circle(place, scene.style.node, Pen.MAIN, fill="white"),), "point", at.point))
+        canvas.label(scene.words.mark(at.point), place, clear=1.0, priority=1)
+    canvas.add(_frame(bounds, "inset", name))
+    scale = scene.scales[at.plan]
+    own = Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit)
+    return canvas.finish(name, (f"{numeral}:  {scene.words.scale(own)}",))
+
+
+def _enlarged(canvas: Canvas, scene: Scene, vector: Vector, times: float, bounds: Box) -> None:
+    tail, tip = vector.tail * times, vector.tip * times
+    cut = clipped(tail, tip, bounds)
+    symbol = scene.words.symbol(vector.quantity, bar=True)
+    if cut is None or abs(cut[1] - cut[0]) < 1e-6:
+        return
+    whole = abs(cut[0] - tail) + abs(cut[1] - tip) < 1e-6
+    if whole:
+        mu = float(f"{vector.mu / times:.12g}")
+        head = "tip" if abs(tip - tail) >= scene.style.arrow else "none"
+        canvas.add(replace(vector, tail=tail, tip=tip, mu=mu, head=head))
+    else:
+        parts: list[Shape] = [Line(*cut, Pen.MAIN)]
+        if abs(cut[1] - tip) < 1e-6:
+            parts.append(Head(tip, tip - tail))
+        canvas.add(Group(tuple(parts), "cut", vector.quantity))
+    canvas.label(symbol, cut, clear=0.9)
+
+
+def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:
+    """Return the part of the line from `a` to `b` inside of a box (Liang and Barsky), None when there is none."""
+    x0, y0, x1, y1 = box
+    low, high, way = 0.0, 1.0, b - a
+    for start, step, least, most in ((a.real, way.real, x0, x1), (a.imag, way.imag, y0, y1)):
+        if abs(step) < 1e-12:
+            if not least <= start <= most:
+                return None
+            continue
+        first, last = sorted(((least - start) / step, (most - start) / step))
+        low, high = max(low, first), min(high, last)
+    return (a + way * low, a + way * high) if low <= high else None
+
+
+def _together(
+    figure: View, insets: Sequence[View], heading: tuple[str, ...], notes: tuple[str, ...], style: Style
+) -> View:
+    """Put the insets to the right of a figure, or under it, whichever takes less room; the heading over all."""
+    beside, under = (list(_shapes(figure, insets, right)) for right in (True, False))
+    shapes = min((beside, under), key=lambda shapes: _area(extent(shapes)))
+    x0, y0, x1, y1 = extent(shapes)
+    for texts, height in ((notes, style.text), (heading, style.heading)):
+        lines, y1 = heading_shapes(texts, height, (x0 + x1) / 2, y1)
+        shapes += lines
+    x0, y0, x1, _ = extent(shapes)
+    return View(figure.name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
+
+
+def _shapes(figure: View, insets: Sequence[View], right: bool) -> Iterator[Shape]:
+    x0, y0, x1, _ = figure.box
+    yield from figure.shapes
+    x, y = (x1 + GAP, y0) if right else (x0, y0 - GAP)
+    for inset in insets:
+        width, height = inset.size
+        corner = complex(x - inset.box[0], y - inset.box[1] - (0.0 if right else height))
+        yield from (shifted(shape, corner) for shape in inset.shapes)
+        x, y = (x, y + height + GAP) if right else (x + width + GAP, y)
+
+
+def _area(box: Box) -> float:
+    return (box[2] - box[0]) * (box[3] - box[1])
