@@ -67,20 +67,13 @@ def bridge(at: complex, u: complex, style: Style) -> Arc:
     return Arc(at, 1.6 * style.pair, cmath.phase(u), math.pi, Pen.MAIN, role="rigid")
 
 
-def block(at: complex, u: complex, name: str, style: Style) -> Group:
-    """Return a block on a link that moves, turned along the unit direction `u`."""
-    length, height = block_size(style)
+def block(at: complex, u: complex, name: str, size: tuple[float, float]) -> Group:
+    """Return a block of this length and height, turned along the unit direction `u`."""
+    length, height = size
     corners = tuple(
         at + u * (sx * length / 2) + 1j * u * (sy * height / 2) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))
     )
     return Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "link", name)
-
-
-def block_size(style: Style, on_frame: bool = False) -> tuple[float, float]:
-    """Return length and height of a block: on a link that moves it is a little smaller than a slider on the frame."""
-    length, height = style.slider
-    part = 1.0 if on_frame else 0.88
-    return part * length, part * height
 
 
 def slider_up(u: complex) -> complex:
@@ -88,19 +81,13 @@ def slider_up(u: complex) -> complex:
     return 1j * u if (1j * u).imag >= -1e-12 else -1j * u
 
 
-def slider(at: complex, u: complex, name: str, style: Style, guides: bool = True) -> tuple[Shape, ...]:
-    """Return a slider along the unit vector `u` and, under it, the guide with hatching on its far side."""
-    length, height = style.slider
+def slider(at: complex, u: complex, name: str, size: tuple[float, float], style: Style) -> tuple[Group, Group]:
+    """Return the guide of a slider along the unit vector `u`, with hatching on its far side, and over it the block."""
+    length, height = size
     below = -slider_up(u)
-    corners = tuple(
-        at + u * (sx * length / 2) + 1j * u * (sy * height / 2) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))
-    )
-    block = Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "link", name)
-    if not guides:
-        return (block,)
     a, b = (at + below * (height / 2) + u * (s * length * 1.1) for s in (-1, 1))
     guide = Group((Line(a, b, Pen.MAIN), *hatching(a, b, below, style)), "guide", name)
-    return guide, block
+    return guide, block(at, u, name, size)
 
 
 def centre_of_mass(at: complex, name: str, style: Style) -> Group:

@@ -70,7 +70,8 @@ def couples(scene: Scene, number: int) -> list[str]:
     names = [f"M_i{number}", *(couple.name for couple in mechanism.couples if couple.link == number)]
     for _, pair, own in _attached(scene, number):
         if isinstance(pair, Prismatic):
-            names += [f"M_{own}{number}", f"_M_{own}"]
+            handed_on = (f"M_{own}{number}", f"_M_{own}")
+            names += [name for name in handed_on if scene.defined(name)][:1]
     return [name for name in names if scene.defined(name)]
 
 
@@ -139,15 +140,18 @@ def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int
     # the moment of the loads, which the reaction balances, or that of the reaction itself
     turning = -value if moment.startswith("_M_") else value
     size = cross(u, complex(scene.solved.values[reaction])) if scene.direction(reaction) != 0 else 0.0
-    couple = moment if size == 0.0 and value != 0.0 else ""
+    couple = moment if size == 0.0 and not scene.vanishes(moment) else ""
     return Contact(step.name, pin, u, turning / size if size else 0.0, couple)
 
 
 def _about(scene: Scene, name: str) -> str | None:
     """Return the joint about which the moments are taken that make up a moment."""
     made = {step.name: step for step in scene.solved.program}
-    for operand in made[name].operands:
-        step = made.get(operand)
+    left = [name]
+    while left:
+        step = made.get(left.pop(0))
         if step is not None and step.verb == "moment":
             return step.operands[2]
+        if step is not None and step.verb == "calc":
+            left += [operand for operand in step.operands if "M_" in operand]
     return None

@@ -74,7 +74,7 @@ def _balance(sketch: Sketch, o: complex) -> None:
     """Draw M_bal about the pivot."""
     scene, canvas = sketch.scene, sketch.canvas
     value = scene.solved.values["M_bal"]
-    if not value or value != value:
+    if value != value or scene.vanishes("M_bal"):
         sketch.zero.append("M_bal")
         return
     sense, radius = math.copysign(1.0, value), 0.62 * scene.style.force

@@ -12,7 +12,7 @@ from ...plans.linkages.mechanism import Pair, Prismatic
 from ...plans.linkages.structure import Group
 from ..shapes import Arrow, Circle, Head, Line, Pen, Shape
 from ..shapes import Group as Shapes
-from ..symbols import arm, block_size, clear_ray, room_on, turning_arrow
+from ..symbols import arm, clear_ray, room_on, turning_arrow
 from ..view import Canvas, View
 from .acting import Contact, Moment, contact, couples, handed, loads, moments_of, pin_of, reactions
 from .links import draw_links, letter_links, rays_at
@@ -88,29 +88,24 @@ class Sketch:
 
     def _gap(self, at: complex, e: complex) -> float:
         """Return where an arrow along `e` may begin beside a block at its point."""
+        gaps = [0.0]
         for figure in self.figures:
-            for centre, u in figure.blocks:
+            for (centre, u), (length, height) in zip(figure.blocks, figure.sizes, strict=True):
                 if abs(((at - centre) / u).imag) < NEAR and abs(at - centre) < self.scene.style.slider[0] / 2:
-                    length, height = block_size(self.scene.style, self._on_frame(figure.number, centre))
                     along, across = abs((e / u).real), abs((e / u).imag)
                     ahead = length / 2 + abs(at - centre) if along > across else length / 2
-                    return min(ahead / max(along, 1e-9), height / 2 / max(across, 1e-9))
-        return 0.0
-
-    def _on_frame(self, number: int, centre: complex) -> bool:
-        pairs = self.scene.solved.mechanism.pairs
-        own = (p for p in pairs if isinstance(p, Prismatic) and p.links == (number, 0))
-        return any(abs(self.scene.mm(pair.point) - centre) < NEAR for pair in own)
+                    gaps.append(min(ahead / max(along, 1e-9), height / 2 / max(across, 1e-9)))
+        return max(gaps)
 
     def couple(self, name: str, figure: Skeleton) -> None:
         """Draw the turning arrow of a couple about the middle of a link, `number` others being there already."""
         value = self.scene.solved.values[name]
-        if value == 0.0:
+        if self.scene.vanishes(name):
             self.zero.append(name)
             return
         at, along = self._free_place(figure)
+        radius = self.scene.style.force * (0.5 + 0.25 * self.turning.count(at))  # round those that stand there already
         self.turning.append(at)
-        radius = 0.5 * self.scene.style.force
         self.canvas.add(turning_arrow(at, radius, phase(along), 2.0, math.copysign(1.0, value), name))
         self.canvas.label(self.scene.words.symbol(couple_name(name, figure.number)), at + along * radius, clear=1.2)
 
@@ -152,7 +147,7 @@ class Sketch:
                 continue
             at, about = self.scene.mm(moment.at), self.scene.mm(moment.about)
             foot = at + e * ((about - at) / e).real
-            if self.scene.solved.values[moment.arm] == 0.0:
+            if self.scene.vanishes(moment.arm):
                 self.zero.append(moment.arm)
             key = moment.about, complex(round(foot.real, 3), round(foot.imag, 3))
             drawn.setdefault(key, []).append(moment)
@@ -272,7 +267,7 @@ def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str],
 def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
     """Say in one line which of these forces, couples and arms are zero: the figure cannot show them."""
     w = scene.words
-    gone = [name for name in dict.fromkeys(names) if scene.defined(name) and scene.solved.size(name) == 0.0]
+    gone = [name for name in dict.fromkeys(names) if scene.defined(name) and scene.vanishes(name)]
     parts = [w.symbol(name.removeprefix("_"), bar=not name.startswith(("M", "h", "_M"))) for name in gone]
     return (f"{' = '.join(parts)} = 0",) if parts else ()
 

@@ -18,7 +18,6 @@ from ...plans.linkages.mechanism import FRAME, Prismatic, Revolute
 from ..shapes import Circle, Group, Line, Pen
 from ..symbols import (
     block,
-    block_size,
     bridge,
     centre_of_mass,
     fixed_pivot,
@@ -46,8 +45,10 @@ def draw_links(canvas: Canvas, scene: Scene, numbers: Sequence[int], framed: boo
     figures = [skeleton(scene, number) for number in numbers]
     for figure in figures:
         _strokes(canvas, scene, figure, figure.guides)
-    for figure in figures:
-        canvas.add(*_blocks(scene, figure.number, framed))
+    for _, shapes in sorted(
+        (block for figure in figures for block in _blocks(scene, figure, framed)), key=lambda one: -one[0]
+    ):
+        canvas.add(*shapes)
     for figure in figures:
         _strokes(canvas, scene, figure, figure.bars)
         for at, u, w in figure.corners:
@@ -82,9 +83,8 @@ def _rim(scene: Scene, figure: Skeleton, end: complex, e: complex) -> float:
     """Return where a line that leaves `end` along `e` begins: at the circle of a pin, at the edge of a block."""
     if _is_in(end, figure.pins):
         return scene.style.pair
-    for at, u in figure.blocks:
+    for (at, u), (length, height) in zip(figure.blocks, figure.sizes, strict=True):
         if abs(at - end) < NEAR:
-            length, height = block_size(scene.style)
             along, across = abs((e / u).real), abs((e / u).imag)
             return min(length / 2 / max(along, 1e-9), height / 2 / max(across, 1e-9))
     return 0.0
@@ -94,17 +94,15 @@ def _is_in(at: complex, places: Iterable[complex]) -> bool:
     return any(abs(at - place) < NEAR for place in places)
 
 
-def _blocks(scene: Scene, number: int, framed: bool) -> Iterator[Group]:
-    """Go through the blocks of a link: sliders with the frame's guide under them, blocks on links that move."""
-    for pair in scene.solved.mechanism.pairs:
-        if isinstance(pair, Prismatic) and pair.links[0] == number:
-            at, u = scene.mm(pair.point), guide_of(scene, pair)
-            if pair.links[1] == FRAME:
-                for shape in slider(at, u, str(number), scene.style, guides=framed):
-                    assert isinstance(shape, Group)
-                    yield shape
-            else:
-                yield block(at, u, str(number), scene.style)
+def _blocks(scene: Scene, figure: Skeleton, framed: bool) -> Iterator[tuple[float, tuple[Group, ...]]]:
+    """Go through the blocks of a link by size: sliders with the frame's guide under them, blocks on links that move."""
+    name = str(figure.number)
+    own = [p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] == figure.number]
+    for pair, (at, u), size in zip(own, figure.blocks, figure.sizes, strict=True):
+        if pair.links[1] == FRAME and framed:
+            yield size[0], slider(at, u, name, size, scene.style)
+        else:
+            yield size[0], (block(at, u, name, size),)
 
 
 def _held(scene: Scene, point: str) -> bool:
@@ -163,7 +161,7 @@ def coincident(scene: Scene) -> dict[str, tuple[int, ...]]:
             found.setdefault(match[1], set()).add(int(match[2]))
     for point, numbers in found.items():
         numbers.update(n for p in mechanism.pairs if isinstance(p, Revolute) and p.point == point for n in p.links)
-    return {point: tuple(sorted(numbers)) for point, numbers in found.items()}
+    return {point: tuple(sorted(numbers - {FRAME})) for point, numbers in found.items()}
 
 
 def letter_links(canvas: Canvas, scene: Scene, numbers: Sequence[int], figures: Sequence[Skeleton]) -> None:
@@ -194,25 +192,18 @@ def _letter_joint(canvas: Canvas, scene: Scene, point: str, mark: str, figures: 
     at = scene.mm(point)
     if not any(point in pins_of(scene, figure.number) for figure in figures):
         canvas.add(Group((Circle(at, scene.style.node, Pen.MAIN, fill="white"),), "point", point))
-    around = [(u, figure) for figure in figures for centre, u in figure.blocks if abs(centre - at) < NEAR]
+    around = [(block, size, figure) for figure in figures for block, size in _sized(figure) if abs(block[0] - at) < NEAR]
     if not around:
         canvas.label(mark, at, clear=scene.style.pair + 0.8)
         return
-    u, figure = around[0]
+    (_, u), (length, height), figure = max(around, key=lambda one: one[1])
     up = _up(scene, figure.number, at, u, figures)
-    height, half = _block_of(scene, figure.number, at)
-    edge = at + up * (height / 2)
-    canvas.label(mark, (edge - u * half, edge + u * half), clear=1.0, prefer=up, priority=1)
+    edge, half = at + up * (height / 2), u * (length / 2)
+    canvas.label(mark, (edge - half, edge + half), clear=1.0, prefer=up, priority=1)
 
 
-def _block_of(scene: Scene, number: int, at: complex) -> tuple[float, float]:
-    """Return height and half length of a link's block."""
-    on_frame = any(
-        isinstance(p, Prismatic) and p.links == (number, FRAME) and abs(scene.mm(p.point) - at) < NEAR
-        for p in scene.solved.mechanism.pairs
-    )
-    length, height = scene.style.slider if on_frame else block_size(scene.style)
-    return height, length / 2
+def _sized(figure: Skeleton) -> Iterator[tuple[Stroke, tuple[float, float]]]:
+    return zip(figure.blocks, figure.sizes, strict=True)
 
 
 def _up(scene: Scene, number: int, at: complex, u: complex, figures: Sequence[Skeleton]) -> complex:
@@ -257,9 +248,8 @@ def _number(canvas: Canvas, scene: Scene, figure: Skeleton, figures: Sequence[Sk
         a, b = max(pieces, key=lambda piece: round(abs(piece[1] - piece[0]), 3))
         canvas.label(str(figure.number), (a, b), clear=0.8)
     elif figure.blocks:
-        at, u = figure.blocks[0]
-        up = _up(scene, figure.number, at, u, figures)
-        height, half = _block_of(scene, figure.number, at)
+        (at, u), (length, height) = figure.blocks[0], figure.sizes[0]
+        up, half = _up(scene, figure.number, at, u, figures), length / 2
         away = [ray for ray in rays_at(at, figures) if abs((ray / u).real) > 0.1]
         far = u * half if sum((ray / u).real for ray in away) <= 0 else -u * half
         canvas.label(str(figure.number), at + up * (height / 2) + far, clear=0.8, prefer=up)

@@ -8,12 +8,15 @@ from dataclasses import dataclass, field
 from ...plans.board import POSITION
 from ...plans.linkages.rrp import Dyad
 from ...plans.linkages.solved import Solved
+from ...plans.quantities import unit_of
 from ...scales.scale import Scale
 from ..printed import segment_decimals
 from ..shapes import Vector
 from ..style import Style
 from ..words import Words
 from .reach import Reach
+
+ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +38,7 @@ class Scene:
     givens: Mapping[str, Given]  # what the task states, in its own units
     reaches: Reach = field(default_factory=dict)
     dyads: tuple[Dyad, ...] = ()
+    _largest: dict[str, float] = field(default_factory=dict, compare=False)
 
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""
@@ -44,7 +48,15 @@ class Scene:
     def direction(self, name: str) -> complex:
         """Return the unit direction of a vector, or 0 when it is zero."""
         size = self.solved.size(name)
-        return complex(self.solved.values[name]) / size if size > 0.0 else 0j
+        return 0j if self.vanishes(name) else complex(self.solved.values[name]) / size
+
+    def vanishes(self, name: str) -> bool:
+        """Whether a quantity is zero, or rounding beside the largest of its unit."""
+        unit = unit_of(name.removeprefix("_"))
+        if unit not in self._largest:
+            sizes = (abs(q.value or 0.0) for q in self.solved.quantities.values() if q.unit == unit)
+            self._largest[unit] = max(sizes, default=0.0)
+        return self.solved.size(name) <= ROUNDING * self._largest[unit]
 
     def defined(self, name: str) -> bool:
         """Whether a value exists and is a number."""

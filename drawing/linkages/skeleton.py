@@ -8,11 +8,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
-from ...plans.linkages.mechanism import Pair, Prismatic, Revolute
+from ...plans.linkages.mechanism import FRAME, Pair, Prismatic, Revolute
 from .reach import guide_name
 from .scene import Scene
 
 NEAR = 0.02  # mm: points so near to one another, or to a line, coincide on the drawing
+ON_LINK, INNER, OUTER = 0.88, 0.75, 1.6  # parts of a slider on the frame: blocks on links, and two on one pin
 Stroke = tuple[complex, complex]
 
 
@@ -27,6 +28,7 @@ class Skeleton:
     number: int
     pins: tuple[complex, ...]
     blocks: tuple[Stroke, ...]  # centre and unit direction
+    sizes: tuple[tuple[float, float], ...]  # their lengths and heights
     guides: tuple[Stroke, ...]
     bars: tuple[Stroke, ...]
     corners: tuple[tuple[complex, complex, complex], ...]
@@ -58,6 +60,7 @@ def skeleton(scene: Scene, number: int) -> Skeleton:
     sliding = [pair for pair in pairs_of(scene, number) if isinstance(pair, Prismatic)]
     pins = [scene.mm(point) for point in pins_of(scene, number)]
     blocks = tuple((scene.mm(p.point), guide_of(scene, p)) for p in sliding if p.links[0] == number)
+    sizes = tuple(_block_size(scene, pair) for pair in sliding if pair.links[0] == number)
     rails = [_rail(scene, pair) for pair in sliding if pair.links[1] == number]
     link = scene.solved.mechanism.link(number)
     nodes = [*pins, *(at for at, _ in blocks)]
@@ -68,7 +71,21 @@ def skeleton(scene: Scene, number: int) -> Skeleton:
     else:
         guides = ()
         bars, corners = _between(nodes, _pivot(scene, number))
-    return Skeleton(number, tuple(_apart(pins)), blocks, guides, bars, (*corners, *_through(pins, (*guides, *bars))))
+    corners = (*corners, *_through(pins, (*guides, *bars)))
+    return Skeleton(number, tuple(_apart(pins)), blocks, sizes, guides, bars, corners)
+
+
+def _block_size(scene: Scene, pair: Prismatic) -> tuple[float, float]:
+    """Return length and height of a block: on a moving link a little smaller; of two on one pin the first is larger."""
+    others = [p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] != pair.links[0]]
+    shared = [p for p in others if abs(scene.mm(p.point) - scene.mm(pair.point)) < NEAR]
+    rank = [FRAME not in pair.links, pair.links[0]]
+    part = ON_LINK if FRAME not in pair.links else 1.0
+    if shared:
+        inner = any([FRAME not in p.links, p.links[0]] < rank for p in shared)
+        part = INNER if inner else OUTER
+    length, height = scene.style.slider
+    return part * length, part * height
 
 
 def _rail(scene: Scene, pair: Prismatic) -> Stroke:
