@@ -170,10 +170,11 @@ class Course:
             state = self._from_nodes(start, ahead)
         else:
             state = start.take(np.arange(len(goal)) if len(start.at) > 1 else np.zeros(len(goal), int))
+            passed = np.zeros(len(goal), int)
             for node in range(1, int(np.max(np.abs(ahead), initial=0)) + 1):
-                passed = np.sign(ahead) * np.minimum(node, np.abs(ahead))
-                self._advance(state, start.at + passed * grid, which)
-        self._advance(state, goal, which)
+                before, passed = passed, np.sign(ahead) * np.minimum(node, np.abs(ahead))
+                self._advance(state, start.at + before * grid, start.at + passed * grid, which)
+        self._advance(state, start.at + ahead * grid, goal, which)
         return state
 
     def _from_nodes(self, start: State, ahead: NDArray[np.int_]) -> State:
@@ -184,15 +185,19 @@ class Course:
             for node in range(sense, last + sense, sense):
                 if node not in self._nodes:
                     state = self._nodes[node - sense].take(np.zeros(1, int))
-                    self._advance(state, start.at + node * self._steps, np.zeros(1, int))
+                    before, there = (start.at + number * self._steps for number in (node - sense, node))
+                    self._advance(state, before, there, np.zeros(1, int))
                     self._nodes[node] = state
         return joined([self._nodes[node] for node in ahead.tolist()])
 
-    def _advance(self, state: State, goal: Array, which: Places) -> None:
-        """Move states on to `goal`, in steps that keep the branch, as far as they go."""
+    def _advance(self, state: State, before: Array, goal: Array, which: Places) -> None:
+        """Move states on to `goal`, in steps that keep the branch, as far as they go.
+
+        A state that has not come as far as `before` stands in a dead position, and stays there.
+        """
         goal = np.broadcast_to(goal, len(state.at))
         least = LEAST * self._of(self._steps, which)
-        active = np.flatnonzero((state.at != goal) & np.isfinite(state.at))
+        active = np.flatnonzero((state.at != goal) & (state.at == before))
         step = (goal - state.at)[active]
         while len(active):
             here, rest = state.take(active), goal[active] - state.at[active]
