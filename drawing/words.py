@@ -157,7 +157,8 @@ class Words:
         head = letters.get(head, GREEK.get(head, head))
         if not head:
             return below
-        return head + (f"^{{{above}}}" if above else "") + (f"_{{{below}}}" if below else "")
+        scripts = (f"^{{{above}}}" if above else "") + (f"_{{{below}}}" if below else "")
+        return f"{head}{scripts}"
 
     def _part(self, part: str) -> str:
         """Return the superscript of a part of a vector."""

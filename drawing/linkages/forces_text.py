@@ -96,7 +96,8 @@ def _load(scene: Scene, step: Step) -> Lines:
     if step.law == "sum":
         return _sum_of_couples(scene, step)
     mechanism = scene.solved.mechanism
-    loads = {load.name: load.magnitude for load in (*mechanism.loads, *mechanism.couples)}
+    loads = {load.name: load.magnitude for load in mechanism.loads}
+    loads |= {couple.name: couple.magnitude for couple in mechanism.couples}
     if step.name not in loads:
         return []
     made = read(scene.solved.program).step(step.operands[0])

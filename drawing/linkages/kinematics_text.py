@@ -177,14 +177,12 @@ def _turning_alike(scene: Scene, step: Step) -> Lines:
     sense = sensed(words, value)
     if step.law == "same_turning":
         symbol = f"{symbol} = {words.symbol(step.operands[0])}"
-    given = scene.givens.get(step.operands[0])
+    given, line = scene.givens.get(step.operands[0]), [stated(words, symbol, abs(value), unit)]
     if given is not None and given.unit == "rpm" and not isinstance(given.value, str):
         texts, result = calculation(words, lambda n: math.pi * n / 30.0, [(given.value, True)])
-        head = f"{symbol} = π{words.symbol(step.operands[0])}/30 =", f"π·{texts[0]}/30 ="
-        last = f"{result} {words.unit(unit)}"
-    else:
-        head, last = (), stated(words, symbol, abs(value), unit)
-    return [(*head, f"{last},", sense) if sense else (*head, last)]
+        line = [f"{symbol} = π{words.symbol(step.operands[0])}/30 =", f"π·{texts[0]}/30 ="]
+        line.append(f"{result} {words.unit(unit)}")
+    return [(*line[:-1], f"{line[-1]},", sense) if sense else tuple(line)]
 
 
 def _similarity(scene: Scene, step: Step) -> Lines:

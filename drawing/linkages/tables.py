@@ -6,7 +6,10 @@ import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import combinations, pairwise
+from typing import TypeAlias
 
+from ...plans.board import POSITION
 from ...plans.linkages.solved import Solved
 from ...plans.quantities import Quantity
 from ..printed import segment_decimals, value_text
@@ -16,8 +19,9 @@ from .reading import read
 from .scene import Scene
 
 KINDS = ("velocity", "acceleration", "compound", "forces", "lever")
-HEADS = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
+HEADS = {"l": "velocity", "V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 ROWS = 30  # most rows of a table
+_Piece: TypeAlias = tuple[tuple[int, ...], list[str]]  # links of a group, names
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,15 +96,27 @@ def _cut(solved: Solved, kind: str, names: list[str]) -> list[Part]:
     by_group: dict[tuple[int, ...], list[str]] = {links: [] for links in order}
     for name in names:
         by_group[_owner(solved, name)].append(name)
-    parts: list[tuple[list[int], list[str]]] = []
-    for links, own in by_group.items():
-        for chunk in _chunks(own):
-            if parts and len(parts[-1][1]) + len(chunk) <= ROWS:
-                parts[-1][0].extend(links)
-                parts[-1][1].extend(chunk)
-            else:
-                parts.append(([*links], [*chunk]))
-    return [Part(kind, tuple(own), ", ".join(map(str, sorted(set(links))))) for links, own in parts]
+    pieces = [(links, chunk) for links, own in by_group.items() for chunk in _chunks(own)]
+    parts = []
+    for run in _evenly(pieces):
+        links = sorted({number for own, _ in run for number in own})
+        parts.append(Part(kind, tuple(name for _, chunk in run for name in chunk), ", ".join(map(str, links))))
+    return parts
+
+
+def _evenly(pieces: list[_Piece]) -> list[list[_Piece]]:
+    """Put pieces into as few tables as there can be, in their order, so that the longest is as short as it can be."""
+
+    def longest(runs: list[list[_Piece]]) -> int:
+        return max(sum(len(chunk) for _, chunk in run) for run in runs)
+
+    for count in range(1, len(pieces) + 1):
+        inner = combinations(range(1, len(pieces)), count - 1)
+        ways = [[pieces[a:b] for a, b in pairwise((0, *cuts, len(pieces)))] for cuts in inner]
+        best = min(ways, key=longest)
+        if longest(best) <= ROWS:
+            return best
+    return []
 
 
 def _chunks(names: list[str]) -> Iterator[list[str]]:
@@ -120,9 +136,9 @@ def _owner(solved: Solved, name: str) -> tuple[int, ...]:
 def _links_of(solved: Solved, name: str) -> set[int]:
     """Return the links that a quantity concerns: of a point the first that has it, of a reaction both."""
     mechanism = solved.mechanism
-    loads = {load.name: load.link for load in (*mechanism.loads, *mechanism.couples)}
+    loads = {load.name: load.link for load in mechanism.loads} | {c.name: c.link for c in mechanism.couples}
     head, _, rest = name.partition("_")
-    if rest in loads or name in loads:
+    if name in loads or (head == "h" and rest in loads):
         return {loads.get(name) or loads[rest]}
     numbers = {link.number for link in mechanism.links}
     if head in ("V", "a"):
@@ -137,11 +153,12 @@ def _links_of(solved: Solved, name: str) -> set[int]:
 
 
 def _first_with(solved: Solved, index: str) -> set[int]:
-    """Return the first link that has the point with which an index such as `BA` or `A3A2` begins."""
+    """Return the first link that has the point with which an index such as `BA`, `A3A2` or `X3` begins."""
     links = [solved.structure.driver, *(number for group in solved.structure.groups for number in group.links)]
     points = {point: number for number in reversed(links) for point in solved.mechanism.link(number).points}
     ways = {**{f"{point}{number}": number for point in points for number in links}, **points}
-    return {ways[max((way for way in ways if index.startswith(way)), key=len, default="")]} if points else set()
+    found = max((way for way in ways if index.startswith(way)), key=len, default="")
+    return {ways[found]} if found else {number for number in links if str(number) in index}
 
 
 def results_table(scene: Scene, part: Part) -> View:
@@ -163,7 +180,7 @@ def results_table(scene: Scene, part: Part) -> View:
 def _row(scene: Scene, q: Quantity) -> list[str]:
     words, value = scene.words, scene.words.display.value(q.value or 0.0, q.unit)
     symbol, unit = words.symbol(q.name), words.unit(words.display.unit(q.unit))
-    plan = scene.solved.shown_on.get(q.name, "")
+    plan = POSITION if q.name.startswith("l_") else scene.solved.shown_on.get(q.name, "")
     if plan not in scene.scales:
         return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, tidy(q, value)), unit]
     number = words.factor(scene.scales[plan])
