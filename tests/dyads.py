@@ -141,7 +141,6 @@ class Workshop:
         )
         return Mechanism(tuple(made), tuple(self.pairs), driver, tuple(loads), tuple(couples)), self.values, places
 
-
     def crank(self) -> Driver:
         self.given("phi", np.angle(self.joints["A"] - self.joints["O"]))
         return Driver(1, "O", "A", "phi", "n_1", "sense_1", "acceleration_1")

@@ -143,3 +143,14 @@ def rows(checker: Checker, path: Path, raw: object) -> list[tuple[Path, object]]
         checker.wrong_type(path, "type-tables")
         return []
     return [((*path, i), row) for i, row in enumerate(raw)]
+
+
+def on_link(
+    checker: Checker, path: Path, key: str, point: str, number: int, links: Mapping[int, Mapping[str, object]]
+) -> None:
+    """Check that `point`, named by `key`, is lettered on link `number`."""
+    if number not in links:
+        at = (*path, "links") if (*path, "links") in checker.places else (*path, "link")
+        checker.fault(at, unknown("link-unknown", str(number), map(str, links)))
+    elif point not in links[number]:
+        checker.fault((*path, key), unknown("point-unknown", point, links[number], link=number))

@@ -24,7 +24,9 @@ from ..scales.numbers import quote
 from .arguments import of_kind
 from .checks import Checker, EnoughError, Field, array_of, as_is, label, one_of, record, text
 from .checks_givens import Settings, read_choices, read_givens, read_variants
-from .checks_mechanism import Names, read_mechanism
+from .checks_loads import diagrams_in_order
+from .checks_mechanism import read_mechanism
+from .checks_names import Names
 from .checks_structure import branched, place_of
 from .shelf import bundled, bundled_text
 from .task import WITH_FORCES, Bound, Given, LocatedError, Task
@@ -225,7 +227,7 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
         _constructed(checker, mechanism, head)
     if checker.faults or mechanism is None:
         return None
-    return Task(
+    task = Task(
         id=head["id"],
         title=head["title"],
         source=head["source"],
@@ -243,6 +245,9 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
         variants=variants,
         file=checker.file,
     )
+    for variant in variants:
+        diagrams_in_order(checker, mechanism, task.values(variant))
+    return None if checker.faults else task
 
 
 def _constructed(checker: Checker, mechanism: Mechanism, head: dict[str, Any]) -> None:
@@ -280,7 +285,9 @@ def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Nam
 
 def _bounded(given: Given, names: Names) -> Given:
     """Return a given that is a distance on a link as one that must be greater than zero."""
-    return replace(given, bound=Bound.POSITIVE) if given.name in names.positive else given
+    if given.name in names.positive:
+        return replace(given, bound=Bound.POSITIVE)
+    return replace(given, bound=Bound.NOT_ZERO) if given.name in names.moving else given
 
 
 def _signs(checker: Checker, names: Names, choices: Settings) -> None:

@@ -27,6 +27,7 @@ class Bound(Enum):
     FREE = ""
     POSITIVE = "not-positive"
     NOT_NEGATIVE = "negative"
+    NOT_ZERO = "is-zero"
 
 
 class LocatedError(InputError):
@@ -73,7 +74,8 @@ class Given:
             raise InputError("type-quantity", expected=self.unit.name)
         if number != 0.0 and not SMALLEST <= abs(number) <= LARGEST:
             raise InputError("number-infinite", text=quote(value))
-        if (self.bound is Bound.POSITIVE and number <= 0) or (self.bound is Bound.NOT_NEGATIVE and number < 0):
+        out = {Bound.POSITIVE: number <= 0, Bound.NOT_NEGATIVE: number < 0, Bound.NOT_ZERO: number == 0}
+        if out.get(self.bound, False):
             raise InputError(self.bound.value, text=quote(value))
         return number
 

@@ -10,7 +10,7 @@ from ...scales.errors import InputError
 from ..board import Program, RecordingBoard
 from . import compound, driver, prp, rpp, rpr, rrp, rrr, sliding_driver, triad
 from .lever import lever
-from .loads import hung, lay_loads
+from .loads import hung, in_order, lay_loads
 from .mechanism import FRAME, ZERO, Driver, Mechanism, SlidingDriver
 from .output import END, Moving, needs_stroke, stroke_ends
 from .parts import AssurGroup, Bodies, Forces, Span
@@ -78,9 +78,7 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Struc
     return structure, program
 
 
-def _statics(
-    board: RecordingBoard, mechanism: Mechanism, plans: set[str], dyads: Attached, bodies: Bodies
-) -> None:
+def _statics(board: RecordingBoard, mechanism: Mechanism, plans: set[str], dyads: Attached, bodies: Bodies) -> None:
     """Lay down the loads; plans of forces, the lever, and their difference, as far as they are wanted."""
     if not plans & {"forces", "lever"}:
         return
@@ -160,13 +158,20 @@ def board_givens(
     The size of a load is `|F_3|` there, for `F_3` is the vector. Groups of class III are followed from their starts,
     unless the `values` say already where they lie. Where `program` needs the ends of the working stroke, these are
     found first.
+
+    Raises
+    ------
+    InputError
+        A load diagram whose places decrease, or an output without a stroke.
     """
     if mechanism.starts and follow:
         from .following import followed  # which asks for position plans itself
 
         values = {**values, **followed(mechanism, values)}
     named = {diagram.name for diagram in mechanism.diagrams}
-    given = [load.magnitude for load in (*mechanism.loads, *mechanism.couples) if load.magnitude not in named]
+    for diagram in mechanism.diagrams:
+        in_order(diagram, values)
+    given = [load.magnitude for load in mechanism.acting if load.magnitude not in named]
     sizes = {f"|{name}|": values[name] for name in given}
     if program is None or END not in program.needs or END in values:
         return {**values, **sizes}

@@ -71,10 +71,10 @@ def joints_of(pairs: Iterable[Pair]) -> tuple[Joint | Prismatic, ...]:
         place = found.index(touching[0]) if touching else len(found)
         found = [joint for joint in found if joint not in touching]
         found.insert(place, one)
-    for joint in found:
-        if isinstance(joint, Joint) and len(joint.named) >= len(joint.links) > 2:
-            links_of = ", ".join(map(str, sorted(joint.links)))
-            raise InputError("joint-closed", point=joint.point, links=links_of, n=len(joint.links) - 1)
+    for made in found:
+        if isinstance(made, Joint) and len(made.named) >= len(made.links) > 2:
+            links_of = ", ".join(map(str, sorted(made.links)))
+            raise InputError("joint-closed", point=made.point, links=links_of, n=len(made.links) - 1)
     return tuple(found)
 
 

@@ -5,11 +5,18 @@ What is not given follows first: masses from lengths, in which stroke the mechan
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import Any
+
 from ...scales.errors import InputError
 from ..board import Board
-from .mechanism import ANGLE, BOTH, WORKING, ZERO, Couple, Diagram, Link, Load, Mechanism, Revolute
+from ..laws import TURN
+from .mechanism import ANGLE, BOTH, STROKE, WORKING, ZERO, Couple, Diagram, Link, Load, Mechanism, Revolute
 from .output import PART, Moving, lay_stroke, needs_stroke
 from .parts import Bodies, Couples, Forces, Span, local_mark
+
+ROUNDING = 1e-12
 
 
 def lay_loads(board: Board, moving: Moving) -> None:
@@ -168,3 +175,18 @@ def _over_angle(board: Board, mechanism: Mechanism, diagram: Diagram) -> None:
     board.calc(f"{name}_next", "turn_later", first)
     places, values = (*diagram.at, f"{name}_next"), (*diagram.values, diagram.values[0])
     board.calc(name, "piecewise", f"{name}_angle", *places, *values)
+
+
+def in_order(diagram: Diagram, values: Mapping[str, Any]) -> None:
+    """Refuse a diagram whose places decrease, or lie beyond the stroke or a turn.
+
+    Raises
+    ------
+    InputError
+        With the name of the diagram.
+    """
+    places = [values.get(name, 0.0) for name in diagram.at]
+    low, most = (0.0, 1.0) if diagram.over == STROKE else (places[0], TURN * (1.0 + ROUNDING))
+    wrong = [a > b for a, b in pairwise(places)] + [places[0] < low, places[-1] - low > most]
+    if any(bool(one.any() if hasattr(one, "any") else one) for one in wrong):
+        raise InputError(f"diagram-{diagram.over}", name=diagram.name)

@@ -266,6 +266,11 @@ class Mechanism:
         still = any(p.point == point and FRAME in p.links for p in self.pairs if isinstance(p, Revolute))
         return f"{plan}.p" if still else f"{plan}.{point}"
 
+    @property
+    def acting(self) -> tuple[Load | Couple, ...]:
+        """All loads and couples."""
+        return (*self.loads, *self.couples)
+
     def loads_on(self, number: int) -> tuple[Load, ...]:
         """Return the loads on link `number`."""
         return tuple(load for load in self.loads if load.link == number)

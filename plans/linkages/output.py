@@ -35,8 +35,8 @@ class Moving:
 
 def needs_stroke(mechanism: Mechanism) -> bool:
     """Whether a load acts in one stroke only, or reads its size over the stroke."""
-    acting = (*mechanism.loads, *mechanism.couples)
-    return any(load.stroke != BOTH for load in acting) or any(diagram.over == STROKE for diagram in mechanism.diagrams)
+    over_stroke = any(diagram.over == STROKE for diagram in mechanism.diagrams)
+    return over_stroke or any(load.stroke != BOTH for load in mechanism.acting)
 
 
 def lay_stroke(board: Board, moving: Moving) -> None:
