@@ -1,9 +1,9 @@
 """Where a mechanism can be assembled: stretches of the driver's range, arcs it cannot reach, change points.
 
-Every arc and tangent of the position plan has a margin, the square of what the compass has to spare, a group of class
-III the square of its determinant: where it falls below zero the links come apart. Its zeros are the limiting positions.
-Where it only touches zero the links lie in line and may go on in either of two ways: a change point. Where two guides
-become parallel a joint runs off to infinity.
+Every arc and tangent of the position plan has a margin, the square of what the compass has to spare: where it falls
+below zero the links come apart. Its zeros are the limiting positions. Where it only touches zero the links lie in line
+and may go on in either of two ways: a change point. Where two guides become parallel a joint runs off to infinity.
+Groups of class III are followed from their start to their dead positions on either side.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from ..along import remembering
 from ..batch import ArrayBoard
 from ..exact import TANGENT
 from ..scan import Stretch, zeros
-from ..template import CLOSED
 from .chain import board_givens, construct
 from .mechanism import FRAME, Mechanism, Prismatic, Revolute
 from .sweeping import without_loads
@@ -95,11 +94,6 @@ class MarginBoard(ArrayBoard):
         self.margins[self._name] = product + 2.0 * TANGENT * total * total * first * second
         return super()._assembles(product, first, second, base, total, double)
 
-    def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
-        held = (astray == 0.0) & (apart <= CLOSED)
-        self.margins[self._name] = np.where(held, determinant * determinant, -np.inf)
-        return super()._holds(determinant, apart, astray, missing)
-
     def _lines_sine(self, sine: Any) -> Any:
         self.margins[self._name] = sine
         return super()._lines_sine(sine)
@@ -132,7 +126,7 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     whole = _range(drive, values, between)
     if position.status in ("no-assembly", "singular"):
         return Reach(whole, (), (Arc(whole.low, whole.high),), (), ())
-    stretches = [whole]
+    stretches = _followed(drive, whole)
     changes: list[float] = []
     poles: list[float] = []
 
@@ -143,7 +137,7 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
 
     margins = remembering(margins_at)
     for step in position.steps:
-        if step.name in margins(np.array([whole.low])):
+        if step.verb in ("arc", "arcs", "tangent", "meet"):
             parts = [_split(margins, step.name, step.verb == "meet", stretch) for stretch in stretches]
             stretches = [piece for pieces, _ in parts for piece in pieces]
             (poles if step.verb == "meet" else changes).extend(place for _, cuts in parts for place in cuts)
@@ -154,6 +148,19 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
         set() if whole.closed else {whole.low, whole.high}
     )
     return Reach(whole, tuple(stretches), apart, tuple(sorted(changes)), tuple(sorted(poles)), tuple(sorted(limits)))
+
+
+def _followed(drive: Swept, whole: Stretch) -> list[Stretch]:
+    """Return the part of the range that groups of class III leave: as far as they can be followed from their start."""
+    if drive.follower is None:
+        return [whole]
+    limits = drive.follower.limits(TURN if drive.turns else whole.length)
+    if limits is None:
+        return []
+    low, high = limits
+    if not drive.turns:
+        return [whole.part(max(low, whole.low), min(high, whole.high))]
+    return [whole] if high - low >= 2.0 * TURN else [whole.part(max(low, high - TURN), high)]
 
 
 def _range(drive: Swept, values: Mapping[str, float], between: Arc | None) -> Stretch:

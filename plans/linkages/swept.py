@@ -6,7 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from ..along import Along, More
+import numpy as np
+
+from ..along import Along
 from ..batch import ArrayBoard
 from ..board import Program
 from .chain import board_givens
@@ -20,7 +22,7 @@ OWN = "_driver"  # the driver's variable where the mechanism has a literal in it
 class Swept:
     """A mechanism whose driver's variable may be swept: an angle that turns round, or the travel of a slide.
 
-    `near` says where groups of class III lie, about, at places of the driver.
+    `follower` knows where groups of class III lie at places of the driver.
     """
 
     mechanism: Mechanism
@@ -28,13 +30,17 @@ class Swept:
     turns: bool
     start: float  # the variable's value as given
     sense: float  # of the driver's motion, +1 or -1
-    near: More | None = field(default=None, repr=False)
+    follower: Follower | None = field(default=None, repr=False)
 
     def givens(
         self, values: Mapping[str, Any], places: Any, program: Program | None = None, mechanism: Mechanism | None = None
     ) -> dict[str, Any]:
         """Return the board's givens for places of the driver; `mechanism` is this one in another form."""
-        there = {**values, self.variable: places, **(self.near(places) if self.near else {})}
+        there = {
+            **values,
+            self.variable: places,
+            **(self.follower.near(np.atleast_1d(places)) if self.follower else {}),
+        }
         return board_givens(mechanism or self.mechanism, there, program, follow=False)
 
     def along(
@@ -48,7 +54,7 @@ class Swept:
         """Return a program of `mechanism`, this one in any form, as a function of the driver's variable."""
         there = {**values, self.variable: self.start}
         givens = board_givens(mechanism or self.mechanism, there, program, follow=False)
-        return Along(program, givens, self.variable, wanted, board, self.near)
+        return Along(program, givens, self.variable, wanted, board, self.follower.near if self.follower else None)
 
 
 def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
@@ -66,5 +72,5 @@ def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
         name = OWN
         key = "angle" if turns else "travel"
         mechanism = replace(mechanism, driver=replace(driver, **{key: name}))  # type: ignore[arg-type]
-    near = Follower(mechanism, {**values, name: start}).near if mechanism.starts and triads(mechanism) else None
-    return Swept(mechanism, name, turns, start, -1.0 if sense < 0.0 else 1.0, near)
+    follower = Follower(mechanism, {**values, name: start}) if mechanism.starts and triads(mechanism) else None
+    return Swept(mechanism, name, turns, start, -1.0 if sense < 0.0 else 1.0, follower)
