@@ -151,3 +151,25 @@ def test_length_that_the_mechanism_states_itself_has_its_customary_name() -> Non
     assert task.mechanism.link(1).points["A"] == ("l_OA", "zero")
     assert found.quantities["l_OA"].value == 0.1
     assert found.quantities["l_CB"].value == 0.3
+
+
+START = """[[mechanism.start]]
+link = 3
+x = "1 mm"
+y = "2 mm"
+angle = "30 deg"
+driver = "50 deg"
+legs = [2, 4]
+"""
+
+
+def test_start_of_a_link_that_is_not_central_is_refused() -> None:
+    _, faults = read_text(GOOD.replace("[mechanism.driver]", START + "[mechanism.driver]"), "mine.toml")
+    _, unknown = read_text(
+        GOOD.replace("[mechanism.driver]", START.replace("link = 3", "link = 9") + "[mechanism.driver]"), "mine.toml"
+    )
+
+    assert [fault.text("en").split(": ", 2)[1:] for fault in faults] == [
+        ["mechanism.start.link", "link 3 is not the central link of a group of class III, so that it needs no start"]
+    ]
+    assert [getattr(fault, "cause", fault).key for fault in unknown] == ["link-unknown"]

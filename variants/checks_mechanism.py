@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ..plans.linkages.mechanism import FRAME, MINUS, ZERO, Link, Load, Mechanism, Pair, Prismatic, Revolute
+from ..plans.linkages.mechanism import FRAME, MINUS, ZERO, Link, Load, Mechanism, Pair, Prismatic, Revolute, Start
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import quote
@@ -22,9 +22,10 @@ from .checks_loads import (
     read_stroke,
 )
 from .checks_names import Names
+from .checks_start import start_fields, starts_joined
 from .toml_places import Path
 
-_M, _RAD, _M_S2 = unit("m"), unit("rad"), unit("m/s^2")
+_RAD, _M_S2 = unit("rad"), unit("m/s^2")
 _KG, _KG_M2, _KG_M = unit("kg"), unit("kg*m^2"), unit("kg/m")
 
 
@@ -42,6 +43,9 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | N
         "load": Field(_rows(lambda c, p, r: record(c, p, r, load_fields(names))), required=False),
         "couple": Field(_rows(lambda c, p, r: record(c, p, r, couple_fields(names))), required=False),
     }
+    slides = isinstance(raw, dict) and isinstance(raw.get("driver"), dict) and "travel" in raw["driver"]
+    starts = start_fields(names, slides)
+    kinds["start"] = Field(_rows(lambda c, p, r: record(c, p, r, starts)), required=False)
     read = record(checker, ("mechanism",), raw, kinds)
     if len(checker.faults) > before:
         return None
@@ -54,6 +58,7 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | N
         tuple(read.get("diagram", ())),
         read.get("stroke"),
         read.get("gravity"),
+        tuple(Start(**x) for x in read.get("start", ())),
     )
     _joined(checker, mechanism, names)
     return mechanism if len(checker.faults) == before else None
@@ -78,7 +83,7 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | Non
                 names.positive.update(length.removeprefix(MINUS) for length in at)
         return None if None in letters or None in lettered.values() else names.on_axis(lettered)
 
-    place = array_of(names.value(_M), 2)
+    place = array_of(names.place, 2)
     fields = {
         "number": Field(link_number),
         "points": Field(points),
@@ -113,7 +118,7 @@ def _with_mass(checker: Checker, path: Path, read: dict[str, Any]) -> dict[str, 
 def _pair(checker: Checker, path: Path, raw: object, names: Names) -> Pair | None:
     """Read one pair of the kind that it names."""
     joins = {"point": Field(name), "links": Field(array_of(link_number, 2))}
-    place = Field(array_of(names.value(_M), 2))
+    place = Field(array_of(names.place, 2))
     kinds: dict[str, tuple[type[Pair], dict[str, Field]]] = {
         "revolute": (
             Revolute,
@@ -125,7 +130,7 @@ def _pair(checker: Checker, path: Path, raw: object, names: Names) -> Pair | Non
                 **joins,
                 "through": place,
                 "direction": Field(names.value(_RAD)),
-                "offset": Field(names.value(_M), required=False),
+                "offset": Field(names.place, required=False),
                 "branch": Field(names.sign, required=False),
             },
         ),
@@ -156,6 +161,7 @@ def _joined(checker: Checker, mechanism: Mechanism, names: Names) -> None:
     driver_joined(checker, mechanism, links)
     loads_joined(checker, mechanism, names, links)
     output_joined(checker, mechanism)
+    starts_joined(checker, mechanism, links)
 
 
 def _places_joined(checker: Checker, mechanism: Mechanism) -> None:

@@ -32,14 +32,19 @@ class Names:
     moving: set[str] = field(default_factory=set)
     signs: set[str] = field(default_factory=set)
 
-    def value(self, wanted: Unit) -> Read:
+    def place(self, checker: Checker, path: Path, raw: object) -> str | None:
+        """Read a coordinate: the name of a length, a minus before it or not, or a literal with its unit."""
+        found: str | None = self.value(_M, signed=True)(checker, path, raw)
+        return found
+
+    def value(self, wanted: Unit, signed: bool = False) -> Read:
         """Return a reader of a value of the dimension of `wanted`: a name, or a literal with its unit.
 
-        A minus may stand before the name of a length.
+        A minus may stand before a `signed` name.
         """
 
         def read(checker: Checker, path: Path, raw: object) -> str | None:
-            bare = raw.removeprefix("-") if isinstance(raw, str) and wanted == _M else raw
+            bare = raw.removeprefix("-") if isinstance(raw, str) and signed else raw
             if isinstance(bare, str) and NAME.fullmatch(bare):
                 if bare not in self.dimensions:
                     checker.fault(path, unknown("value-unknown", bare, self.dimensions))

@@ -27,6 +27,7 @@ from .checks_givens import Settings, read_choices, read_givens, read_variants
 from .checks_loads import diagrams_in_order
 from .checks_mechanism import read_mechanism
 from .checks_names import Names
+from .checks_start import started
 from .checks_structure import branched, place_of
 from .shelf import bundled, bundled_text
 from .task import WITH_FORCES, Bound, Given, LocatedError, Task
@@ -260,6 +261,7 @@ def _constructed(checker: Checker, mechanism: Mechanism, head: dict[str, Any]) -
         checker.fault(place_of(mechanism, error), error)
         return
     branched(checker, mechanism, structure)
+    started(checker, mechanism, structure)
     symbols = scale_symbols(structure, program)
     lengths = {x for link in mechanism.links for x, _ in link.points.values()}
     for name, said in head.get("scales", {}).items():
