@@ -129,6 +129,8 @@ class Oracle:
         return None
 
     def _motion(self, kind: str, letters: list[str], part: str) -> complex:
+        if len(letters) == 1 and not part:
+            return self.moves(letters[0])[kind == "a"]
         about = letters[1] if len(letters) > 1 else self._pivot(letters[0])
         (v, a), (w, b) = self.moves(letters[0]), self.moves(about)
         if kind == "V":
