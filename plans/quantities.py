@@ -27,7 +27,7 @@ UNITS = {
     "l": "m",
     "delta": "%",
 }
-POINTS = ("place", "lay", "back", "arc", "divide", "same")
+POINTS = ("place", "lay", "back", "arc", "arcs", "meet", "divide", "similar", "template", "same")
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,11 +47,11 @@ class Solution:
     def checks(self) -> dict[str, dict[str, Any]]:
         """What a second route says, by name.
 
-        `lever` compares the balancing moment with Zhukovsky's lever, per cent; `compound` the plans of velocities and
+        `lever` compares what balances the driver with Zhukovsky's lever, per cent; `compound` the plans of velocities and
         accelerations with the sums of compound motion, in parts of their longest vectors.
         """
         found: dict[str, dict[str, Any]] = {}
-        delta = self.quantities.get("delta_M_bal")
+        delta = self.quantities.get("delta_M_bal") or self.quantities.get("delta_F_bal")
         if delta is not None and delta.value is not None:
             found["lever"] = {"ok": abs(delta.value) < LEVER_AGREES, "value": delta.value, "unit": "%"}
         gap = disagreement(self.solved)
