@@ -78,7 +78,7 @@ def shown_on(program: Program) -> dict[str, str]:
     plans: dict[str, str] = {}
     for step in program:
         if step.verb == "read":
-            plans.setdefault(step.name, step.plan)
+            plans.setdefault(step.name.removeprefix("_"), step.plan)
         elif step.verb == "chain":
             plans.setdefault(step.operands[1].removeprefix("_"), step.plan)
         elif step.verb == "arm":
