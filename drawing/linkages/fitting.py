@@ -30,7 +30,9 @@ if TYPE_CHECKING:
 SMALLEST_FIRST = ("A4", "A3", "A2", "A1")
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 FORCES_ONLY = 3
-LEAST = {"A1": 60.0, "A2": 60.0, "A3": 45.0, "A4": 40.0}  # mm of a plan that is made smaller for want of room
+# mm below which no plan is made smaller for want of room, by format, and how many times that by kind of plan
+LEAST = {"A1": 60.0, "A2": 60.0, "A3": 45.0, "A4": 40.0}
+LARGER = {"l": 2.5, "V": 1.3, "a": 1.3, "F": 1.0}
 MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same")
 Fitted = tuple[list[View], Mapping[str, Scale]]
 
@@ -153,7 +155,8 @@ class Fitting:
         diagonal = math.hypot(*room(sheet, self.contents.norm))
         first = step if symbol.startswith("mu_F") else step - FORCES_ONLY
         # several pages are better than a plan on which nothing can be measured
-        legible = sum(reach >= LEAST[sheet.letters] * mu for mu in ladder) - 1
+        least = LEAST[sheet.letters] * LARGER[symbol.split("_")[1]]
+        legible = sum(reach >= least * mu for mu in ladder) - 1
         for rung in range(max(min(first, legible), 0), len(ladder)):
             if reach <= diagonal * ladder[rung]:
                 return rung
