@@ -1,4 +1,4 @@
-"""Draw the pictures of the README and fill in what its commands print: `.venv/bin/python docs/refresh.py`."""
+"""Draw the pictures of the README, fill in what commands of documents print: `.venv/bin/python docs/refresh.py`."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
+DOCUMENTS = (README, ROOT / "docs" / "cycle.md")
 BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
 
 
@@ -42,11 +43,12 @@ def filled(block: str, folder: str) -> str:
 
 
 def main() -> None:
-    """Rewrite the README's blocks and the picture."""
-    text = README.read_text(encoding="utf-8")
+    """Rewrite the blocks of the documents and the picture."""
     with tempfile.TemporaryDirectory() as folder:
-        text = BLOCK.sub(lambda found: f"```console\n{filled(found[1], folder)}```", text)
-        README.write_text(text, encoding="utf-8")
+        for document in DOCUMENTS:
+            text = document.read_text(encoding="utf-8")
+            text = BLOCK.sub(lambda found: f"```console\n{filled(found[1], folder)}```", text)
+            document.write_text(text, encoding="utf-8")
         people = "--student 'І. Петренко' --group АТ-301 --designation ТММ.РГР.03.01"
         run(f"kulman sheet nau-slider-crank -v 3 -o sheet.pdf {people}", folder)
         picture(Path(folder) / "sheet.pdf", ROOT / "docs" / "pictures" / "nau-slider-crank-3.png")

@@ -363,6 +363,18 @@ def test_a_sliding_driver_moves_from_where_to_where_the_user_says() -> None:
     ]
 
 
+@pytest.mark.parametrize("phi", [0.0, math.pi])
+def test_a_crank_that_cannot_turn_round_has_the_stroke_of_where_it_stands(phi: float) -> None:
+    # at its limits the rod stands across the guide, under the pin at +-1; the slider goes on to where both lie in line
+    values = slider_crank_values(math.sqrt(2.0), 1.0, 0.0) | {"phi": phi}
+
+    done = motion(slider_crank(), values)
+
+    ends = (1.0, 1.0 + math.sqrt(2.0)) if phi == 0.0 else (-1.0, 1.0 - math.sqrt(2.0))
+    assert done.travel is not None
+    assert (done.travel.low, done.travel.high) == pytest.approx(ends, abs=1e-6)
+
+
 @pytest.mark.parametrize("positions", [-1, 0, 2, 1_000_000])
 def test_a_number_of_positions_that_makes_no_cycle_is_refused(positions: int) -> None:
     with pytest.raises(InputError, match="positions"):

@@ -226,9 +226,9 @@ def _reach(
     found = reach_of(drive, values)
     if not found.stretches:
         return found, Arc(found.whole.low, found.whole.high)
-    between = found.around(drive.start)
-    low = between.low if start is None else start
-    high = between.high if end is None else end
+    parts = found.around(drive.start)
+    low = parts[0].low if start is None else start
+    high = parts[-1].high if end is None else end
     if low <= found.whole.low or high >= found.whole.high:
         raise InputError("travel-endless")
     own = tuple(place for place, given in ((low, start), (high, end)) if given is None)

@@ -62,16 +62,23 @@ class Reach:
         """Whether a crank turns round without anything in its way."""
         return self.whole.closed and not (self.apart or self.changes or self.poles)
 
-    def around(self, place: float) -> Arc:
-        """Return the part without an unreachable arc in which `place` lies, or the longest such part."""
-        joined: list[Arc] = []
-        for stretch in self.stretches:
-            if joined and joined[-1].high == stretch.low:
-                joined[-1] = Arc(joined[-1].low, stretch.high)
+    def around(self, place: float) -> tuple[Stretch, ...]:
+        """Return the stretches without an unreachable arc between them among which `place` is, or the longest such."""
+        parts: list[list[Stretch]] = []
+        for stretch in sorted(self.stretches, key=lambda stretch: stretch.low):
+            if parts and parts[-1][-1].high == stretch.low:
+                parts[-1].append(stretch)
             else:
-                joined.append(Arc(stretch.low, stretch.high))
-        within = [arc for arc in joined if arc.low <= place <= arc.high]
-        return (within or sorted(joined, key=lambda arc: arc.low - arc.high))[0]
+                parts.append([stretch])
+        if self.whole.closed and len(parts) > 1 and parts[-1][-1].high == parts[0][0].low + self.whole.length:
+            parts[-1] += parts.pop(0)
+        within = [part for part in parts if any(self._holds(stretch, place) for stretch in part)]
+        return tuple(max(within or parts, key=lambda part: sum(stretch.length for stretch in part)))
+
+    def _holds(self, stretch: Stretch, place: float) -> bool:
+        if self.whole.closed:
+            return (place - stretch.low) % self.whole.length <= stretch.length
+        return stretch.low <= place <= stretch.high
 
 
 class MarginBoard(ArrayBoard):

@@ -92,6 +92,8 @@ class Dead:
 class OutputMotion:
     """How an output moves over the driver's range; `travel` is None when it goes round and round.
 
+    Where the driver cannot turn round, `travel` is that of the part of its range in which it stands.
+
     `ratio` is the time of the working stroke to that of the idle one at constant speed of the crank; without a stated
     working stroke the slower one is taken for it.
     """
@@ -220,21 +222,25 @@ class _Ends:
 
     def motion(self, values: Mapping[str, float], found: Reach) -> OutputMotion:
         """Find its dead positions, from where to where it moves, and the ratio of times."""
-        dead: list[Dead] = []
-        ends: list[tuple[float, float]] = []
-        for stretch in found.stretches if self.output.rate else ():
-            stretch_dead, stretch_ends = self._on(stretch)
-            dead += stretch_dead
-            ends += stretch_ends
-        spots = [(spot.place, spot.angle) for spot in dead] + ends
-        round_and_round = found.whole.closed and not found.apart and not dead
-        travel = None
-        if spots and not round_and_round:
-            low, high = min(spots), max(spots)
-            travel = Travel(low[0], high[0], self._turned(low[1]), self._turned(high[1]))
+        spots = {stretch: self._on(stretch) for stretch in found.stretches} if self.output.rate else {}
+        dead = [spot for on, _ in spots.values() for spot in on]
         ratio = _ratio(self.output, dead, self.drive, values) if found.free else None
         at = sorted((replace(spot, angle=self._turned(spot.angle)) for spot in dead), key=lambda spot: spot.angle)
-        return OutputMotion(self.output, tuple(at), travel, ratio)
+        return OutputMotion(self.output, tuple(at), self._travel(spots, found), ratio)
+
+    def _travel(
+        self, spots: Mapping[Stretch, tuple[list[Dead], list[tuple[float, float]]]], found: Reach
+    ) -> Travel | None:
+        """Return from where to where it moves as far as the driver can go from where it stands; None for no end."""
+        if not spots or not (any(dead for dead, _ in spots.values()) or found.apart or not found.whole.closed):
+            return None
+        joined = found.around(self.drive.start)
+        places = [(spot.place, spot.angle) for stretch in joined for spot in spots[stretch][0]]
+        places += [end for stretch in joined for end in spots[stretch][1]]
+        if not places:
+            return None
+        low, high = min(places), max(places)
+        return Travel(low[0], high[0], self._turned(low[1]), self._turned(high[1]))
 
     def _turned(self, place: float) -> float:
         return place % TURN if self.drive.turns else place
