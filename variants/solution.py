@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..drawing.linkages.ladders import first_scales
@@ -18,6 +18,7 @@ from ..scales.units import format_unit
 from .case import Settings, solve_case
 from .task import Task
 
+ROUNDING = 1e-14  # part of the largest quantity of a unit
 LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
 COMPOUND_AGREES = 1e-9  # part of the longest vector by which two routes to one vector may differ
 
@@ -105,12 +106,23 @@ class Solution:
         words = self.words
         if language is not None:
             words = Words.of(language, self.task.notation).showing(words.display)
-        rows = [_row(words, quantity.shown(words.display)) for quantity in self.quantities.values()]
+        largest: dict[str, float] = {}
+        for quantity in self.quantities.values():
+            largest[quantity.unit] = max(largest.get(quantity.unit, 0.0), abs(quantity.value or 0.0))
+        tidy = (_without_rounding(quantity, largest[quantity.unit]) for quantity in self.quantities.values())
+        rows = [_row(words, quantity.shown(words.display)) for quantity in tidy]
         widths = [max((len(row[i]) for row in rows), default=0) for i in range(5)]
         return "\n".join(
             f"{name:{widths[0]}}  {value:>{widths[1]}}  {unit:>{widths[2]}} {parts:{widths[3]}}  {mm}".rstrip()
             for name, value, unit, parts, mm in rows
         )
+
+
+def _without_rounding(q: Quantity, largest: float) -> Quantity:
+    """Show as zero what is nothing but rounding beside the largest quantity of the unit, and per cents of that size."""
+    noise = ROUNDING * (largest if q.unit != "%" else 100.0)
+    value, x, y = (None if part is None else part if abs(part) > noise else 0.0 for part in (q.value, q.x, q.y))
+    return q if q.kind == "point" else replace(q, value=value, x=x, y=y)
 
 
 def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
