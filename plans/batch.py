@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .arithmetic import Real, Vector
 from .board import Program
-from .exact import ILL, NAN, RIGHT, SINGULAR, STATUSES, TANGENT, ExactBoard, Status
+from .chunks import Chunks, Store
+from .exact import ILL, NAN, RIGHT, SINGULAR, STATUSES, TANGENT, ExactBoard, Status, run
+from .noting import NotingBoard
+from .protractor import FARTHEST, MARKS, TURN, graduation
 from .template import CLOSED, FOLDED
 
 CHUNK = 8192
@@ -28,6 +33,12 @@ class ArrayBoard(ExactBoard):
         self.values, self.codes, self._sine_of = dict(givens), codes, {}
         self.lift_templates()
 
+    def perform(self, operate: Callable[..., Any], name: str, operands: tuple[str, ...]) -> None:
+        """Make `name` with the operation of a step."""
+        values = self.values
+        self._name, self._operands = name, operands
+        values[name] = operate(*[values[operand] for operand in operands])
+
     @staticmethod
     def _sqrt(square: Any) -> Any:
         return np.sqrt(square)
@@ -40,16 +51,25 @@ class ArrayBoard(ExactBoard):
         points.real, points.imag = real, imag
         return points
 
-    def _turn(self, angle: Any) -> Any:
-        if not np.ndim(angle):
-            return super()._turn(angle)
-        return self._complex(*(_without_rounding(part(angle)) for part in (np.cos, np.sin)))
+    def _near(self, angle: Any) -> Any:
+        if _least(angle) > -FARTHEST and _most(angle) < FARTHEST:
+            return angle
+        return np.where(np.abs(angle) < FARTHEST, angle, np.fmod(angle, TURN))
+
+    def _graduation(self, marks: Any) -> tuple[Any, Any]:
+        mark = np.asarray(marks).astype(np.int32) & (MARKS - 1)
+        cosines, sines = _graduation_arrays()
+        return cosines[mark], sines[mark]
+
+    def _upright(self, component: Any) -> Any:
+        size = np.abs(component)
+        return component if _least(size) > RIGHT else np.where(size <= RIGHT, 0.0, component)
 
     def _mark(self, where: Any, status: Status) -> None:
         np.maximum(self.codes, np.where(where, np.int8(_CODE[status]), np.int8(0)), out=self.codes)
 
     def _lines_sine(self, sine: Any) -> Any:
-        if np.min(sine) >= ILL or np.max(sine) <= -ILL:  # false for NaN as well
+        if _least(sine) >= ILL or _most(sine) <= -ILL:  # false for NaN as well
             return sine
         size = np.abs(sine)
         self._mark(size < ILL, "ill-conditioned")
@@ -57,7 +77,7 @@ class ArrayBoard(ExactBoard):
         return np.where(size < SINGULAR, NAN, sine)
 
     def _reaches(self, square: Any, radius: Any, distance: Any) -> Any:
-        if np.min(square) >= (ILL * np.max(radius)) ** 2:
+        if _least(square) >= (ILL * _most(radius)) ** 2:
             return square
         out = square < -TANGENT * radius * radius
         self._mark(square < ILL * ILL * radius * radius, "ill-conditioned")
@@ -65,7 +85,7 @@ class ArrayBoard(ExactBoard):
         return np.where(out, NAN, np.maximum(square, 0.0))
 
     def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, double: Any) -> Any:
-        if np.min(product) > (ILL * np.max(double)) ** 2:
+        if _least(product) > (ILL * _most(double)) ** 2:
             return product
         out = product < -2.0 * TANGENT * total * total * first * second
         self._mark(product < (ILL * double) ** 2, "ill-conditioned")
@@ -74,14 +94,14 @@ class ArrayBoard(ExactBoard):
         return np.where(out | (base == 0.0), NAN, np.maximum(product, 0.0))
 
     def _apart(self, distance: Any) -> Any:
-        if np.min(distance) > 0.0:
+        if _least(distance) > 0.0:
             return distance
         self._mark(distance == 0.0, "singular")
         return np.where(distance == 0.0, NAN, distance)
 
     def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
         size = np.abs(determinant)
-        if np.min(size) >= ILL and np.max(apart) <= CLOSED and not np.any(astray):
+        if _least(size) >= ILL and _most(apart) <= CLOSED and not np.any(astray):
             return determinant
         reached, folded = astray == 0.0, size < FOLDED
         apart_here = ~(reached & (folded | (apart <= CLOSED)))
@@ -91,17 +111,26 @@ class ArrayBoard(ExactBoard):
         return np.where(folded | apart_here, NAN, determinant)
 
     def _divisor(self, size: Any) -> Any:
-        return size if np.min(size) > 0.0 else np.where(size == 0.0, 1.0, size)
+        return size if _least(size) > 0.0 else np.where(size == 0.0, 1.0, size)
 
     def _bears(self, size: Any, moment: Any) -> Any:
-        if np.min(size) > 0.0:
+        if _least(size) > 0.0:
             return size
         return np.where(size == 0.0, np.where(moment == 0.0, 1.0, NAN), size)
 
 
-def _without_rounding(component: Any) -> Any:
-    size = np.abs(component)
-    return component if size.min() > RIGHT else np.where(size > RIGHT, component, 0.0)
+def _least(value: Any) -> Any:
+    return np.minimum.reduce(value, axis=None)
+
+
+def _most(value: Any) -> Any:
+    return np.maximum.reduce(value, axis=None)
+
+
+@cache
+def _graduation_arrays() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    cosines, sines = graduation()
+    return np.array(cosines), np.array(sines)
 
 
 def batch(
@@ -129,48 +158,41 @@ def batch(
     size = len(next(iter(arrays.values())))
     if size > chunk:
         settle_heap()
-    once, each, dead = _split(program.needed_for(wanted), arrays, wanted)
-    fixed = ExactBoard({name: float(value) for name, value in givens.items() if name not in arrays})
-    once.run(fixed)
-    results: dict[str, NDArray[Any]] = {name: np.empty(size, _kind(fixed.values.get(name))) for name in wanted}
-    codes = np.full(size, _CODE[fixed.status], np.int8)
-    board = ArrayBoard({}, 0)
-    steps = [(board.operation(s.verb, s.law), s.name, s.operands, last) for s, last in zip(each, dead, strict=True)]
+    values = {name: float(value) for name, value in givens.items() if name not in arrays}
+    checks = ArrayBoard({}, 0)
+    needed = program.needed_for(wanted)
+    first = cache(lambda: run(needed, {**values, **{name: float(array[0]) for name, array in arrays.items()}}).values)
+    board = NotingBoard(values, arrays, checks, first)
+    needed.run(board)
+    results: dict[str, NDArray[Any]] = {}
+    stores: list[Store] = []
+    for name in wanted:
+        results[name], into = _room(board.values[name], size)
+        stores += into
+    codes = np.full(size, _CODE[board.status], np.int8)
+    chunks = Chunks(board.tape.entries, stores, arrays, min(size, chunk))
     with np.errstate(invalid="ignore", divide="ignore"):
         for start in range(0, size, chunk):
             part = slice(start, min(start + chunk, size))
-            board.restart({**fixed.values, **{name: array[part] for name, array in arrays.items()}}, codes[part])
-            perform, values = board.perform, board.values
-            for operate, name, operands, last in steps:
-                perform(operate, name, operands)
-                for spent in last:
-                    del values[spent]
-            for name in wanted:
-                value = board.values[name]
-                if results[name].dtype != np.result_type(value):
-                    results[name] = results[name].astype(complex)
-                results[name][part] = value
+            checks.codes = codes[part]
+            chunks.do(part)
     return results, codes
 
 
-def _split(
-    program: Program, arrays: Iterable[str], wanted: Sequence[str]
-) -> tuple[Program, Program, tuple[tuple[str, ...], ...]]:
-    """Return the steps that are the same everywhere, the others, and what nothing needs after each of those."""
-    varying, once, each = set(arrays), [], []
-    for step in program:
-        if varying.isdisjoint(step.operands):
-            once.append(step)
+def _room(value: Any, size: int) -> tuple[NDArray[Any], list[Store]]:
+    """Return an array for a value at all positions, filled where it is the same everywhere, and what fills the rest."""
+    if not isinstance(value, (Real, Vector)):
+        return np.full(size, value + type(value)()), []
+    if isinstance(value, Real):
+        room = np.empty(size)
+        return room, [Store(value.place, value.negative, room)]
+    points, stores = np.empty(size, complex), []
+    for number, into in ((value.real, points.real), (value.imag, points.imag)):
+        if isinstance(number, Real):
+            stores.append(Store(number.place, number.negative, into))
         else:
-            each.append(step)
-            varying.add(step.name)
-    rest = Program(tuple(each))
-    dead = tuple(tuple(name for name in names if name in varying) for names in rest.last_uses(wanted))
-    return Program(tuple(once)), rest, dead
-
-
-def _kind(value: Any) -> type:
-    return complex if isinstance(value, complex) else float
+            into[:] = number + 0.0
+    return points, stores
 
 
 def settle_heap() -> None:

@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 from .board import Program
 from .laws import LAWS, cross, dot
+from .protractor import COARSE, FARTHEST, FINE, MARKS, PER_RADIAN, ROUND, TURN, graduation
 from .template import CLOSED, FOLDED, TemplateBoard
 
 SINGULAR = 1e-13  # sine of the angle of two lines below which they count as parallel
@@ -66,7 +67,12 @@ class ExactBoard(TemplateBoard):
         """Make `name` with the operation of a step."""
         values = self.values
         self._name, self._operands = name, operands
-        values[name] = operate(*[values[operand] for operand in operands])
+        value = operate(*[values[operand] for operand in operands])
+        if type(value) is float:
+            value += 0.0  # zero has no sign
+        elif value is not POLE:
+            value += POLE
+        values[name] = value
 
     # What differs between one position and many.
 
@@ -78,12 +84,23 @@ class ExactBoard(TemplateBoard):
     def _complex(real: Any, imag: Any) -> Any:
         return complex(real, imag)
 
-    def _turn(self, angle: Any) -> Any:
-        # numpy's cosine may differ from the C library's in the last bit, so that one position asks numpy, too
-        import numpy as np
+    def _near(self, angle: Any) -> Any:
+        """Return an angle without the full turns that only cost digits."""
+        if abs(angle) < FARTHEST:
+            return angle
+        return math.fmod(angle, TURN) if math.isfinite(angle) else NAN
 
-        cosine, sine = float(np.cos(angle)), float(np.sin(angle))
-        return complex(cosine if abs(cosine) > RIGHT else 0.0, sine if abs(sine) > RIGHT else 0.0)
+    def _graduation(self, marks: Any) -> tuple[Any, Any]:
+        """Return cosine and sine of a whole number of the protractor's marks."""
+        if marks != marks:
+            return NAN, NAN
+        cosines, sines = graduation()
+        mark = int(marks) % MARKS
+        return cosines[mark], sines[mark]
+
+    def _upright(self, component: Any) -> Any:
+        """Return a component of a unit direction without the rounding at a multiple of 90 degrees."""
+        return 0.0 if abs(component) <= RIGHT else component
 
     def _fail(self, status: Status, sine: float = 0.0, gap: float = 0.0) -> None:
         if self.trouble is None:
@@ -110,14 +127,8 @@ class ExactBoard(TemplateBoard):
         self.sines[self._name] = math.sqrt(square) / radius if radius else 0.0
         return square
 
-    def _height(self, first: Any, second: Any, base: Any) -> Any:
-        """Height of the triangle of two radii on `base` by the factored formula of Heron, not to cancel."""
-        total, double, product = heron(first, second, base)
-        product = self._assembles(product, first, second, base, total, double)
-        return self._sqrt(product) / (self._divisor(base) * 2.0)
-
     def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, double: Any) -> Any:
-        """Return Heron's product; arcs that do not meet make no triangle, nor do those about one centre."""
+        """Return Heron's product, factored, not to cancel; arcs that do not meet make no triangle."""
         if product < -2.0 * TANGENT * total * total * first * second:
             self._fail("no-assembly", gap=max(base - total, abs(first - second) - base))
             return NAN
@@ -164,6 +175,17 @@ class ExactBoard(TemplateBoard):
     def _pole(self) -> Any:
         return POLE
 
+    def _turn(self, angle: Any) -> Any:
+        angle = self._near(angle)
+        marks = (angle * PER_RADIAN + ROUND) - ROUND
+        rest = (angle - marks * COARSE) - marks * FINE
+        cosine, sine = self._graduation(marks)
+        square = rest * rest
+        less = square * (square * (1.0 / 24.0) - 0.5)  # cosine of the rest, less one
+        more = rest + (rest * square) * (square * (1.0 / 120.0) - (1.0 / 6.0))  # its sine
+        x, y = cosine + (cosine * less - sine * more), sine + (sine * less + cosine * more)
+        return self._complex(self._upright(x), self._upright(y))
+
     def _direction(self, start: Any, end: Any, length: Any) -> Any:
         return (end - start) * (1.0 / length)
 
@@ -195,12 +217,12 @@ class ExactBoard(TemplateBoard):
 
     def _arcs(self, first: Any, radius: Any, second: Any, other: Any, side: Any) -> Any:
         between = self._read(first, second)
-        base = self._sqrt(dot(between, between))
-        height = self._height(radius, other, base)
-        base = self._divisor(base)
-        along = between * (1.0 / base)
-        foot = (base * base + (radius - other) * (radius + other)) / (base * 2.0)
-        return self._chain(first, along * foot + (along * 1j) * (side * height))
+        square = dot(between, between)
+        total, double, product = heron(radius, other, base := self._sqrt(square))
+        root = self._sqrt(self._assembles(product, radius, other, base, total, double))
+        half = 0.5 / self._divisor(square)  # parts of the way between the centres: along it, and across
+        along, across = (square + (radius - other) * (radius + other)) * half, side * root * half
+        return self._chain(first, between * along + (between * 1j) * across)
 
     def _tangent(self, centre: Any, point: Any, offset: Any, side: Any) -> Any:
         between = self._read(centre, point)

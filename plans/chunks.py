@@ -1,0 +1,134 @@
+"""A tape of real operations done on arrays, chunk by chunk, in few buffers, so that a chunk stays in the cache."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .arithmetic import Entry
+
+PADDING = 72  # numbers between two buffers, lest all of them begin at the same place of a memory page
+Array = NDArray[np.float64]
+Call = tuple[Callable[..., Any], tuple[Any, ...]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Load:
+    """Where a given comes from: an array of all positions."""
+
+    array: Array
+
+    def call(self, row: Array, part: slice) -> Call:
+        """Return what loads a chunk."""
+        return np.copyto, (row, self.array[part])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Store:
+    """Where a number of the tape goes: an array, or one part of a complex one, of all positions."""
+
+    place: int
+    negative: bool
+    into: Array
+
+    def call(self, row: Array, part: slice) -> Call:
+        """Return what stores a chunk; zeros lose their sign."""
+        return (np.subtract, (0.0, row, self.into[part])) if self.negative else (np.add, (row, 0.0, self.into[part]))
+
+
+class Chunks:
+    """What `stores` need of a tape, ready to be done for one chunk after another.
+
+    Parameters
+    ----------
+    arrays : mapping of str to float64 array of shape (N,)
+        What the givens of the tape stand for.
+    chunk : int
+        Positions at a time, at most.
+    """
+
+    def __init__(
+        self, entries: Sequence[Entry], stores: Iterable[Store], arrays: Mapping[str, Array], chunk: int
+    ) -> None:
+        self._entries, self._arrays = entries, arrays
+        self._stores: dict[int, list[Store]] = {}
+        for store in stores:
+            self._stores.setdefault(store.place, []).append(store)
+        self._order = _needed(entries, self._stores)
+        self._buffer_of = _buffers(entries, self._order)
+        self._block = np.empty((1 + max(self._buffer_of.values(), default=0), chunk + PADDING))
+        self._constants = {
+            place: np.array(entry.constant) for place, entry in enumerate(entries) if entry.constant is not None
+        }
+        self._calls: list[Call] = []
+        self._moving: list[tuple[int, Load | Store, Array]] = []
+        self._size = 0
+
+    def do(self, part: slice) -> None:
+        """Do the operations for a part of the positions."""
+        if part.stop - part.start != self._size:
+            self._bind(part.stop - part.start)
+        calls = self._calls
+        for index, traffic, row in self._moving:
+            calls[index] = traffic.call(row, part)
+        for function, operands in calls:
+            function(*operands)
+
+    def _bind(self, size: int) -> None:
+        """Settle the calls for chunks of a size, and which of them change from chunk to chunk."""
+        self._size, self._calls, self._moving = size, [], []
+        buffers = [buffer[:size] for buffer in self._block]  # the very arrays: a check returns the one it was given
+        rows = self._constants | {place: buffers[number] for place, number in self._buffer_of.items()}
+        for place in self._order:
+            entry = self._entries[place]
+            operands = tuple([rows[operand] for operand in entry.operands])
+            if isinstance(entry.operation, np.ufunc):
+                self._calls.append((entry.operation, (*operands, rows[place])))
+            elif entry.operation:
+                self._calls.append((_keep, (rows[place], entry.operation, operands)))
+            traffic: list[Load | Store] = [Load(self._arrays[entry.given])] if entry.given else []
+            for each in traffic + self._stores.get(place, []):
+                self._moving.append((len(self._calls), each, rows[place]))
+                self._calls.append(each.call(rows[place], slice(size)))
+
+
+def _keep(row: Array, operation: Callable[..., Any], operands: tuple[Any, ...]) -> None:
+    """Put the result of an operation that chooses its own memory into its row."""
+    result = operation(*operands)
+    if result is not row:
+        np.copyto(row, result)
+
+
+def _needed(entries: Sequence[Entry], wanted: Collection[int]) -> list[int]:
+    """Return, in order, the entries that `wanted` and the checks need, constants apart."""
+    needed, order = set(wanted), []
+    for place in reversed(range(len(entries))):
+        entry = entries[place]
+        if place in needed or entry.check:
+            needed.update(entry.operands)
+            if entry.operation or entry.given:
+                order.append(place)
+    return order[::-1]
+
+
+def _buffers(entries: Sequence[Entry], order: Sequence[int]) -> dict[int, int]:
+    """Give each entry a buffer; what nothing needs any more hands its own on, first operands last, so used first."""
+    last = {operand: place for place in order for operand in entries[place].operands}
+    buffer_of: dict[int, int] = {}
+    free: list[int] = []
+    count = 0
+    for place in order:
+        for operand in dict.fromkeys(reversed(entries[place].operands)):
+            if operand in buffer_of and last[operand] == place:
+                free.append(buffer_of[operand])
+        if not free:
+            free.append(count)
+            count += 1
+        buffer_of[place] = free.pop()
+        if place not in last:
+            free.append(buffer_of[place])
+    return buffer_of
