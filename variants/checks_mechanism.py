@@ -186,6 +186,8 @@ def _pair_joined(checker: Checker, path: Path, pair: Pair, links: Mapping[int, M
             checker.fault(path, InputError("key-missing", name="at"))
         if pair.at is not None and FRAME not in pair.links:
             checker.fault((*path, "at"), InputError("pair-at", name="at"))
+    elif pair.links[0] == FRAME:
+        checker.fault((*path, "links"), InputError("moving-guide", links=", ".join(map(str, pair.links))))
     else:
         on_link(checker, path, "point", pair.point, pair.links[0], links)
         if pair.links[1] != FRAME and pair.links[1] not in links:
