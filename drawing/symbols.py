@@ -39,9 +39,8 @@ def fixed_pivot(at: complex, name: str, style: Style, down: complex = -1j) -> Gr
     across = 1j * down  # to the right where the foot stands below
     foot = at + down * (height + style.pair)
     sides = (rect(style.pair, math.pi / 2 - 2.15), rect(style.pair, math.pi / 2 - 0.99))
-    legs = tuple(
-        Line(at + side * down, foot + across * (x * width / 2), Pen.MAIN) for side, x in zip(sides, (-1, 1), strict=True)
-    )
+    ends = (foot - across * (width / 2), foot + across * (width / 2))
+    legs = tuple(Line(at + side * down, end, Pen.MAIN) for side, end in zip(sides, ends, strict=True))
     ground = (foot - across * (base / 2), foot + across * (base / 2))
     strokes = hatching(*ground, down, style)
     circle = Circle(at, style.pair, Pen.MAIN, fill="white")
@@ -63,7 +62,7 @@ def rigid_corner(at: complex, u: complex, w: complex, style: Style, pin: bool) -
 
 
 def bridge(at: complex, u: complex, style: Style) -> Arc:
-    """Return the arc over a pin through which a link runs along the unit direction `u`: the link does not bend there."""
+    """Return the arc over a pin through which a link runs along the unit direction `u`, without a joint of its own."""
     return Arc(at, 1.6 * style.pair, cmath.phase(u), math.pi, Pen.MAIN, role="rigid")
 
 

@@ -97,7 +97,6 @@ class Canvas:
         x0, _, x1, _ = extent(self.shapes)
         return View(name, tuple(self.shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
 
-
     def _placed(self) -> tuple[list[Request], Labels]:
         """Place the letters; leave out spare ones that cover something, or that stand in the way of others."""
         obstacles, left = _obstacles(self.shapes, self._boxes, self.style), self._requests

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import pytest
 
-from kulman.drawing.linkages.supported import require_views
 from kulman.plans.batch import batch
 from kulman.plans.exact import run
 from kulman.plans.linkages.chain import board_givens, construct
@@ -80,28 +79,6 @@ def test_guide_without_a_branch_takes_the_position_along_its_direction() -> None
     board = run(program, board_givens(mechanism, VALUES))
 
     assert board.values["B"] == run(construct(NAU)[1], board_givens(NAU, nau_values(branch_B=1.0))).values["B"]
-
-
-@pytest.mark.parametrize(
-    ("mechanism", "link"),
-    [
-        pytest.param(with_links(Link(1, {"O": ("l_S1", ZERO), "A": ("l_OA", ZERO)})), 1, id="shifted pivot"),
-        pytest.param(with_links(Link(1, {"O": ORIGIN, "A": ("l_OA", "l_S1")})), 1, id="crank with a bent arm"),
-        pytest.param(with_links(Link(2, {"A": ORIGIN, "B": ("l_AB", ZERO), "S2": ("l_AS2", "l_S1")})), 2, id="bent"),
-        pytest.param(with_links(Link(2, {"A": ("l_S1", ZERO), "B": ("l_AB", ZERO)})), 2, id="shifted pin"),
-    ],
-)
-def test_link_with_points_off_its_axis_has_no_views_yet(mechanism: Mechanism, link: int) -> None:
-    structure, _ = construct(mechanism)
-
-    with pytest.raises(InputError) as refused:
-        require_views(mechanism, structure)
-
-    assert (refused.value.key, refused.value.data) == ("no-views", {"links": str(link)})
-
-
-def test_mechanism_of_the_first_sheets_has_views() -> None:
-    require_views(NAU, construct(NAU)[0])
 
 
 def test_frame_as_a_slider_is_refused() -> None:

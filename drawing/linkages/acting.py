@@ -1,4 +1,4 @@
-"""What acts on each link, and where: loads, reactions of other groups, couples and arms, read from the recorded program."""
+"""What acts on each link, and where: loads, reactions of other groups, couples and arms, as the program has them."""
 
 from __future__ import annotations
 

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from ...plans.linkages.rrp import dyad
 from ...plans.linkages.solved import Solved
 from ...scales.choose import UNITS, Choosers, CrankScale
 from ...scales.errors import InputError
@@ -164,10 +163,9 @@ class Fitting:
 
     def _scene(self, sheet: Format, mus: Mapping[str, float]) -> Scene:
         solved, contents = self.contents.solved, self.contents
-        dyads = tuple(dyad(solved.mechanism, group) for group in solved.structure.groups if group.kind == "RRP" and 0 in group.before)
         scales = by_plan(solved, mus)
         words = lettered(contents.words, solved)
-        return Scene(solved, scales, words, STYLES[sheet.letters], contents.givens, self.reaches, dyads)
+        return Scene(solved, scales, words, STYLES[sheet.letters], contents.givens, self.reaches)
 
     def _does_not_fit(self, sheet: Format, symbol: str, size: tuple[float, float]) -> InputError:
         """Say which format, or which scale factor, would do."""

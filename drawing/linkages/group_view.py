@@ -15,6 +15,7 @@ from ..shapes import Group as Shapes
 from ..symbols import arm, clear_ray, room_on, turning_arrow
 from ..view import Canvas, View
 from .acting import Contact, Moment, contact, couples, handed, loads, moments_of, pin_of, reactions
+from .construction import special_points
 from .links import draw_links, letter_links, rays_at
 from .scene import Scene
 from .skeleton import NEAR, Skeleton, guide_of
@@ -178,7 +179,9 @@ def group_view(scene: Scene, group: Group) -> View:
     for pair, own, names in reactions(scene, group):
         _react(sketch, group, pair, own, names)
     _load(sketch, group.links)
-    sketch.arms(moments_of(scene, group.links))
+    moments = moments_of(scene, group.links)
+    special_points(canvas, scene, {moment.about for moment in moments})
+    sketch.arms(moments)
     letter_links(canvas, scene, group.links, sketch.figures)
     links = ", ".join(map(str, group.links))
     heading = scene.heading("heading.group", POSITION, links=links)

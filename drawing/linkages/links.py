@@ -3,7 +3,7 @@
 Any view of a mechanism, or of a part of it, draws its links so:
 
     figures = draw_links(canvas, scene, numbers)      # all lines, blocks and pins of these links
-    draw_frame(canvas, scene, numbers)                # pivots and hatched guides that hold them, where the frame belongs
+    draw_frame(canvas, scene, numbers, figures)       # the pivots on which they turn, where the frame belongs
     letter_links(canvas, scene, numbers, figures)     # joints, centres of mass and numbers, each once
 """
 
@@ -28,7 +28,7 @@ from ..symbols import (
 )
 from ..view import Canvas
 from .scene import Scene
-from .skeleton import NEAR, Skeleton, Stroke, guide_of, is_inside, nearest, pins_of, skeleton, spread_of
+from .skeleton import NEAR, Skeleton, Stroke, is_inside, nearest, pins_of, skeleton, spread_of
 
 __all__ = ["Skeleton", "draw_frame", "draw_links", "letter_links", "skeleton"]
 
@@ -45,9 +45,8 @@ def draw_links(canvas: Canvas, scene: Scene, numbers: Sequence[int], framed: boo
     figures = [skeleton(scene, number) for number in numbers]
     for figure in figures:
         _strokes(canvas, scene, figure, figure.guides)
-    for _, shapes in sorted(
-        (block for figure in figures for block in _blocks(scene, figure, framed)), key=lambda one: -one[0]
-    ):
+    blocks = [drawn for figure in figures for drawn in _blocks(scene, figure, framed)]
+    for _, shapes in sorted(blocks, key=lambda drawn: -drawn[0]):
         canvas.add(*shapes)
     for figure in figures:
         _strokes(canvas, scene, figure, figure.bars)
@@ -57,7 +56,8 @@ def draw_links(canvas: Canvas, scene: Scene, numbers: Sequence[int], framed: boo
             else:
                 canvas.add(rigid_corner(at, u, w, scene.style, pin=_is_in(at, figure.pins)))
     pins = dict.fromkeys(point for number in numbers for point in pins_of(scene, number))
-    canvas.add(*(revolute(scene.mm(point), point, scene.style) for point in pins if not (framed and _held(scene, point))))
+    held = scene.solved.mechanism.frame_points if framed else ()
+    canvas.add(*(revolute(scene.mm(point), point, scene.style) for point in pins if point not in held))
     return figures
 
 
@@ -103,11 +103,6 @@ def _blocks(scene: Scene, figure: Skeleton, framed: bool) -> Iterator[tuple[floa
             yield size[0], slider(at, u, name, size, scene.style)
         else:
             yield size[0], (block(at, u, name, size),)
-
-
-def _held(scene: Scene, point: str) -> bool:
-    """Whether a joint is a pivot on the frame."""
-    return point in scene.solved.mechanism.frame_points
 
 
 def _freer(u: complex, at: complex, figures: Iterable[Skeleton]) -> complex:
@@ -174,7 +169,8 @@ def letter_links(canvas: Canvas, scene: Scene, numbers: Sequence[int], figures: 
                 continue
             lettered.add(point)
             if point in pins_of(scene, number) or point in _running(scene, number):
-                mark = f"{point}_{{{','.join(map(str, several[point]))}}}" if point in several else scene.words.mark(point)
+                links = ",".join(map(str, several.get(point, ())))
+                mark = f"{point}_{{{links}}}" if links else scene.words.mark(point)
                 _letter_joint(canvas, scene, point, mark, figures)
             else:
                 _letter_point(canvas, scene, figure, point)
@@ -192,11 +188,11 @@ def _letter_joint(canvas: Canvas, scene: Scene, point: str, mark: str, figures: 
     at = scene.mm(point)
     if not any(point in pins_of(scene, figure.number) for figure in figures):
         canvas.add(Group((Circle(at, scene.style.node, Pen.MAIN, fill="white"),), "point", point))
-    around = [(block, size, figure) for figure in figures for block, size in _sized(figure) if abs(block[0] - at) < NEAR]
+    around = [(size, u, figure) for figure in figures for (c, u), size in _sized(figure) if abs(c - at) < NEAR]
     if not around:
         canvas.label(mark, at, clear=scene.style.pair + 0.8)
         return
-    (_, u), (length, height), figure = max(around, key=lambda one: one[1])
+    (length, height), u, figure = max(around, key=lambda one: one[0])
     up = _up(scene, figure.number, at, u, figures)
     edge, half = at + up * (height / 2), u * (length / 2)
     canvas.label(mark, (edge - half, edge + half), clear=1.0, prefer=up, priority=1)
@@ -263,4 +259,3 @@ def _pieces(stroke: Stroke, figures: Sequence[Skeleton]) -> Iterator[Stroke]:
     along = [((at - a) / e).real for at in marks if abs(((at - a) / e).imag) < NEAR]
     stops = sorted({0.0, reach, *(k for k in along if 0 < k < reach)})
     yield from ((a + e * low, a + e * high) for low, high in pairwise(stops))
-

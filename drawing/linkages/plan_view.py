@@ -124,9 +124,7 @@ def _said(scene: Scene, plan: str, vectors: list[tuple[str, str, str]]) -> list[
             lines.append(scene.words["said.zero"].format(vector=_symbol(scene, quantity)))
         elif length < SHORT:
             lines.append(
-                scene.words["said.short"].format(
-                    vector=_symbol(scene, quantity), mm=scene.words.number(length, 2)
-                )
+                scene.words["said.short"].format(vector=_symbol(scene, quantity), mm=scene.words.number(length, 2))
             )
     return lines
 

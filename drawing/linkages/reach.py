@@ -68,9 +68,7 @@ def _beside(solved: Solved, pair: Prismatic) -> str:
     return "" if number == FRAME else next(iter(solved.mechanism.link(number).points))
 
 
-def _along(
-    moved: Mapping[str, NDArray[np.complex128]], u: str, P: str, at: str
-) -> NDArray[np.float64]:
+def _along(moved: Mapping[str, NDArray[np.complex128]], u: str, P: str, at: str) -> NDArray[np.float64]:
     """Return where P stands along the guide."""
     way = moved[P] - moved[at] if at else moved[P]
     result: NDArray[np.float64] = (way * np.conj(moved[u])).real

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ...plans.board import POSITION
-from ...plans.linkages.rrp import Dyad
 from ...plans.linkages.solved import Solved
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
@@ -37,7 +36,6 @@ class Scene:
     style: Style
     givens: Mapping[str, Given]  # what the task states, in its own units
     reaches: Reach = field(default_factory=dict)
-    dyads: tuple[Dyad, ...] = ()
     _largest: dict[str, float] = field(default_factory=dict, compare=False)
 
     def mm(self, mark: str) -> complex:

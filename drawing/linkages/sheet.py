@@ -13,7 +13,6 @@ from ..packing import Placement
 from ..page import Page
 from ..titleblock import Stamp
 from .fitting import SMALLEST_FIRST, Contents, Fitted, Fitting
-from .supported import require_views
 from .zones import zoned
 
 # part of the area on the largest format that the same figures take on a smaller one, with its smaller letters
@@ -37,10 +36,8 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
     Raises
     ------
     InputError
-        When the mechanism has links that no view can show yet, or a plan cannot fit at the scale factor that was
-        asked for: then it names what would fit.
+        When a plan cannot fit at the scale factor that was asked for; it names what would fit.
     """
-    require_views(contents.solved.mechanism, contents.solved.structure)
     fitting = Fitting(contents)
     customary = FORMATS["A1"]
     if contents.cycle is not None and sheet in (None, customary):

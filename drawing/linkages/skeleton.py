@@ -167,9 +167,7 @@ def _on_rails(
     return (first, *others), tuple(bar for bar in bars if abs(bar[1] - bar[0]) > NEAR), tuple(corners)
 
 
-def _through(
-    pins: list[complex], strokes: tuple[Stroke, ...]
-) -> tuple[tuple[complex, complex, complex], ...]:
+def _through(pins: list[complex], strokes: tuple[Stroke, ...]) -> tuple[tuple[complex, complex, complex], ...]:
     """Return as corners of 180 degrees the pins through which a line of the link runs."""
     found = []
     for at in _apart(pins):
