@@ -20,12 +20,18 @@ from .scene import Scene
 
 def lever_block(scene: Scene, width: float, with_inertia: bool) -> View:
     """Return the moment equation of Zhukovsky's lever and the comparison of what balances the driver."""
-    scene = replace(scene, words=scene.words.showing(AS_INSIDE))
-    lines = load_lines(scene) if with_inertia else []
+    lines = [*(load_lines(scene) if with_inertia else []), *lever_lines(scene)]
+    return text_block("equations_lever", scene.words["heading.equations_lever"], lines, scene.style, width)
+
+
+def lever_lines(scene: Scene) -> Lines:
+    """Return the lines of the lever in order of construction."""
+    scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
+    lines: Lines = []
     for step in scene.solved.program:
         if step.law in TOLD and (step.law != "moment_equation" or step.operands[0].startswith("_V_")):
             lines += TOLD[step.law](scene, step)
-    return text_block("equations_lever", scene.words["heading.equations_lever"], lines, scene.style, width)
+    return lines
 
 
 def _couple(scene: Scene, step: Step) -> Lines:

@@ -86,7 +86,8 @@ def velocity(board: Board, d: Dyad) -> None:
         under_velocity(board, d.mechanism, slide)
     board.meet(b, first.mark("velocity"), first.u, second.mark("velocity"), second.u)
     for slide in d.slides:
-        board.read(f"V_{slide.own}{slide.under}", slide.mark("velocity"), b)
+        if slide.known is not None:
+            board.read(f"V_{slide.own}{slide.under}", slide.mark("velocity"), b)
     board.read(f"V_{d.B}", "velocity.p", b)
     _others(board, d, "velocity")
 
@@ -97,7 +98,8 @@ def acceleration(board: Board, d: Dyad) -> None:
     ends = [under_acceleration(board, d.mechanism, slide) for slide in d.slides]
     board.meet(b, ends[0], first.u, ends[1], second.u)
     for slide, end in zip(d.slides, ends, strict=True):
-        board.read(f"a_{slide.own}{slide.under}_r", end, b)
+        if slide.known is not None:
+            board.read(f"a_{slide.own}{slide.under}_r", end, b)
     board.read(f"a_{d.B}", "acceleration.p", b)
     _others(board, d, "acceleration")
 

@@ -131,7 +131,8 @@ def velocity(board: Board, d: Dyad) -> None:
     under_velocity(board, d.mechanism, beneath)
     board.meet(a3, a2, d.inner.u, beneath.mark("velocity"), d.outer.u)
     board.read(f"V_{d.under}{d.inner.own}", a2, a3)
-    board.read(f"V_{d.under}{beneath.under}", beneath.mark("velocity"), a3)
+    if beneath.known is not None:
+        board.read(f"V_{d.under}{beneath.under}", beneath.mark("velocity"), a3)
     board.read(f"V_{d.under}", "velocity.p", a3)
     _others(board, d, "velocity")
 
@@ -146,7 +147,8 @@ def acceleration(board: Board, d: Dyad) -> None:
     )
     board.meet(a3, ends[0], d.inner.u, ends[1], d.outer.u)
     board.read(f"a_{d.under}{d.inner.own}_r", ends[0], a3)
-    board.read(f"a_{d.under}{beneath.under}_r", ends[1], a3)
+    if beneath.known is not None:
+        board.read(f"a_{d.under}{beneath.under}_r", ends[1], a3)
     board.read(f"a_{d.under}", "acceleration.p", a3)
     _others(board, d, "acceleration")
 
