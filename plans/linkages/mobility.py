@@ -43,7 +43,7 @@ def _loose(pairs: Collection[Pair], numbers: Iterable[int], driver: int) -> list
 
 def _apart(pairs: Collection[Pair], numbers: Iterable[int]) -> list[int]:
     """Return the links from which no way leads over pairs to the frame."""
-    held, found = {FRAME}, True
+    held, found = {FRAME}, {FRAME}
     while found:
         found = {n for pair in pairs if held & {*pair.links} for n in pair.links} - held
         held |= found
