@@ -272,7 +272,8 @@ class _Look:
     def sure(self, signs: Mapping[int, Array]) -> NDArray[np.bool_]:
         """Whether the links are still on the branch with these signs."""
         kept = [np.sign(self.found[f"_determinant_{n}"]) == signs[n] for n in self.numbers]
-        return np.logical_and.reduce([self.closed, self._all("doubt", SURE), *kept])
+        held: NDArray[np.bool_] = np.logical_and.reduce([self.closed, self._all("doubt", SURE), *kept])
+        return held
 
 
 def _lone(value: Any) -> Any:
