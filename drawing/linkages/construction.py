@@ -32,10 +32,15 @@ def axes(canvas: Canvas, scene: Scene) -> None:
         way = near[:1] or [end * per_mm for end in scene.reaches.get(name, ())]
         line = at + u * (min(0.0, *way) - PAST), at + u * (max(0.0, *way) + PAST)
         canvas.add(Line(*line, Pen.AXIS))
-        # at the pivot's end, where there is no guide, unless other axes meet there
-        choose = max if len(pairs) == 1 else min
-        far = choose(line, key=lambda end: abs(end - at))
+        # of several axes the far ends meet at one pivot
+        far = min(line, key=lambda end: (len(_near(scene, end)), (1.0 if len(pairs) > 1 else -1.0) * abs(end - at)))
         canvas.label(letters.get(name, ""), far, clear=1.0, prefer=-slider_up(u))
+
+
+def _near(scene: Scene, place: complex) -> set[complex]:
+    """Return the joints near a place, which has the less room for a letter."""
+    joints = {scene.mm(pair.point) for pair in scene.solved.mechanism.pairs}
+    return {joint for joint in joints if abs(joint - place) < 1.2 * scene.style.force}
 
 
 def moving_guides(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:

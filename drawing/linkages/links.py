@@ -137,8 +137,11 @@ def draw_frame(canvas: Canvas, scene: Scene, numbers: Iterable[int], figures: Se
 
 
 def foot_of(scene: Scene, point: str, figures: Sequence[Skeleton]) -> complex:
-    """Return the side on which the foot of a pivot stands: below, unless a link is there."""
-    rays = rays_at(scene.mm(point), figures)
+    """Return the side on which the foot of a pivot stands: below, unless a link or another pivot is there."""
+    at = scene.mm(point)
+    rays = rays_at(at, figures)
+    others = [scene.mm(other) - at for other in scene.solved.mechanism.frame_points]
+    rays += [way / abs(way) for way in others if NEAR < abs(way) < 2 * scene.style.pivot[2]]
 
     def room(down: complex) -> float:
         return min((spread_of(down, ray) for ray in rays), default=math.pi)
