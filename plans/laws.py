@@ -101,6 +101,8 @@ def _piecewise(x: Any, *nodes: Any) -> Any:
 LAWS: dict[str, Law] = {
     # omega = sense * speed, counter-clockwise positive
     "signed": lambda speed, sense: speed * sense,
+    # v and a of a slider that drives, along its guide
+    "given": lambda rate: rate,
     # v = omega * l, along the normal to the crank
     "circular_speed": lambda omega, length: omega * length,
     # a^n = omega^2 * l, towards the pivot

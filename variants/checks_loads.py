@@ -33,23 +33,31 @@ _STROKE = one_of("stroke-unknown", lambda: (BOTH, WORKING, IDLE))
 _OVER = one_of("diagram-over", lambda: (STROKE, ANGLE))
 
 
-def load_fields(names: Names) -> dict[str, Field]:
-    """Return how a force is read; without a direction it resists the motion of its point."""
+def read_load(checker: Checker, path: Path, raw: object, names: Names) -> Load | None:
+    """Read a force; without a direction it resists the motion of its point."""
     places = {"name": Field(name), "link": Field(link_number), "point": Field(name)}
     size = {"magnitude": Field(names.value(_N)), "direction": Field(names.value(_RAD), required=False)}
-    return places | size | {"stroke": Field(_STROKE, required=False)}
+    read = _read(checker, path, raw, names, places | size)
+    return Load(**read) if read else None
 
 
-def couple_fields(names: Names) -> dict[str, Field]:
-    """Return how a moment is read; without a sense it resists the turning of its link."""
+def read_couple(checker: Checker, path: Path, raw: object, names: Names) -> Couple | None:
+    """Read a moment; without a sense it resists the turning of its link."""
     places = {"name": Field(name), "link": Field(link_number)}
     size = {"magnitude": Field(names.value(_N_M)), "sense": Field(names.sign, required=False)}
-    return places | size | {"stroke": Field(_STROKE, required=False)}
+    read = _read(checker, path, raw, names, places | size)
+    return Couple(**{"sense": None, **read}) if read else None
 
 
-def couple_of(read: Mapping[str, Any]) -> Couple:
-    """Return a couple; the one that a file gives no sense resists."""
-    return Couple(**{"sense": None, **read})
+def _read(
+    checker: Checker, path: Path, raw: object, names: Names, fields: Mapping[str, Field]
+) -> dict[str, Any] | None:
+    """Read a load that may act in one stroke; a literal magnitude is called like the load."""
+    before = len(checker.faults)
+    read = record(checker, path, raw, {**fields, "stroke": Field(_STROKE, required=False)})
+    if len(checker.faults) > before:
+        return None
+    return {**read, "magnitude": names.called(read["name"], read["magnitude"])}
 
 
 def read_stroke(checker: Checker, path: Path, raw: object, names: Names) -> Stroke | None:

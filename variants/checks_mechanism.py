@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ..plans.linkages.mechanism import FRAME, MINUS, ZERO, Link, Load, Mechanism, Pair, Prismatic, Revolute, Start
+from ..plans.linkages.mechanism import FRAME, MINUS, ZERO, Link, Mechanism, Pair, Prismatic, Revolute, Start
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import quote
@@ -13,12 +13,11 @@ from ..scales.units import ONE, unit
 from .checks import Checker, Field, Read, array_of, link_number, name, on_link, one_of, record, rows
 from .checks_driver import driver_joined, read_driver
 from .checks_loads import (
-    couple_fields,
-    couple_of,
-    load_fields,
     loads_joined,
     output_joined,
+    read_couple,
     read_diagrams,
+    read_load,
     read_stroke,
 )
 from .checks_names import Names
@@ -40,8 +39,8 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | N
         "stroke": Field(lambda c, p, r: read_stroke(c, p, r, names), required=False),
         # before the loads that name them
         "diagram": Field(lambda c, p, r: read_diagrams(c, rows(c, p, r), names), required=False),
-        "load": Field(_rows(lambda c, p, r: record(c, p, r, load_fields(names))), required=False),
-        "couple": Field(_rows(lambda c, p, r: record(c, p, r, couple_fields(names))), required=False),
+        "load": Field(_rows(lambda c, p, r: read_load(c, p, r, names)), required=False),
+        "couple": Field(_rows(lambda c, p, r: read_couple(c, p, r, names)), required=False),
     }
     slides = isinstance(raw, dict) and isinstance(raw.get("driver"), dict) and "travel" in raw["driver"]
     starts = start_fields(names, slides)
@@ -53,11 +52,11 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | N
         tuple(read["link"]),
         tuple(read["pair"]),
         read["driver"],
-        tuple(Load(**x) for x in read.get("load", ())),
-        tuple(map(couple_of, read.get("couple", ()))),
+        tuple(read.get("load", ())),
+        tuple(read.get("couple", ())),
         tuple(read.get("diagram", ())),
         read.get("stroke"),
-        read.get("gravity"),
+        names.called("g", read.get("gravity")),
         tuple(Start(**x) for x in read.get("start", ())),
     )
     _joined(checker, mechanism, names)
@@ -100,18 +99,21 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | Non
         checker.fault((*path, "centre"), unknown("point-unknown", read["centre"], read["points"], link=read["number"]))
     if "centre" not in read and read.keys() & {"mass", "inertia", "per_length", "inertia_factor"}:
         checker.fault(path, InputError("key-missing", name="centre"))
-    return Link(**_with_mass(checker, path, read))
+    return Link(**_with_mass(checker, path, read, names))
 
 
-def _with_mass(checker: Checker, path: Path, read: dict[str, Any]) -> dict[str, Any]:
-    """Name the mass and the moment of inertia that follow from the length."""
+def _with_mass(checker: Checker, path: Path, read: dict[str, Any], names: Names) -> dict[str, Any]:
+    """Name the mass and the moment of inertia, whether they are literals or follow from the length."""
+    customary = {"mass": "m_", "inertia": "J_S", "per_length": "k_", "inertia_factor": "j_"}
+    for key in read.keys() & customary.keys():
+        read = {**read, key: names.called(f"{customary[key]}{read['number']}", read[key])}
     if "inertia_factor" in read and not read.keys() & {"mass", "per_length"}:
         checker.fault(path, InputError("key-missing", name="mass"))
-    for factor, result, symbol in (("per_length", "mass", "m_"), ("inertia_factor", "inertia", "J_S")):
+    for factor, result in (("per_length", "mass"), ("inertia_factor", "inertia")):
         if factor in read and result in read:
             checker.fault((*path, result), InputError("follows-from", name=result, other=factor))
         if factor in read:
-            read = {**read, result: f"{symbol}{read['number']}"}
+            read = {**read, result: f"{customary[result]}{read['number']}"}
     return read
 
 

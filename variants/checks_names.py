@@ -20,7 +20,7 @@ _M = unit("m")
 class Names:
     """The values that a mechanism may name, and what it turned out to use.
 
-    `literals` are constants by value and dimension, `lengths` those of them that are links, by their customary names,
+    `literals` are constants by value and dimension, `lengths` those of them that have customary names, such as links,
     `positive` the names that must be greater than zero: without a length or a speed of the crank there is no plan.
     `moving` are those that must not be zero.
     """
@@ -119,6 +119,13 @@ class Names:
     def constants(self) -> dict[str, float]:
         """The literals by their names."""
         return {constant: value for (value, _), constant in self.literals.items()} | self.lengths
+
+    def called(self, name: str, found: str | None) -> str | None:
+        """Call a literal by its customary name, `m_3`, where nothing else is called so."""
+        value = self.constants.get(found or "")
+        if value is None or name in self.dimensions or self.lengths.setdefault(name, value) != value:
+            return found
+        return name
 
     def on_axis(self, points: dict[str, tuple[str, str]]) -> dict[str, tuple[str, str]]:
         """Call literal distances from the origin of a link by their ends, `l_AB`, where nothing else is called so."""

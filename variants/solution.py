@@ -48,8 +48,8 @@ class Solution:
     def checks(self) -> dict[str, dict[str, Any]]:
         """What a second route says, by name.
 
-        `lever` compares what balances the driver with Zhukovsky's lever, per cent; `compound` the plans of velocities and
-        accelerations with the sums of compound motion, in parts of their longest vectors.
+        `lever` compares what balances the driver with Zhukovsky's lever, per cent; `compound` the plans of velocities
+        and accelerations with the sums of compound motion, in parts of their longest vectors.
         """
         found: dict[str, dict[str, Any]] = {}
         delta = self.quantities.get("delta_M_bal") or self.quantities.get("delta_F_bal")

@@ -22,7 +22,7 @@ def position(board: Board, mechanism: Mechanism) -> None:
 def velocity(board: Board, mechanism: Mechanism) -> None:
     """v_P is given along the guide; the slider does not turn, and all its points move alike."""
     driver, slide = slider_of(mechanism), slide_on_frame(mechanism)
-    board.calc(f"_V_{driver.point}", "signed", driver.speed, "one")
+    board.calc(f"_V_{driver.point}", "given", driver.speed)
     board.pole("velocity.p")
     board.lay(f"velocity.{driver.point}", "velocity.p", slide.u, f"_V_{driver.point}")
     board.read(f"V_{driver.point}", "velocity.p", f"velocity.{driver.point}")
@@ -32,7 +32,7 @@ def velocity(board: Board, mechanism: Mechanism) -> None:
 def acceleration(board: Board, mechanism: Mechanism) -> None:
     """a_P is given along the guide, zero unless the slider speeds up."""
     driver, slide = slider_of(mechanism), slide_on_frame(mechanism)
-    board.calc(f"_a_{driver.point}", "signed", driver.acceleration or ZERO, "one")
+    board.calc(f"_a_{driver.point}", "given", driver.acceleration or ZERO)
     board.pole("acceleration.p")
     board.lay(f"acceleration.{driver.point}", "acceleration.p", slide.u, f"_a_{driver.point}")
     board.read(f"a_{driver.point}", "acceleration.p", f"acceleration.{driver.point}")
