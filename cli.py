@@ -323,10 +323,10 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 def _columns_out(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
     """Refuse, before any work, files that a sweep cannot be written to."""
     from .drawing.writers import check_outputs
-    from .variants.sweeps import SAVERS
+    from .variants.sweeps import SUFFIXES
 
     paths = tuple(map(Path, values))
-    check_outputs(*paths, known=SAVERS)
+    check_outputs(*paths, known=SUFFIXES)
     return paths
 
 
@@ -341,7 +341,7 @@ def _count(ctx: click.Context, param: click.Parameter, value: str) -> int:
 @commands.command(
     epilog=_example(
         "kulman sweep nau-slider-crank -v 3 --only velocity",
-        "kulman sweep nau-slider-crank -v 3 --positions 24 -o cycle.csv",
+        "kulman sweep nau-slider-crank -v 3 --positions 24 -o cycle.csv -o cycle.pdf",
         "kulman sweep nau-slider-crank --points B,S2 --chords B --from '30 deg'",
     )
 )
@@ -369,7 +369,7 @@ def _count(ctx: click.Context, param: click.Parameter, value: str) -> int:
     metavar="FILE",
     multiple=True,
     callback=_columns_out,
-    help="Write all columns there, a .csv for spreadsheets. Repeatable.",
+    help="Where to: all columns to a .csv, the drawing to .svg, .pdf, .png. Repeatable.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def sweep(

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
-from ..drawing.formats import format_named
+from ..drawing.formats import Format, format_named
 from ..drawing.linkages.fitting import Contents
 from ..drawing.linkages.sheet import draw
 from ..drawing.page import Page
@@ -151,8 +151,29 @@ def sheet(
         language=lang,
     )
     contents = Contents(case.solved, case.plans, case.choosers, case.givens, words, norm, _cycle(case))
+    return _drawn(contents, stamp, paper, case.warnings)
+
+
+def cycle_sheet(case: Case, whole: Cycle, words: Words) -> Sheet:
+    """Draw the plan of positions and the diagrams of a cycle on a sheet of their own.
+
+    Raises
+    ------
+    PositionError
+        The position of the case itself, which the plan of positions shows, has no plan.
+    """
+    error = case.solved.error()
+    if error is not None:
+        raise error
+    language = words.language
+    stamp = Stamp(title=case.task.title[language], document_type=words["sheet.document"], language=language)
+    contents = Contents(case.solved, ("cycle",), case.choosers, case.givens, words, "gost", whole)
+    return _drawn(contents, stamp, None, case.warnings)
+
+
+def _drawn(contents: Contents, stamp: Stamp, paper: Format | None, warnings: tuple[InputError, ...]) -> Sheet:
     drawn = draw(contents, stamp, paper)
-    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, case.warnings)
+    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, warnings)
 
 
 def _cycle(case: Case) -> Cycle | None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..drawing.words import Words
-from ..drawing.writers import check_outputs, write_whole
+from ..drawing.writers import WRITERS, check_outputs, write_whole
 from ..plans.graphs import Diagrams
 from ..plans.linkages.cycle import FEWEST, MOST, Cycle, cycle
 from ..plans.linkages.mechanism import Driver
@@ -22,6 +22,7 @@ from ..scales.units import Unit, parse, unit
 from .arguments import of_kind
 from .case import Case, Settings, solve_case
 from .columns import letters
+from .sheets import Sheet, cycle_sheet
 from .sweep_data import as_json
 from .sweep_table import as_chords, as_csv, as_table
 from .task import LocatedError, Task
@@ -110,11 +111,23 @@ class Sweep:
         for path in paths:
             of_kind("paths", path, (str, os.PathLike), "str | PathLike")
         files = [Path(path) for path in paths]
-        check_outputs(*files, known=SAVERS)
-        made = [(file, SAVERS[file.suffix.lower()](self)) for file in files]
+        check_outputs(*files, known=SUFFIXES)
+        drawings = [file for file in files if file.suffix.lower() in WRITERS]
+        made = [(file, SAVERS[file.suffix.lower()](self)) for file in files if file not in drawings]
+        saved = self.drawn().save(*drawings) if drawings else []
         for file, data in made:
             write_whole(file, data)
-        return files
+        return [*saved, *(file for file, _ in made)]
+
+    def drawn(self) -> Sheet:
+        """Return the sheet with the plan of positions and the diagrams by plans and by chords.
+
+        Raises
+        ------
+        PositionError
+            The position that the task itself names has no plan.
+        """
+        return cycle_sheet(self.case, self.cycle, self.words)
 
     def __repr__(self) -> str:
         """Return task, variant and the number of positions."""
@@ -138,6 +151,7 @@ def _csv_file(sweep: Sweep) -> bytes:
 
 
 SAVERS: dict[str, Callable[[Sweep], bytes]] = {".csv": _csv_file}
+SUFFIXES = (*SAVERS, *WRITERS)
 
 
 def sweep(

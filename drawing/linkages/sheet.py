@@ -40,7 +40,8 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
     """
     fitting = Fitting(contents)
     customary = FORMATS["A1"]
-    if contents.cycle is not None and sheet in (None, customary):
+    whole = contents.cycle is not None and {"velocity", "acceleration"} <= {*contents.plans}
+    if whole and sheet in (None, customary):
         found = zoned(fitting, customary, contents.norm)
         if found is not None:
             views, scales, places = found
