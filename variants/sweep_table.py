@@ -29,7 +29,7 @@ from .sweep_data import quantities_of
 
 DIGITS = 6
 ROUGHLY = 4  # decimals of the angle of an extreme, near which values hardly change
-CONSTANT = 1e-9  # part of its size within which a quantity does not change over the cycle
+CONSTANT = 1e-7  # part of its size within which a quantity does not change over the cycle
 LESS_WANTED = ("h_", "delta_", "l_")  # quantities whose extremes a reader hardly looks for
 
 

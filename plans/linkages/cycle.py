@@ -31,6 +31,7 @@ from .undetermined import NEAR_LIMIT, strike_out, undetermined_at
 __all__ = ["Arc", "Cycle", "Extreme", "Travel", "cycle", "stroke_of"]
 Array = NDArray[Any]
 VANISHES = 1e-9  # part of the largest magnitude below which the smallest is zero
+BESIDE_CHANGE = 1e-4  # radians from a change point within which velocities are lost in rounding: it goes as 1 / angle^2
 FEWEST, MOST = 3, 100_000  # positions of a cycle
 
 
@@ -126,7 +127,7 @@ class Cycle:
                 [_square(found[name]) if v else found[name] for name, v in zip(wanted, vectors, strict=True)]
             )
 
-        rows = extremes(sizes, self.reach.stretches) if wanted else []
+        rows = extremes(sizes, self.reach.trimmed(BESIDE_CHANGE)) if wanted else []
         return {
             name: _rooted(row) if vector else row
             for name, vector, row in zip(wanted, vectors, rows, strict=False)

@@ -28,6 +28,7 @@ from .swept import Swept, swept
 
 Array = NDArray[Any]
 TURN = 2.0 * math.pi
+SAME = 1e-9  # radians or metres within which two places of the driver are one, but for rounding
 TURN_CELLS, SLIDE_CELLS = 360, 720  # grid on which a margin is looked at first: a full turn, the range of a slide
 
 Margins = Callable[[Array], Mapping[str, Array]]
@@ -74,6 +75,21 @@ class Reach:
             parts[-1] += parts.pop(0)
         within = [part for part in parts if any(self._holds(stretch, place) for stretch in part)]
         return tuple(max(within or parts, key=lambda part: sum(stretch.length for stretch in part)))
+
+    def trimmed(self, beside: float) -> tuple[Stretch, ...]:
+        """Return the stretches less a little beside change points; without those that are hardly longer."""
+        trimmed = []
+        for stretch in self.stretches:
+            low, high = (beside if self._changes_at(end) else 0.0 for end in (stretch.low, stretch.high))
+            if not (low or high):
+                trimmed.append(stretch)
+            elif stretch.length > 4.0 * beside:
+                trimmed.append(stretch.part(stretch.low + low, stretch.high - high))
+        return tuple(trimmed)
+
+    def _changes_at(self, place: float) -> bool:
+        offs = (abs(place - change) for change in self.changes)
+        return any(min(off, abs(off - TURN)) < SAME if self.whole.closed else off < SAME for off in offs)
 
     def _holds(self, stretch: Stretch, place: float) -> bool:
         if self.whole.closed:
