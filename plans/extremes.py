@@ -16,6 +16,7 @@ Functions = Callable[[Array], Array]
 SECTIONS, ROUNDS, MORE_ROUNDS = 16, 2, 8
 GROWS, UNBOUNDED = 1.01, 1.5  # growth in a round of sections that asks for another, that has no end
 FLAT = 1e-12  # part of its size within which a function is constant
+TIE = 1e-9  # part of its height by which a peak must be higher than an earlier one to count: rounding must not choose
 PEAKS = 4  # so many of the highest peaks of a row are followed; noise has many
 
 
@@ -47,7 +48,7 @@ class _Search:
 
 
 def extremes(functions: Functions, stretches: Sequence[Stretch]) -> list[tuple[Extreme, Extreme] | None]:
-    """Return (largest, smallest) of every row; None for a row that has no value anywhere.
+    """Return (largest, smallest) of every row, the first of equal ones; None for a row that has no value anywhere.
 
     Parameters
     ----------
@@ -59,8 +60,9 @@ def extremes(functions: Functions, stretches: Sequence[Stretch]) -> list[tuple[E
     best: dict[int, Extreme] = {}
     for stretch in stretches:
         for row, value, theta in _peaks(functions, stretch):
-            if row not in best or value > best[row].value:
-                best[row] = Extreme(value, float(stretch.place(np.array([theta]))[0]))
+            if row not in best or value > best[row].value + TIE * abs(best[row].value):
+                within = theta % (2.0 * math.pi) if stretch.closed else theta
+                best[row] = Extreme(value, float(stretch.place(np.array([within]))[0]))
     count = max((max(row, -1 - row) for row in best), default=-1) + 1
     return [
         (best[row], Extreme(-best[-1 - row].value, best[-1 - row].at)) if row in best else None for row in range(count)
