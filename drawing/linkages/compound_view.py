@@ -14,6 +14,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+import numpy as np
+
 from ...plans.board import POSITION
 from ...plans.linkages.compound import Coupler
 from ..shapes import Arrow, Circle, Group, Line, Pen, Shape, Vector
@@ -196,30 +198,26 @@ def _turn(canvas: Canvas, scene: Scene, rate: str, centre: str, busy: list[Strok
     value = scene.solved.values.get(rate)
     if not value or value != value:
         return
-    c = scene.mm(centre)
-
-    def room(place: tuple[float, float]) -> float:
-        radius, angle = place
-        spots = [c + rect(radius, angle + turn) for turn in (-0.5, 0.0, 0.5)]
-        return min((_gap(stroke, spot) for stroke in busy for spot in spots), default=radius) - 0.1 * radius
-
-    places = [(scene.style.pair + size * scene.style.force, k * math.pi / 12) for size in SIZES for k in range(24)]
-    radius, middle = max(places, key=lambda place: (round(room(place), 3), -place[0], -place[1]))
-    spread = 1.1 * SIZES[0] * scene.style.force / (radius - scene.style.pair) + 0.2
+    c, style = scene.mm(centre), scene.style
+    places = [(style.pair + size * style.force, k * math.pi / 12) for size in SIZES for k in range(24)]
+    radius, middle = _freest(c, places, busy)
+    spread = 1.1 * SIZES[0] * style.force / (radius - style.pair) + 0.2
     canvas.add(turning_arrow(c, radius, middle, spread, math.copysign(1.0, value), rate))
     canvas.label(scene.words.symbol(rate), c + rect(radius, middle), prefer=rect(1.0, middle), clear=1.2)
     ends = (middle - 0.6 * spread, middle, middle + 0.6 * spread)
     busy += [(c + rect(radius, a), c + rect(radius, b)) for a, b in pairwise(ends)]
 
 
-def _gap(stroke: Stroke, at: complex) -> float:
-    """Return the distance of a place from a stroke."""
-    a, b = stroke
-    way = b - a
-    if abs(way) < 1e-9:
-        return abs(at - a)
-    along = ((at - a) / way).real
-    return abs(at - a - way * min(max(along, 0.0), 1.0))
+def _freest(c: complex, places: Sequence[tuple[float, float]], busy: Sequence[Stroke]) -> tuple[float, float]:
+    """Choose the radius and the direction of an arc about `c` that is farthest from all strokes, rather a small one."""
+    polar = np.array(places)
+    spots = c + polar[:, :1] * np.exp(1j * (polar[:, 1:] + np.array([-0.5, 0.0, 0.5])))
+    a, b = np.array(busy).reshape(-1, 2).T
+    way = np.where(b == a, 1.0, b - a)
+    along = np.clip(((spots[..., None] - a) / way).real, 0.0, 1.0)
+    room = abs(spots[..., None] - a - way * along).min(axis=(1, 2), initial=4.0 * polar[:, 0].max()) - 0.1 * polar[:, 0]
+    radius, middle = places[int(np.round(room, 3).argmax())]
+    return radius, middle
 
 
 def _said(scene: Scene, vectors: Iterable[Vector]) -> Iterator[str]:

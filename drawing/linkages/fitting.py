@@ -130,12 +130,19 @@ class Fitting:
         """Draw all figures with the scale factors on these rungs; each with the ladder that sizes it, or ""."""
         contents, root = self.contents, self._root
         text_width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
-        scene = self._scene(sheet, {s: ladder[rungs[root[s]]] for s, ladder in self.ladders.items()})
+        mus = {s: ladder[rungs[root[s]]] for s, ladder in self.ladders.items()}
+        scene = self._scene(sheet, mus)
         built = []
         for number, figure in enumerate(figures(contents.solved, contents.plans, text_width, contents.cycle)):
             view = self._drawn(sheet, number, figure, scene)
-            built.append((view, root.get(figure.symbol, "")))
+            built.append((view, root.get(self._sizing(figure, mus), "")))
         return built, scene.scales
+
+    def _sizing(self, figure: Figure, mus: Mapping[str, float]) -> str:
+        """Return the scale factor that makes a figure as large as it is: of two the one with the longer lines."""
+        if not figure.beside:
+            return figure.symbol
+        return max((figure.symbol, figure.beside), key=lambda s: _reach(self.contents.solved, s) / mus[s])
 
     def _drawn(self, sheet: Format, number: int, figure: Figure, scene: Scene) -> View:
         """Draw a figure, unless it has been drawn for this format at the same of the scale factors that it used."""

@@ -16,7 +16,7 @@ from .scene import Scene
 
 SHORT, READABLE = 1.25, 1.7  # arrowheads: a shorter vector cannot be read; the least length in an inset
 TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
-WIDEST = 85.0  # mm, the largest side of what an inset shows
+WIDEST, NARROWEST = 85.0, 60.0  # mm, the largest side of what an inset shows, the least side of the inset
 MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
 NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
 
@@ -72,8 +72,8 @@ def _window(scene: Scene, short: Vector, vectors: Sequence[Vector]) -> Window:
         if (_near(vector.tail, ends) or _near(vector.tip, ends)) and max(_size(wider)) * times <= WIDEST:
             ends = wider
     x0, y0, x1, y1 = _box(ends)
-    margin = MARGIN / times
-    return Window((x0 - margin, y0 - margin, x1 + margin, y1 + margin), times)
+    wide, high = (max(MARGIN, (NARROWEST - size * times) / 2) / times for size in _size(ends))
+    return Window((x0 - wide, y0 - high, x1 + wide, y1 + high), times)
 
 
 def shows(window: Window, ends: tuple[complex, ...]) -> bool:
@@ -115,7 +115,8 @@ def _inset(scene: Scene, at: At, window: Window, name: str, numeral: str) -> Vie
         cut, past = (clipped(start * times, end * times, bounds) for start in (tail, found))
         if cut is not None:
             canvas.add(Line(*cut, Pen.DASHED, role="construction", name=f"{name}_{direction}"))
-            canvas.label(direction_words(scene, direction), past or cut, clear=0.8)
+        if past is not None:
+            canvas.label(direction_words(scene, direction), past, clear=0.8)
     for vector in at.vectors():
         _enlarged(canvas, scene, vector, times, bounds)
     place = scene.mm(at.point) * times

@@ -32,10 +32,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """One figure of the sheet: how it is drawn, and the scale factor that sizes it ("" for a table or text)."""
+    """One figure of the sheet: how it is drawn, and the scale factor that sizes it ("" for a table or text).
+
+    Vectors that stand on the mechanism have two: `beside` is then that of the mechanism.
+    """
 
     draw: Callable[[Scene], View]
     symbol: str = ""
+    beside: str = ""
 
 
 def figures(solved: Solved, plans: tuple[str, ...], width: float, cycle: Cycle | None = None) -> list[Figure]:
@@ -69,11 +73,11 @@ def _compound(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[
         return
     couplers = hinged(solved.mechanism, solved.structure)
     if couplers:
-        yield Figure(lambda scene: velocity_figure(scene, couplers), "mu_V")
+        yield Figure(lambda scene: velocity_figure(scene, couplers), "mu_V", "mu_l")
+    yield from (_compound_text(coupler, "V", width) for coupler in couplers)
     for coupler in couplers:
         yield from (_accelerations(coupler, point) for point in coupler.letters)
-    for coupler in couplers:
-        yield from (_compound_text(coupler, kind, width) for kind in ("V", "a"))
+        yield _compound_text(coupler, "a", width)
     yield from (_results(p) for p in results_parts(solved) if p.kind == "compound")
 
 
@@ -143,7 +147,7 @@ def _lever(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Fig
 def _accelerations(coupler: Coupler, point: str) -> Figure:
     """Return the figure of the accelerations of one point of a coupler."""
     symbol = scale_symbol(f"{ACCELERATION}{coupler.letters[point]}") or ""
-    return Figure(lambda scene: acceleration_figure(scene, coupler, point), symbol)
+    return Figure(lambda scene: acceleration_figure(scene, coupler, point), symbol, "mu_l")
 
 
 def _compound_text(coupler: Coupler, kind: str, width: float) -> Figure:
