@@ -17,8 +17,8 @@ def decimals_for(value: float, digits: int = DIGITS) -> int:
     """Return how many decimals show `value` with so many significant digits."""
     if value == 0.0 or not math.isfinite(value):
         return 0
-    decimals = max(0, digits - 1 - math.floor(math.log10(abs(value))))
-    return decimals if decimals <= FINEST else 0
+    first = -math.floor(math.log10(abs(value)))  # decimals of its first digit
+    return max(0, min(first + digits - 1, FINEST)) if first + DIGITS - 1 <= FINEST else 0
 
 
 def value_text(words: Words, value: float) -> str:
