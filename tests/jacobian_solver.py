@@ -292,7 +292,8 @@ class JacobianSolver:
     def couple(self, couple: Couple) -> Array:
         """Outer moment."""
         rate = self.rate(couple.link)
-        sense = self.v[couple.sense] if couple.sense is not None else -np.sign(rate)
+        turns = np.abs(rate) > 1e-14 * np.abs(self.dq[:, :, 2]).max(axis=1)
+        sense = self.v[couple.sense] if couple.sense is not None else -np.sign(rate) * turns
         return np.asarray(self.magnitude(couple) * sense)
 
     def magnitude(self, load: Load | Couple) -> Array:
