@@ -32,10 +32,31 @@ def arrange(
 
     They stand in reading order; only with `any_order` they may leave it where nothing else fits.
     """
+    return _arranged(views, sheet, norm, pages, any_order)
+
+
+def arrange_parts(parts: Sequence[Sequence[View]], sheet: Format, norm: Norm) -> list[Placement] | None:
+    """Place views on as many pages as they need, each part on pages of its own where that takes no more of them."""
+    together = arrange([view for part in parts for view in part], sheet, norm, None)
+    places: list[Placement] = []
+    for part in filter(None, parts):
+        pages = max((place.page + 1 for place in places), default=0)
+        own = _arranged(part, sheet, norm, None, True, first=not pages)
+        if own is None:
+            return together
+        places += [replace(place, page=place.page + pages) for place in own]
+    if together is None or max(p.page for p in places) <= max(p.page for p in together):
+        return places
+    return together
+
+
+def _arranged(
+    views: Sequence[View], sheet: Format, norm: Norm, pages: int | None, any_order: bool, first: bool = True
+) -> list[Placement] | None:
     return pack(
         [[view.size] for view in views],
         _area(sheet, norm),
-        reserved_boxes(sheet, norm, first=True),
+        reserved_boxes(sheet, norm, first=first),
         later=reserved_boxes(sheet, norm, first=False),
         gap=CLOSE if sheet.letters == "A4" else GAP,
         pages=pages,

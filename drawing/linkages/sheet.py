@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ...scales.errors import InputError
 from ...scales.scale import Scale
-from ..compose import arrange, compose
+from ..compose import arrange, arrange_parts, compose
 from ..formats import FORMATS, Format
 from ..packing import Placement
 from ..page import Page
@@ -18,6 +18,7 @@ from .zones import zoned
 # part of the area on the largest format that the same figures take on a smaller one, with its smaller letters
 LIGHTER = {"A4": 0.5, "A3": 0.55, "A2": 0.9, "A1": 1.0}
 COARSER = 5  # steps below the wanted scales, pa = 50 mm, beyond which several pages are better than one
+FORCES = ("group_", "driver", "lever")  # views with which the part of the forces begins
 CROWDED = 1.6  # parts of a page whose figures no coarser rung brings on one page
 
 
@@ -52,7 +53,9 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         if found is not None:
             return _drawn(fitting, stamp, candidate, *found)
     views, scales = fitting.views(formats[-1])
-    places = arrange(views, formats[-1], contents.norm, None)
+    # several pages: kinematics on the first ones, forces on the others
+    forces = next((i for i, view in enumerate(views) if view.name.startswith(FORCES)), len(views))
+    places = arrange_parts((views[:forces], views[forces:]), formats[-1], contents.norm)
     if places is None:
         raise InputError("sheet-too-small", format=formats[-1].name)
     return _drawn(fitting, stamp, formats[-1], (views, scales), places)
