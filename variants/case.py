@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ..drawing.linkages.scene import Given
+from ..plans.linkages.chain import require_couplers
 from ..plans.linkages.solved import SMALL, Solved, scale_symbols, solve_linkage
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
 from ..scales.display import Display
@@ -82,6 +83,8 @@ def solve_case(
     changed = by_name("set", settings)
     plans = plans_wanted(only, found.plans)
     solved = solve_linkage(found.mechanism, found.values(row.id, changed), plans)
+    if "compound" in plans:
+        require_couplers(solved.mechanism, solved.structure)
     return Case(found, row.id, changed, plans, solved, _choosers(found, by_name("scales", scales), solved))
 
 

@@ -13,7 +13,7 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from ..drawing.words import notations
-from ..plans.linkages.chain import PLANS, construct
+from ..plans.linkages.chain import PLANS, construct, require_couplers
 from ..plans.linkages.mechanism import Mechanism
 from ..plans.linkages.solved import scale_symbols
 from ..scales.choose import Segment, chooser
@@ -257,6 +257,8 @@ def _constructed(checker: Checker, mechanism: Mechanism, head: dict[str, Any]) -
         construct(mechanism, head["plans"])
         # a task that never splits a motion may use the names of what that would measure
         structure, program = construct(mechanism, {*PLANS} - {"compound"} | {*head["plans"]})
+        if "compound" in head["plans"]:
+            require_couplers(mechanism, structure)
     except InputError as error:
         checker.fault(place_of(mechanism, error), error)
         return

@@ -117,6 +117,18 @@ def moving_bodies(mechanism: Mechanism, structure: Structure) -> Bodies:
     return _named(mechanism, structure)[1]
 
 
+def require_couplers(mechanism: Mechanism, structure: Structure) -> None:
+    """Refuse to split motions where no link with two joints hangs on one that turns.
+
+    Raises
+    ------
+    InputError
+        With the key `no-coupler`.
+    """
+    if not hinged(mechanism, structure):
+        raise InputError("no-coupler")
+
+
 def _named(mechanism: Mechanism, structure: Structure) -> tuple[Attached, Bodies]:
     """Name the parts of all groups, each for those attached to it."""
     for group in structure.groups:
