@@ -1,13 +1,14 @@
 """Weights, masses by length, loads that resist or act in one stroke, load diagrams, every driver and its balance.
 
-Random mechanisms with dyads of every kind, against a solver by the Jacobian, and by virtual power. Of each case 60
-random mechanisms; with the marker `soak` 1,000. Errors are parts of the largest value of a kind.
+Random mechanisms with dyads of every kind and with triads, against a solver by the Jacobian, and by virtual power. Of
+each case 30 random mechanisms; with the marker `soak` 1,000. Errors are parts of the largest value of a kind.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -35,9 +36,10 @@ from kulman.plans.linkages.mechanism import (
 )
 from kulman.tests.dyads import feeder, random_dyads, sliding_feeder
 from kulman.tests.jacobian_solver import JacobianSolver
+from kulman.tests.triads import random_triads
 
 Array = NDArray[Any]
-COUNT, MANY = 60, 1_000
+COUNT, MANY = 30, 1_000
 TOLERANCE = 1e-10
 # kind, links before, who carries the guides, bent links, what feeds them, the output link
 CASES = [
@@ -53,6 +55,8 @@ CASES = [
     ("PRP", (1, 2), (True, False), True, "force", 3),
     ("RPP", (2, 0), (False, False), True, "slider", 5),
     ("RPP", (1, 3), (True, True), True, "force", 3),
+    ("RRR", (2, 3, 0), (), True, "crank", 3),
+    ("RRP", (1, 2, 0), (), False, "force", 7),
 ]
 
 
@@ -94,16 +98,18 @@ def loaded(mechanism: Mechanism, values: dict[str, Array], balance: str, output:
         replace(load, **changed)
         for load, changed in zip(
             mechanism.loads,
-            [{}, {"direction": None}, {"magnitude": "P"}, {"stroke": WORKING}, {"direction": None, "stroke": IDLE}],
-            strict=True,
+            cycle(
+                [{}, {"direction": None}, {"magnitude": "P"}, {"stroke": WORKING}, {"direction": None, "stroke": IDLE}]
+            ),
+            strict=False,
         )
     )
     couples = tuple(
         replace(couple, **changed)
         for couple, changed in zip(
             mechanism.couples,
-            [{}, {"magnitude": diagrams[-1].name}, {"sense": None}, {"stroke": IDLE, "sense": None}, {}],
-            strict=True,
+            cycle([{}, {"magnitude": diagrams[-1].name}, {"sense": None}, {"stroke": IDLE, "sense": None}, {}]),
+            strict=False,
         )
     )
     joints = {link.number: joints_on(mechanism, link.number) for link in mechanism.links}
@@ -132,19 +138,21 @@ def by_length(link: Link, given: Any, size: int) -> Link:
 
 def ends_of_stroke(mechanism: Mechanism, values: dict[str, Array]) -> dict[str, Array]:
     """Ends anywhere about where the output stands; the direction of a rocker is taken from the plans."""
-    _, program = construct(replace(mechanism, loads=(), couples=(), diagrams=(), gravity=None), ["position"])
+    geometry = replace(mechanism, loads=(), couples=(), diagrams=(), gravity=None)
+    _, program = construct(geometry, ["position"])
+    givens = board_givens(geometry, values)
     assert mechanism.stroke is not None
     number = mechanism.stroke.link
     pair = next(pair for pair in mechanism.pairs if {*pair.links} == {FRAME, number})
     random, size = np.random.default_rng(6), len(values["n_1"])
     if isinstance(pair, Prismatic):
-        results, _ = batch(program, values, [pair.point])
+        results, _ = batch(program, givens, [pair.point])
         x, y, along = (values.get(name, 0.0) for name in (*pair.through, pair.direction))
         place = ((results[pair.point] - x - 1j * y) * np.exp(-1j * along)).real
         length = random.uniform(0.3, 2.0, size)
     else:
         name = next(n for n in program.names if n in turning_names(mechanism, number))
-        results, _ = batch(program, values, [name])
+        results, _ = batch(program, givens, [name])
         place, length = np.angle(results[name]), random.uniform(0.3, 6.0, size)
     begin = place - random.uniform(-0.2, 1.2, size) * length
     ends = [begin, begin + length]
@@ -170,7 +178,9 @@ def angle_of_direction(mechanism: Mechanism, second: JacobianSolver, results: di
     scope="module",
     params=[
         pytest.param(
-            (case, count), id=f"{case[0]}-{case[4]}-{count}", marks=[pytest.mark.soak] if count == MANY else []
+            (case, count),
+            id=f"{case[0]}-{len(case[1])}-{case[4]}-{count}",
+            marks=[pytest.mark.soak] if count == MANY else [],
         )
         for count in (COUNT, MANY)
         for case in CASES
@@ -179,7 +189,10 @@ def angle_of_direction(mechanism: Mechanism, second: JacobianSolver, results: di
 def both(request: pytest.FixtureRequest) -> Both:
     (kind, before, carries, bent, feed, output), count = request.param
     feeds = sliding_feeder if feed == "slider" else feeder
-    mechanism, values, places = random_dyads(kind, before, carries, 41, count, bent, feeds)
+    if len(before) == 3:
+        mechanism, values, places = random_triads(kind, before, 41, count, bent)
+    else:
+        mechanism, values, places = random_dyads(kind, before, carries, 41, count, bent, feeds)
     mechanism = loaded(mechanism, values, FORCE if feed == "force" else "moment", output)
     values |= ends_of_stroke(mechanism, values)
     _, program = construct(mechanism)
