@@ -212,7 +212,8 @@ def _split(margins: Margins, name: str, lines: bool, stretch: Stretch) -> tuple[
     """Cut a stretch where the margin of one step changes its sign or touches zero; keep the parts that assemble."""
 
     def margin(at: Array) -> Array:
-        return np.broadcast_to(margins(at)[name], at.shape)
+        found = np.broadcast_to(margins(at)[name], at.shape)
+        return np.where(np.isnan(found), 0.0, found)  # two pins coincide: nothing is left to spare
 
     roots, touches = zeros(margin, stretch)
     cuts = np.sort(np.concatenate((roots, touches)))
