@@ -22,23 +22,36 @@ STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": 
 Told = Callable[[Scene, Step], list[Factor]]
 
 
-def kinematics_parts(solved: Solved, plans: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
-    """Return for which plans there are blocks: one for both where there is one group, else one for each."""
+@dataclass(frozen=True, slots=True)
+class KinematicsPart:
+    """A block of equations: the plans that it tells of, and those of which another block has told before."""
+
+    plans: tuple[str, ...]
+    before: tuple[str, ...] = ()
+
+
+def kinematics_parts(solved: Solved, plans: tuple[str, ...]) -> tuple[KinematicsPart, ...]:
+    """Return the blocks for the plans wanted: one for both where there is one group, else one for each."""
     drawn = tuple(plan for plan in PLANS if plan in plans)
     if len(solved.structure.groups) > 1:
-        return tuple((plan,) for plan in drawn)
-    return (drawn,) if drawn else ()
+        return tuple(KinematicsPart((plan,), drawn[:i]) for i, plan in enumerate(drawn))
+    return (KinematicsPart(drawn),) if drawn else ()
 
 
-def kinematics_block(scene: Scene, width: float, plans: tuple[str, ...]) -> View:
+def kinematics_block(scene: Scene, width: float, part: KinematicsPart) -> View:
     """Return the equations of velocities, of accelerations or of both."""
-    told = set[str]()
-    lines = [line for plan in plans for line in kinematics_lines(scene, plan, told)]
-    if "velocity" not in plans:
+    told = {name for plan in part.before for name in _measured_for(scene, plan)}
+    lines = [line for plan in part.plans for line in kinematics_lines(scene, plan, told)]
+    if "velocity" not in (*part.plans, *part.before):
         lines = [*_speed(scene), *lines]
-    key, single = "kinematics" if len(plans) > 1 else plans[0], len(scene.solved.structure.groups) < 2
+    key, single = "kinematics" if len(part.plans) > 1 else part.plans[0], len(scene.solved.structure.groups) < 2
     name = "equations_kinematics" if single else f"equations_{key}"
     return text_block(name, scene.words[f"heading.equations_{key}"], lines, scene.style, width)
+
+
+def _measured_for(scene: Scene, plan: str) -> set[str]:
+    """Return the names that the calculations of a plan take: lengths among them have been told with it."""
+    return {name for step in scene.solved.program if step.law and stage_of(step) == plan for name in step.operands}
 
 
 def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> Lines:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -67,13 +66,12 @@ def _ends(reading: Reading, words: Words) -> dict[str, str]:
     letters: dict[str, str] = {}
     for kind, key in (("n_", "normal_end"), ("k_", "coriolis_end")):
         marks = [name for name in reading.made if "." in name and name.rpartition(".")[2].startswith(kind)]
-        links = {mark: _link_of(reading, mark) for mark in marks}
         for plan in dict.fromkeys(mark.rpartition(".")[0] for mark in marks):
-            here = [mark for mark in marks if mark.startswith(f"{plan}.")]
-            alike = Counter(links[mark] for mark in here)
+            here, taken = [mark for mark in marks if mark.startswith(f"{plan}.")], set[str]()
             for mark in here if len(here) > 1 else ():
-                link = links[mark]
-                index = link if link and alike[link] == 1 else mark.rpartition(".")[2].removeprefix(kind)
+                link = _link_of(reading, mark)
+                index = mark.rpartition(".")[2].removeprefix(kind) if link in (*taken, "") else link
+                taken.add(link)
                 letters[mark] = f"{words.notation[key]}_{{{index}}}"
     return letters
 

@@ -15,9 +15,9 @@ from ..view import View
 from .compound_text import compound_block
 from .compound_view import acceleration_figure, velocity_figure
 from .driver_view import driver_view
-from .forces_text import force_parts, forces_block
+from .forces_text import LOADS, WHOLE, force_parts, forces_block
 from .group_view import group_view, link_view
-from .kinematics_text import kinematics_block, kinematics_parts
+from .kinematics_text import KinematicsPart, kinematics_block, kinematics_parts
 from .lever_text import lever_block
 from .lever_view import lever_view
 from .plan_view import plan_view
@@ -95,11 +95,14 @@ def _cycle(cycle: Cycle | None) -> Iterator[Figure]:
 def _forces(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
     if "forces" in plans:
         symbols, link = solved.scale_of_plan, str(solved.structure.driver)
+        parts = force_parts(solved)  # one text after all figures, or one for each group after its own
+        yield from (_forces_text(part, width) for part in parts if part == LOADS)
         for group in reversed(solved.structure.groups):
             yield from _group(solved, group)
+            yield from (_forces_text(part, width) for part in parts if part == group.name)
         yield Figure(driver_view, "mu_l")
         yield _plan(f"forces_{link}", "heading.link_forces", symbols[f"forces_{link}"], link=link)
-        yield from (_forces_text(part, width) for part in force_parts(solved))
+        yield from (_forces_text(part, width) for part in parts if part in (WHOLE, link))
 
 
 def _group(solved: Solved, group: Group) -> Iterator[Figure]:
@@ -158,8 +161,8 @@ def _plan(plan: str, key: str, symbol: str, **fill: str) -> Figure:
     return Figure(lambda scene: plan_view(scene, plan, key, **fill), symbol)
 
 
-def _kinematics_text(plans: tuple[str, ...], width: float) -> Figure:
-    return Figure(lambda scene: kinematics_block(scene, width, plans))
+def _kinematics_text(part: KinematicsPart, width: float) -> Figure:
+    return Figure(lambda scene: kinematics_block(scene, width, part))
 
 
 def _forces_text(part: str, width: float) -> Figure:
