@@ -18,7 +18,7 @@ from .zones import zoned
 # part of the area on the largest format that the same figures take on a smaller one, with its smaller letters
 LIGHTER = {"A4": 0.5, "A3": 0.55, "A2": 0.9, "A1": 1.0}
 COARSER = 5  # steps below the wanted scales, pa = 50 mm, beyond which several pages are better than one
-FORCES = ("group_", "driver", "lever")  # views with which the part of the forces begins
+FORCES = ("equations_forces_loads", "group_", "driver", "lever")  # views with which the part of the forces begins
 CROWDED = 1.6  # parts of a page whose figures no coarser rung brings on one page
 
 
