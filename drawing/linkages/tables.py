@@ -10,6 +10,7 @@ from itertools import combinations, pairwise
 from typing import TypeAlias
 
 from ...plans.board import POSITION
+from ...plans.linkages.compound import found_here
 from ...plans.linkages.solved import Solved
 from ...plans.quantities import Quantity
 from ..printed import segment_decimals, value_text
@@ -55,29 +56,21 @@ def givens_table(scene: Scene) -> View:
 
 def results_parts(solved: Solved) -> tuple[Part, ...]:
     """Return the tables of results, in the order of the work; each quantity stands in one of them."""
+    by_kind: dict[str, list[str]] = {kind: [] for kind in KINDS}
+    number, apart = read(solved.program).number, _compound(solved)
+    lever = number.get("lever.p", len(number))
+    for q in _results(solved):
+        kind = HEADS.get(q.name.partition("_")[0], "forces")
+        by_kind["compound" if q.name in apart else "lever" if number[q.name] > lever else kind].append(q.name)
     parts = []
-    for kind in KINDS:
-        names = [q.name for q in _results(solved) if kind_of(solved, q.name) == kind]
+    for kind, names in by_kind.items():
         parts += [Part(kind, tuple(names))] if 0 < len(names) <= ROWS else _cut(solved, kind, names)
     return tuple(parts)
 
 
-def kind_of(solved: Solved, name: str) -> str:
-    """Return the kind of table in which a quantity stands."""
-    reading = read(solved.program)
-    if name in _compound(solved):
-        return "compound"
-    pole = reading.number.get("lever.p")
-    if pole is not None and reading.number[name] > pole:
-        return "lever"
-    return HEADS.get(name.partition("_")[0], "forces")
-
-
 def _compound(solved: Solved) -> frozenset[str]:
-    """Return what belongs to compound motion: what its plans show, distances, relative rates."""
-    shown = {name for name, plan in solved.shown_on.items() if "_at_" in plan}
-    apart = {step.name for step in solved.program if step.verb == "distance"}
-    return frozenset(shown | apart | {name for name in solved.quantities if re.match(r"(omega|epsilon)_r_", name)})
+    """Return what belongs to compound motion: what it alone finds, and the distances measured for it."""
+    return found_here(solved.program) | {step.name for step in solved.program if step.verb == "distance"}
 
 
 def _results(solved: Solved) -> Iterator[Quantity]:
