@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -14,6 +15,7 @@ from kulman.plans.linkages.chain import board_givens, construct
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
 from kulman.plans.linkages.solved import Solved, solve_linkage
 from kulman.scales.errors import InputError
+from kulman.tests.mechanisms import nau_slider_crank
 
 ORIGIN = (ZERO, ZERO)
 DRIVER = Driver(1, "O", "A", "phi", "n_1", "sense_1")
@@ -237,3 +239,28 @@ def test_given_with_the_name_of_a_result_is_refused() -> None:
         construct(replace(SLOTTED_LEVER, pairs=(*SLOTTED_LEVER.pairs[:3], Revolute("C", (3, 0), ("l_CA", ZERO)))))
 
     assert (refused.value.key, refused.value.data) == ("name-twice", {"name": "l_CA"})
+
+
+@pytest.mark.parametrize("of", [FOUR_BAR, SLOTTED_LEVER, SCOTCH_YOKE, TANGENT, nau_slider_crank()])
+def test_what_acts_on_the_frame_has_no_name_and_every_guide_has_its_moment(of: Mechanism) -> None:
+    _, program = construct(of)
+    guides = [pair for pair in of.pairs if isinstance(pair, Prismatic)]
+
+    assert [name for name in program.names if re.fullmatch("[RM]_[0-9]0", name)] == []
+    for slider, guide in (pair.links for pair in guides):
+        assert {f"M_{guide}{slider}", f"M_{slider}{guide}"} & set(program.names)
+
+
+def test_length_of_a_bent_link_is_measured_and_listed() -> None:
+    points = {"A": ("l_S", "l_S"), "B": ("l_AB", ZERO)}
+    bent = replace(FOUR_BAR, links=(CRANK, Link(2, points), FOUR_BAR.links[2]))
+    free = replace(bent, links=(CRANK, Link(2, {**points, "B": ("l_long", ZERO)}), FOUR_BAR.links[2]))
+
+    hidden, listed = solve(bent), solve_linkage(free, {**VALUES, "l_long": VALUES["l_AB"]})
+
+    length = math.hypot(VALUES["l_AB"] - VALUES["l_S"], VALUES["l_S"])
+    assert listed.quantities["l_AB"].value == pytest.approx(length)
+    assert listed.size("V_BA") == pytest.approx(abs(listed.values["omega_2"]) * length)
+    # a coordinate that is called so keeps its name
+    assert hidden.quantities["l_AB"].value == VALUES["l_AB"]
+    assert hidden.point("V_B") == listed.point("V_B")

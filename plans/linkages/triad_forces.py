@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ..board import Board
 from .mechanism import ZERO
-from .parts import Couples, Forces, hang, moments_about
+from .parts import Couples, Forces, answer, hang, moments_about
 from .triad_parts import Hinged, Leg, Sliding, Triad
 
 
@@ -27,8 +27,7 @@ def forces(board: Board, t: Triad, loads: Forces, couples: Couples) -> None:
         if isinstance(leg, Sliding):
             board.step("arm", f"h_{_pair(leg)}", f"M_{_pair(leg)}", f"R_{_pair(leg)}")
     for leg in t.legs:
-        board.calc(f"R_{leg.number}{leg.before}", "opposite", f"R_{leg.before}{leg.number}")
-        board.calc(f"R_{leg.number}{t.number}", "opposite", f"R_{t.number}{leg.number}")
+        answer(board, "R", (leg.before, leg.number), (t.number, leg.number))
 
 
 def _pair(leg: Leg) -> str:
@@ -53,7 +52,7 @@ def _alone(board: Board, t: Triad, leg: Leg, loads: list[tuple[str, str]], coupl
             return [*about, *couples, f"_M_{part}_{t.X}"]
         case Sliding():
             board.calc(f"M_{_pair(leg)}", "closing_moment", ZERO, *own, *couples)
-            board.calc(f"M_{leg.number}{leg.before}", "opposite", f"M_{_pair(leg)}")
+            answer(board, "M", (leg.before, leg.number))
             return [*about, *couples, f"M_{_pair(leg)}"]
     raise AssertionError(leg)
 
