@@ -25,8 +25,11 @@ types: $(READY)
 	ln -sfn .. .typing/kulman
 	$(PY) -m mypy
 
+# make bench PEERS=/tmp/peers/bin/python: with the peers of benchmarks/peers.py
+PEERS ?= $(PY)
 bench: $(READY)
 	$(PY) benchmarks/run.py
+	$(PEERS) benchmarks/peers.py
 
 $(READY): pyproject.toml
 	$(PYTHON) -m venv .venv

@@ -93,7 +93,7 @@ class _Both:
 
 
 class Real:
-    """A real number on a tape: what stands at `place`, or the negative of it."""
+    """A real number on a tape: what stands at `place`, or the negative of it. What is true is one, what is not zero."""
 
     __array_ufunc__ = None  # numpy leaves these numbers to themselves
     __hash__ = None  # type: ignore[assignment]
@@ -113,6 +113,21 @@ class Real:
 
     def __eq__(self, other: Real | float) -> Real:  # type: ignore[override]
         return self.tape.apply(np.equal, self, other)
+
+    def __gt__(self, other: Real | float) -> Real:
+        return self.tape.apply(np.greater, self, other)
+
+    def __lt__(self, other: Real | float) -> Real:
+        return self.tape.apply(np.less, self, other)
+
+    def __ge__(self, other: Real | float) -> Real:
+        return self.tape.apply(np.greater_equal, self, other)
+
+    def __le__(self, other: Real | float) -> Real:
+        return self.tape.apply(np.less_equal, self, other)
+
+    def __floordiv__(self, other: Real | float) -> Real:
+        return self.tape.apply(np.floor_divide, self, other)
 
     def __add__(self, other: Real | float) -> Real:
         if not isinstance(other, Real | float):

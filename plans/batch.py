@@ -57,7 +57,8 @@ class ArrayBoard(ExactBoard):
         return np.where(np.abs(angle) < FARTHEST, angle, np.fmod(angle, TURN))
 
     def _graduation(self, marks: Any) -> tuple[Any, Any]:
-        mark = np.asarray(marks).astype(np.int32) & (MARKS - 1)
+        mark = np.asarray(marks).astype(np.intp)
+        mark &= MARKS - 1
         cosines, sines = _graduation_arrays()
         return cosines[mark], sines[mark]
 

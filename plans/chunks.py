@@ -58,7 +58,7 @@ class Chunks:
         self._stores: dict[int, list[Store]] = {}
         for store in stores:
             self._stores.setdefault(store.place, []).append(store)
-        self._order = _needed(entries, self._stores)
+        self._order = _in_order(entries, self._stores)
         self._buffer_of = _buffers(entries, self._order)
         self._block = np.empty((1 + max(self._buffer_of.values(), default=0), chunk + PADDING))
         self._constants = {
@@ -103,16 +103,23 @@ def _keep(row: Array, operation: Callable[..., Any], operands: tuple[Any, ...]) 
         np.copyto(row, result)
 
 
-def _needed(entries: Sequence[Entry], wanted: Collection[int]) -> list[int]:
-    """Return, in order, the entries that `wanted` and the checks need, constants apart."""
-    needed, order = set(wanted), []
-    for place in reversed(range(len(entries))):
-        entry = entries[place]
-        if place in needed or entry.check:
-            needed.update(entry.operands)
-            if entry.operation or entry.given:
+def _in_order(entries: Sequence[Entry], wanted: Collection[int]) -> list[int]:
+    """Return the entries that `wanted` and the checks need, constants apart, each as late as it is asked for."""
+    order: list[int] = []
+    done = {place for place, entry in enumerate(entries) if entry.constant is not None}
+    for root in (place for place, entry in enumerate(entries) if place in wanted or entry.check):
+        waiting = [root]
+        while waiting:
+            place = waiting[-1]
+            first = [operand for operand in entries[place].operands if operand not in done]
+            if first:
+                waiting += reversed(first)
+                continue
+            waiting.pop()
+            if place not in done:
+                done.add(place)
                 order.append(place)
-    return order[::-1]
+    return order
 
 
 def _buffers(entries: Sequence[Entry], order: Sequence[int]) -> dict[int, int]:

@@ -38,6 +38,8 @@ FORMULAS = {
     "quotients": lambda x, y: (x / y) / 3.0 + 1.0 / (y / -1.0),
     "sizes": lambda x, y: abs(x) - abs(-y),
     "zeros": lambda x, y: (x == 0.5) + (x - x == 0.0) + y * 0.0,
+    "orders": lambda x, y: (x > y) * 1.0 + (-x < 2.0) * 2.0 + (y >= 7.0) * 4.0 + (0.5 <= -y) * 8.0 + (3.0 >= x) * 0.5,
+    "turns": lambda x, y: x // 2.0 + y // -x,
     "vectors": lambda x, y: dot(complex(1, 2) * x - 1j, x * complex(3, 0)) + cross(1j * y + complex(2, 1), 2j * x),
 }
 
@@ -80,7 +82,7 @@ def test_what_is_on_the_tape_is_not_noted_again(tape: Tape, again: Any) -> None:
     "look",
     [
         pytest.param(bool, id="truth"),
-        pytest.param(lambda x: x < 1.0, id="order"),
+        pytest.param(lambda x: 1.0 if x < 1.0 else 0.0, id="order"),
         pytest.param(lambda x: max(x, 0.0), id="larger"),
         pytest.param(math.sqrt, id="root of one number"),
         pytest.param(np.sin, id="function of numpy"),
