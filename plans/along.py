@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .batch import ArrayBoard
 from .board import Program, Step
-from .exact import ExactBoard, Status
+from .exact import STATUSES, ExactBoard, Status
 
 Array = NDArray[np.float64]
 Result = TypeVar("Result")
@@ -74,8 +74,16 @@ class Along:
 
     def __call__(self, at: Array) -> dict[str, NDArray[Any]]:
         """Return the wanted names for the values `at`, each of shape (N,)."""
-        values = self.run(at).values
-        return {name: _as_long_as(at, values[name]) for name in self._wanted}
+        return self.batch(at)[0]
+
+    def batch(self, at: Array) -> tuple[dict[str, NDArray[Any]], NDArray[np.int8]]:
+        """Return the wanted names, and the status of every position as an index into `STATUSES`.
+
+        For some hundred positions this is faster than `batch.batch`, which prepares itself for millions.
+        """
+        board = self.run(at)
+        codes = np.maximum(board.codes, np.int8(STATUSES.index(self._fixed.status)))
+        return {name: _as_long_as(at, board.values[name]) for name in self._wanted}, codes
 
 
 def _as_long_as(at: Array, value: Any) -> NDArray[Any]:

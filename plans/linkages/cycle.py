@@ -32,6 +32,7 @@ __all__ = ["Arc", "Cycle", "Extreme", "Travel", "cycle", "stroke_of"]
 Array = NDArray[Any]
 VANISHES = 1e-9  # part of the largest magnitude below which the smallest is zero
 BESIDE_CHANGE = 1e-4  # radians from a change point within which velocities are lost in rounding: it goes as 1 / angle^2
+FEW = 2000  # positions up to which preparing a batch takes longer than running it
 FEWEST, MOST = 3, 100_000  # positions of a cycle
 
 
@@ -105,7 +106,7 @@ class Cycle:
 
     def at(self, places: Array, names: Sequence[str]) -> dict[str, Array]:
         """Return values by name for other places of the driver."""
-        return batch(self.program, self.drive.givens(self.givens, places, self.program), names)[0]
+        return self.drive.along(self.program, self.givens, names)(places)
 
     def extremes(self, names: Iterable[str] | None = None) -> dict[str, tuple[Extreme, Extreme]]:
         """Return the largest and the smallest value of quantities, with the driver's places where they are.
@@ -187,7 +188,11 @@ def cycle(
     structure, program = construct(drive.mechanism, plans)
     program = measured(program, outputs(drive.mechanism, structure))
     places = _places(drive, zero if start is None else start, between, positions)
-    results, codes = batch(program, drive.givens(values, places, program), _wanted(mechanism, program, motions))
+    wanted = _wanted(mechanism, program, motions)
+    if positions > FEW:
+        results, codes = batch(program, drive.givens(values, places, program), wanted)
+    else:
+        results, codes = drive.along(program, values, wanted).batch(places)
     strike_out(results, codes, program, undetermined_at(drive, reach, places))
     speed = abs(float(values[mechanism.driver.speed]))
     with np.errstate(divide="ignore", invalid="ignore"):
