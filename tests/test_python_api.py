@@ -17,7 +17,7 @@ from kulman.scales.errors import LANGUAGES
 from kulman.variants.solution import Solution
 
 TASK = "nau-slider-crank"
-# what both `solve` and `sheet` refuse: arguments, and the key of the message
+# what `solve`, `sheet` and `sweep` refuse: arguments, and the key of the message
 WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "no task": ({"task": None}, "argument-type"),
     "task of bytes": ({"task": b"nau-slider-crank"}, "argument-type"),
@@ -73,7 +73,7 @@ def solution() -> Solution:
 
 
 @pytest.mark.parametrize("name", WRONG)
-@pytest.mark.parametrize("verb", ["solve", "sheet"])
+@pytest.mark.parametrize("verb", ["solve", "sheet", "sweep"])
 def test_a_wrong_argument_is_answered_in_one_line(verb: str, name: str) -> None:
     arguments, key = WRONG[name]
 

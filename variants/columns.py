@@ -17,7 +17,7 @@ from ..scales.display import Display
 from ..scales.units import unit
 
 Array = NDArray[Any]
-BALANCE = ("M_bal", "F_bal")
+BALANCE = ("M_bal", "M_bal_lever", "F_bal", "F_bal_lever")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,11 +53,16 @@ def driver_name(cycle: Cycle) -> str:
     return ("phi" if cycle.drive.turns else "s") if variable.startswith("_") else variable
 
 
+def place_name(output: Output) -> str:
+    """Return the name of an output's place: the travel of a slider, the angle of a rocker."""
+    return f"{'s' if output.slides else 'phi'}_{output.link}"
+
+
 def output_columns(cycle: Cycle, output: Output) -> list[Column]:
     """Return place, velocity and acceleration of a link on the frame, as far as the plans go."""
     if output.place not in cycle.values:
         return []
-    place = Column(f"{'s' if output.slides else 'phi'}_{output.link}", output.unit, output.places(cycle.values))
+    place = Column(place_name(output), output.unit, output.places(cycle.values))
     rates = [(output.rate, "V", "m/s"), (output.change, "a", "m/s^2")]
     if not output.slides:
         rates = [(output.rate, "omega", "rad/s"), (output.change, "epsilon", "rad/s^2")]

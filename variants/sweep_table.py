@@ -23,7 +23,7 @@ from .columns import (
     driver_column,
     driver_name,
     main_columns,
-    output_columns,
+    place_name,
 )
 from .sweep_data import quantities_of
 
@@ -104,7 +104,7 @@ def _output(cycle: Cycle, motion: OutputMotion, words: Words) -> Iterable[str]:
     if travel is None:
         yield f"{kind}: {words['sweep.round']}"
         return
-    name = output_columns(cycle, output)[0].name if output.place in cycle.values else "s"
+    name = place_name(output)
     spots = [
         f"{_at(cycle, words, spot.angle)} ({name} = {_amount(words, spot.place, output.unit)})" for spot in motion.dead
     ]
