@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
-from ..printed import calculation, value_text
+from ..printed import POINT, calculation, value_text
 from ..words import Words
 from .reading import read
 from .scene import Scene
@@ -132,9 +132,19 @@ def _over(chunks: list[str], divisor: str) -> list[str]:
 
 
 def size_of(scene: Scene, name: str) -> float:
-    """Return the magnitude of a quantity or of a value of the construction."""
-    item = scene.solved.quantities.get(name)
-    return abs(scene.solved.size(name)) if item is None else abs(item.value or 0.0)
+    """Return the magnitude of a quantity or of a value of the construction; what its plan shows as a point is zero."""
+    item, plan = scene.solved.quantities.get(name), scene.solved.shown_on.get(name, "")
+    size = abs(scene.solved.size(name)) if item is None else abs(item.value or 0.0)
+    return 0.0 if plan in scene.scales and size < POINT * scene.scales[plan].mu else size
+
+
+def rate_of(scene: Scene, name: str) -> float:
+    """Return an angular velocity or acceleration, zero where the vector that it is read from is a point of its plan."""
+    step = read(scene.solved.program).step(name)
+    if step is not None and step.law == "same_turning":
+        return rate_of(scene, step.operands[0])
+    still = step is not None and step.law == "turning" and size_of(scene, step.operands[0]) == 0.0
+    return 0.0 if still else float(scene.solved.values[name])
 
 
 def factor(scene: Scene, name: str, power: int = 1, symbol: str | None = None) -> Factor:

@@ -205,7 +205,9 @@ def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> Lines:
 def _arm(scene: Scene, step: Step) -> Lines:
     """Tell the arm on which a guide's reaction has the moment found."""
     words, (moment, reaction) = scene.words, step.operands
-    if not scene.defined(step.name) or scene.solved.values[moment] == 0.0:
-        return []  # a couple has no arm; that of no moment is told with it
+    if scene.solved.values[moment] == 0.0:
+        return []  # told with the moment
+    if not scene.defined(step.name):
+        return [(f"{words.symbol(reaction)} = 0:", words["said.couple"].format(moment=words.symbol(moment)))]
     product = Product((factor(scene, moment), factor(scene, reaction, -1)))
     return [worked(words, words.symbol(step.name), [product], "m")]

@@ -8,14 +8,16 @@ from dataclasses import dataclass, field
 
 from ...plans.board import POSITION, Step
 from ...plans.linkages.compound import found_here
+from ...plans.linkages.mechanism import ZERO
 from ...plans.linkages.solved import Solved
+from ...plans.quantities import unit_of
 from ..printed import calculation
 from ..table import text_block
 from ..view import View
-from .equations import Factor, Lines, Product, factor, is_given, paper, segment, sensed, size_of, stated, worked
+from .equations import Factor, Lines, Product, factor, paper, rate_of, segment, sensed, size_of, stated, worked
 from .reading import Reading, plan_of, read
 from .scene import Scene
-from .vector_equations import meeting, summed
+from .vector_equations import line_note, meeting, summed
 
 PLANS = ("velocity", "acceleration")
 STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
@@ -94,6 +96,8 @@ class _Story:
         elif step.law in FORMULAS:
             told = self.held if step.law in BEFORE_MEETING else self.lines
             told += [*self._lengths(step), *_formula(self.scene, self.reading, step)]
+        elif step.law == "given":
+            self.lines.append(_given(self.scene, self.reading, step))
         elif step.law in ("signed", "same_turning"):
             self.lines += _turning_alike(self.scene, step)
         elif step.verb in ("divide", "similar"):
@@ -151,9 +155,7 @@ BEFORE_MEETING = ("normal_part", "coriolis")
 def _formula(scene: Scene, reading: Reading, step: Step) -> Lines:
     """Return what a law gives, with its numbers, and how the vector lies."""
     words, name = scene.words, reading.visible(step.name)
-    unit = "rad/s" if name.startswith("omega") else "rad/s^2" if name.startswith("epsilon") else ""
-    unit = unit or ("m/s" if name.startswith("V") else "m/s^2")
-    line = worked(words, words.symbol(name), [Product(tuple(FORMULAS[step.law](scene, step)))], unit)
+    line = worked(words, words.symbol(name), [Product(tuple(FORMULAS[step.law](scene, step)))], unit_of(name))
     note = _lies(scene, reading, step, name)
     return [(*line[:-1], f"{line[-1]},", *note) if note else line]
 
@@ -162,7 +164,7 @@ def _lies(scene: Scene, reading: Reading, step: Step, name: str) -> tuple[str, .
     """Say in which sense a link turns, which way a normal part is laid off, how that of Coriolis is turned."""
     words = scene.words
     if step.law == "turning":
-        sense = sensed(words, scene.solved.values[name])
+        sense = sensed(words, rate_of(scene, name))
         return (sense,) if sense else ()
     if step.law == "normal_part":
         back = next(s for s in reading.users(step.name) if s.verb == "back")
@@ -185,8 +187,8 @@ def _speed(scene: Scene) -> Lines:
 
 def _turning_alike(scene: Scene, step: Step) -> Lines:
     """Return a rate that is given, from revolutions per minute where it is so, or that of another link."""
-    words, value = scene.words, scene.solved.values[step.name]
-    symbol, unit = words.symbol(step.name), "rad/s" if step.name.startswith("omega") else "rad/s^2"
+    words, value = scene.words, rate_of(scene, step.name)
+    symbol, unit = words.symbol(step.name), unit_of(step.name)
     sense = sensed(words, value)
     if step.law == "same_turning":
         symbol = f"{symbol} = {words.symbol(step.operands[0])}"
@@ -196,6 +198,17 @@ def _turning_alike(scene: Scene, step: Step) -> Lines:
         line = [f"{symbol} = π{words.symbol(step.operands[0])}/30 =", f"π·{texts[0]}/30 ="]
         line.append(f"{result} {words.unit(unit)}")
     return [(*line[:-1], f"{line[-1]},", sense) if sense else tuple(line)]
+
+
+def _given(scene: Scene, reading: Reading, step: Step) -> tuple[str, ...]:
+    """Return a velocity or acceleration of the driver that the task states along its guide."""
+    words, name, given = scene.words, reading.visible(step.name), step.operands[0]
+    if given == ZERO:
+        return (f"{words.symbol(name)} = 0",)
+    head = " = ".join(dict.fromkeys((words.symbol(name), words.symbol(given))))
+    line = stated(words, head, float(scene.solved.values[given]), unit_of(name))
+    laid = next(user for user in reading.users(step.name) if user.verb == "lay")
+    return f"{line},", line_note(scene, name, laid.operands[1])
 
 
 def _similarity(scene: Scene, step: Step) -> Lines:
@@ -217,7 +230,7 @@ def _similarity(scene: Scene, step: Step) -> Lines:
 
 
 def _absolute(scene: Scene, reading: Reading, step: Step) -> Lines:
-    """Return the absolute vector of a point that was hung from parts, moves like another, or is given."""
+    """Return the absolute vector of a point that was hung from parts, or moves like another."""
     tail, tip = step.operands
     made = reading.made[tip]
     if not tail.endswith(".p") or made.name == tail:
@@ -226,10 +239,6 @@ def _absolute(scene: Scene, reading: Reading, step: Step) -> Lines:
         other = reading.absolute(made.operands[0])
         return [summed(scene, step.name, [other.name])[:1]] if other is not None else []
     whole = reading.absolute(tip)
-    if made.verb in ("lay", "back") and is_given(scene, made.operands[2]):
-        words, item = scene.words, scene.solved.quantities[step.name]
-        head = f"{words.symbol(step.name)} = {words.symbol(made.operands[2])}"
-        return [(stated(words, head, item.value or 0.0, item.unit),)]
     if whole is None or whole.name != step.name:
         return []
     parts = reading.parts(whole)
@@ -238,9 +247,9 @@ def _absolute(scene: Scene, reading: Reading, step: Step) -> Lines:
 
 def _comparison(scene: Scene, rate: str) -> tuple[str, ...]:
     """Say whether a link speeds up or slows down."""
-    w, values, link = scene.words, scene.solved.values, rate.rpartition("_")[2]
+    w, link = scene.words, rate.rpartition("_")[2]
     speed = f"omega_{link}"
-    omega, epsilon = values[speed], values[rate]
+    omega, epsilon = rate_of(scene, speed), rate_of(scene, rate)
     still = "said.translates" if omega == 0.0 else "said.steady"
     key = still if omega * epsilon == 0.0 else "said.speeds_up" if omega * epsilon > 0 else "said.slows_down"
     return tuple(w[key].format(link=link, omega=w.symbol(speed), epsilon=w.symbol(rate)).split("|"))

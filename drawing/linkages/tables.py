@@ -16,6 +16,7 @@ from ...plans.quantities import Quantity
 from ..printed import segment_decimals, value_text
 from ..table import table
 from ..view import View
+from .equations import rate_of
 from .reading import read
 from .scene import Scene
 
@@ -171,7 +172,8 @@ def results_table(scene: Scene, part: Part) -> View:
 
 
 def _row(scene: Scene, q: Quantity) -> list[str]:
-    words, value = scene.words, scene.words.display.value(q.value or 0.0, q.unit)
+    words, turning = scene.words, q.name.startswith(("omega", "epsilon"))
+    value = rate_of(scene, q.name) if turning else words.display.value(q.value or 0.0, q.unit)
     symbol, unit = words.symbol(q.name), words.unit(words.display.unit(q.unit))
     plan = POSITION if q.name.startswith("l_") else scene.solved.shown_on.get(q.name, "")
     if plan not in scene.scales:
