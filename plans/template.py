@@ -109,9 +109,10 @@ def lay(place: Any, turn: Any, paths: tuple[Path, Path, Path], root: Callable[[A
         lines, moments, gaps = zip(*(path.look(place, turn, size, root) for path in paths), strict=True)
         sines = cross(lines[1], lines[2]), cross(lines[2], lines[0]), cross(lines[0], lines[1])
         determinant = moments[0] * sines[0] + moments[1] * sines[1] + moments[2] * sines[2]
-        move, twist = _correction(lines, moments, gaps, sines)
+        mending = _mending(lines, moments, sines)
+        move, twist = _correction(gaps, mending)
         if number == 0:
-            missing = _missing(gaps, sines)
+            missing = _missing((move, twist), mending, root)
         if number < CORRECTIONS - 1:
             inverse = -1.0 / (determinant + (determinant == 0.0))
             move, twist = move * inverse, twist * inverse
@@ -132,21 +133,28 @@ def _size(paths: tuple[Path, Path, Path], root: Callable[[Any], Any]) -> Any:
     return size + (size == 0.0)
 
 
-def _correction(lines: Any, moments: Any, gaps: Any, sines: Any) -> tuple[Any, Any]:
-    """Return minus the determinant times the correction: of the place, and of the turn in sizes (Cramer's rule)."""
-    twist = gaps[0] * sines[0] + gaps[1] * sines[1] + gaps[2] * sines[2]
-    move: Any = None
-    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        part = (lines[k] * moments[j] - lines[j] * moments[k]) * gaps[i]
-        move = part if move is None else move + part
-    return move * 1j, twist
+def _mending(lines: Any, moments: Any, sines: Any) -> tuple[tuple[Any, Any], ...]:
+    """Return for each leg minus the determinant times the correction that a gap of one calls for (Cramer's rule).
+
+    That is of the place, and of the turn in sizes.
+    """
+    return tuple(
+        ((lines[k] * moments[j] - lines[j] * moments[k]) * 1j, sines[i])
+        for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+    )
 
 
-def _missing(gaps: Any, sines: Any) -> Any:
-    """Return how much the leg must change that mends the gaps by the least, when the legs concur."""
-    least = _larger(_larger(abs(sines[0]), abs(sines[1])), abs(sines[2]))
-    whole = gaps[0] * sines[0] + gaps[1] * sines[1] + gaps[2] * sines[2]
-    return abs(whole) / (least + (least == 0.0))
+def _correction(gaps: Any, mending: tuple[tuple[Any, Any], ...]) -> tuple[Any, Any]:
+    """Return minus the determinant times the correction of all gaps together."""
+    move = mending[0][0] * gaps[0] + mending[1][0] * gaps[1] + mending[2][0] * gaps[2]
+    return move, mending[0][1] * gaps[0] + mending[1][1] * gaps[1] + mending[2][1] * gaps[2]
+
+
+def _missing(correction: tuple[Any, Any], mending: tuple[tuple[Any, Any], ...], root: Callable[[Any], Any]) -> Any:
+    """Return how much the leg must change that mends all gaps by the least, where no motion does."""
+    squares = [dot(move, move) + twist * twist for move, twist in (correction, *mending)]
+    least = _larger(_larger(squares[1], squares[2]), squares[3])
+    return root(squares[0] / (least + (least == 0.0)))
 
 
 def _larger(first: Any, second: Any) -> Any:

@@ -139,7 +139,7 @@ class Course:
     def settled(self, at: Array, poses: Poses) -> State:
         """Lay the last central link down near where the task says that it starts, those before lie as in `poses`.
 
-        The state is NaN where that fails.
+        Where that fails the driver is nowhere, and the link stays at its rough start.
         """
         which = np.arange(len(at))
         found = self._run(self._rough, ("_start_joint", "_start_turn"), {}, which)
@@ -153,7 +153,9 @@ class Course:
         moved = np.abs(look.found[f"_place_{number}"] - place) / self._of(self.size, which)
         turned = look.found[f"_turn_{number}"] * turn.conj()
         held = look.closed & (moved <= FAR) & (np.abs(turned.imag) <= FAR) & (turned.real > 0.0)
-        return look.state(np.where(held, at, np.nan))
+        state = look.state(np.where(held, at, np.nan))
+        state.put(np.flatnonzero(~held), State(state.at, rough, state.signs).take(~held))
+        return state
 
     def _look(self, at: Array, poses: Poses, which: Places) -> _Look:
         """Lay all templates down with the driver at `at`, from where they lie."""

@@ -78,7 +78,9 @@ class Follower:
     @property
     def starts(self) -> NDArray[np.bool_]:
         """Whether all groups can be laid down near their starts, shape (N,)."""
-        held: NDArray[np.bool_] = np.logical_and.reduce([np.isfinite(way.start.at) for way in self._ways])
+        held = np.ones(1, bool)
+        for way in self._ways:
+            held = held & np.isfinite(way.start.at)
         return held
 
     def limits(self, range_of: float = TURN) -> tuple[float, float] | None:
@@ -167,12 +169,14 @@ class _Way:
         return self.course.follow(start, goal, which)
 
     def _other_way(self, state: State, goal: Array, lost: NDArray[np.intp]) -> None:
-        """Try to come round the other way."""
-        start = self._starts(len(goal)).at[lost]
-        within = self._within(goal)[lost]
-        other = within - np.copysign(TURN, within - start)
-        found = self.go(other, lost)
-        there = found.at == other
+        """Try to come round the other way, where that way does not lead past the place at which this one ends.
+
+        If it does, the crank has two positions for that angle, and a sweep would jump from one to the other.
+        """
+        start, within = self._starts(len(goal)).at[lost], self._within(goal)[lost]
+        back = np.copysign(TURN, within - start)
+        found, end = self.go(within - back, lost), self.go(state.at[lost] - back, lost)
+        there = (found.at == within - back) & (end.at != state.at[lost] - back)
         arrived = found.take(there)
         arrived.at[:] = within[there]
         state.put(lost[there], arrived)

@@ -45,9 +45,11 @@ def with_special_points(
 
 
 def by_special_points(
-    mechanism: Mechanism, values: Mapping[str, Any], near: Mapping[str, Any] | None = None
+    mechanism: Mechanism, values: Mapping[str, Any], near: Mapping[str, Any] | None = None, least: float = ILL
 ) -> list[tuple[Mechanism, NDArray[np.intp]]]:
-    """Return the mechanism with legs chosen and the positions for which they are: all, unless some would be ill then.
+    """Return the mechanism with legs chosen, and the positions for which they are.
+
+    These are all, unless the worst sine of the best legs is below `least`: then each position has its own best legs.
 
     Parameters
     ----------
@@ -59,7 +61,7 @@ def by_special_points(
     for number, (pairs, sines) in _sines(mechanism, values, near).items():
         sines = np.broadcast_to(sines, (len(pairs), size))
         once = int(np.argmax(sines.min(axis=1)))
-        best = np.full(size, once) if sines[once].min() >= ILL else np.argmax(sines, axis=0)
+        best = np.full(size, once) if sines[once].min() >= least else np.argmax(sines, axis=0)
         parts = [
             (_choose(part, number, legs), places[best[places] == i])
             for part, places in parts
