@@ -127,6 +127,11 @@ def loaded(code: str) -> set[str]:
             "import contextlib, kulman.cli\nwith contextlib.suppress(SystemExit): kulman.cli.main(['--help'])",
             id="help",
         ),
+        pytest.param(
+            "import contextlib, kulman.cli\n"
+            "with contextlib.suppress(SystemExit): kulman.cli.main(['solve', 'nau-slider-crank', '-v', '3'])",
+            id="solve",
+        ),
     ],
 )
 def test_nothing_heavy_is_loaded(code: str) -> None:

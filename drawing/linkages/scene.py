@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from ...plans.board import POSITION
 from ...plans.linkages.solved import Solved
@@ -13,7 +14,9 @@ from ..printed import segment_decimals
 from ..shapes import Vector
 from ..style import Style
 from ..words import Words
-from .reach import Reach
+
+if TYPE_CHECKING:  # reaches are found with numpy, which a solution does without
+    from .reach import Reach
 
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 

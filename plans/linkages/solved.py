@@ -13,10 +13,7 @@ from ..exact import Status, Trouble, run
 from ..quantities import Quantity, quantities, shown_on
 from . import compound
 from .chain import USUAL, board_givens, construct, hinged
-from .following import Follower, followed
-from .limits import limiting_places
 from .mechanism import ZERO, Mechanism, SlidingDriver
-from .special_points import with_special_points
 from .structure import TRIAD, Structure
 
 SMALL = math.sin(math.radians(20.0))  # sine of an angle at which lines meet so flatly that a drawing loses much
@@ -80,6 +77,8 @@ class Solved:
             return PositionError("singular-triad", status_word="singular", link=link, legs=legs)
         given = {name: value for name, value in self.values.items() if isinstance(value, float)}
         gap = f"{trouble.gap * 1e3:.4g}"
+        from .following import Follower
+
         limits = Follower(self.mechanism, given).limits()
         if limits is None:
             return PositionError("start-far", status_word="no-assembly", link=link, gap=gap)
@@ -91,6 +90,8 @@ class Solved:
     def _apart(self, trouble: Trouble) -> PositionError:
         """Return by how much the links miss each other, and the places of the driver at which they just meet."""
         given = {name: value for name, value in self.values.items() if isinstance(value, float)}
+        from .limits import limiting_places
+
         limits = limiting_places(self.mechanism, given)
         gap = f"{trouble.gap * 1e3:.4g}"
         step = next(step for step in self.program if step.name == trouble.name)
@@ -157,8 +158,13 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     Solved
         With status `singular` or `no-assembly` when the position has no plan; what is undefined is None.
     """
-    near = followed(mechanism, values)
-    mechanism = with_special_points(mechanism, values, near)
+    near: dict[str, Any] = {}
+    if mechanism.starts:  # groups of class III need arrays, and so numpy, on the way from their start
+        from .following import followed
+        from .special_points import with_special_points
+
+        near = followed(mechanism, values)
+        mechanism = with_special_points(mechanism, values, near)
     structure, program = construct(mechanism, plans)
     board = run(program, board_givens(mechanism, {**values, **near}, program, follow=False))
     lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if _is_given(x)}
