@@ -10,7 +10,7 @@ import numpy as np
 
 from ...plans.linkages.cycle import Cycle
 from ...plans.linkages.solved import solve_linkage
-from ...plans.linkages.strokes import OutputMotion
+from ...plans.linkages.strokes import Dead, OutputMotion
 from ..shapes import Circle, Line, Pen, Polyline
 from ..symbols import slider_up
 from ..view import Canvas, View
@@ -36,7 +36,7 @@ def main_output(cycle: Cycle) -> OutputMotion | None:
     stroke = cycle.mechanism.stroke
     moving = [motion for motion in cycle.motions if motion.travel is not None]
     named = [motion for motion in moving if stroke is not None and motion.output.link == stroke.link]
-    return (named or moving[-1:] or [None])[0]
+    return next(iter(named or moving[-1:]), None)
 
 
 def positions_view(scene: Scene, cycle: Cycle) -> View:
@@ -62,7 +62,7 @@ def positions_view(scene: Scene, cycle: Cycle) -> View:
     return canvas.finish("positions", heading, _notes(scene, cycle, dead))
 
 
-def _dead(cycle: Cycle) -> tuple[object, ...]:
+def _dead(cycle: Cycle) -> tuple[Dead, ...]:
     motion = main_output(cycle)
     return motion.dead if motion else ()
 

@@ -43,10 +43,10 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
     customary = FORMATS["A1"]
     whole = contents.cycle is not None and {"velocity", "acceleration"} <= {*contents.plans}
     if whole and sheet in (None, customary):
-        found = zoned(fitting, customary, contents.norm)
-        if found is not None:
-            views, scales, places = found
-            return _drawn(fitting, stamp, customary, (views, scales), places)
+        laid_out = zoned(fitting, customary, contents.norm)
+        if laid_out is not None:
+            zoned_views, zoned_scales, zoned_places = laid_out
+            return _drawn(fitting, stamp, customary, (zoned_views, zoned_scales), zoned_places)
     formats = [sheet] if sheet is not None else _worth_trying(fitting)
     for candidate in formats:
         found = _single(fitting, candidate, COARSER if candidate is formats[-1] else 0)
