@@ -15,11 +15,12 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...plans.board import POSITION
 from ...plans.linkages.compound import Coupler
 from ..shapes import Arrow, Circle, Group, Line, Pen, Shape, Vector
-from ..symbols import turning_arrow
+from ..symbols import slider_up, turning_arrow
 from ..view import Canvas, View
 from .at_point import At, direction_words, shifted_vector
 from .inset import shows, windows, with_insets
@@ -61,8 +62,8 @@ def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
     figures = _mechanism(canvas, scene, _basic(scene, coupler))
     _distance(canvas, scene, at)
     _at_points(canvas, scene, [at])
-    _sliding_sense(canvas, scene, at)
     busy = _busy(scene, [at], figures)
+    _sliding_sense(canvas, scene, at, busy)
     for rate, centre in (
         (coupler.omega_e, coupler.pivot),
         (coupler.epsilon_e, coupler.pivot),
@@ -145,15 +146,21 @@ def _vector(canvas: Canvas, scene: Scene, vector: Vector, lettered: bool = True)
         canvas.label(symbol, (vector.tail, vector.tip), clear=0.9, strict=True)
 
 
-def _sliding_sense(canvas: Canvas, scene: Scene, at: At) -> None:
-    """Show the sense of the relative velocity, which turned by 90 degrees gives that of Coriolis."""
-    name = f"V_{at.letter}_r"
+def _sliding_sense(canvas: Canvas, scene: Scene, at: At, busy: list[Stroke]) -> None:
+    """Show the sense of the relative velocity, which turned by 90 degrees gives that of Coriolis.
+
+    The arrow leaves the point or ends at it, on the side where there is more room.
+    """
+    name, start, length = f"V_{at.letter}_r", scene.mm(at.point), 0.6 * scene.style.force
     e = scene.direction(name)
-    if e:
-        start = scene.mm(at.point)
-        tip = start + e * 0.6 * scene.style.force
-        canvas.add(Arrow(start, tip, Pen.THIN, name=name))
-        canvas.label(scene.words.symbol(name, bar=True), (start + (tip - start) * 0.5, tip), clear=0.9)
+    if not e:
+        return
+    side = e if _room(busy, start + e * length) >= _room(busy, start - e * length) - scene.style.arrow else -e
+    near, far = start + side * scene.style.pair, start + side * (length + scene.style.pair)
+    tail, tip = (near, far) if side == e else (far, near)
+    canvas.add(Arrow(tail, tip, Pen.THIN, name=name))
+    canvas.label(scene.words.symbol(name, bar=True), ((near + far) / 2, far), clear=0.9)
+    busy.append((near, far))
 
 
 def _instant_centre(
@@ -186,6 +193,10 @@ def _busy(scene: Scene, points: Iterable[At], figures: Sequence[Skeleton]) -> li
         down, (_, height, base) = foot_of(scene, pivot, figures), scene.style.pivot
         ground = scene.mm(pivot) + down * (height + scene.style.pair + scene.style.hatch[0])
         strokes += [(scene.mm(pivot), ground + side * 1j * down * base / 2) for side in (-1, 1)]
+    for centre, u in (block for figure in figures for block in figure.blocks):
+        length, height = scene.style.slider
+        below = centre - slider_up(u) * (height / 2 + scene.style.hatch[0])
+        strokes += [(edge - u * length * 1.1, edge + u * length * 1.1) for edge in (centre, below)]
     for at in points:
         strokes += [(vector.tail, vector.tip) for vector in at.vectors()]
         strokes += [(tail, end) for tail, _, end, _ in at.lines()]
@@ -212,12 +223,23 @@ def _freest(c: complex, places: Sequence[tuple[float, float]], busy: Sequence[St
     """Choose the radius and the direction of an arc about `c` that is farthest from all strokes, rather a small one."""
     polar = np.array(places)
     spots = c + polar[:, :1] * np.exp(1j * (polar[:, 1:] + np.array([-0.5, 0.0, 0.5])))
-    a, b = np.array(busy).reshape(-1, 2).T
-    way = np.where(b == a, 1.0, b - a)
-    along = np.clip(((spots[..., None] - a) / way).real, 0.0, 1.0)
-    room = abs(spots[..., None] - a - way * along).min(axis=(1, 2), initial=4.0 * polar[:, 0].max()) - 0.1 * polar[:, 0]
+    room = _distances(busy, spots).min(axis=(1, 2), initial=4.0 * polar[:, 0].max()) - 0.1 * polar[:, 0]
     radius, middle = places[int(np.round(room, 3).argmax())]
     return radius, middle
+
+
+def _room(busy: Sequence[Stroke], spot: complex) -> float:
+    """Return the distance of a place from the nearest stroke."""
+    return float(_distances(busy, np.array(spot)).min(initial=1e9))
+
+
+def _distances(busy: Sequence[Stroke], spots: NDArray[np.complex128]) -> NDArray[np.float64]:
+    """Return the distance of each place from each stroke, the strokes along a last axis of their own."""
+    a, b = np.array(busy, complex).reshape(-1, 2).T
+    way = np.where(b == a, 1.0, b - a)
+    along = np.clip(((spots[..., None] - a) / way).real, 0.0, 1.0)
+    result: NDArray[np.float64] = abs(spots[..., None] - a - way * along)
+    return result
 
 
 def _said(scene: Scene, vectors: Iterable[Vector]) -> Iterator[str]:

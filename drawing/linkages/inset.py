@@ -30,7 +30,7 @@ def with_insets(
     canvas: Canvas, scene: Scene, name: str, heading: tuple[str, ...], notes: tuple[str, ...], points: Sequence[At]
 ) -> View:
     """Finish a figure: frame the surroundings of short vectors in it, and put each enlarged beside it."""
-    insets = []
+    insets: list[View] = []
     for at in points:
         for window in windows(scene, at):
             numeral = NUMERALS[len(insets) % len(NUMERALS)]
@@ -138,14 +138,14 @@ def _enlarged(canvas: Canvas, scene: Scene, vector: Vector, times: float, bounds
     whole = abs(cut[0] - tail) + abs(cut[1] - tip) < 1e-6
     if whole:
         mu = float(f"{vector.mu / times:.12g}")
-        head = "tip" if abs(tip - tail) >= scene.style.arrow else "none"
-        canvas.add(replace(vector, tail=tail, tip=tip, mu=mu, head=head))
+        enlarged = replace(vector, tail=tail, tip=tip, mu=mu)
+        canvas.add(enlarged if abs(tip - tail) >= scene.style.arrow else replace(enlarged, head="none"))
     else:
         parts: list[Shape] = [Line(*cut, Pen.MAIN)]
         if abs(cut[1] - tip) < 1e-6:
             parts.append(Head(tip, tip - tail))
         canvas.add(Group(tuple(parts), "cut", vector.quantity))
-    canvas.label(symbol, cut, clear=0.9)
+    canvas.label(symbol, cut, clear=0.9, strict=True)
 
 
 def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:
