@@ -188,7 +188,7 @@ def _of_task(command: Command) -> Command:
             help="A scale factor, mu_V=0.05, or a segment in mm, pa=80. Repeatable.",
         ),
         click.option("--only", metavar="PLAN,...", multiple=True, callback=_given, help="Only these plans."),
-        click.option("--notation", help="Letters of another school, such as iso."),
+        click.option("--notation", help="Letters of another school: artobolevsky, bauman, bertyaev, iso, madi, nau."),
         click.option("--lang", type=Word(*LANGUAGES), help="Language of the results."),
     )
     for option in reversed(options):

@@ -10,14 +10,17 @@ from typing import Any
 
 import pytest
 
+from kulman.cli import commands
 from kulman.drawing.words import notations
 from kulman.plans.linkages.chain import PLANS
+from kulman.scales.packaged import packaged
 from kulman.variants import checks, checks_driver, checks_givens, checks_loads, checks_mechanism, reader
 from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
 TASK_FILE = (DOCS / "task-file.md").read_text(encoding="utf-8")
+NOTATIONS = (DOCS / "notations.md").read_text(encoding="utf-8")
 TASK = "nau-slider-crank"
 
 
@@ -73,7 +76,20 @@ def test_every_example_is_solved(path: Path) -> None:
 
 def test_the_words_that_a_task_file_may_use_are_named() -> None:
     assert all(f"`{name}`" in TASK_FILE for name in notations())
+    assert all(f"`{name}`" in NOTATIONS for name in notations())
     assert all(f'"{plan}"' in TASK_FILE for plan in PLANS)
+
+
+def test_every_key_of_a_notation_is_explained() -> None:
+    keys = packaged("kulman.drawing", "notations", "nau").keys()
+
+    assert [key for key in keys if not re.search(rf"`\[?{key}(\]|\.|`)", NOTATIONS)] == []
+
+
+def test_help_names_every_notation() -> None:
+    (option,) = [p for p in commands.commands["sheet"].params if p.name == "notation"]
+
+    assert all(name in option.help for name in notations())
 
 
 def test_links_of_the_documents_lead_somewhere() -> None:
