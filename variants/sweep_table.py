@@ -75,6 +75,12 @@ def _plain(value: float, comma: bool) -> str:
     return text.replace(".", ",") if comma else text
 
 
+def _cell(words: Words, column: Column, k: int) -> str:
+    """Return one value of a column; angles to a ten-thousandth of a degree, for at limits they are rounding below."""
+    value = float(column.values[k])
+    return _number(words, round(value, ROUGHLY) if column.unit == "deg" else value)
+
+
 def _number(words: Words, value: float) -> str:
     return words.short(float(value) + 0.0, DIGITS) if math.isfinite(value) else "–"
 
