@@ -17,6 +17,7 @@ from .protractor import COARSE, FARTHEST, FINE, MARKS, PER_RADIAN, ROUND, TURN, 
 from .template import CLOSED, FOLDED, TemplateBoard
 
 SINGULAR = 1e-13  # sine of the angle of two lines below which they count as parallel
+SMALL = math.sin(math.radians(20.0))  # sine of an angle at which lines meet so flatly that a drawing loses much
 ILL = 1e-3  # sine below which three digits and more are lost: the position is called ill-conditioned
 TANGENT = 4 * 2.0**-52  # part of r^2 within which an arc touches a line
 

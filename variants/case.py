@@ -8,8 +8,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ..drawing.linkages.scene import Given
+from ..plans.exact import SMALL
 from ..plans.linkages.chain import require_couplers
-from ..plans.linkages.solved import SMALL, Solved, scale_symbols, solve_linkage
+from ..plans.linkages.solved import Solved, scale_symbols, solve_linkage
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
 from ..scales.display import Display
 from ..scales.errors import InputError

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from ...plans.board import Step
-from ...plans.linkages.solved import SMALL
+from ...plans.exact import SMALL
 from ..shapes import Circle, Group, Line, Pen
 from ..view import Canvas, View
 from .scene import Scene

@@ -83,6 +83,12 @@ class Follower:
             held = held & np.isfinite(way.start.at)
         return held
 
+    @property
+    def places(self) -> Array:
+        """Places of the driver that stand for all: around a crank's circle, a slide's start."""
+        start = self._ways[-1].start.at[:1]
+        return start + np.arange(-36, 37) * (TURN / 72) if self._turns else start
+
     def limits(self, range_of: float = TURN) -> tuple[float, float] | None:
         """Return how far the driver of one mechanism can go from the start of its last group, down and up.
 

@@ -16,7 +16,6 @@ from .chain import USUAL, board_givens, construct, hinged
 from .mechanism import ZERO, Mechanism, SlidingDriver
 from .structure import TRIAD, Structure
 
-SMALL = math.sin(math.radians(20.0))  # sine of an angle at which lines meet so flatly that a drawing loses much
 # which operands of a step are pins that must not coincide
 COINCIDENT = {"arcs": (0, 2), "tangent": (0, 1), "measure": (0, 1)}
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..batch import batch
 from ..board import Program, RecordingBoard
-from ..exact import ILL, run
+from ..exact import ILL, SMALL, run
 from .chain import construct, named_groups
 from .following import followed
 from .mechanism import Mechanism
@@ -28,7 +28,7 @@ Legs = tuple[int, int]
 
 
 def with_special_points(
-    mechanism: Mechanism, values: Mapping[str, Any], near: Mapping[str, Any] | None = None
+    mechanism: Mechanism, values: Mapping[str, Any], near: Mapping[str, Any] | None = None, enough: float = SMALL
 ) -> Mechanism:
     """Return the mechanism with two legs chosen for the special point of every triad whose task names none.
 
@@ -38,9 +38,14 @@ def with_special_points(
         Its numbers in SI, for one position or for many: of these the worst one counts.
     near : mapping, optional
         What `following.followed` gives for them, where it is known already.
+    enough : float
+        The first two legs whose sines are nowhere below are taken, so that one position is constructed like another;
+        without such ones the best two.
     """
     for number, (pairs, sines) in _sines(mechanism, values, near).items():
-        mechanism = _choose(mechanism, number, pairs[int(np.argmax(sines.min(axis=1)))])
+        worst = sines.min(axis=1)
+        first = int(np.argmax(np.minimum(worst, enough)))
+        mechanism = _choose(mechanism, number, pairs[first])
     return mechanism
 
 
@@ -60,7 +65,7 @@ def by_special_points(
     parts: list[tuple[Mechanism, NDArray[np.intp]]] = [(mechanism, np.arange(size))]
     for number, (pairs, sines) in _sines(mechanism, values, near).items():
         sines = np.broadcast_to(sines, (len(pairs), size))
-        once = int(np.argmax(sines.min(axis=1)))
+        once = int(np.argmax(np.minimum(sines.min(axis=1), SMALL)))
         best = np.full(size, once) if sines[once].min() >= least else np.argmax(sines, axis=0)
         parts = [
             (_choose(part, number, legs), places[best[places] == i])

@@ -14,6 +14,7 @@ from ..board import Program
 from .chain import board_givens
 from .following import Follower, triads
 from .mechanism import ZERO, Driver, Mechanism
+from .special_points import with_special_points
 
 OWN = "_driver"  # the driver's variable where the mechanism has a literal in its place
 
@@ -61,7 +62,8 @@ def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
     """Return `mechanism` ready for a sweep.
 
     A literal may stand in other places too, so that the driver gets a variable of its own; a given that also stands
-    elsewhere, as the direction of a load, changes there as well.
+    elsewhere, as the direction of a load, changes there as well. The special points of triads are made by legs that do
+    for the whole circle.
     """
     driver = mechanism.driver
     turns = isinstance(driver, Driver)
@@ -73,4 +75,6 @@ def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
         key = "angle" if turns else "travel"
         mechanism = replace(mechanism, driver=replace(driver, **{key: name}))  # type: ignore[arg-type]
     follower = Follower(mechanism, {**values, name: start}) if mechanism.starts and triads(mechanism) else None
+    if follower is not None:
+        mechanism = with_special_points(mechanism, {**values, name: follower.places}, follower.near(follower.places))
     return Swept(mechanism, name, turns, start, -1.0 if sense < 0.0 else 1.0, follower)
