@@ -155,12 +155,20 @@ def test_instant_centres_stand_on_rays_normal_to_the_velocities() -> None:
         assert abs((places[P] - O) * scale - solved("bertyaev-six-bar").solved.point(P)) < NEAR * scale
 
 
-def test_far_instant_centre_is_said_in_words() -> None:
-    found = sheet("nau-slider-crank", "example", lang="en", only="compound", set={"phi": 89.0})
+@pytest.mark.parametrize(
+    ("phi", "said", "rays"),
+    [
+        pytest.param(89.0, "beyond the drawing", [], id="far away"),
+        pytest.param(90.0, "does not turn", [], id="nowhere"),
+        pytest.param(0.0, "", ["P_2_A"], id="in the slider's pin"),
+    ],
+)
+def test_instant_centre_of_special_positions(phi: float, said: str, rays: list[str]) -> None:
+    found = sheet("nau-slider-crank", "example", lang="en", only="compound", set={"phi": phi})
     velocity = next(v for v in read(found.svg()).pages[0].all if v.name == "compound_velocity")
 
-    assert any("beyond the drawing" in text.string for text in velocity.texts)
-    assert not [s for s in velocity.strokes if s.role == "ray"]
+    assert [s.name for s in velocity.strokes if s.role == "ray"] == rays
+    assert any(said in text.string for text in velocity.texts)
 
 
 def test_senses_of_turning_are_those_of_the_rates() -> None:

@@ -178,9 +178,11 @@ def _instant_centre(
         yield scene.words["said.far_centre"].format(centre=symbol)
         return
     for joint in (c.hinge, c.span.end):
-        rim = (P - scene.mm(joint)) / abs(P - scene.mm(joint)) * scene.style.pair
-        canvas.add(Line(scene.mm(joint) + rim, P, Pen.AXIS, role="ray", name=f"{c.centre}_{joint}"))
-        busy.append((scene.mm(joint), P))
+        way = P - scene.mm(joint)
+        if abs(way) > 2 * scene.style.pair:  # it may stand in the joint itself
+            rim = way / abs(way) * scene.style.pair
+            canvas.add(Line(scene.mm(joint) + rim, P, Pen.AXIS, role="ray", name=f"{c.centre}_{joint}"))
+            busy.append((scene.mm(joint), P))
     canvas.add(Group((Circle(P, scene.style.node, Pen.MAIN, fill="white"),), "point", c.centre))
     canvas.label(symbol, P, clear=1.2, priority=1)
     _turn(canvas, scene, f"omega_{c.number}", c.centre, busy)
