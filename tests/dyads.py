@@ -1,9 +1,9 @@
 """Random mechanisms with dyads of every kind: places of all links are drawn first, their dimensions are read from them.
 
-A crank (or a slider) that speeds up drives a dyad RRR (links 2 and 3); the dyad under test (links 4 and 5) hangs on two
-of the links that move, or on the frame, so that both its outer pairs move, turn and accelerate. All links are bent, have
-mass and a moment of inertia, a force and a couple. Sines and branches are taken from the places, not from the code under
-test.
+A crank (or a slider) that speeds up drives a dyad RRR (links 2 and 3); the dyad under test (links 4 and 5) hangs on
+two of the links that move, or on the frame, so that both its outer pairs move, turn and accelerate. All links are bent,
+have mass and a moment of inertia, a force and a couple. Sines and branches are taken from the places, not from the code
+under test.
 """
 
 from __future__ import annotations
