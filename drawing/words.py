@@ -193,7 +193,9 @@ class Words:
             _, rest = self._parts(f"F_{moment.removeprefix('M_')}_couple")
             return "h" + ("″" if name in self.seconds else "′"), rest
         if thing[:1].isdigit():
-            return "h", f"_{{{self._links('h', thing.replace('_', ''))}}}"
+            links, *rest = thing.split("_")
+            above = f"^{{{self._part(rest.pop(0))}}}" if rest and rest[0] in ("n", "t") else ""
+            return "h", f"{above}_{{{self._links('h', links)}{''.join(rest)}}}"
         return "h", f"_{{{re.sub(r'[_^{}]', '', self.symbol(thing))}}}"
 
     def mark(self, mark: str) -> str:

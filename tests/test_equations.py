@@ -29,6 +29,7 @@ from kulman.tests.mechanisms import nau_slider_crank, nau_values, one_of, twin, 
 from kulman.tests.printed_numbers import calculations, evaluate, half_digit, value
 from kulman.tests.test_loads import VALUES as LOADED
 from kulman.tests.test_loads import piston
+from kulman.tests.triads import random_triads
 from kulman.variants.reader import load_task
 
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
@@ -113,6 +114,17 @@ def test_equations_of_two_dyads_in_series(first: str, second: str) -> None:
 
     assert list(text_faults(scene)) == []
     assert all(len(part.names) <= ROWS for part in results_parts(scene.solved))
+
+
+@pytest.mark.parametrize(("kinds", "before", "bent"), [("RRR", (2, 3, 0), False), ("PRG", (2, 3, 1), True)])
+def test_equations_of_a_triad(kinds: str, before: tuple[int, int, int], bent: bool) -> None:
+    mechanism, values, _ = random_triads(kinds, before, 3, 1, bent)
+
+    scene = scene_of(mechanism, one_of(values, 0))
+
+    assert list(text_faults(scene)) == []
+    assert told(scene, "X5 is Assur's special point:").count("∩") == 1
+    assert told(scene, "aX5 =").count("[[an") >= 2
 
 
 @pytest.mark.parametrize(("kind", "before", "bent"), CASES[::2])

@@ -17,7 +17,7 @@ from ..view import View
 from .equations import Factor, Lines, Product, factor, paper, rate_of, segment, sensed, size_of, stated, worked
 from .reading import Reading, plan_of, read
 from .scene import Scene
-from .vector_equations import line_note, meeting, summed
+from .vector_equations import line_note, line_through, meeting, summed
 
 PLANS = ("velocity", "acceleration")
 STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
@@ -91,10 +91,10 @@ class _Story:
     def tell(self, step: Step) -> None:
         """Tell one step."""
         if step.verb == "meet":
-            self.lines += [meeting(self.scene, step), *self.held]
+            self.lines += [*_special_point(self.scene, step), meeting(self.scene, step), *self.held]
             self.held.clear()
         elif step.law in FORMULAS:
-            told = self.held if step.law in BEFORE_MEETING else self.lines
+            told = self.held if step.law in BEFORE_MEETING or self._is_met(step) else self.lines
             told += [*self._lengths(step), *_formula(self.scene, self.reading, step)]
         elif step.law == "given":
             self.lines.append(_given(self.scene, self.reading, step))
@@ -106,6 +106,11 @@ class _Story:
             self.lines += _absolute(self.scene, self.reading, step)
         if step.name.startswith("epsilon_") and step.law != "same_turning":
             self.lines.append(_comparison(self.scene, step.name))
+
+    def _is_met(self, step: Step) -> bool:
+        """Whether a line that finds a point begins at the end of the vector that a step gives."""
+        ends = [user.name for user in self.reading.users(step.name) if user.verb == "chain"]
+        return any(user.verb == "meet" for end in ends for user in self.reading.users(end))
 
     def _lengths(self, step: Step) -> Iterator[tuple[str, ...]]:
         """Go through the lengths for this step that are not given, each told once.
@@ -198,6 +203,18 @@ def _turning_alike(scene: Scene, step: Step) -> Lines:
         line = [f"{symbol} = π{words.symbol(step.operands[0])}/30 =", f"π·{texts[0]}/30 ="]
         line.append(f"{result} {words.unit(unit)}")
     return [(*line[:-1], f"{line[-1]},", sense) if sense else tuple(line)]
+
+
+def _special_point(scene: Scene, step: Step) -> Lines:
+    """Say where a point stands that no link has, such as Assur's special point, when it is found for the first time."""
+    point, reading = step.name.rpartition(".")[2], read(scene.solved.program)
+    lettered = {point for link in scene.solved.mechanism.links for point in link.points}
+    made = reading.step(point)
+    if step.plan != "velocity" or made is None or made.verb != "meet" or point in lettered:
+        return []
+    p, u, q, w = made.operands
+    lines = f"{line_through(scene, p, u)} ∩ {line_through(scene, q, w)}"
+    return [(scene.words["said.special_point"].format(point=scene.words.mark(point)), lines)]
 
 
 def _given(scene: Scene, reading: Reading, step: Step) -> tuple[str, ...]:

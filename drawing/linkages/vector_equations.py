@@ -51,10 +51,13 @@ def _side(reading: Reading, step: Step, start: str, direction: str) -> Side:
 
 
 def _named(reading: Reading, start: str, tip: str) -> str:
-    """Return the name of a vector that is drawn but not read: `V_XA` from a to x, its tangential part from n."""
-    kind, end = KINDS.get(plan_of(tip), "V"), tip.rpartition(".")[2]
-    part = "_t" if start.rpartition(".")[2].startswith("n_") else ""
-    while (point := start.rpartition(".")[2]).startswith("n_"):
+    """Return the name of a vector that is drawn but not read: `V_XA` from a to x.
+
+    From the end n of normal parts it is the tangential part `a_XA_t`, from that of Coriolis the sliding one `a_XB4_r`.
+    """
+    kind, end, part = KINDS.get(plan_of(tip), "V"), tip.rpartition(".")[2], ""
+    while (point := start.rpartition(".")[2]).startswith(("n_", "k_")):
+        part = "_r" if point.startswith("k_") else part or "_t"
         start = reading.made[start].operands[0]
     return f"{kind}_{end}{'' if point == 'p' else point}{part}"
 
@@ -77,6 +80,12 @@ def line_of(scene: Scene, direction: str) -> str:
     if step.verb == "normal":
         return f"⊥ {_line(scene, step.operands[0])}"
     return f"∥ {_line(scene, direction)}"
+
+
+def line_through(scene: Scene, point: str, direction: str) -> str:
+    """Return the line through a point: AB, or (B ⊥ x–x)."""
+    line = line_of(scene, direction)
+    return line.removeprefix("∥ ") if line.startswith("∥ ") else f"({scene.words.mark(point)} {line})"
 
 
 def _line(scene: Scene, direction: str) -> str:
