@@ -42,7 +42,7 @@ def as_table(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
     rows = [
         [
             str(k),
-            *(_number(words, column.values[k]) for column in shown),
+            *(_cell(words, column, k) for column in shown),
             "" if status == "ok" else words[f"status.{status}"],
         ]
         for k, status in enumerate(cycle.statuses)
