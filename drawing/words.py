@@ -193,9 +193,9 @@ class Words:
             _, rest = self._parts(f"F_{moment.removeprefix('M_')}_couple")
             return "h" + ("″" if name in self.seconds else "′"), rest
         if thing[:1].isdigit():
-            links, *rest = thing.split("_")
-            above = f"^{{{self._part(rest.pop(0))}}}" if rest and rest[0] in ("n", "t") else ""
-            return "h", f"{above}_{{{self._links('h', links)}{''.join(rest)}}}"
+            links, *more = thing.split("_")
+            above = f"^{{{self._part(more.pop(0))}}}" if more and more[0] in ("n", "t") else ""
+            return "h", f"{above}_{{{self._links('h', links)}{''.join(more)}}}"
         return "h", f"_{{{re.sub(r'[_^{}]', '', self.symbol(thing))}}}"
 
     def mark(self, mark: str) -> str:
