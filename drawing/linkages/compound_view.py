@@ -52,7 +52,7 @@ def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
         _turn(canvas, scene, f"omega_r_{c.number}", c.hinge, busy)
     vectors = [vector for at in points for vector in at.vectors()]
     heading = scene.heading("heading.compound_velocity", POSITION, points[0].plan)
-    return with_insets(canvas, scene, "compound_velocity", heading, (*beyond, *_said(scene, vectors)), points)
+    return with_insets(canvas, "compound_velocity", heading, (*beyond, *_said(scene, vectors)), points)
 
 
 def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
@@ -73,7 +73,7 @@ def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
         _turn(canvas, scene, rate, centre, busy)
     heading = scene.heading("heading.compound_acceleration", POSITION, at.plan, point=scene.words.mark(point))
     vectors = list(at.vectors())
-    return with_insets(canvas, scene, f"compound_a_{at.letter}", heading, tuple(_said(scene, vectors)), [at])
+    return with_insets(canvas, f"compound_a_{at.letter}", heading, tuple(_said(scene, vectors)), [at])
 
 
 def _basic(scene: Scene, coupler: Coupler) -> list[int]:
@@ -125,13 +125,13 @@ def _distance(canvas: Canvas, scene: Scene, at: At) -> None:
 def _at_points(canvas: Canvas, scene: Scene, points: Sequence[At]) -> None:
     """Draw the construction lines and the vectors at the points; what an inset shows has its letters there."""
     for at in points:
-        shown = windows(scene, at)
+        shown = windows(at)
         for tail, found, end, direction in at.lines():
             canvas.add(Line(tail, end, Pen.DASHED, role="construction", name=f"{at.plan}_{direction}"))
             if not any(shows(window, (found,)) for window in shown):
                 canvas.label(direction_words(scene, direction), (found, end), clear=0.8)
     for at in points:
-        shown = windows(scene, at)
+        shown = windows(at)
         for vector in at.vectors():
             seen = any(shows(window, (vector.tail, vector.tip)) for window in shown)
             _vector(canvas, scene, vector, lettered=not seen)

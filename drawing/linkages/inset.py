@@ -27,18 +27,18 @@ def is_short(vector: Vector, style: Style) -> bool:
 
 
 def with_insets(
-    canvas: Canvas, scene: Scene, name: str, heading: tuple[str, ...], notes: tuple[str, ...], points: Sequence[At]
+    canvas: Canvas, name: str, heading: tuple[str, ...], notes: tuple[str, ...], points: Sequence[At]
 ) -> View:
     """Finish a figure: frame the surroundings of short vectors in it, and put each enlarged beside it."""
     insets: list[View] = []
     for at in points:
-        for window in windows(scene, at):
+        for window in windows(at):
             numeral = NUMERALS[len(insets) % len(NUMERALS)]
             canvas.add(_frame(window.box, "window", f"{name}_{numeral}"))
             canvas.label(numeral, _corners(window.box)[2:], prefer=1j, clear=0.8)
-            insets.append(_inset(scene, at, window, f"{name}_{numeral}", numeral))
+            insets.append(_inset(at, window, f"{name}_{numeral}", numeral))
     figure = canvas.finish(name) if insets else canvas.finish(name, heading, notes)
-    return _together(figure, insets, heading, notes, scene.style) if insets else figure
+    return _together(figure, insets, heading, notes, canvas.style) if insets else figure
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,14 +49,14 @@ class Window:
     times: float
 
 
-def windows(scene: Scene, at: At) -> list[Window]:
+def windows(at: At) -> list[Window]:
     """Return what the insets of a point show: short vectors, each with those beside it that find room."""
     vectors = [vector for vector in at.vectors() if abs(vector.tip - vector.tail) > 1e-6]
-    left = [vector for vector in vectors if is_short(vector, scene.style)]
+    left = [vector for vector in vectors if is_short(vector, at.scene.style)]
     found = []
     while left:
         first = min(left, key=lambda vector: abs(vector.tip - vector.tail))
-        window = _window(scene, first, vectors)
+        window = _window(at.scene, first, vectors)
         left = [vector for vector in left if vector is not first and not shows(window, (vector.tail, vector.tip))]
         found.append(window)
     return found
@@ -106,9 +106,9 @@ def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
     return complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1)
 
 
-def _inset(scene: Scene, at: At, window: Window, name: str, numeral: str) -> View:
+def _inset(at: At, window: Window, name: str, numeral: str) -> View:
     """Draw what stands in the window, enlarged: vectors to a scale factor of their own, those that leave it cut off."""
-    times, (x0, y0, x1, y1) = window.times, window.box
+    scene, times, (x0, y0, x1, y1) = at.scene, window.times, window.box
     bounds: Box = (x0 * times, y0 * times, x1 * times, y1 * times)
     canvas = Canvas(scene.style, bounds=bounds)
     for tail, found, end, direction in at.lines():
