@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
@@ -34,11 +34,6 @@ class Factor:
     value: float
     exact: bool = False
     power: int = 1
-
-    @property
-    def size(self) -> float:
-        """What it contributes to the product."""
-        return float(self.value**self.power)
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,30 +69,25 @@ def squared(text: str) -> str:
     return f"{letter}^{{2}}{underscore}{index}"
 
 
-def total(products: Iterable[Product]) -> float:
-    """Return the sum of products."""
-    return sum(product.of([factor.value for factor in product.factors]) for product in products)
+def turned(products: Iterable[Product], turn: float) -> list[Product]:
+    """Return the products with all signs multiplied by that of `turn`."""
+    return [replace(product, sign=product.sign * turn) for product in products]
 
 
-def signs(products: Sequence[Product], texts: Sequence[str], turn: float = 1.0) -> list[str]:
-    """Return the terms of a sum with their signs, all multiplied by `turn`, a chunk each."""
+def signs(products: Sequence[Product], texts: Sequence[str]) -> list[str]:
+    """Return the terms of a sum with their signs, a chunk each."""
     chunks = []
     for i, (product, text) in enumerate(zip(products, texts, strict=True)):
-        plus = turn * math.copysign(1.0, product.sign) > 0
+        plus = math.copysign(1.0, product.sign) > 0
         sign = ("" if plus else "−") if i == 0 else ("+ " if plus else "− ")
         chunks.append(f"{sign}{text}")
     return chunks
 
 
 def worked(
-    words: Words,
-    head: str,
-    products: Sequence[Product],
-    unit: str,
-    divisor: Product | None = None,
-    turn: float = 1.0,
+    words: Words, head: str, products: Sequence[Product], unit: str, divisor: Product | None = None
 ) -> tuple[str, ...]:
-    """Return `head = formula = numbers = result unit` of a sum of products, perhaps over a divisor, times `turn`.
+    """Return `head = formula = numbers = result unit` of a sum of products, perhaps over a divisor.
 
     The numbers are printed with as many digits as it takes for the result to come out to its last one.
     """
@@ -107,13 +97,13 @@ def worked(
 
     def law(*x: float) -> float:
         found = sum(product.of(x[a:b]) for product, a, b in zip(products, cuts, cuts[1:], strict=False))
-        return turn * found / math.prod(product.of(x[cuts[-1] :]) for product in over)
+        return found / math.prod(product.of(x[cuts[-1] :]) for product in over)
 
     texts, result = calculation(words, law, [(factor.value, factor.exact) for factor in factors])
-    symbols = signs(products, [product.symbols for product in products], turn)
+    symbols = signs(products, [product.symbols for product in products])
     numbers = [p.written(texts[a:b]) for p, a, b in zip(products, cuts, cuts[1:], strict=False)]
     formula = _over(symbols, divisor.symbols if divisor else "")
-    reckoned = _over(signs(products, numbers, turn), divisor.written(texts[cuts[-1] :]) if divisor else "")
+    reckoned = _over(signs(products, numbers), divisor.written(texts[cuts[-1] :]) if divisor else "")
     formula[0] = f"{head} = {formula[0]}"
     formula[-1] += " ="
     reckoned[-1] += " ="
@@ -171,11 +161,12 @@ def paper(words: Words, scale: Scale) -> Factor:
     return Factor(words.symbol(scale.symbol), value, exact=True, power=power)
 
 
-def vector_sum(knowns: Sequence[str], lines: Sequence[str], unknown: str = "") -> tuple[str, ...]:
-    """Return a closed sum of vectors: those known in full, those known by direction, the one to be found."""
-    parts = [known(text) for text in knowns] + [by_direction(text) for text in lines] + ([unknown] if unknown else [])
-    chunks = [parts[0], *(f"+ {part}" for part in parts[1:])]
-    return (*chunks, "= 0")
+def noted(line: Sequence[str], *notes: str) -> tuple[str, ...]:
+    """Return a line with notes behind it, commas between; empty notes are none."""
+    *chunks, last = (*line, *(note for note in notes if note))
+    behind = len([note for note in notes if note])
+    cut = len(chunks) - behind
+    return (*chunks[:cut], *(f"{chunk}," for chunk in chunks[cut:]), last)
 
 
 def sensed(words: Words, value: float) -> str:

@@ -11,7 +11,7 @@ from ...plans.linkages.solved import Solved
 from ...scales.display import AS_INSIDE
 from ..table import text_block
 from ..view import View
-from .equations import Factor, Lines, Product, factor, sensed, signs, size_of, stated, worked
+from .equations import Factor, Lines, Product, factor, noted, sensed, signs, size_of, stated, turned, worked
 from .moments import about, group_of, link_of, links_in, on_arm, terms
 from .reading import plan_of, read
 from .scene import Scene
@@ -110,8 +110,7 @@ def _load(scene: Scene, step: Step) -> Lines:
         notes.append(words["said.against"].format(motion=against))
     elif size == 0.0:
         notes.append(words["said.idle"])
-    line = stated(words, words.symbol(step.name), size, unit)
-    return [(f"{line},", *(f"{note}," for note in notes[:-1]), notes[-1])] if notes else [(line,)]
+    return [noted((stated(words, words.symbol(step.name), size, unit),), *notes)]
 
 
 def _sum_of_couples(scene: Scene, step: Step) -> Lines:
@@ -120,9 +119,8 @@ def _sum_of_couples(scene: Scene, step: Step) -> Lines:
     products = terms(scene, step.operands)
     if not products:
         return [(f"{words.symbol(step.name)} = 0",)]
-    *line, last = worked(words, words.symbol(step.name), products, "N*m", turn=math.copysign(1.0, value))
-    sense = sensed(words, value)
-    return [(*line, f"{last},", sense)] if sense else [(*line, last)]
+    line = worked(words, words.symbol(step.name), turned(products, math.copysign(1.0, value)), "N*m")
+    return [noted(line, sensed(words, value))]
 
 
 # Moments and force plans
@@ -174,7 +172,7 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
     equation = signs([Product((), sign * turn), *found], [own, *(product.symbols for product in found)])
     return [
         (head, *equation, "= 0"),
-        worked(words, words.symbol(name), found, "N", arm, -sign * turn),
+        worked(words, words.symbol(name), turned(found, -sign * turn), "N", arm),
     ]
 
 
@@ -197,9 +195,8 @@ def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> Lines:
         arm = next((s for s in read(scene.solved.program).users(step.name) if s.verb == "arm"), None)
         zeros = [f"{words.symbol(arm.operands[1])}·{words.symbol(arm.name)}", words.symbol(arm.name)] if arm else []
         return [(head, *(f"{zero} = 0," for zero in zeros[:-1]), f"{[words.symbol(step.name), *zeros][-1]} = 0")]
-    *line, last = worked(words, words.symbol(step.name), found, "N*m", turn=-math.copysign(1.0, value))
-    sense = sensed(words, value)
-    return [(head, *line, f"{last},", sense)] if sense else [(head, *line, last)]
+    line = worked(words, words.symbol(step.name), turned(found, -math.copysign(1.0, value)), "N*m")
+    return [(head, *noted(line, sensed(words, value)))]
 
 
 def _arm(scene: Scene, step: Step) -> Lines:

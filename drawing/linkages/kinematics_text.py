@@ -14,7 +14,7 @@ from ...plans.quantities import unit_of
 from ..printed import calculation
 from ..table import text_block
 from ..view import View
-from .equations import Factor, Lines, Product, factor, paper, rate_of, segment, sensed, size_of, stated, worked
+from .equations import Factor, Lines, Product, factor, noted, paper, rate_of, segment, sensed, size_of, stated, worked
 from .reading import Reading, plan_of, read
 from .scene import Scene
 from .vector_equations import line_note, line_through, meeting, summed
@@ -161,8 +161,8 @@ def _formula(scene: Scene, reading: Reading, step: Step) -> Lines:
     """Return what a law gives, with its numbers, and how the vector lies."""
     words, name = scene.words, reading.visible(step.name)
     line = worked(words, words.symbol(name), [Product(tuple(FORMULAS[step.law](scene, step)))], unit_of(name))
-    note = _lies(scene, reading, step, name)
-    return [(*line[:-1], f"{line[-1]},", *note) if note else line]
+    first, *rest = _lies(scene, reading, step, name) or ("",)
+    return [(*noted(line, first), *rest)]
 
 
 def _lies(scene: Scene, reading: Reading, step: Step, name: str) -> tuple[str, ...]:
@@ -202,7 +202,7 @@ def _turning_alike(scene: Scene, step: Step) -> Lines:
         texts, result = calculation(words, lambda n: math.pi * n / 30.0, [(given.value, True)])
         line = [f"{symbol} = π{words.symbol(step.operands[0])}/30 =", f"π·{texts[0]}/30 ="]
         line.append(f"{result} {words.unit(unit)}")
-    return [(*line[:-1], f"{line[-1]},", sense) if sense else tuple(line)]
+    return [noted(line, sense)]
 
 
 def _special_point(scene: Scene, step: Step) -> Lines:
@@ -225,7 +225,7 @@ def _given(scene: Scene, reading: Reading, step: Step) -> tuple[str, ...]:
     head = " = ".join(dict.fromkeys((words.symbol(name), words.symbol(given))))
     line = stated(words, head, float(scene.solved.values[given]), unit_of(name))
     laid = next(user for user in reading.users(step.name) if user.verb == "lay")
-    return f"{line},", line_note(scene, name, laid.operands[1])
+    return noted((line,), line_note(scene, name, laid.operands[1]))
 
 
 def _similarity(scene: Scene, step: Step) -> Lines:

@@ -11,7 +11,7 @@ from ...scales.display import AS_INSIDE
 from ..printed import value_text
 from ..table import text_block
 from ..view import View
-from .equations import Lines, Product, factor, segment, signs, size_of, worked
+from .equations import Lines, Product, factor, segment, signs, size_of, turned, worked
 from .forces_text import load_lines
 from .moments import terms
 from .reading import read
@@ -58,7 +58,7 @@ def _sum(scene: Scene, step: Step) -> Lines:
     equation = signs(own, [f"{symbol}·{reach.symbol}", *(product.symbols for product in found)])
     lines: Lines = [(f"ΣM_{{{words.mark('lever.p')}}} = 0:", *equation, "= 0")]
     if found:
-        lines.append(worked(words, symbol, found, "N", Product((reach,)), turn))
+        lines.append(worked(words, symbol, turned(found, turn), "N", Product((reach,))))
     return lines
 
 

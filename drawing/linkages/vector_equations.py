@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...plans.board import Step
-from .equations import by_direction, known
+from .equations import by_direction, known, noted
 from .letters import guide_letters
 from .reading import Edge, Reading, plan_of, read
 from .scene import Scene
@@ -40,7 +40,7 @@ def meeting(scene: Scene, step: Step) -> tuple[str, ...]:
     if whole is not None and all(side.knowns or side.unknown != whole.name for side in sides):
         texts.insert(0, _bar(scene, whole.name))
     notes = [line_note(scene, side.unknown, side.direction) for side in sides]
-    return (texts[0], *(f"= {text}" for text in texts[1:-1]), f"= {texts[-1]},", *_listed(notes))
+    return noted((texts[0], *(f"= {text}" for text in texts[1:])), *notes)
 
 
 def _side(reading: Reading, step: Step, start: str, direction: str) -> Side:
@@ -120,8 +120,7 @@ def closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
     lines = ((reading.between(p, meet.name), u), (reading.between(meet.name, q), w))
     found = [edge for edge, _ in lines if edge is not None]
     notes = [line_note(scene, edge.name, along) for edge, along in lines if edge is not None]
-    *terms, zero = _zero(scene, path(firm, q, p), [edge.name for edge in found], "")
-    yield (*terms, f"{zero},", *_listed(notes)) if notes else (*terms, zero)
+    yield noted(_zero(scene, path(firm, q, p), [edge.name for edge in found], ""), *notes)
     for chord in (e for e in edges if e not in found and e not in firm):
         parts = path([*firm, *found], chord.tail, chord.tip)
         if _same_force(chord.name, parts):
@@ -168,8 +167,3 @@ def _double(scene: Scene, names: Iterable[str]) -> list[str]:
 
 def _bar(scene: Scene, name: str) -> str:
     return scene.words.symbol(name.lstrip("_"), bar=True)
-
-
-def _listed(notes: Sequence[str]) -> tuple[str, ...]:
-    """Put a comma after all but the last."""
-    return (*(f"{note}," for note in notes[:-1]), notes[-1])
