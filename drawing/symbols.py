@@ -6,21 +6,13 @@ import cmath
 import math
 from cmath import rect
 
-from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape
+from .shapes import Arc, Circle, Group, Head, Line, Pen, Polyline, Shape
 from .style import Style
 
 
 def revolute(at: complex, name: str, style: Style) -> Group:
     """Return a revolute pair: a white circle on which the links stop."""
     return Group((Circle(at, style.pair, Pen.MAIN, fill="white"),), "pair", name)
-
-
-def link(a: complex, b: complex, name: str, style: Style, at_a: bool = True, at_b: bool = True) -> Group:
-    """Return a link from pair to pair; its line stops at their circles."""
-    e = (b - a) / abs(b - a)
-    start = a + e * style.pair if at_a else a
-    end = b - e * style.pair if at_b else b
-    return Group((Line(start, end, Pen.MAIN),), "link", name)
 
 
 def hatching(a: complex, b: complex, below: complex, style: Style) -> tuple[Shape, ...]:
@@ -160,29 +152,6 @@ def room_on(ray: complex, lines: list[complex], arrows: list[complex]) -> float:
     to_arrows = min((abs(cmath.phase(other / ray)) for other in arrows), default=math.pi)
     # better beyond another arrow on its own line than at a small angle to it
     return min(to_lines, 0.5 + (to_arrows if to_arrows > 0.02 else 0.25))
-
-
-def force_arrow(
-    at: complex,
-    direction: complex,
-    name: str,
-    lines: list[complex],
-    arrows: list[complex],
-    style: Style,
-    gap: float = 0.0,
-) -> tuple[Arrow, complex]:
-    """Return an arrow of a force at a point (its length means nothing) and the ray on which it lies.
-
-    Where another arrow of `arrows` lies already, it stands beyond that one; it is added to `arrows` itself.
-    """
-    ray, outward = clear_ray(direction, lines, arrows)
-    start = gap
-    while any(abs(cmath.phase(other / ray)) < 0.02 and abs(other) > start + 0.5 * style.force for other in arrows):
-        start += style.force + 2.0
-    near, far = at + ray * start, at + ray * (start + style.force)
-    arrows.append(ray * (start + style.force))
-    tail, tip = (near, far) if outward else (far, near)
-    return Arrow(tail, tip, Pen.MAIN, name=name), ray
 
 
 def dimension(a: complex, b: complex, name: str, style: Style) -> Group:

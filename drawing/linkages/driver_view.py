@@ -44,7 +44,7 @@ def _crank(sketch: Sketch, driver: Driver) -> None:
     """Hang R_01 on the pivot, loads that stand there, and what balances the crank."""
     scene, o = sketch.scene, sketch.scene.mm(driver.pivot)
     foot = foot_of(scene, driver.pivot, sketch.figures)
-    sketch.bar(o, *(foot * rect(1.0, lean) for lean in (-0.5, 0.0, 0.5)))
+    sketch.arrows.bar(o, (foot * rect(1.0, lean) for lean in (-0.5, 0.0, 0.5)))
     sketch.force(f"R_{FRAME}{driver.link}", o)
     for name, point in loads(scene, driver.link):
         if point in scene.solved.mechanism.frame_points:

@@ -10,20 +10,18 @@ from dataclasses import dataclass, field
 from ...plans.board import POSITION
 from ...plans.linkages.mechanism import Pair, Prismatic
 from ...plans.linkages.structure import Group
-from ..shapes import Arrow, Circle, Head, Line, Pen, Shape
+from ..shapes import Circle, Head, Line, Pen, Shape
 from ..shapes import Group as Shapes
-from ..symbols import arm, clear_ray, room_on, turning_arrow
+from ..symbols import arm, turning_arrow
 from ..view import Canvas, View
 from .acting import Contact, Moment, contact, couples, handed, loads, moments_of, pin_of, reactions
+from .arrows import Arrows
 from .construction import special_points
-from .links import draw_links, letter_links, rays_at
+from .links import draw_links, letter_links
 from .scene import Scene
 from .skeleton import NEAR, Skeleton, guide_of
 
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88)  # places on a link where a couple may stand
-FARTHEST = 2.5  # lengths of an arrow that it may stand from its point
-
-__all__ = ["group_view", "link_view", "loads"]
 
 
 @dataclass(slots=True)
@@ -33,63 +31,28 @@ class Sketch:
     canvas: Canvas
     scene: Scene
     figures: Sequence[Skeleton]
-    arrows: dict[complex, list[complex]] = field(default_factory=dict)
-    zero: list[str] = field(default_factory=list)
-    hung: list[str] = field(default_factory=list)
+    arrows: Arrows = field(init=False)
     turning: list[complex] = field(default_factory=list)  # places of couples
-    lying: list[tuple[complex, complex]] = field(default_factory=list)  # arrows drawn so far
-    barred: dict[complex, list[complex]] = field(default_factory=dict)  # directions where something else stands
+
+    def __post_init__(self) -> None:
+        """Take the lines of the links as what arrows keep clear of."""
+        strokes = [stroke for figure in self.figures for stroke in figure.strokes]
+        self.arrows = Arrows(self.canvas, self.scene, strokes)
+
+    @property
+    def zero(self) -> list[str]:
+        """Names of forces, couples and arms that are zero."""
+        return self.arrows.zero
 
     def force(self, name: str, at: complex) -> None:
-        """Hang the arrow of a force on a point, clear of links and of other arrows there, and letter it."""
-        if name in self.hung or not self.scene.defined(name):
-            return
-        self.hung.append(name)
-        e = self.scene.direction(name)
-        if e == 0:
-            self.zero.append(name)
-            return
-        place = complex(round(at.real, 2), round(at.imag, 2))
-        arrows, style = self.arrows.setdefault(place, []), self.scene.style
-        lines = [*rays_at(at, self.figures), *self.barred.get(place, ())]
-        ray, start = self._where(at, e, lines, arrows)
-        near, far = at + ray * start, at + ray * (start + style.force)
-        arrows.append(far - at)
-        self.lying.append((near, far))
-        tail, tip = (near, far) if abs(ray - e) < 1.0 else (far, near)
-        letter_arrow(self.canvas, self.scene, Arrow(tail, tip, Pen.MAIN, name=name), ray)
-
-    def _where(self, at: complex, e: complex, lines: list[complex], arrows: list[complex]) -> tuple[complex, float]:
-        """Choose the side of a point on which an arrow lies, and how far from it, clear of all on its own line."""
-        gap, length = self._gap(at, e), self.scene.style.force
-        ray, _ = clear_ray(e, lines, arrows)
-        start, other = self._start(at, ray, gap), self._start(at, -ray, gap)
-        if start - other > 0.6 * length and room_on(-ray, lines, arrows) > 0.35:
-            ray, start = -ray, other
-        # far from its point it would not be found: then it lies on the link
-        return (ray, start) if start < gap + FARTHEST * length else (ray, gap)
-
-    def _start(self, at: complex, ray: complex, start: float) -> float:
-        """Return where on a ray there is room for an arrow: beyond links and arrows that lie along it."""
-        length, taken = self.scene.style.force, []
-        strokes = [stroke for figure in self.figures for stroke in figure.strokes]
-        for (a, b), spare in [*((s, self.scene.style.pair + 1.0) for s in strokes), *((s, 2.0) for s in self.lying)]:
-            ends = [(end - at) / ray for end in (a, b)]
-            if all(abs(end.imag) < 0.5 for end in ends):
-                low, high = sorted(end.real for end in ends)
-                taken.append((low, high, spare))
-        for low, high, spare in sorted(taken):
-            if low < start + length - 0.5 and high > start + 0.5:
-                start = high + spare
-        return start
-
-    def bar(self, at: complex, *directions: complex) -> None:
-        """Let no arrow leave a place in these directions."""
-        self.barred.setdefault(complex(round(at.real, 2), round(at.imag, 2)), []).extend(directions)
+        """Hang the arrow of a force on a point."""
+        self.arrows.hang(name, at, self._gap(at, self.scene.direction(name) if self.scene.defined(name) else 0j))
 
     def _gap(self, at: complex, e: complex) -> float:
         """Return where an arrow along `e` may begin beside a block at its point."""
         gaps = [0.0]
+        if e == 0:
+            return 0.0
         for figure in self.figures:
             for (centre, u), (length, height) in zip(figure.blocks, figure.sizes, strict=True):
                 if abs(((at - centre) / u).imag) < NEAR and abs(at - centre) < self.scene.style.slider[0] / 2:
@@ -115,7 +78,7 @@ class Sketch:
         if not figure.strokes:
             return figure.blocks[0] if figure.blocks else (figure.pins[0], 1 + 0j)
         a, b = max(figure.strokes, key=lambda stroke: round(abs(stroke[1] - stroke[0]), 3))
-        busy = [*figure.pins, *(at for at, _ in figure.blocks), *self.arrows]
+        busy = [*figure.pins, *(at for at, _ in figure.blocks), *self.arrows.at]
         places = [a + (b - a) * share for share in SHARES]
 
         def room(at: complex) -> float:
@@ -273,11 +236,3 @@ def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
     gone = [name for name in dict.fromkeys(names) if scene.defined(name) and scene.vanishes(name)]
     parts = [w.symbol(name.removeprefix("_"), bar=not name.startswith(("M", "h", "_M"))) for name in gone]
     return (f"{' = '.join(parts)} = 0",) if parts else ()
-
-
-def letter_arrow(canvas: Canvas, scene: Scene, arrow: Arrow, ray: complex) -> None:
-    """Draw a force arrow with its letter beside its outer half."""
-    canvas.add(arrow)
-    far = arrow.tip if abs((arrow.tip - arrow.tail) / abs(arrow.tip - arrow.tail) - ray) < 1.0 else arrow.tail
-    name = scene.words.symbol(arrow.name.removeprefix("_"), bar=True)
-    canvas.label(name, (far - ray * 0.55 * scene.style.force, far), clear=0.9)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from itertools import combinations, pairwise
 
 from ..shapes import Line, Pen
-from ..symbols import force_arrow
 from ..view import Canvas, View
-from .group_view import force_arm, letter_arrow, zeros
+from .arrows import Arrows
+from .group_view import force_arm, zeros
 from .plan_view import letter_marks
 from .scene import Scene
+from .skeleton import rays_of
 
 BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
 
@@ -17,35 +18,36 @@ BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where 
 def lever_view(scene: Scene) -> View:
     """Draw the lever: forces keep their directions, couples hang as pairs, arms run from the pole."""
     canvas = Canvas(scene.style)
-    words, style, point = scene.words, scene.style, scene.solved.mechanism.driver.point
+    words, point = scene.words, scene.solved.mechanism.driver.point
     marks = dict.fromkeys(("lever.p", *_images(scene)))
-    p = image(scene, "lever.p")
-    lines = _lines(scene, list(marks))
+    lines, hung = _lines(scene, list(marks)), hung_on_lever(scene)
     canvas.add(*(Line(a, b, pen, role="lever", name=name) for a, b, name, pen in lines))
-    arrows_at: dict[complex, list[complex]] = {}
-    feet: dict[complex, list[tuple[str, complex]]] = {}
-    hung = hung_on_lever(scene)
+    arrows = Arrows(canvas, scene, [(a, b) for a, b, _, pen in lines if pen is Pen.MAIN])
     for name, mark in hung:
-        e = scene.direction(name)
-        if e == 0:
-            continue
         at = image(scene, mark)
-        rays = [q - at for a, b, *_ in lines for q in (a, b) if at in (a, b) and abs(q - at) > 1e-6]
-        arrows = arrows_at.setdefault(complex(round(at.real, 3), round(at.imag, 3)), [])
-        letter_arrow(canvas, scene, *force_arrow(at, e, name, rays, arrows, style))
-        if name not in BALANCE and scene.defined(arm_of(name)):
-            foot = at + e * (((p - at) / e).real)
-            feet.setdefault(complex(round(foot.real, 4), round(foot.imag, 4)), []).append((name, at))
-    # forces on one line share their arm
-    for sharing in feet.values():
-        force_arm(canvas, scene, [name for name, _ in sharing], [arm_of(name) for name, _ in sharing], sharing[0][1], p)
+        arrows.bar(at, rays_of(at, [(a, b) for a, b, *_ in lines]))
+        arrows.hang(name, at)
+    _arms(canvas, scene, hung)
     text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{point}')} = {scene.segment(f'V_{point}')}"
-    canvas.label(text, (p, image(scene, f"lever.{point}")), clear=0.9, height=style.text, spare=text)
+    ends = image(scene, "lever.p"), image(scene, f"lever.{point}")
+    canvas.label(text, ends, clear=0.9, height=scene.style.text, spare=text)
     letters = {mark: words.mark(f"velocity.{mark.removeprefix('lever.')}") for mark in marks}
     letter_marks(canvas, scene, {**letters, "lever.p": words.mark("lever.p")}, ("lever.p",), image)
-    arms = [arm_of(name) for name, _ in hung if scene.direction(name) != 0]
-    zero = zeros(scene, [*(name for name, _ in hung), *arms])
+    gone = [arm_of(name) for name, _ in hung if scene.direction(name) != 0]
+    zero = zeros(scene, [*arrows.zero, *gone])
     return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"], *zero))
+
+
+def _arms(canvas: Canvas, scene: Scene, hung: list[tuple[str, str]]) -> None:
+    """Draw the arms from the pole; forces on one line share theirs."""
+    p, feet = image(scene, "lever.p"), dict[complex, list[tuple[str, complex]]]()
+    for name, mark in hung:
+        e, at = scene.direction(name), image(scene, mark)
+        if e != 0 and name not in BALANCE and scene.defined(arm_of(name)):
+            foot = at + e * (((p - at) / e).real)
+            feet.setdefault(complex(round(foot.real, 4), round(foot.imag, 4)), []).append((name, at))
+    for sharing in feet.values():
+        force_arm(canvas, scene, [name for name, _ in sharing], [arm_of(name) for name, _ in sharing], sharing[0][1], p)
 
 
 def image(scene: Scene, mark: str) -> complex:

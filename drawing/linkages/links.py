@@ -28,7 +28,7 @@ from ..symbols import (
 )
 from ..view import Canvas
 from .scene import Scene
-from .skeleton import NEAR, Skeleton, Stroke, is_inside, nearest, pins_of, skeleton, spread_of
+from .skeleton import NEAR, Skeleton, Stroke, is_inside, nearest, pins_of, rays_of, skeleton, spread_of
 
 __all__ = ["Skeleton", "draw_frame", "draw_links", "letter_links", "skeleton"]
 
@@ -116,12 +116,8 @@ def _freer(u: complex, at: complex, figures: Iterable[Skeleton]) -> complex:
 
 
 def rays_at(at: complex, figures: Iterable[Skeleton]) -> list[complex]:
-    """Return the unit directions in which lines leave a place."""
-    rays = []
-    for a, b in (stroke for figure in figures for stroke in figure.strokes):
-        if abs(a - at) + abs(b - at) - abs(b - a) < NEAR:
-            rays += [(end - at) / abs(end - at) for end in (a, b) if abs(end - at) > NEAR]
-    return rays
+    """Return the unit directions in which lines of links leave a place."""
+    return rays_of(at, (stroke for figure in figures for stroke in figure.strokes))
 
 
 def draw_frame(canvas: Canvas, scene: Scene, numbers: Iterable[int], figures: Sequence[Skeleton]) -> None:

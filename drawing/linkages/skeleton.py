@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
@@ -213,6 +213,12 @@ def nearest(a: complex, b: complex, point: complex) -> complex:
     """Return the point of the line from a to b nearest to a point."""
     along = ((point - a) / (b - a)).real
     return a + (b - a) * min(max(along, 0.0), 1.0)
+
+
+def rays_of(at: complex, strokes: Iterable[Stroke]) -> list[complex]:
+    """Return the unit directions in which lines leave a place."""
+    through = [stroke for stroke in strokes if _on(stroke, at)]
+    return [_unit(end - at) for stroke in through for end in stroke if abs(end - at) > NEAR]
 
 
 def is_inside(ring: Sequence[complex], point: complex) -> bool:
