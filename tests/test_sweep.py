@@ -47,6 +47,12 @@ def test_the_table_shows_positions_and_the_whole_cycle(capsys: pytest.CaptureFix
     assert "phi = 101.4157°" in extremes
 
 
+def test_a_velocity_at_a_dead_position_is_shown_as_zero() -> None:
+    swept = kulman.sweep("madi-four-bar", only="velocity", positions=6)  # begins where the working stroke begins
+
+    assert swept.table().splitlines()[1].split() == ["0", "38.9871", "0", "96.5926", "0"]
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_table_speaks_every_language(language: str, capsys: pytest.CaptureFixture[str]) -> None:
     out = run(["--lang", language, "--only", "velocity", *SHORT_ROD], capsys)[1]

@@ -29,6 +29,7 @@ from .sweep_data import quantities_of
 
 DIGITS = 6
 ROUGHLY = 4  # decimals of the angle of an extreme, near which values hardly change
+ROUNDING = 1e-12  # part of the largest value of a column below which one is zero
 CONSTANT = 1e-7  # part of its size within which a quantity does not change over the cycle
 LESS_WANTED = ("h_", "delta_", "l_")  # quantities whose extremes a reader hardly looks for
 
@@ -76,8 +77,11 @@ def _plain(value: float, comma: bool) -> str:
 
 
 def _cell(words: Words, column: Column, k: int) -> str:
-    """Return one value of a column; angles to a ten-thousandth of a degree, for at limits they are rounding below."""
+    """Return one value of a column less its rounding: beside the largest, and of angles, which at limits have more."""
     value = float(column.values[k])
+    size = np.max(np.abs(column.values), initial=0.0, where=np.isfinite(column.values))
+    if abs(value) <= ROUNDING * size:
+        value = 0.0
     return _number(words, round(value, ROUGHLY) if column.unit == "deg" else value)
 
 
