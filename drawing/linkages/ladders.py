@@ -13,7 +13,7 @@ from ...scales.scale import Scale
 Ladders = Mapping[str, tuple[float, ...]]
 LONGEST = 100.0  # mm, the longest segment of a plan whose scale factor nobody has chosen
 LARGEST = 200.0  # mm, the same for the mechanism from joint to joint, and for plans of many vectors
-CROWD = 14  # vectors on one plan
+CROWD, HUNG = 14, 8  # vectors on one plan; forces on the lever
 DRAWN = ("read", "chain")
 
 
@@ -50,9 +50,11 @@ def ladders_of(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...
 
 
 def _crowded(solved: Solved, symbol: str) -> bool:
-    """Whether the plans of a scale factor draw so many vectors that they need more room."""
+    """Whether the plans of a scale factor draw so many vectors, or hang so many forces, that they need more room."""
     plans = {plan for plan, name in solved.scale_of_plan.items() if name == symbol}
-    return max((sum(s.plan == plan for s in solved.program if s.verb in DRAWN) for plan in plans), default=0) > CROWD
+    drawn = [step.plan for step in solved.program if step.verb in DRAWN]
+    hung = [step.operands[1].rpartition(".")[0] for step in solved.program if step.verb == "moment"]
+    return any(drawn.count(plan) > CROWD or hung.count(plan) > HUNG for plan in plans)
 
 
 def _largest(solved: Solved, symbol: str) -> float:
