@@ -3,6 +3,7 @@ PYTHON ?= python3
 PY := .venv/bin/python
 VARIANT ?= 3
 READY := .venv/ready
+WORKERS ?= auto
 
 .PHONY: sheet test soak lint types bench clean
 
@@ -11,10 +12,10 @@ sheet: $(READY)
 	$(PY) -m kulman sheet nau-slider-crank -v $(VARIANT) -o out/sheet.svg -o out/sheet.pdf
 
 test: $(READY)
-	$(PY) -m pytest -q -m "not soak"
+	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m "not soak"
 
 soak: $(READY)
-	$(PY) -m pytest -q -m soak
+	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m soak
 
 lint: $(READY)
 	$(PY) -m ruff check .

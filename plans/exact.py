@@ -69,7 +69,7 @@ class ExactBoard(TemplateBoard):
         values = self.values
         self._name, self._operands = name, operands
         value = operate(*[values[operand] for operand in operands])
-        if type(value) is float:
+        if type(value) is not complex:
             value += 0.0  # zero has no sign
         elif value is not POLE:
             value += POLE

@@ -64,7 +64,7 @@ def covered(requests: list[Request], obstacles: Obstacles, labels: Labels, gap: 
     return {r.name for r, bad in zip(requests, near, strict=True) if bad}
 
 
-@pytest.mark.parametrize("block", range(10))
+@pytest.mark.parametrize("block", [0, 1, 2, *(pytest.param(k, marks=pytest.mark.soak) for k in range(3, 10))])
 def test_no_label_covers_anything_unless_reported(block):
     failed = total = 0
     for seed in range(block * 200, block * 200 + 200):
@@ -84,9 +84,10 @@ def test_the_judge_sees_a_covered_label():
     assert covered(requests, obstacles, Labels({"A": 1 + 1j}), GAP) == {"A"}
 
 
-def test_leaders_cross_no_label_and_end_at_their_anchor():
+@pytest.mark.parametrize("scenes", [60, pytest.param(300, marks=pytest.mark.soak)])
+def test_leaders_cross_no_label_and_end_at_their_anchor(scenes):
     leaders = 0
-    for seed in range(300):
+    for seed in range(scenes):
         requests, obstacles = random_scene(seed, labels=30, strokes=60)
 
         labels = place(requests, obstacles, GAP)
@@ -102,7 +103,7 @@ def test_leaders_cross_no_label_and_end_at_their_anchor():
             assert 0 < boxes[name].distance(shapely.Point(head.real, head.imag)) < GAP / 2 + 1e-9
             assert 3 < line.length < 36
             leaders += 1
-    assert leaders > 50
+    assert leaders > scenes / 6
 
 
 def velocity_plan(seed: int) -> tuple[list[Request], Obstacles]:
@@ -239,9 +240,9 @@ def test_a_view_takes_a_few_milliseconds():
     for requests, obstacles in scenes:
         times = []
         for _ in range(5):
-            start = time.perf_counter()
+            start = time.process_time()
             place(requests, obstacles)
-            times.append(time.perf_counter() - start)
+            times.append(time.process_time() - start)
         best.append(min(times))
 
     # 2 ms where it was measured; the rest is for slow and busy machines.

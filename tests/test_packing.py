@@ -81,12 +81,13 @@ def random_views(seed):
     return views
 
 
+@pytest.mark.parametrize("count", [40, pytest.param(150, marks=pytest.mark.soak)])
 @pytest.mark.parametrize("paper", AREAS)
-def test_random_views_fit_their_pages(paper):
+def test_random_views_fit_their_pages(paper, count):
     area = AREAS[paper]
     reserved, later = corners_of(area), corners_of(area, block=15)
     packed = 0
-    for seed in range(150):
+    for seed in range(count):
         views = random_views(seed)
 
         one = pack(views, area, reserved, gap=GAP)
@@ -99,7 +100,7 @@ def test_random_views_fit_their_pages(paper):
             judge(views, one, area, reserved)
             assert one == many
             packed += 1
-    assert packed > (20 if paper == "A4" else 40)
+    assert packed > count * (2 if paper == "A4" else 4) / 15
 
 
 @pytest.mark.parametrize("name", COURSEWORK)
@@ -210,9 +211,9 @@ def test_a_sheet_is_packed_in_a_few_milliseconds():
     views = [[size] for size in SHEET]
     times = []
     for _ in range(5):
-        start = time.perf_counter()
+        start = time.process_time()
         pack(views, AREAS["A1"], corners_of(AREAS["A1"]), gap=GAP)
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
 
     # 2 ms where it was measured; the rest is for slow and busy machines.
     assert min(times) < 0.05

@@ -38,7 +38,7 @@ FORMULAS = {
     "quotients": lambda x, y: (x / y) / 3.0 + 1.0 / (y / -1.0),
     "sizes": lambda x, y: abs(x) - abs(-y),
     "zeros": lambda x, y: (x == 0.5) + (x - x == 0.0) + y * 0.0,
-    "orders": lambda x, y: (x > y) * 1.0 + (-x < 2.0) * 2.0 + (y >= 7.0) * 4.0 + (0.5 <= -y) * 8.0 + (3.0 >= x) * 0.5,
+    "orders": lambda x, y: (x > y) * 1.0 + (-x < 2.0) * 2.0 + (y >= 7.0) * 4.0 + (-y >= 0.5) * 8.0 + (x <= 3.0) * 0.5,
     "turns": lambda x, y: x // 2.0 + y // -x,
     "vectors": lambda x, y: dot(complex(1, 2) * x - 1j, x * complex(3, 0)) + cross(1j * y + complex(2, 1), 2j * x),
 }
