@@ -171,13 +171,14 @@ def concurrence(marks: dict[str, np.ndarray]) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", bundled())
-def test_tasks_turn_all_round_with_links_of_constant_length(name: str) -> None:
+def test_tasks_move_over_the_whole_cycle_with_links_of_constant_length(name: str) -> None:
     task = load_task(name)
-    lengths = ("position",)
 
     for variant in task.variants:
-        done = cycle(task.mechanism, task.values(variant), lengths, positions=72)
-        assert set(done.statuses) <= {"ok", "ill-conditioned"}, variant
+        done = cycle(task.mechanism, task.values(variant), ("position",), positions=72)
+        # a sliding driver begins and ends at the limits of its reach
+        inner = done.statuses if done.drive.turns else done.statuses[1:-1]
+        assert set(inner) <= {"ok", "ill-conditioned"}, variant
         assert not done.reach.apart, variant
         for link in done.mechanism.links:
             for first, second in zip(link.points, list(link.points)[1:], strict=False):
