@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from kulman.plans.batch import batch
 from kulman.plans.exact import STATUSES
 from kulman.plans.linkages.chain import board_givens, construct
-from kulman.plans.linkages.mechanism import FRAME, Driver, Revolute
+from kulman.plans.linkages.mechanism import FRAME, STROKE, WORKING, Driver, Mechanism, Prismatic, Revolute
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.plans.linkages.structure import Group, analyse
 from kulman.variants import load_task
@@ -36,10 +37,17 @@ FORMULAS = {
     "scheme-15-lever-shears": "I -> II1(2,3) -> II1(4,5)",
     "scheme-16-hay-baler": "I -> II1(2,3) -> II2(4,5)",
     "scheme-17-sewing-machine": "I -> II2(2,3) || II1(4,5)",
+    "scheme-18-hydraulic-drive": "I -> II1(2,3)",
     "scheme-19-scotch-yoke": "I -> II5(2,3)",
+    "scheme-20-press-automaton": "I -> III3(2,3,4,5)",
 }
-VARIANTS = [(scheme, variant) for scheme in FORMULAS for variant in "0123456789"]
-TURN = 360
+VARIANTS = [  # three of ten by default, others with each scheme
+    pytest.param(scheme, str(variant), marks=[] if (number + variant) % 3 == 0 else pytest.mark.soak)
+    for number, scheme in enumerate(FORMULAS)
+    for variant in range(10)
+]
+POSITIONS = 360
+TRAVEL = 0.15  # m, of the hydraulic cylinder
 LEAST = math.sin(math.radians(20.0))
 
 
@@ -97,12 +105,12 @@ def test_variant_has_plans_that_can_be_drawn(scheme: str, variant: str) -> None:
 def test_variant_can_be_assembled_in_every_position_of_the_driver(scheme: str, variant: str) -> None:
     task = load_task(scheme)
     driver = task.mechanism.driver
-    assert isinstance(driver, Driver)
+    range_of = 2.0 * math.pi if isinstance(driver, Driver) else TRAVEL
     _, program = construct(task.mechanism, ["velocity"])
-    values = {**task.values(variant), driver.angle: np.arange(TURN) * (2.0 * math.pi / TURN)}
+    values = {**task.values(variant), driver.coordinate: np.arange(POSITIONS) * (range_of / POSITIONS)}
 
     wanted = [name for name in program.names if not name.startswith("_")]
-    _, codes = batch(program, board_givens(task.mechanism, values), wanted)
+    _, codes = batch(program, board_givens(task.mechanism, values, program), wanted)
 
     assert {STATUSES[code] for code in codes} == {"ok"}
 
@@ -112,6 +120,60 @@ def test_variants_of_a_scheme_differ(scheme: str) -> None:
     task = load_task(scheme)
     rows = [task.variants[variant].values for variant in task.variants]
 
-    assert len({row["phi"] for row in rows}) == len(rows)
+    assert len({row[task.mechanism.driver.coordinate] for row in rows}) == len(rows)
     assert len({tuple(value for name, value in row.items() if name.startswith("l_")) for row in rows}) == len(rows)
     assert all(len({row[name] for row in rows}) > 2 for name in rows[0])
+
+
+def schemes_with(found: Callable[[Mechanism], object]) -> int:
+    """Count the schemes whose mechanism has something."""
+    return sum(bool(found(load_task(scheme).mechanism)) for scheme in FORMULAS)
+
+
+def test_schemes_show_all_that_a_task_may_have() -> None:
+    assert schemes_with(lambda m: m.gravity) >= 5
+    assert schemes_with(lambda m: any(diagram.over == STROKE for diagram in m.diagrams)) >= 3
+    assert schemes_with(lambda m: any(diagram.back for diagram in m.diagrams)) >= 1
+    assert schemes_with(lambda m: any(load.stroke == WORKING for load in m.loads)) >= 5
+    assert schemes_with(lambda m: any(load.direction is None for load in m.loads)) >= 5
+    assert schemes_with(lambda m: any(couple.sense is None for couple in m.couples)) >= 1
+    assert schemes_with(lambda m: any(link.per_length and link.inertia_factor for link in m.links)) >= 5
+    assert schemes_with(lambda m: not isinstance(m.driver, Driver)) == 1
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("scheme", FORMULAS)
+def test_most_variants_are_drawn_while_the_load_acts(scheme: str) -> None:
+    task = load_task(scheme)
+    names = [load.name for load in (*task.mechanism.loads, *task.mechanism.couples)]
+
+    acting = [
+        all(abs(solve_linkage(task.mechanism, task.values(variant), ["forces"]).values[name]) > 0.0 for name in names)
+        for variant in task.variants
+    ]
+
+    assert sum(acting) >= 8
+
+
+@pytest.mark.parametrize(
+    ("scheme", "out"),
+    [
+        ("scheme-08-planer", -1.0),
+        ("scheme-09-shaper", -1.0),
+        ("scheme-10-shaper-two-blocks", -1.0),
+        ("scheme-11-slotter", -1j),
+    ],
+)
+def test_machine_tools_cut_slowly_and_return_fast(scheme: str, out: complex) -> None:
+    task = load_task(scheme)
+    assert isinstance(task.mechanism.driver, Driver)
+    _, program = construct(task.mechanism, ["position"])
+    (tool,) = (pair.point for pair in task.mechanism.pairs if isinstance(pair, Prismatic) and FRAME in pair.links)
+    phi = np.arange(POSITIONS) * (2.0 * math.pi / POSITIONS)
+
+    for variant in task.variants:
+        values = task.values(variant)
+        turned = phi * values[task.mechanism.driver.sense]
+        places, _ = batch(program, board_givens(task.mechanism, {**values, "phi": turned}), [tool])
+        way = np.diff((places[tool] * np.conj(out)).real, append=(places[tool][0] * np.conj(out)).real)
+        assert np.count_nonzero(way > 0.0) >= POSITIONS / 2

@@ -111,7 +111,8 @@ def stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterabl
     assert mechanism.stroke is not None
     sense, driver_at = mechanism.stroke.sense, mechanism.driver.coordinate
     followed = {name for start in mechanism.starts for name in start_names(start.link)}
-    needed = {name: values[name] for name in {*motion, sense} & values.keys() - {driver_at} - followed}
+    stated = {name for start in mechanism.starts for name in (start.x, start.y, start.angle, start.driver)}
+    needed = {name: values[name] for name in {*motion, sense, *stated} & values.keys() - {driver_at} - followed}
     size = max((len(value) for value in needed.values() if getattr(value, "ndim", 0)), default=0)
     found = []
     for row in range(size or 1):
