@@ -120,9 +120,12 @@ def test_equations_of_two_dyads_in_series(first: str, second: str) -> None:
 def test_equations_of_a_triad(kinds: str, before: tuple[int, int, int], bent: bool) -> None:
     mechanism, values, _ = random_triads(kinds, before, 3, 1, bent)
 
-    scene = scene_of(mechanism, one_of(values, 0))
+    scene = scene_of(mechanism, one_of(values, 0), notation="bauman")
 
     assert list(text_faults(scene)) == []
+    parts = results_parts(scene.solved)
+    assert len({part.name for part in parts}) == len(parts)
+    assert all(len(part.names) <= ROWS for part in parts)
     assert told(scene, "X5 is Assur's special point:").count("∩") == 1
     assert told(scene, "aX5 =").count("[[an") >= 2
 

@@ -114,7 +114,7 @@ def _over(chunks: list[str], divisor: str) -> list[str]:
     """Put a sum over a divisor, each in parentheses unless it is one product."""
     if not divisor:
         return chunks
-    divisor = f"({divisor})" if "·" in divisor else divisor
+    divisor = f"({divisor})" if "·" in divisor or "/" in divisor else divisor
     if len(chunks) > 1:
         return [f"({chunks[0]}", *chunks[1:-1], f"{chunks[-1]})/{divisor}"]
     plain = not chunks[0].startswith("−") and "/" not in chunks[0]

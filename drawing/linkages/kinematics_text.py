@@ -108,7 +108,7 @@ class _Story:
             self.lines.append(_comparison(self.scene, step.name))
 
     def _is_met(self, step: Step) -> bool:
-        """Whether a line that finds a point begins at the end of the vector that a step gives, and no point is there."""
+        """Whether a line that finds a point begins at the end of the vector of a step, where no point has its end."""
         hung = [user.name for user in self.reading.users(step.name) if user.verb == "chain"]
         ends = [end for end in hung if self.reading.absolute(end) is None]
         return any(user.verb == "meet" for end in ends for user in self.reading.users(end))

@@ -28,17 +28,21 @@ _Piece: TypeAlias = tuple[tuple[int, ...], list[str]]  # links of a group, names
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """One table of results: the kind of plan, the names of its rows, the links they belong to ("" for all)."""
+    """One table of results: the kind of plan, the names of its rows, the links they belong to ("" for all).
+
+    Where a group of links has more rows than a table, the tables of its kind are numbered instead.
+    """
 
     kind: str
     names: tuple[str, ...]
     links: str = ""
+    number: int = 0
 
     @property
     def name(self) -> str:
         """The name of its view."""
-        links = self.links.replace(", ", "_")
-        return f"results_{self.kind}_{links}" if links else f"results_{self.kind}"
+        part = str(self.number) if self.number else self.links.replace(", ", "_")
+        return f"results_{self.kind}_{part}" if part else f"results_{self.kind}"
 
 
 def givens_table(scene: Scene) -> View:
@@ -91,10 +95,11 @@ def _cut(solved: Solved, kind: str, names: list[str]) -> list[Part]:
     for name in names:
         by_group[_owner(solved, name)].append(name)
     pieces = [(links, chunk) for links, own in by_group.items() for chunk in _chunks(own)]
-    parts = []
-    for run in _evenly(pieces):
-        links = sorted({number for own, _ in run for number in own})
-        parts.append(Part(kind, tuple(name for _, chunk in run for name in chunk), ", ".join(map(str, links))))
+    whole, parts = all(len(own) <= ROWS for own in by_group.values()), []
+    for count, run in enumerate(_evenly(pieces), start=1):
+        links = ", ".join(map(str, sorted({number for own, _ in run for number in own})))
+        rows = tuple(name for _, chunk in run for name in chunk)
+        parts.append(Part(kind, rows, links) if whole else Part(kind, rows, number=count))
     return parts
 
 
@@ -159,7 +164,9 @@ def results_table(scene: Scene, part: Part) -> View:
     """Return a table of results."""
     words = scene.words
     heading = words[f"heading.results_{part.kind}"]
-    if part.links.isdigit():
+    if part.number:
+        heading = f"{heading} ({part.number})"
+    elif part.links.isdigit():
         heading = words["table.of_link"].format(heading=heading, link=part.links)
     elif part.links:
         heading = words["table.of_links"].format(heading=heading, links=part.links)
