@@ -34,6 +34,7 @@ class Solved:
     trouble: Trouble | None
     shown_on: Mapping[str, str]  # the first plan that shows each quantity as a segment
     scale_of_plan: Mapping[str, str]  # symbol of the scale factor of every plan
+    givens: Mapping[str, Any]  # what the board began with, to run the program again
 
     def point(self, mark: str) -> complex:
         """Return a mark of any plan, SI."""
@@ -165,7 +166,8 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
         near = followed(mechanism, values)
         mechanism = with_special_points(mechanism, values, near)
     structure, program = construct(mechanism, plans)
-    board = run(program, board_givens(mechanism, {**values, **near}, program, follow=False))
+    givens = board_givens(mechanism, {**values, **near}, program, follow=False)
+    board = run(program, givens)
     lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if _is_given(x)}
     items = quantities(program, board.values, lengths)
     return Solved(
@@ -179,4 +181,5 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
         board.trouble,
         shown_on(program),
         _scale_of_plan(structure, program),
+        givens,
     )

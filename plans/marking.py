@@ -1,0 +1,117 @@
+"""What a teacher should let pass: of each segment so much, of what is calculated from it what follows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .board import POSITION, Step
+from .hand import Tolerance
+from .laws import LAWS, dot
+from .quantities import POINTS
+from .shaky import Paper
+from .spread import Drawn
+from .worth import results, worst_behind
+
+READ = ("read", "measure", "distance")
+
+
+def tolerances(
+    paper: Paper, values: Mapping[str, Any], sines: Mapping[str, float], most: Tolerance
+) -> dict[str, float]:
+    """Return for each quantity by how much an answer may differ, SI.
+
+    Of a segment that is read |difference| <= max(mm, part of it) / |sin gamma|, gamma being the angle of the lines
+    whose meeting is read, the worst of those behind the segment's ends on its own plan. A calculated quantity inherits
+    what the segments in it may miss; data have none.
+
+    Parameters
+    ----------
+    values, sines : mapping
+        Of an exact run.
+    most : Tolerance
+        A preset's, or one's own.
+    """
+    rule = _Rule(paper, values, worst_behind(paper.program, sines, _same_plan), most, {})
+    for step in paper.program:
+        rule.allowed[step.name] = float(rule.of(step))
+    return {step.name: rule.allowed[step.name] for step in results(paper.program)}
+
+
+@dataclass(frozen=True, slots=True)
+class _Rule:
+    """The rule for one step after the other; `flat` are sines, `allowed` what earlier steps may miss."""
+
+    paper: Paper
+    values: Mapping[str, Any]
+    flat: Mapping[str, float]
+    most: Tolerance
+    allowed: dict[str, float]
+
+    def of(self, step: Step) -> Any:
+        """Return by how much the result of a step may differ, SI."""
+        values = self.values
+        if step.verb in READ:
+            mu, sine = self._mu(step.operands[0]), min(self.flat.get(mark, 1.0) for mark in step.operands)
+            return self.most.of_segment(abs(values[step.name]) / mu, sine) * mu
+        if step.verb == "moment":
+            force, at, _ = step.operands
+            mu, size = self._mu(at), abs(values[force])
+            arm = abs(values[step.name]) / size if size else 0.0
+            return size * self.most.of_segment(arm / mu) * mu + arm * self.allowed.get(force, 0.0)
+        if step.verb == "arm":
+            return self._arm(*step.operands)
+        if step.verb == "calc":
+            return self._inherited(step)
+        is_point = step.verb in POINTS and "." not in step.name
+        return self.most.mm * self._mu(step.name) / self.flat[step.name] if is_point else 0.0
+
+    def _mu(self, mark: str) -> float:
+        return float(self.paper.mus[mark.rpartition(".")[0] or POSITION])
+
+    def _arm(self, moment: str, force: str) -> float:
+        size = abs(self.values[force])
+        return self.allowed[moment] / size if size else 0.0
+
+    def _inherited(self, step: Step) -> float:
+        """Return by how much a calculated value differs when what is in it does, each alone, together."""
+        operands = [self.values[name] for name in step.operands]
+        exact, law, total = self.values[step.name], LAWS[step.law], 0.0
+        for i, name in enumerate(step.operands):
+            if miss := self.allowed.get(name, 0.0):
+                longer = [*operands[:i], _longer(operands[i], miss), *operands[i + 1 :]]
+                change = abs(law(*longer) - exact)
+                total += change if change == change else 0.0
+        return total
+
+
+def _longer(value: Any, miss: float) -> Any:
+    """Return a value that misses, a vector along itself."""
+    if not isinstance(value, complex):
+        return value + miss
+    size = abs(value)
+    return value * (1.0 + miss / size) if size else complex(miss)
+
+
+def _same_plan(step: Step, operand: str) -> bool:
+    return step.name.rpartition(".")[0] == operand.rpartition(".")[0]
+
+
+def failing(drawn: Drawn, allowed: Mapping[str, float]) -> dict[str, float]:
+    """Return for each quantity the part of the drawings that a tolerance would fail, undrawn ones among them.
+
+    Of vectors the magnitudes are compared, of points the places.
+    """
+    found = {}
+    for step in results(drawn.paper.program):
+        values, exact = drawn[step.name], drawn.exact[step.name]
+        if step.verb in (*READ, "calc", "arm"):
+            square = dot(values, values) if np.iscomplexobj(values) else None
+            miss = abs(values - exact) if square is None else abs(np.sqrt(square) - abs(exact))
+        else:
+            miss = abs(values - exact)
+        found[step.name] = float(np.mean(~(miss <= allowed[step.name] * (1.0 + 1e-9))))
+    return found

@@ -1,0 +1,165 @@
+"""What honest drawings give: the interval of each quantity, and at which step most of its error is made."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.random import Generator
+from numpy.typing import NDArray
+
+from .exact import run
+from .hand import Hand
+from .quantities import POINTS
+from .shaky import Paper, ShakyBoard, draw
+from .worth import plans_of, references, results
+
+Array = NDArray[Any]
+DRAWINGS = 1000
+FEW = 200  # drawings for each single step
+NOTHING = 1e-12  # part of the largest vector that is rounding
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """What many drawings give for one quantity.
+
+    Parameters
+    ----------
+    exact, low, high : float or None
+        The exact value (of a vector its magnitude), and the ends of the interval of drawn ones, SI; None for a point.
+    deviation : float
+        Standard deviation, SI; of a point that of its distance from the exact place, from zero.
+    miss : float
+        What a vector or point misses by, direction and all: not more in the part `share` of all drawings, SI.
+    mm, mm_miss : float or None
+        Deviation and miss on paper, where a plan shows the quantity.
+    percent, of_largest : float or None
+        Deviation in per cent of the value, and of the largest vector of its plan.
+    undrawn : float
+        Part of the drawings in which it cannot be drawn.
+    """
+
+    exact: float | None
+    low: float | None
+    high: float | None
+    deviation: float
+    miss: float
+    mm: float | None
+    mm_miss: float | None
+    percent: float | None
+    of_largest: float | None
+    undrawn: float
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """Many drawings of one construction, beside the exact one."""
+
+    paper: Paper
+    exact: Mapping[str, Any]
+    board: ShakyBoard
+
+    def __getitem__(self, name: str) -> Array:
+        """Return what each drawing gives for a name, NaN where it cannot be drawn."""
+        return np.broadcast_to(self.board.values[name], self.board.codes.shape)
+
+    def spreads(self, share: float = 0.95) -> dict[str, Spread]:
+        """Return what the drawings give for every quantity; `share` of them lie in the intervals."""
+        sizes = references(self.paper.program, self.exact)
+        plans = plans_of(self.paper.program)
+        found = {}
+        for step in results(self.paper.program):
+            mu = self.paper.mus.get(plans.get(step.name, ""))
+            found[step.name] = self._spread(step.name, step.verb in POINTS, mu, sizes[step.name], share)
+        return found
+
+    def _spread(self, name: str, point: bool, mu: float | None, size: float, share: float) -> Spread:
+        exact, values = self.exact[name], self[name]
+        values = values[~np.isnan(values)]
+        undrawn = 1.0 - values.size / self.board.codes.size
+        if not values.size or exact != exact:
+            nothing = float("nan")
+            return Spread(None, None, None, nothing, nothing, None, None, None, None, undrawn)
+        misses = np.abs(values - exact)
+        miss = float(np.quantile(misses, share))
+        if point:
+            deviation, value, low, high = float(np.sqrt(np.mean(misses**2))), None, None, None
+        else:
+            numbers = np.abs(values) if np.iscomplexobj(values) else values
+            value = abs(exact) if isinstance(exact, complex) else float(exact)
+            low, high = map(float, np.quantile(numbers, (0.5 - share / 2.0, 0.5 + share / 2.0)))
+            deviation = float(np.std(numbers))
+        return Spread(
+            value,
+            low,
+            high,
+            deviation,
+            miss,
+            None if mu is None else deviation / mu,
+            None if mu is None else miss / mu,
+            _per_cent(deviation, value, size),
+            _per_cent(deviation, size, size),
+            undrawn,
+        )
+
+
+def _per_cent(part: float, whole: float | None, size: float) -> float | None:
+    """Return per cents of a whole, None where that is nothing beside `size`."""
+    return None if whole is None or abs(whole) <= NOTHING * size else part / abs(whole) * 100.0
+
+
+def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = DRAWINGS) -> Drawn:
+    """Draw a construction many times with a shaky hand.
+
+    >>> import numpy as np
+    >>> from kulman import solve
+    >>> from kulman.plans.hand import preset
+    >>> from kulman.plans.spread import drawn, paper_of
+    >>> solution = solve("nau-slider-crank", "example")
+    >>> paper = paper_of(solution.solved, {"mu_l": 0.001, "mu_V": 0.05, "mu_a": 2.0, "mu_F_23": 10.0, "mu_F_1": 10.0})
+    >>> spreads = drawn(paper, preset("normal").hand, np.random.default_rng(1)).spreads()
+    >>> 0.1 < spreads["V_B"].mm < 2.0
+    True
+    """
+    exact = run(paper.program, paper.givens).values
+    return Drawn(paper, exact, draw(paper, hand, random, drawings))
+
+
+def paper_of(solved: Any, mus: Mapping[str, float]) -> Paper:
+    """Return the drawing of a solved mechanism, with scale factors by symbol, `mu_V`."""
+    by_plan = {plan: mus[symbol] for plan, symbol in solved.scale_of_plan.items()}
+    return Paper(solved.program, solved.givens, by_plan)
+
+
+def contributions(
+    paper: Paper, hand: Hand, random: Generator, names: tuple[str, ...] = (), drawings: int = FEW
+) -> dict[str, dict[str, float]]:
+    """Return for each quantity the steps at which its error is made, with their parts of the variance, largest first.
+
+    Every step errs alone, all others being exact: to first order the variances add up.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Quantities wanted; all when empty.
+    """
+    wanted = names or tuple(step.name for step in results(paper.program))
+    paper = replace(paper, program=paper.program.needed_for(wanted))
+    exact = run(paper.program, paper.givens).values
+    every = draw(paper, hand, random, 1, only=())
+    parts: dict[str, dict[str, float]] = {name: {} for name in wanted}
+    for step in every.erred:
+        board = draw(paper, hand, random, drawings, only=(step,))
+        for name in wanted:
+            if name in board.missed and exact[name] == exact[name]:
+                parts[name][step] = float(np.nanmean(np.abs(board.values[name] - exact[name]) ** 2))
+    return {name: _ordered(part) for name, part in parts.items()}
+
+
+def _ordered(part: Mapping[str, float]) -> dict[str, float]:
+    total = sum(part.values())
+    ranked = sorted(part.items(), key=lambda item: -item[1])
+    return {step: variance / total for step, variance in ranked if variance > 0.0}
