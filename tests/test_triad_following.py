@@ -289,6 +289,17 @@ def test_best_legs_make_the_special_point() -> None:
     assert found.worst_sine()[1] > 0.3
 
 
+def test_parallel_legs_that_the_task_wants_make_no_special_point() -> None:
+    """The mechanism is not singular, but this construction of it is."""
+    found = solve(replace(BENT, starts=(replace(BENT.starts[0], legs=(4, 5)),)), **PARALLELOGRAM, phi=0.2)
+    error = found.error()
+
+    assert found.status == "singular"
+    assert error is not None
+    assert (error.key, error.data["point"]) == ("singular-position", "X3")
+    assert found.quantities["D"].x is not None
+
+
 def test_positions_where_the_legs_of_the_others_are_parallel_take_legs_of_their_own() -> None:
     """Two legs of this press are nearly parallel in some positions, and for each two of them there are such ones."""
     lengths = {"l_OA": 0.1319, "l_AB": 0.4488, "l_BC": 0.2362, "x_D": 0.0918, "y_D": -0.0872, "l_EC": 0.2694}

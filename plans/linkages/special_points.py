@@ -21,7 +21,8 @@ from .chain import construct, named_groups
 from .following import followed
 from .mechanism import Mechanism
 from .sweeping import without_loads
-from .triad_parts import Leg, Triad
+from .triad_legs import Leg
+from .triad_parts import Triad
 
 Array = NDArray[Any]
 Legs = tuple[int, int]

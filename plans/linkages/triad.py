@@ -22,7 +22,8 @@ from .mechanism import Mechanism, Prismatic, Revolute
 from .parts import Bodies, Span, local_mark, measure_link, move_link, place_link
 from .structure import Group
 from .triad_forces import forces
-from .triad_parts import Central, Hinged, Leg, Sliding, Triad, start_names
+from .triad_legs import Hinged, Leg, Sliding
+from .triad_parts import Central, Triad, start_names
 
 __all__ = ["acceleration", "dyad", "forces", "position", "velocity"]
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 from ..board import Board
 from .mechanism import ZERO
 from .parts import Couples, Forces, answer, hang, moments_about
-from .triad_parts import Hinged, Leg, Sliding, Triad
+from .triad_legs import Hinged, Leg, Sliding
+from .triad_parts import Triad
 
 
 def forces(board: Board, t: Triad, loads: Forces, couples: Couples) -> None:
@@ -26,7 +27,6 @@ def forces(board: Board, t: Triad, loads: Forces, couples: Couples) -> None:
     for leg in t.legs:
         if isinstance(leg, Sliding):
             board.step("arm", f"h_{_pair(leg)}", f"M_{_pair(leg)}", f"R_{_pair(leg)}")
-    for leg in t.legs:
         answer(board, "R", (leg.before, leg.number), (t.number, leg.number))
 
 
