@@ -60,9 +60,7 @@ def _arc(canvas: Canvas, scene: Scene, turn: Turn, sense: float) -> None:
     canvas.label(scene.words.symbol(turn.rate), tip, prefer=rect(sense, along + math.pi / 2), clear=1.4)
 
 
-def _carried(
-    canvas: Canvas, scene: Scene, turn: Turn, e: complex, taken: dict[tuple[complex, complex], float]
-) -> None:
+def _carried(canvas: Canvas, scene: Scene, turn: Turn, e: complex, taken: dict[tuple[complex, complex], float]) -> None:
     """Draw the vector at the joint that it turns, beyond another one on the same ray."""
     b = scene.mm(turn.end)
     key = complex(round(b.real, 3), round(b.imag, 3)), complex(round(e.real, 6), round(e.imag, 6))
@@ -81,4 +79,3 @@ def _off_points(scene: Scene, turn: Turn, radius: float) -> float:
         if abs(radius - reach) < room:
             radius = reach - room if radius < reach and reach > 2 * room else reach + room
     return radius
-

@@ -1,0 +1,100 @@
+"""Figures of links of any form: rigid corners, guides as long as the slider's way, blocks, letters that give way."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from kulman import sheet, solve
+from kulman.drawing.shapes import Line, Pen, Text
+from kulman.drawing.style import STYLES
+from kulman.drawing.view import Canvas
+from kulman.tests.readback import View, read
+from kulman.tests.sheet_geometry import same
+
+
+def position(task: str, **changes: str) -> View:
+    drawn = sheet(task, only="position", format="A1", set=changes or None)
+    return read(*(drawn.svg(number) for number in range(1, len(drawn.pages) + 1)))["position"]
+
+
+def ends(view: View, link: str) -> list[complex]:
+    """Ends of the main lines of a link."""
+    return [p for s in view.inside("link", link) if len(s.points) == 2 for p in s.points]
+
+
+def test_slotted_link_is_longer_than_the_way_of_its_block() -> None:
+    """The slotted link of the slotter turns round; its block runs to and fro on it."""
+    drawn = sheet("scheme-11-slotter", only="position", format="A1")
+    view, mu = read(drawn.svg())["position"], drawn.scales["position"].mu
+    pivot, pin = view.point("C"), view.point("A")
+    e = (pin - pivot) / abs(pin - pivot)
+    length = max(((end - pivot) / e).real for end in ends(view, "3"))
+
+    turns = [solve("scheme-11-slotter", set={"phi": str(30 * k)}, only="position") for k in range(12)]
+    ways = [math.dist(xy(turn, "A"), xy(turn, "C")) / mu for turn in turns]
+
+    assert max(ways) > 1.2 * min(ways)
+    assert length > max(ways) + STYLES["A1"].slider[0] / 2
+
+
+def xy(solution: object, point: str) -> tuple[float, float]:
+    at = solution.solved.point(point)  # type: ignore[attr-defined]
+    return at.real, at.imag
+
+
+@pytest.mark.parametrize(
+    ("task", "corners", "arcs"),
+    [
+        pytest.param("scheme-16-hay-baler", 3, 0, id="three joints not in line"),
+        pytest.param("scheme-15-lever-shears", 0, 1, id="three joints in line"),
+        pytest.param("scheme-08-planer", 1, 0, id="two arms on a pivot"),
+        pytest.param("scheme-06-opposed-compressor", 0, 1, id="two pins opposite on the crank"),
+        pytest.param("nau-slider-crank", 0, 0, id="two joints a link"),
+    ],
+)
+def test_rigid_corners_are_marked(task: str, corners: int, arcs: int) -> None:
+    rigid = position(task).lines("rigid")
+
+    assert sum(s.arc is None for s in rigid) == corners
+    assert sum(s.arc is not None for s in rigid) == arcs
+
+
+def test_block_lies_in_its_link_and_turns_with_it() -> None:
+    view = position("scheme-09-shaper")
+    pivot, pin = view.point("C"), view.point("A")
+    (block,) = [s for s in view.inside("link", "2") if len(s.points) == 5]
+    a, b, c, _, _ = block.points
+
+    assert same(sum(block.points[:4]) / 4, pin)
+    assert min(abs(((side / (pin - pivot)) / abs(side / (pin - pivot))).imag) for side in (b - a, c - b)) < 1e-4
+
+
+def test_points_on_several_links_have_all_their_numbers() -> None:
+    drawn = sheet("scheme-09-shaper", only="position,velocity", format="A1")
+    labels = [text.string for text in read(drawn.svg())["position"].of("label")]
+
+    assert "A_{1,2,3}" in labels
+    assert "A" not in labels
+
+
+def test_letter_that_may_give_way_goes_into_the_notes() -> None:
+    canvas = Canvas(STYLES["A1"])
+    canvas.add(*(Line(complex(-60, y), complex(60, y), Pen.MAIN) for y in range(-60, 61, 3)))
+    canvas.label("h = 1", (-1 + 0j, 1 + 0j), spare="h = 1")
+
+    view = canvas.finish("crowded", ("heading",))
+
+    texts = [shape for shape in view.shapes if isinstance(shape, Text)]
+    assert [text.role for text in texts if text.markup == "h = 1"] == ["heading"]
+
+
+def test_letter_with_room_stands_beside_its_line() -> None:
+    canvas = Canvas(STYLES["A1"])
+    canvas.label("h = 1", (-10 + 0j, 10 + 0j), spare="h = 1")
+
+    view = canvas.finish("empty", ("heading",))
+
+    texts = [shape for shape in view.shapes if isinstance(shape, Text)]
+    assert [text.role for text in texts if text.markup == "h = 1"] == ["label"]
