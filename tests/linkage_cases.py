@@ -73,6 +73,8 @@ class Oracle:
         self.solver = JacobianSolver(self.m, values, _rough_places(solution))
         self.known = {name: complex(value[0]) for name, value in self.solver.expected().items()}
         self.values = values
+        # a special point stands on two legs; how it moves as a point of its link is not taken from the plan
+        self.special = {name: solved.point(name) for name in solved.values if re.fullmatch(r"X\d+", name)}
 
     @cached_property
     def still(self) -> dict[str, complex]:
@@ -86,7 +88,11 @@ class Oracle:
 
     def place(self, letter: str) -> complex:
         """Where a lettered point stands; `A3`, the point of link 3 under A, stands at A."""
-        return self.still.get(letter) or self.known.get(letter, self.known.get(letter[:-1], 0j))
+        return (
+            self.still.get(letter)
+            or self.special.get(letter)
+            or self.known.get(letter, self.known.get(letter[:-1], 0j))
+        )
 
     def points(self) -> set[str]:
         return {point for link in self.m.links for point in link.points} | {*self.still}

@@ -17,16 +17,17 @@ from kulman.tests.sheet_geometry import NEAR, closed_chain, same, unless
 Faults = Iterator[str]
 
 
-def mu_of(view: View, symbol: str, lang: str) -> float:
-    """The scale factor that the heading of a view prints."""
-    (found,) = [t.string for t in view.of("heading") if t.string.startswith(symbol)]
-    return numbers_of(found.partition("=")[2].partition(" (")[0], lang)[0]
+def mu_of(view: View, lang: str) -> float:
+    """The scale factor that the heading of a view prints, per millimetre; Bertyaev has centimetres on both sides."""
+    (found,) = [t.string for t in view.of("heading") if re.match(r"(μ|M)_\{", t.string) and "/" in t.string]
+    number = numbers_of(found.partition("=")[2].partition(" (")[0], lang)[0]
+    return number * 1e-3 if re.search(r"(cm|см)/(cm|см)$", found) else number
 
 
 def l1_plan(case: Linkage, sheet: Sheet) -> Faults:
     """Every lettered point stands in its place; links, points and the frame are lettered; supports are hatched."""
     view, oracle = sheet["position"], case.oracle
-    mu, pivot = mu_of(view, "μ", case.lang), next(iter(oracle.still), None)
+    mu, pivot = mu_of(view, case.lang), next(iter(oracle.still), None)
     origin = view.point(pivot) - oracle.place(pivot) / mu if pivot else None
     for name in sorted(oracle.points()):
         if view.has(name) and origin is not None:
@@ -232,7 +233,7 @@ def l12_lever(case: Linkage, sheet: Sheet) -> Faults:
     """The velocity plan turned; forces unturned at their images; the sum of F h with signs is zero."""
     view = sheet["lever"]
     p, numbers = view.point("lever.p"), case.solution
-    mu = mu_of(view, "μ", case.lang)
+    mu = mu_of(view, case.lang)
     for name in case.oracle.points():
         if view.has(f"lever.{name}"):
             turned = case.oracle.moves(name)[0] * 1j / mu

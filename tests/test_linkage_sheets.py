@@ -6,10 +6,9 @@ import pytest
 
 from kulman.tests.linkage_cases import Linkage
 from kulman.tests.linkage_points import linkage_faults
-from kulman.variants.shelf import bundled
+from kulman.variants.shelf import bundled, summary
 
-TASKS = {task.id: tuple(task.variants) for task in bundled() if task.id != "nau-slider-crank"}
-FORCES = {task.id for task in bundled() if {"forces", "lever"} <= set(task.plans)}
+TASKS = {task: tuple(summary(task)["variants"]) for task in bundled() if task != "nau-slider-crank"}
 SAMPLE = [Linkage(task, variants[k % len(variants)], format="A1") for k, (task, variants) in enumerate(TASKS.items())]
 
 
