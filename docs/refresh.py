@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
-DOCUMENTS = (README, ROOT / "docs" / "cycle.md")
+DOCUMENTS = (README, ROOT / "docs" / "cycle.md", ROOT / "docs" / "own-mechanism.md")
 BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
 
 
@@ -42,13 +42,17 @@ def filled(block: str, folder: str) -> str:
     return "".join(f"$ {command}\n{run(command, folder)[0]}" for command in commands(block))
 
 
+def refreshed(text: str, folder: str) -> str:
+    """Return a document with what its commands, one after the other in `folder`, print today."""
+    return BLOCK.sub(lambda found: f"```console\n{filled(found[1], folder)}```", text)
+
+
 def main() -> None:
     """Rewrite the blocks of the documents and the picture."""
+    for document in DOCUMENTS:
+        with tempfile.TemporaryDirectory() as folder:
+            document.write_text(refreshed(document.read_text(encoding="utf-8"), folder), encoding="utf-8")
     with tempfile.TemporaryDirectory() as folder:
-        for document in DOCUMENTS:
-            text = document.read_text(encoding="utf-8")
-            text = BLOCK.sub(lambda found: f"```console\n{filled(found[1], folder)}```", text)
-            document.write_text(text, encoding="utf-8")
         people = "--student 'І. Петренко' --group АТ-301 --designation ТММ.РГР.03.01"
         run(f"kulman sheet nau-slider-crank -v 3 -o sheet.pdf {people}", folder)
         picture(Path(folder) / "sheet.pdf", ROOT / "docs" / "pictures" / "nau-slider-crank-3.png")
