@@ -11,6 +11,7 @@ from kulman import cli
 from kulman.scales.errors import LANGUAGES
 from kulman.variants import solve
 from kulman.variants.reader import read_text
+from kulman.variants.shelf import bundled_text
 from kulman.variants.starter import template
 
 GOOD = template("en")
@@ -209,20 +210,125 @@ BROKEN: dict[str, tuple[Sequence[tuple[str, str]], str, str, str]] = {
 }
 
 
+# The same of a press with a load diagram over its stroke, and of one with a group of class III.
+PRESS, AUTOMATON = bundled_text("scheme-13-toggle-press"), bundled_text("scheme-20-press-automaton")
+START = AUTOMATON[AUTOMATON.index("[[mechanism.start]]") : AUTOMATON.index("[mechanism.stroke]")]
+LOADED: dict[str, tuple[str, Sequence[tuple[str, str]], str, str, str]] = {
+    "stroke of a link off the frame": (
+        PRESS,
+        [("[mechanism.stroke]\nlink = 5", "[mechanism.stroke]\nlink = 4")],
+        "stroke-link",
+        "mechanism.stroke.link",
+        "link 4 is not an output: expected a slider or a rocker on the frame that does not drive",
+    ),
+    "stroke of the driver": (
+        PRESS,
+        [("[mechanism.stroke]\nlink = 5", "[mechanism.stroke]\nlink = 1")],
+        "stroke-link",
+        "mechanism.stroke.link",
+        "link 1 is not an output",
+    ),
+    "load in a stroke of nothing": (
+        PRESS,
+        [("[mechanism.stroke]\nlink = 5\n", "")],
+        "stroke-missing",
+        "mechanism.load",
+        "no output is named: expected [mechanism.stroke] with the key 'link'",
+    ),
+    "diagram with unequal columns": (
+        PRESS,
+        [('values = ["0 N", "0 N", ', 'values = ["0 N", ')],
+        "diagram-uneven",
+        "mechanism.diagram.values",
+        "the diagram has 5 places, but 4 values here",
+    ),
+    "diagram with places that decrease": (
+        PRESS,
+        [("at = [0, 0.35, 0.35, 0.9, 1]", "at = [0, 0.35, 0.3, 0.9, 1]")],
+        "diagram-stroke",
+        "mechanism.diagram.at",
+        "parts of the stroke from 0 to 1 and must not decrease",
+    ),
+    "diagram over nothing": (
+        PRESS,
+        [('over = "stroke"', 'over = "time"')],
+        "diagram-over",
+        "mechanism.diagram.over",
+        "expected one of: stroke, angle",
+    ),
+    "load in no stroke": (
+        PRESS,
+        [('stroke = "working"', 'stroke = "work"')],
+        "stroke-unknown-like",
+        "mechanism.load.stroke",
+        "did you mean 'working'?",
+    ),
+    "load by an unknown diagram": (
+        PRESS,
+        [('magnitude = "p_drawing"', 'magnitude = "p_press"')],
+        "value-unknown",
+        "mechanism.load.magnitude",
+        "'p_press' is neither a given nor set by a choice",
+    ),
+    "force that resists a pivot": (
+        PRESS,
+        [('link = 5\npoint = "D"\nmagnitude', 'link = 3\npoint = "C"\nmagnitude')],
+        "load-still",
+        "mechanism.load",
+        "C is a pivot and does not move, so that there is nothing to resist",
+    ),
+    "mass twice": (
+        PRESS,
+        [('per_length = "q"\n', 'per_length = "q"\nmass = "2 kg"\n')],
+        "follows-from",
+        "mechanism.link.mass",
+        "'mass' follows from 'per_length': state one of them",
+    ),
+    "gravity without a unit": (
+        PRESS,
+        [('"9.81 m/s^2"', "9.81")],
+        "unit-missing",
+        "mechanism.gravity",
+        "expected one such as m/s^2",
+    ),
+    "triad without a start": (
+        AUTOMATON,
+        [(START, "")],
+        "start-missing",
+        "mechanism.link",
+        "say in [[mechanism.start]] where its central link 3 stands",
+    ),
+    "start of a leg": (
+        AUTOMATON,
+        [("[[mechanism.start]]\nlink = 3", "[[mechanism.start]]\nlink = 4")],
+        "start-missing",
+        "mechanism.link",
+        "where its central link 3 stands",
+    ),
+    "start at no angle": (
+        AUTOMATON,
+        [('driver = "90 deg"\n', "")],
+        "key-missing",
+        "mechanism.start",
+        "the key 'driver' is missing",
+    ),
+}
+
+
 def broken(name: str) -> str:
-    """Return the good file with its fault."""
-    text = GOOD
-    for old, new in BROKEN[name][0]:
+    """Return a good file with its fault."""
+    text, edits = (GOOD, BROKEN[name][0]) if name in BROKEN else LOADED[name][:2]
+    for old, new in edits:
         assert old in text, old
         text = text.replace(old, new, 1)
     return text
 
 
-@pytest.mark.parametrize("name", BROKEN)
+@pytest.mark.parametrize("name", [*BROKEN, *LOADED])
 def test_fault_is_named_with_its_place_and_what_was_expected(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    _, key, place, said = BROKEN[name]
+    key, place, said = BROKEN[name][1:] if name in BROKEN else LOADED[name][2:]
     monkeypatch.chdir(tmp_path)
     Path("mine.toml").write_text(broken(name), encoding="utf-8")
     _, faults = read_text(broken(name), "mine.toml")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from ..plans.linkages.mechanism import Mechanism, Revolute
+from ..plans.linkages.mechanism import BOTH, WORKING, Mechanism, Revolute
 from ..plans.linkages.structure import Structure
 from ..scales.errors import InputError
 from .checks import Checker
@@ -12,7 +12,12 @@ from .toml_places import Path
 
 
 def place_of(mechanism: Mechanism, error: InputError) -> Path:
-    """Return where an error of the structure shows: the first link that it names, or the point."""
+    """Return where an error of the structure shows: the load or the first link that it names, or the point."""
+    for kind, rows in (("load", mechanism.loads), ("couple", mechanism.couples), ("diagram", mechanism.diagrams)):
+        for i, row in enumerate(rows):
+            timed = getattr(row, "stroke", WORKING) != BOTH  # all diagrams over a stroke are
+            if row.name == error.data.get("name") or (timed and error.key == "stroke-missing"):
+                return "mechanism", kind, i
     named = re.search("[0-9]+", str(error.data.get("link", error.data.get("links", ""))).replace("0, ", "", 1))
     for i, link in enumerate(mechanism.links):
         if named and link.number == int(named[0]):
