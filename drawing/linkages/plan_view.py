@@ -13,6 +13,7 @@ from ..view import Canvas, View
 from .scene import Scene
 
 PAST = 6.0  # mm by which a construction line runs past the point that it finds
+TOGETHER = 0.7  # mm within which marks share their letters: side by side they would cover one another
 SHORT = 2.0  # mm below which a vector cannot be drawn as an arrow
 
 
@@ -100,7 +101,8 @@ def letter_marks(
     middle = sum(places.values()) / len(places)
     at: dict[complex, list[str]] = {}
     for mark, letter in letters.items():
-        at.setdefault(_rounded(places[mark]), []).append(letter)
+        near = next((place for place in at if abs(place - places[mark]) < TOGETHER), places[mark])
+        at.setdefault(near, []).append(letter)
     for mark in poles:
         canvas.add(Group((Circle(places[mark], scene.style.node, Pen.MAIN, fill="white"),), "point", mark))
     for place, names in at.items():
