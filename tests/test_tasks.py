@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Callable
 
 import numpy as np
@@ -15,7 +16,7 @@ from kulman.plans.linkages.mechanism import FRAME, STROKE, WORKING, Driver, Mech
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.plans.linkages.structure import Group, analyse
 from kulman.variants import load_task
-from kulman.variants.shelf import bundled, summary
+from kulman.variants.shelf import bundled, bundled_text, summary
 
 # The customary schemes of course projects: I is the driver, then the groups by class and kind (class III by order) with
 # their links; -> on links of a group before, || on the driver alone.
@@ -66,6 +67,19 @@ def test_all_schemes_come_with_the_program_under_their_names() -> None:
     assert [task for task in bundled() if task.startswith("scheme-")] == list(FORMULAS)
     for scheme in FORMULAS:
         assert summary(scheme)["variants"] == list("0123456789")
+
+
+@pytest.mark.parametrize("task", bundled())
+def test_what_list_shows_is_what_the_file_holds(task: str) -> None:
+    raw = tomllib.loads(bundled_text(task))
+
+    shown = summary(task)
+
+    assert {name: shown[name] for name in ("id", "title", "source", "plans")} == {
+        name: raw[name] for name in shown.keys() & raw.keys() - {"givens"}
+    }
+    assert shown["variants"] == [row["id"] for row in raw["variant"]]
+    assert shown["givens"] == {name: given.get("unit") or given["choices"] for name, given in raw["givens"].items()}
 
 
 @pytest.mark.parametrize("scheme", FORMULAS)

@@ -8,9 +8,10 @@ from importlib.resources import files
 from typing import Any
 
 _TASKS = files(__package__) / "tasks"
-# a row of variants begins with its id; rows of a table stand before the mechanism, others after it
+# what the files of the bundled tasks look like: a row of variants begins with its id, a given with unit or choices
 _ID = re.compile(r'^(?:  \{ )?id = "([^"]+)"', re.MULTILINE)
 _TABLE = re.compile(r"^variant = \[\n.*?^\]\n", re.MULTILINE | re.DOTALL)
+_GIVEN = re.compile(r'^(\w+) = \{ (?:unit = "([^"]+)"|choices = \[([^]]+)\])', re.MULTILINE)
 
 
 def bundled() -> tuple[str, ...]:
@@ -27,12 +28,13 @@ def bundled_text(task: str) -> str:
 def summary(task: str) -> dict[str, Any]:
     """Return what `list` shows of a bundled task: id, title, source, variants, plans, givens with unit or choices.
 
-    To parse whole files would take most of the time of `list`: only what stands before the mechanism is parsed, and of
-    the variants only their ids are read.
+    To parse whole files would take most of the time of `list`: only their heads are parsed.
     """
     text = bundled_text(task)
-    raw = tomllib.loads(_TABLE.sub("", text[: text.index("[[mechanism.")]))
-    givens = {name: given.get("unit") or given["choices"] for name, given in raw["givens"].items()}
+    head, _, rest = text.partition("[givens]\n")
+    raw = tomllib.loads(_TABLE.sub("", head))
+    rows = _GIVEN.findall(rest[: rest.index("[[mechanism.")])
+    givens = {name: unit or re.findall('"([^"]+)"', choices) for name, unit, choices in rows}
     return {name: raw[name] for name in ("id", "title", "source", "plans")} | {
         "variants": _ID.findall(text)[1:],
         "givens": givens,
