@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from ...plans.laws import cross
 from ...plans.linkages.mechanism import FRAME, Pair, Prismatic, Revolute
 from ...plans.linkages.structure import Group
-from .reach import guide_name
 from .scene import Scene
 
 Hung = list[tuple[str, str]]  # force, mark of the point where it acts
@@ -135,7 +134,7 @@ def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int
         return None
     moment, reaction = step.operands
     pin = _about(scene, moment) or pin_of(scene, group, pair)
-    u = scene.solved.point(guide_name(scene.solved, pair))
+    u = scene.solved.point(scene.solved.guide_name(pair))
     value = float(scene.solved.values[moment])
     # the moment of the loads, which the reaction balances, or that of the reaction itself
     turning = -value if moment.startswith("_M_") else value

@@ -12,7 +12,6 @@ from ..shapes import Arc, Circle, Group, Line, Pen
 from ..symbols import slider_up
 from ..view import Canvas
 from .letters import guide_letters
-from .reach import guide_name
 from .scene import Scene
 from .skeleton import Skeleton, guide_of
 
@@ -26,10 +25,10 @@ def axes(canvas: Canvas, scene: Scene) -> None:
     pairs = [p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and FRAME in p.links]
     letters, per_mm = guide_letters(scene.solved.program), 1.0 / scene.scales[POSITION].mu
     for pair in pairs:
-        at, u, name = scene.mm(pair.point), guide_of(scene, pair), guide_name(scene.solved, pair)
+        at, u, name = scene.mm(pair.point), guide_of(scene, pair), scene.solved.guide_name(pair)
         feet = [(pivot - at) / u for pivot in pivots]
         near = [foot.real for foot in feet if abs(foot.imag) < 0.3 * abs(foot.real)]
-        way = near[:1] or [end * per_mm for end in scene.reaches.get(name, ())]
+        way = near[:1] or [end * per_mm for end in scene.runs.get(name, ())]
         line = at + u * (min(0.0, *way) - PAST), at + u * (max(0.0, *way) + PAST)
         canvas.add(Line(*line, Pen.AXIS))
         # of several axes the far ends meet at one pivot
@@ -47,7 +46,7 @@ def moving_guides(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> 
     """Letter the guides of moving links that have letters: those that no two pins name."""
     letters = guide_letters(scene.solved.program)
     for pair in (p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and FRAME not in p.links):
-        letter = letters.get(guide_name(scene.solved, pair))
+        letter = letters.get(scene.solved.guide_name(pair))
         figure = next(figure for figure in figures if figure.number == pair.links[1])
         u = guide_of(scene, pair)
         ends = [end for stroke in figure.guides for end in stroke if abs(((end - scene.mm(pair.point)) / u).imag) < 0.1]

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from ...plans.linkages.slider_runs import Runs, slider_runs
 from ...plans.linkages.solved import Solved
 from ...scales.choose import UNITS, Choosers, CrankScale
 from ...scales.errors import InputError
@@ -19,7 +20,6 @@ from ..view import View
 from ..words import Words
 from .ladders import Ladders, by_plan, ladders_of
 from .letters import lettered
-from .reach import Reach, reaches
 from .scene import Given, Scene
 from .views import Figure, figures
 
@@ -77,14 +77,14 @@ class Fitting:
 
     contents: Contents
     ladders: Ladders = field(init=False)
-    reaches: Reach = field(init=False)
+    runs: Runs = field(init=False)
     _root: dict[str, str] = field(init=False)
     _built: dict[tuple[str, int], Fitted] = field(default_factory=dict)
     _drawings: dict[tuple[str, int], list[tuple[dict[str, Scale], View]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Find the ladders and how long guides are; a crank scale stands on the rung of mu_l."""
-        self.reaches = reaches(self.contents.solved)
+        self.runs = slider_runs(self.contents.solved)
         choosers = self.contents.choosers
         self.ladders = ladders_of(self.contents.solved, choosers)
         self._root = {s: "mu_l" if isinstance(choosers.get(s), CrankScale) else s for s in self.ladders}
@@ -172,7 +172,7 @@ class Fitting:
         solved, contents = self.contents.solved, self.contents
         scales = by_plan(solved, mus)
         words = lettered(contents.words, solved)
-        return Scene(solved, scales, words, STYLES[sheet.letters], contents.givens, self.reaches)
+        return Scene(solved, scales, words, STYLES[sheet.letters], contents.givens, self.runs)
 
     def _does_not_fit(self, sheet: Format, symbol: str, size: tuple[float, float]) -> InputError:
         """Say which format, or which scale factor, would do."""

@@ -15,8 +15,8 @@ from ..shapes import Vector
 from ..style import Style
 from ..words import Words
 
-if TYPE_CHECKING:  # reaches are found with numpy, which a solution does without
-    from .reach import Reach
+if TYPE_CHECKING:  # runs are found with numpy, which a solution does without
+    from ...plans.linkages.slider_runs import Runs
 
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 
@@ -31,14 +31,14 @@ class Given:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A solved mechanism on a certain format, in certain words; `scales` are by plan, `reaches` by guide."""
+    """A solved mechanism on a certain format, in certain words; `scales` are by plan, `runs` of sliders by guide."""
 
     solved: Solved
     scales: Mapping[str, Scale]
     words: Words
     style: Style
     givens: Mapping[str, Given]  # what the task states, in its own units
-    reaches: Reach = field(default_factory=dict)
+    runs: Runs = field(default_factory=dict)
     _largest: dict[str, float] = field(default_factory=dict, compare=False)
 
     def mm(self, mark: str) -> complex:

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise
 
 from ...plans.linkages.mechanism import FRAME, Pair, Prismatic, Revolute
-from .reach import guide_name
 from .scene import Scene
 
 NEAR = 0.02  # mm: points so near to one another, or to a line, coincide on the drawing
@@ -52,7 +51,7 @@ def pins_of(scene: Scene, number: int) -> tuple[str, ...]:
 
 def guide_of(scene: Scene, pair: Prismatic) -> complex:
     """Return the unit direction of a pair's guide."""
-    return scene.solved.point(guide_name(scene.solved, pair))
+    return scene.solved.point(scene.solved.guide_name(pair))
 
 
 def skeleton(scene: Scene, number: int) -> Skeleton:
@@ -91,7 +90,7 @@ def _block_size(scene: Scene, pair: Prismatic) -> tuple[float, float]:
 def _rail(scene: Scene, pair: Prismatic) -> Stroke:
     """Return the line along which the slider runs on a moving link, longer at both ends than the slider's way."""
     at, u = scene.mm(pair.point), guide_of(scene, pair)
-    low, high = scene.reaches.get(guide_name(scene.solved, pair), (0.0, 0.0))
+    low, high = scene.runs.get(scene.solved.guide_name(pair), (0.0, 0.0))
     per_mm, spare = 1.0 / scene.scales["position"].mu, 0.75 * scene.style.slider[0]
     return at + u * (low * per_mm - spare), at + u * (high * per_mm + spare)
 

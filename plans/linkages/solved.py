@@ -13,7 +13,7 @@ from ..exact import Status, Trouble, run
 from ..quantities import Quantity, quantities, shown_on
 from . import compound
 from .chain import USUAL, board_givens, construct, hinged
-from .mechanism import ZERO, Mechanism, SlidingDriver
+from .mechanism import ZERO, Mechanism, Prismatic, SlidingDriver
 from .structure import TRIAD, Structure
 
 # which operands of a step are pins that must not coincide
@@ -44,6 +44,11 @@ class Solved:
         """Return the magnitude of a value."""
         value = self.values[name]
         return math.hypot(value.real, value.imag)
+
+    def guide_name(self, pair: Prismatic) -> str:
+        """Return the name of the direction of a pair's guide."""
+        a, b = pair.links
+        return next(name for name in (f"u_{a}{b}", f"u_{b}{a}") if name in self.values)
 
     def worst_sine(self) -> tuple[str, float]:
         """Return the worst intersection: the name of its mark and the sine of its angle."""

@@ -1,0 +1,40 @@
+"""Guides are drawn as long as their sliders run: on the frame that is the stroke, found by zeros of the velocity."""
+
+from __future__ import annotations
+
+import pytest
+
+from kulman.plans.linkages.cycle import cycle
+from kulman.plans.linkages.slider_runs import slider_runs
+from kulman.plans.linkages.solved import solve_linkage
+from kulman.tests.presses import RAM, RAM_VALUES
+from kulman.variants.solution import solve
+
+
+@pytest.mark.parametrize(
+    "task",
+    [
+        "nau-slider-crank",
+        "scheme-09-shaper",
+        "scheme-13-toggle-press",
+        "scheme-19-scotch-yoke",
+        "scheme-20-press-automaton",
+    ],
+)
+def test_sliders_on_the_frame_run_as_far_as_their_strokes(task: str) -> None:
+    solved = solve(task).solved
+
+    runs = slider_runs(solved)
+
+    for motion in cycle(solved.mechanism, solved.givens, ("velocity",)).motions:
+        if motion.output.slides:
+            low, high = runs[f"u_{motion.output.link}0"]
+            assert motion.travel is not None
+            assert high - low == pytest.approx(motion.travel.length, rel=2e-3)  # the ends lie between the 72 positions
+
+
+def test_the_ram_of_a_group_of_class_iii_runs_on_its_own_branch() -> None:
+    runs = [slider_runs(solve_linkage(RAM, {**RAM_VALUES, "phi": phi})) for phi in (0.2, 0.7)]
+
+    (first,), (second,) = (run.values() for run in runs)
+    assert first[1] - first[0] == pytest.approx(second[1] - second[0], rel=5e-3)
