@@ -70,6 +70,7 @@ class Oracle:
         # what is given comes first: the plan calls a load and its size by one name
         values = {name: value for name, value in solved.values.items() if isinstance(value, float)}
         values |= solution.task.values(solution.variant)
+        values["output_angle"] = _output_angle(solution)
         self.solver = JacobianSolver(self.m, values, _rough_places(solution))
         self.known = {name: complex(value[0]) for name, value in self.solver.expected().items()}
         self.values = values
@@ -158,6 +159,15 @@ class Oracle:
             if held and (letter in link.points or letter[-1:] == str(link.number)):
                 return held[0]
         return letter
+
+
+def _output_angle(solution: Solution) -> float:
+    """Return the angle on the output link of the direction by which its stroke is measured."""
+    solved = solution.solved
+    if solved.mechanism.stroke is None:
+        return 0.0
+    local = moving_bodies(solved.mechanism, solved.structure)[solved.mechanism.stroke.link].local
+    return cmath.phase(complex(solved.values[local])) if local else 0.0
 
 
 def _rough_places(solution: Solution) -> np.ndarray:
