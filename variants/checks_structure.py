@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
-from ..plans.linkages.mechanism import BOTH, WORKING, Mechanism, Revolute
+from ..plans.linkages.mechanism import BOTH, WORKING, Couple, Diagram, Load, Mechanism, Revolute
 from ..plans.linkages.structure import Structure
 from ..scales.errors import InputError
 from .checks import Checker
@@ -13,7 +14,12 @@ from .toml_places import Path
 
 def place_of(mechanism: Mechanism, error: InputError) -> Path:
     """Return where an error of the structure shows: the load or the first link that it names, or the point."""
-    for kind, rows in (("load", mechanism.loads), ("couple", mechanism.couples), ("diagram", mechanism.diagrams)):
+    loads: dict[str, Sequence[Load | Couple | Diagram]] = {
+        "load": mechanism.loads,
+        "couple": mechanism.couples,
+        "diagram": mechanism.diagrams,
+    }
+    for kind, rows in loads.items():
         for i, row in enumerate(rows):
             timed = getattr(row, "stroke", WORKING) != BOTH  # all diagrams over a stroke are
             if row.name == error.data.get("name") or (timed and error.key == "stroke-missing"):
