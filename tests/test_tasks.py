@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.batch import batch
-from kulman.plans.exact import STATUSES
+from kulman.plans.exact import STATUSES, run
 from kulman.plans.linkages.chain import board_givens, construct
 from kulman.plans.linkages.mechanism import FRAME, STROKE, WORKING, Driver, Mechanism, Prismatic, Revolute
 from kulman.plans.linkages.solved import solve_linkage
@@ -49,7 +49,7 @@ VARIANTS = [  # three of ten by default, others with each scheme
 ]
 POSITIONS = 360
 TRAVEL = 0.15  # m, of the hydraulic cylinder
-LEAST = math.sin(math.radians(20.0))
+LEAST, FLAT = math.sin(math.radians(20.0)), math.sin(math.radians(15.0))
 
 
 def formula(groups: tuple[Group, ...]) -> str:
@@ -127,6 +127,19 @@ def test_variant_can_be_assembled_in_every_position_of_the_driver(scheme: str, v
     _, codes = batch(program, board_givens(task.mechanism, values, program), wanted)
 
     assert {STATUSES[code] for code in codes} == {"ok"}
+
+
+@pytest.mark.parametrize(("scheme", "variant"), VARIANTS)
+def test_links_of_a_variant_never_meet_flatly(scheme: str, variant: str) -> None:
+    task = load_task(scheme)
+    driver = task.mechanism.driver
+    range_of = 2.0 * math.pi if isinstance(driver, Driver) else TRAVEL
+    _, program = construct(task.mechanism, ["velocity"])
+
+    for at in np.arange(18) * (range_of / 18):
+        values = {**task.values(variant), driver.coordinate: float(at)}
+        sines = run(program, board_givens(task.mechanism, values, program)).sines
+        assert min(sines.values()) > FLAT, (at, sines)
 
 
 @pytest.mark.parametrize("scheme", FORMULAS)
