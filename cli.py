@@ -265,9 +265,19 @@ def _print_json(data: Mapping[str, Any]) -> None:
 
 
 @commands.command(
-    epilog=_example("kulman solve nau-slider-crank -v 3", "kulman solve nau-slider-crank --set l_OA=30 --json")
+    epilog=_example(
+        "kulman solve nau-slider-crank -v 3",
+        "kulman solve nau-slider-crank --set l_OA=30 --json",
+        "kulman solve nau-slider-crank -v 3 --only velocity --condition",
+    )
 )
 @_of_task
+@click.option(
+    "--condition",
+    is_flag=True,
+    help="Show for each quantity its condition K (errors of the data come through so many times, in parts of the "
+    "largest vector of the plan) and the sine of the flattest intersection behind it.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) and show all quantities."""

@@ -12,10 +12,9 @@ import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
-from numpy.random import Generator
 
 from .batch import ArrayBoard
 from .board import POSITION, Program
@@ -25,6 +24,13 @@ from .laws import dot
 ZERO = "zero"
 Shape = int | tuple[int, ...]
 Operate = Callable[..., Any]
+
+
+class Errors(Protocol):
+    """Where errors come from: a generator of numpy, or what takes its place."""
+
+    def standard_normal(self, size: Shape, /) -> Any:
+        """Return an array of errors in standard deviations."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,15 +55,15 @@ class Paper:
 class ShakyBoard(ArrayBoard):
     """Many drawings of one construction, in an array of `shape`; at steps that are not in `only` the hand is exact.
 
-    `erred` names the steps at which the hand can err, in order; `missed` the names that hang on an error.
+    `erred` names for each error, in order, the step at which it was made; `missed` the names that hang on an error.
     """
 
     def __init__(
-        self, paper: Paper, hand: Hand, random: Generator, shape: Shape, only: Collection[str] | None = None
+        self, paper: Paper, hand: Hand, random: Errors, shape: Shape, only: Collection[str] | None = None
     ) -> None:
         super().__init__(paper.givens, 0)
         self.codes = np.zeros(shape, np.int8)
-        self.erred: dict[str, None] = {}
+        self.erred: list[str] = []
         self.missed: set[str] = set()
         self._hand, self._mus, self._random, self._only = hand, paper.mus, random, only
         self._steps = {step.name: step for step in paper.program}
@@ -79,10 +85,10 @@ class ShakyBoard(ArrayBoard):
 
     def _error(self, size: Any) -> Any:
         """Return an error of this step for every drawing, zero for a hand that never errs so."""
-        self.erred[self._name] = None
         if (np.ndim(size) == 0 and not size) or (self._only is not None and self._name not in self._only):
             return 0.0
         self.missed.add(self._name)
+        self.erred.append(self._name)
         return self._random.standard_normal(self.codes.shape) * size
 
     def _point(self, mark: str) -> Any:
@@ -303,14 +309,14 @@ SHAKY: Mapping[str, Operate] = {
 
 
 def draw(
-    paper: Paper, hand: Hand, random: Generator, drawings: Shape = 1000, only: Collection[str] | None = None
+    paper: Paper, hand: Hand, random: Errors, drawings: Shape = 1000, only: Collection[str] | None = None
 ) -> ShakyBoard:
     """Draw a construction so many times with a shaky hand.
 
     Parameters
     ----------
-    random : numpy.random.Generator
-        Where the errors come from: the same seed draws the same.
+    random : Errors
+        A `numpy.random.Generator`: the same seed draws the same.
     only : collection of str, optional
         Names of the only steps at which the hand errs; all when left out.
     """

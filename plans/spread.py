@@ -1,9 +1,9 @@
-"""What honest drawings give: the interval of each quantity, and at which step most of its error is made."""
+"""What honest drawings give: the interval of each quantity, on paper and beside the largest vector of its plan."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,6 @@ from .worth import plans_of, references, results
 
 Array = NDArray[Any]
 DRAWINGS = 1000
-FEW = 200  # drawings for each single step
 NOTHING = 1e-12  # part of the largest vector that is rounding
 
 
@@ -91,7 +90,7 @@ class Drawn:
             numbers = np.abs(values) if np.iscomplexobj(values) else values
             value = abs(exact) if isinstance(exact, complex) else float(exact)
             low, high = map(float, np.quantile(numbers, (0.5 - share / 2.0, 0.5 + share / 2.0)))
-            deviation = float(np.std(numbers))
+            deviation = float(np.std(numbers)) if name in self.board.missed else 0.0
         return Spread(
             value,
             low,
@@ -117,7 +116,8 @@ def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = DRAWINGS)
     >>> import numpy as np
     >>> from kulman import solve
     >>> from kulman.plans.hand import preset
-    >>> from kulman.plans.spread import drawn, paper_of
+    >>> from kulman.plans.linkages.accuracy import paper_of
+    >>> from kulman.plans.spread import drawn
     >>> solution = solve("nau-slider-crank", "example")
     >>> paper = paper_of(solution.solved, {"mu_l": 0.001, "mu_V": 0.05, "mu_a": 2.0, "mu_F_23": 10.0, "mu_F_1": 10.0})
     >>> spreads = drawn(paper, preset("normal").hand, np.random.default_rng(1)).spreads()
@@ -126,40 +126,3 @@ def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = DRAWINGS)
     """
     exact = run(paper.program, paper.givens).values
     return Drawn(paper, exact, draw(paper, hand, random, drawings))
-
-
-def paper_of(solved: Any, mus: Mapping[str, float]) -> Paper:
-    """Return the drawing of a solved mechanism, with scale factors by symbol, `mu_V`."""
-    by_plan = {plan: mus[symbol] for plan, symbol in solved.scale_of_plan.items()}
-    return Paper(solved.program, solved.givens, by_plan)
-
-
-def contributions(
-    paper: Paper, hand: Hand, random: Generator, names: tuple[str, ...] = (), drawings: int = FEW
-) -> dict[str, dict[str, float]]:
-    """Return for each quantity the steps at which its error is made, with their parts of the variance, largest first.
-
-    Every step errs alone, all others being exact: to first order the variances add up.
-
-    Parameters
-    ----------
-    names : tuple of str
-        Quantities wanted; all when empty.
-    """
-    wanted = names or tuple(step.name for step in results(paper.program))
-    paper = replace(paper, program=paper.program.needed_for(wanted))
-    exact = run(paper.program, paper.givens).values
-    every = draw(paper, hand, random, 1, only=())
-    parts: dict[str, dict[str, float]] = {name: {} for name in wanted}
-    for step in every.erred:
-        board = draw(paper, hand, random, drawings, only=(step,))
-        for name in wanted:
-            if name in board.missed and exact[name] == exact[name]:
-                parts[name][step] = float(np.nanmean(np.abs(board.values[name] - exact[name]) ** 2))
-    return {name: _ordered(part) for name, part in parts.items()}
-
-
-def _ordered(part: Mapping[str, float]) -> dict[str, float]:
-    total = sum(part.values())
-    ranked = sorted(part.items(), key=lambda item: -item[1])
-    return {step: variance / total for step, variance in ranked if variance > 0.0}

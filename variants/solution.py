@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 from ..drawing.linkages.ladders import first_scales
 from ..drawing.words import Words
@@ -18,6 +18,9 @@ from ..scales.units import format_unit
 from .case import Settings, solve_case
 from .task import Task
 
+if TYPE_CHECKING:
+    from ..plans.condition import Condition
+
 ROUNDING = 1e-14  # part of the largest quantity of a unit
 LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
 COMPOUND_AGREES = 1e-9  # part of the longest vector by which two routes to one vector may differ
@@ -27,7 +30,7 @@ COMPOUND_AGREES = 1e-9  # part of the longest vector by which two routes to one 
 class Solution:
     """The answer to one variant of a task.
 
-    `solution["V_B"]` is a `Quantity`; `reason` says why a position has no plan.
+    `solution["V_B"]` is a `Quantity`; `reason` says why a position has no plan; `conditions` are there when asked for.
     """
 
     task: Task
@@ -38,6 +41,7 @@ class Solution:
     reason: PositionError | None
     warnings: tuple[InputError, ...]
     words: Words
+    conditions: Mapping[str, Condition] = field(default_factory=dict)
 
     @property
     def status(self) -> str:
@@ -98,11 +102,18 @@ class Solution:
             "warnings": [warning.text(self.words.language) for warning in self.warnings],
             "checks": self.checks,
             "scales": {s.symbol: {"value": s.mu, "unit": s.per_mm_unit} for s in self.scales.values()},
-            "quantities": {name: quantity.to_json() for name, quantity in self.quantities.items()},
+            "quantities": {name: self._item(quantity) for name, quantity in self.quantities.items()},
         }
 
+    def _item(self, quantity: Quantity) -> dict[str, Any]:
+        item, condition = quantity.to_json(), self.conditions.get(quantity.name)
+        return item if condition is None else {**item, "condition": condition.value, "sine": condition.sine}
+
     def table(self, language: str | None = None) -> str:
-        """Return the quantities as a readable table: name, value, unit, components, segment in mm."""
+        """Return the quantities as a readable table: name, value, unit, components, segment in mm.
+
+        Where conditions were asked for, K and the sine of the worst intersection follow.
+        """
         words = self.words
         if language is not None:
             words = Words.of(language, self.task.notation).showing(words.display)
@@ -110,11 +121,15 @@ class Solution:
         for quantity in self.quantities.values():
             largest[quantity.unit] = max(largest.get(quantity.unit, 0.0), abs(quantity.value or 0.0))
         tidy = (_without_rounding(quantity, largest[quantity.unit]) for quantity in self.quantities.values())
-        rows = [_row(words, quantity.shown(words.display)) for quantity in tidy]
-        widths = [max((len(row[i]) for row in rows), default=0) for i in range(5)]
+        rows = [
+            (*_row(words, quantity.shown(words.display)), *_accuracy(words, self.conditions.get(quantity.name)))
+            for quantity in tidy
+        ]
+        widths = [max((len(row[i]) for row in rows), default=0) for i in range(7)]
         return "\n".join(
-            f"{name:{widths[0]}}  {value:>{widths[1]}}  {unit:>{widths[2]}} {parts:{widths[3]}}  {mm}".rstrip()
-            for name, value, unit, parts, mm in rows
+            f"{name:{widths[0]}}  {value:>{widths[1]}}  {unit:>{widths[2]}} {parts:{widths[3]}}"
+            f"  {mm:{widths[4]}}  {condition:{widths[5]}}  {sine}".rstrip()
+            for name, value, unit, parts, mm, condition, sine in rows
         )
 
 
@@ -138,6 +153,13 @@ def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
     return q.name, value, unit, "" if parts == "–" else parts, mm
 
 
+def _accuracy(words: Words, condition: Condition | None) -> tuple[str, str]:
+    if condition is None:
+        return "", ""
+    value = "–" if condition.value is None else words.short(condition.value, 3)
+    return f"K {value}", f"sin {words.short(condition.sine, 3)}"
+
+
 def solve(
     task: str | os.PathLike[str] | Task,
     variant: str | None = None,
@@ -147,6 +169,7 @@ def solve(
     scales: Settings | None = None,
     notation: str | None = None,
     lang: str | None = None,
+    condition: bool = False,
 ) -> Solution:
     """Solve one variant of a task.
 
@@ -164,6 +187,8 @@ def solve(
         Scale factors: `{"mu_V": 0.05}` or a segment in mm, `{"pa": 80}`.
     notation, lang : str, optional
         Notation profile and language of the words.
+    condition : bool, optional
+        Whether to find, for each quantity, how it hangs on the data, and how flatly lines meet behind it.
 
     Returns
     -------
@@ -186,4 +211,11 @@ def solve(
     by_plan = first_scales(solved, case.choosers) if solved.trouble is None else {}
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
-    return Solution(case.task, case.variant, solved, items, used, solved.error(), case.warnings, words)
+    found = _conditions(solved) if condition else {}
+    return Solution(case.task, case.variant, solved, items, used, solved.error(), case.warnings, words, found)
+
+
+def _conditions(solved: Solved) -> dict[str, Condition]:
+    from ..plans.linkages.accuracy import conditions_of  # needs numpy, which a plain solution does without
+
+    return conditions_of(solved)
