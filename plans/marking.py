@@ -17,6 +17,7 @@ from .spread import Drawn
 from .worth import results, worst_behind
 
 READ = ("read", "measure", "distance")
+ROUNDING = 1e-9  # part of a tolerance
 
 
 def tolerances(
@@ -103,7 +104,7 @@ def _same_plan(step: Step, operand: str) -> bool:
 def failing(drawn: Drawn, allowed: Mapping[str, float]) -> dict[str, float]:
     """Return for each quantity the part of the drawings that a tolerance would fail, undrawn ones among them.
 
-    Of vectors the magnitudes are compared, of points the places.
+    Of vectors the magnitudes are compared, of points the places. What is undefined is not marked.
     """
     found = {}
     for step in results(drawn.paper.program):
@@ -113,5 +114,6 @@ def failing(drawn: Drawn, allowed: Mapping[str, float]) -> dict[str, float]:
             miss = abs(values - exact) if square is None else abs(np.sqrt(square) - abs(exact))
         else:
             miss = abs(values - exact)
-        found[step.name] = float(np.mean(~(miss <= allowed[step.name] * (1.0 + 1e-9))))
+        wrong = ~(miss <= allowed[step.name] * (1.0 + ROUNDING))
+        found[step.name] = float(np.mean(wrong)) if exact == exact else 0.0
     return found

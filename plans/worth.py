@@ -9,6 +9,7 @@ from .board import POSITION, Program, Step
 from .quantities import POINTS, shown_on, unit_of
 
 RESULTS = ("read", "calc", "arm", "distance", "measure")
+MEETING = ("meet", "arc", "arcs", "tangent")
 PER_CENT = 100.0
 
 
@@ -51,7 +52,7 @@ def extent(program: Program, values: Mapping[str, Any]) -> float:
 
 
 def intersections(program: Program, sines: Mapping[str, float]) -> dict[str, float]:
-    """Return the sine of the lines, or of line and arc, at each step that makes them meet.
+    """Return the sine of the lines, or of line and arc, at each step that makes them meet; zero where they do not.
 
     A board looks at two directions once: lines along the same two meet at the same angle on every plan.
     """
@@ -59,8 +60,8 @@ def intersections(program: Program, sines: Mapping[str, float]) -> dict[str, flo
     found: dict[str, float] = {}
     for step in program:
         sine = by_lines.get(step.operands[1::2]) if step.verb == "meet" else sines.get(step.name)
-        if sine is not None:
-            found[step.name] = float(sine)
+        if sine is not None or step.verb in MEETING:
+            found[step.name] = float(sine or 0.0)
     return found
 
 

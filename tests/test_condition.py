@@ -131,6 +131,7 @@ def test_a_position_without_a_plan_has_no_conditions_behind_it() -> None:
 
     assert solved.status == "no-assembly"
     assert found["V_B"].value is None
+    assert found["V_B"].sine == 0.0
     assert found["V_A"].value is not None
 
 
