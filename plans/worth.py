@@ -61,7 +61,7 @@ def intersections(program: Program, sines: Mapping[str, float]) -> dict[str, flo
     for step in program:
         sine = by_lines.get(step.operands[1::2]) if step.verb == "meet" else sines.get(step.name)
         if sine is not None or step.verb in MEETING:
-            found[step.name] = float(sine or 0.0)
+            found[step.name] = float(sine) if sine == sine and sine is not None else 0.0
     return found
 
 
