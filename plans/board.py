@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import chain as concatenate
 
 from ..scales.errors import InputError
 
@@ -209,15 +208,6 @@ class Program:
                 needed.update(step.operands)
                 kept.append(step)
         return Program(tuple(reversed(kept)))
-
-    def last_uses(self, wanted: Iterable[str]) -> tuple[tuple[str, ...], ...]:
-        """Return for each step the names that nothing needs after it, `wanted` apart."""
-        seen, dead = set(wanted), []
-        for step in reversed(self.steps):
-            names = tuple(dict.fromkeys(concatenate(step.operands, (step.name,))))
-            dead.append(tuple(name for name in names if name not in seen))
-            seen.update(names)
-        return tuple(reversed(dead))
 
     def run(self, board: Board) -> None:
         """Do every step again on `board`."""

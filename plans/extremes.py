@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .scan import END, Stretch
+from .zeros import END, Stretch
 
 Array = NDArray[np.float64]
 Functions = Callable[[Array], Array]

@@ -9,9 +9,9 @@ import pytest
 
 from kulman.plans.graphs import chords, derived_scale, differentiate, drawn_chords, middles, pole_distance
 from kulman.plans.linkages.cycle import cycle
+from kulman.plans.linkages.diagrams import diagrams
 from kulman.plans.linkages.field import velocities, velocity_field
 from kulman.plans.linkages.mechanism import Mechanism
-from kulman.plans.linkages.motions import diagrams
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.scales.errors import InputError
 

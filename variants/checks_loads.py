@@ -20,7 +20,7 @@ from ..plans.linkages.mechanism import (
     SlidingDriver,
     Stroke,
 )
-from ..plans.linkages.output import output_pair
+from ..plans.linkages.working_stroke import output_pair
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.units import ONE, unit

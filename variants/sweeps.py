@@ -13,8 +13,8 @@ from ..drawing.words import Words
 from ..drawing.writers import WRITERS, check_outputs, write_whole
 from ..plans.graphs import Diagrams
 from ..plans.linkages.cycle import FEWEST, MOST, Cycle, cycle
+from ..plans.linkages.diagrams import diagrams
 from ..plans.linkages.mechanism import Driver
-from ..plans.linkages.motions import diagrams
 from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
 from ..scales.numbers import quote

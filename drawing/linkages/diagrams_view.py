@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...plans.graphs import Diagrams, pole_distance
 from ...plans.linkages.cycle import Cycle
-from ...plans.linkages.motions import diagrams
+from ...plans.linkages.diagrams import diagrams
 from ...plans.linkages.strokes import OutputMotion
 from ...scales.scale import Scale, rounded, steps
 from ..diagram import Axis, Field, axes, curve
@@ -89,11 +89,11 @@ def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion
     names = (f"s_{link}", f"V_{link}", f"a_{link}") if slides else (f"phi_{link}", f"omega_{link}", f"epsilon_{link}")
     unit = "m" if slides else "rad"
     travel = dense.s - np.nanmin(dense.s)
-    bands = [Band(names[0], _round(f"mu_{names[0].split('_')[0]}", travel, tall, unit), travel)]
+    bands = [Band(names[0], _round(f"mu_{names[0]}", travel, tall, unit), travel)]
     for name, values, found, per in zip(
         names[1:], (dense.v, dense.a), (drawn.velocity, drawn.acceleration), ("s", "s^2"), strict=True
     ):
-        scale = _round(f"mu_{name.split('_')[0]}", values, tall, f"{unit}/{per}")
+        scale = _round(f"mu_{name}", values, tall, f"{unit}/{per}")
         for mu in steps(scale.mu):
             scale = Scale(scale.symbol, mu, scale.unit)
             if pole_distance(bands[-1].scale.mu, across.mu, mu) <= FARTHEST:

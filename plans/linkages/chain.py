@@ -9,13 +9,13 @@ from typing import Any
 from ...scales.errors import InputError
 from ..board import Program, RecordingBoard
 from . import compound, driver, prp, rpp, rpr, rrp, rrr, sliding_driver, triad
+from .bare import without_loads
 from .lever import lever
 from .loads import hung, in_order, lay_loads
 from .mechanism import FRAME, ZERO, Driver, Mechanism, SlidingDriver
-from .output import END, Moving, needs_stroke, stroke_ends
 from .parts import AssurGroup, Bodies, Forces, Span
 from .structure import Structure, analyse
-from .sweeping import without_loads
+from .working_stroke import END, Moving, needs_stroke, stroke_ends
 
 PLANS = ("structure", "position", "velocity", "acceleration", "compound", "forces", "lever", "cycle")
 USUAL = tuple(plan for plan in PLANS if plan not in ("compound", "cycle"))  # without a word on which are wanted

@@ -19,9 +19,10 @@ from ..batch import batch
 from ..board import Program
 from ..exact import STATUSES
 from ..extremes import Extreme, extremes
+from ..laws import TURN, dot
 from ..quantities import quantities
 from .chain import USUAL, construct
-from .limits import TURN, Arc, Reach, reach_of
+from .limits import Arc, Reach, reach_of
 from .mechanism import Mechanism
 from .strokes import Output, OutputMotion, Travel, measured, output_motions, outputs, stroke_of, zero_position
 from .structure import Structure
@@ -125,7 +126,7 @@ class Cycle:
         def sizes(at: Array) -> Array:
             found = along(at)
             return np.stack(
-                [_square(found[name]) if v else found[name] for name, v in zip(wanted, vectors, strict=True)]
+                [dot(found[name], found[name]) if v else found[name] for name, v in zip(wanted, vectors, strict=True)]
             )
 
         rows = extremes(sizes, self.reach.trimmed(BESIDE_CHANGE)) if wanted else []
@@ -134,11 +135,6 @@ class Cycle:
             for name, vector, row in zip(wanted, vectors, rows, strict=False)
             if row is not None
         }
-
-
-def _square(vectors: Array) -> Array:
-    square: Array = vectors.real * vectors.real + vectors.imag * vectors.imag
-    return square
 
 
 def _rooted(row: tuple[Extreme, Extreme]) -> tuple[Extreme, Extreme]:

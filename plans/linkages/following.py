@@ -21,13 +21,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..laws import TURN
 from .courses import Course, Poses, State
 from .mechanism import Driver, Mechanism
 from .structure import TRIAD, analyse
 from .triad_parts import start_names
 
 Array = NDArray[np.float64]
-TURN = 2.0 * math.pi
 
 
 class Follower:

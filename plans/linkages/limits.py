@@ -8,7 +8,6 @@ Groups of class III are followed from their start to their dead positions on eit
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -20,15 +19,15 @@ from numpy.typing import NDArray
 from ..along import remembering
 from ..batch import ArrayBoard
 from ..exact import TANGENT
-from ..scan import Stretch, zeros
+from ..laws import TURN
+from ..zeros import Stretch, zeros
+from .bare import without_loads
 from .chain import board_givens, construct
 from .mechanism import FRAME, Mechanism, Prismatic, Revolute
-from .sweeping import without_loads
 from .swept import Swept, swept
 
 Array = NDArray[Any]
-TURN = 2.0 * math.pi
-SAME = 1e-9  # radians or metres within which two places of the driver are one, but for rounding
+SAME = 1e-9  # radians, or parts of a slide's range, within which two places of the driver are one, but for rounding
 TURN_CELLS, SLIDE_CELLS = 360, 720  # grid on which a margin is looked at first: a full turn, the range of a slide
 
 Margins = Callable[[Array], Mapping[str, Array]]
@@ -89,7 +88,9 @@ class Reach:
 
     def _changes_at(self, place: float) -> bool:
         offs = (abs(place - change) for change in self.changes)
-        return any(min(off, abs(off - TURN)) < SAME if self.whole.closed else off < SAME for off in offs)
+        if self.whole.closed:
+            return any(min(off, abs(off - TURN)) < SAME for off in offs)
+        return any(off < SAME * self.whole.length for off in offs)
 
     def _holds(self, stretch: Stretch, place: float) -> bool:
         if self.whole.closed:

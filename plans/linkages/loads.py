@@ -13,8 +13,8 @@ from ...scales.errors import InputError
 from ..board import Board
 from ..laws import TURN
 from .mechanism import ANGLE, BOTH, STROKE, WORKING, ZERO, Couple, Diagram, Link, Load, Mechanism, Revolute
-from .output import PART, Moving, lay_stroke, needs_stroke
 from .parts import Bodies, Couples, Forces, Span, local_mark
+from .working_stroke import PART, Moving, lay_stroke, needs_stroke
 
 ROUNDING = 1e-12
 

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..laws import TURN, dot
+from .bare import without_loads
 from .chain import construct
 from .mechanism import FRAME, Driver, Prismatic
 from .solved import Solved
-from .sweeping import without_loads
 from .swept import swept
 
 Array = NDArray[Any]

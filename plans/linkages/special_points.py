@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from ..batch import batch
 from ..board import Program, RecordingBoard
 from ..exact import ILL, SMALL, run
+from .bare import without_loads
 from .chain import construct, named_groups
 from .following import followed
 from .mechanism import Mechanism
-from .sweeping import without_loads
 from .triad_legs import Leg
 from .triad_parts import Triad
 

@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 from ...scales.errors import InputError
 from ..along import remembering
 from ..board import Program, Step
-from ..laws import inclination
-from ..scan import Stretch, zeros
+from ..laws import TURN, inclination
+from ..zeros import Stretch, zeros
+from .bare import at_unit_speed, without_loads
 from .chain import construct, moving_bodies
-from .limits import TURN, Reach, reach_of, size_of
+from .limits import Reach, reach_of, size_of
 from .mechanism import FRAME, ZERO, Mechanism, Prismatic
 from .structure import Structure
-from .sweeping import at_unit_speed, without_loads
 from .swept import Swept, swept
 
 Array = NDArray[Any]

@@ -1,4 +1,4 @@
-"""The driver's variable: what is swept, alone and at unit speed, so that only the geometry of the mechanism speaks."""
+"""A mechanism ready for a sweep: the driver's variable has its own name, groups of class III are followed."""
 
 from __future__ import annotations
 

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from ..board import POSITION, Program
 from ..exact import STATUSES
-from .limits import TURN, Reach
+from ..laws import TURN
+from .limits import Reach
 from .swept import Swept
 
 Array = NDArray[Any]

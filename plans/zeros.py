@@ -1,4 +1,4 @@
-"""Zeros and extremes along one variable: a grid fine enough to see them, then each cell cut in sections.
+"""Zeros of a function of one variable on a stretch: a grid fine enough to see them, then each cell cut in sections.
 
 A zero is where the sign changes. Between grid points a function may dip to zero and come back: wherever it comes near
 on the grid the dip is followed down. Only signs and sizes are asked for, no derivatives.
