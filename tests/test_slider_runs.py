@@ -26,11 +26,12 @@ def test_sliders_on_the_frame_run_as_far_as_their_strokes(task: str) -> None:
 
     runs = slider_runs(solved)
 
-    for motion in cycle(solved.mechanism, solved.givens, ("velocity",)).motions:
-        if motion.output.slides:
-            low, high = runs[f"u_{motion.output.link}0"]
-            assert motion.travel is not None
-            assert high - low == pytest.approx(motion.travel.length, rel=2e-3)  # the ends lie between the 72 positions
+    motions = cycle(solved.mechanism, solved.givens, ("velocity",)).motions
+    strokes = {f"u_{m.output.link}0": m.travel.length for m in motions if m.output.slides and m.travel is not None}
+    assert strokes
+    for guide, length in strokes.items():
+        low, high = runs[guide]
+        assert high - low == pytest.approx(length, rel=2e-3)  # the ends lie between the 72 positions
 
 
 def test_the_ram_of_a_group_of_class_iii_runs_on_its_own_branch() -> None:
