@@ -147,7 +147,11 @@ class Words:
         head, *rest = name.split("_")
         if head == "mu":  # forces of a group or of the driver alike
             of = rest[0]
-            return f"{letters['mu']}_{{{letters.get(f'mu_{of}', letters.get(of, GREEK.get(of, of)))}}}"
+            index = letters.get(f"mu_{of}", letters.get(of, GREEK.get(of, of)))
+            # on a diagram of angles over an angle two scale factors differ by the link
+            return f"{letters['mu']}_{{{index}{rest[1] if of == 'phi' and len(rest) > 1 else ''}}}"
+        if head == "H":  # a pole distance, by what its diagram shows
+            return f"H_{{{letters.get(rest[0], GREEK.get(rest[0], rest[0]))}}}"
         above = ""
         if len(rest) > 1 and rest[-1] in PARTS.get(head, ()):
             above = self._part(rest.pop())
