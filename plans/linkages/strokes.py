@@ -7,6 +7,7 @@ the driver moves at unit speed here.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -161,14 +162,22 @@ def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> Travel:
     values : mapping of str to float
         Numbers in SI; masses and loads are not needed.
 
+    Returns
+    -------
+    Travel
+        NaN all through where the mechanism cannot be assembled in any position: its plan of positions says why.
+
     Raises
     ------
     InputError
         When the link does not move to and fro on the frame.
     """
     drive = swept(mechanism, values)
+    found = reach_of(drive, values)
+    if not found.stretches:
+        return Travel(math.nan, math.nan, math.nan, math.nan)
     wanted = mechanism.stroke.link if mechanism.stroke else None
-    for motion in output_motions(drive, values, reach_of(drive, values)):
+    for motion in output_motions(drive, values, found):
         if wanted in (None, motion.output.link) and motion.travel is not None:
             return motion.travel
     raise InputError("stroke-none", link=FRAME if wanted is None else wanted)
