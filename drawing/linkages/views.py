@@ -47,7 +47,7 @@ def figures(solved: Solved, plans: tuple[str, ...], width: float, cycle: Cycle |
     return [
         *_kinematics(solved, plans, width),
         *_compound(solved, plans, width),
-        *_cycle(cycle),
+        *_cycle(solved, cycle),
         *_forces(solved, plans, width),
         *_lever(solved, plans, width),
     ]
@@ -81,15 +81,19 @@ def _compound(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[
     yield from (_results(p) for p in results_parts(solved) if p.kind == "compound")
 
 
-def _cycle(cycle: Cycle | None) -> Iterator[Figure]:
+def _cycle(solved: Solved, cycle: Cycle | None) -> Iterator[Figure]:
     if cycle is not None:
         # a sheet of one position does not pay for the import
         from .diagrams_view import diagrams_view
+        from .field_view import coupler, field_view
         from .positions_view import main_output, positions_view
 
         yield Figure(lambda scene: positions_view(scene, cycle), "mu_l")
         if main_output(cycle) is not None:
             yield Figure(lambda scene: diagrams_view(scene, cycle))
+        link = coupler(solved)
+        if link is not None:
+            yield Figure(lambda scene: field_view(scene, link), "mu_l")
 
 
 def _forces(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
