@@ -41,7 +41,7 @@ def _grid(scene: Scene, link: int) -> tuple[int, int]:
     points = [scene.solved.point(point) for point in scene.solved.mechanism.link(link).points]
     width, height = (float(np.ptp(part)) for part in (np.real(points), np.imag(points)))
     side = max(width, height)
-    columns, rows = (max(3, round((part + 2.0 * MARGIN * side) / pitch) + 1) for part in (width, height))
+    columns, rows = (max(2, round((part + 2.0 * MARGIN * side) / pitch) + 1) for part in (width, height))
     return columns, rows
 
 
