@@ -70,7 +70,7 @@ FILES = {
     "driver of an unknown point": ('pivot = "O"', 'pivot = "Q"', "point-unknown"),
     "driver about no pivot": ('pivot = "O"', 'pivot = "A"', "driver-pivot"),
     "driver without a crank": ('point = "A"\nangle', 'point = "O"\nangle', "driver-point"),
-    "load named like a length": ('name = "F_3"', 'name = "l_OA"', "id-twice"),
+    "load named like a length": ('name = "F_3"', 'name = "l_OA"', "load-given"),
     "no structure": ("links = [3, 0]", "links = [2, 0]", "link-loose"),
     "driver with a speed in newtons": ('speed = "n_1"', 'speed = "F_3"', "value-wrong"),
     "load in millimetres": ('magnitude = "F_3"', 'magnitude = "l_OA"', "value-wrong"),

@@ -9,7 +9,9 @@ import pytest
 from kulman.plans.linkages.mechanism import FORCE, IDLE, STROKE, Couple, Load, SlidingDriver, Stroke
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.reader import read_text
+from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
+from kulman.variants.sweeps import sweep
 from kulman.variants.task import Task
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "docs" / "examples"
@@ -114,6 +116,70 @@ def test_fault_is_named_with_its_line(text: str, change: tuple[str, str], key: s
     assert key in keys
     fault = faults[keys.index(key)]
     assert all(fault.text(language).startswith("mine.toml:") for language in LANGUAGES)
+
+
+NEVER_CLOSED = (
+    pytest.param(PRESS.replace('-90 deg"', '-90 deg"\noffset = "3 m"'), "", id="diagram over a stroke"),
+    pytest.param(bundled_text("scheme-13-toggle-press"), "l_AB", id="load in the working stroke"),
+    pytest.param(bundled_text("scheme-20-press-automaton"), "l_AB", id="triad far from its start"),
+)
+
+
+@pytest.mark.parametrize(("text", "changed"), NEVER_CLOSED)
+def test_mechanism_that_never_closes_is_said_to_whatever_its_strokes(text: str, changed: str) -> None:
+    task = read(text)
+    values = {changed: "1 mm"} if changed else {}
+
+    solution, position = solve(task, set=values), solve(task, set=values, only="position")
+
+    assert solution.status == "no-assembly"
+    assert solution.reason is not None
+    assert position.reason is not None
+    assert solution.reason.status == 3
+    for language in LANGUAGES:
+        assert solution.reason.text(language) == position.reason.text(language)
+    assert set(sweep(task, set=values).cycle.statuses) == {"no-assembly"}
+
+
+@pytest.mark.parametrize("over", ["stroke", "angle"])
+def test_given_of_a_diagram_may_be_called_like_a_load(over: str) -> None:
+    text = PRESS
+    if over == "angle":
+        text = text.replace('over = "stroke"\nat = [0, 0.7, 1]', 'over = "angle"\nat = ["0 deg", "7 deg", "90 deg"]')
+        text = text.replace('back = ["0 N", "0 N", "0 N"]\n', "")
+    own, same = read(text), read(text.replace("F_max", "F_3"))
+    swapped = read(text.replace("F_max", "F_f"))
+
+    for phi in (-60, 20, 100):
+        expected = solve(own, set={"phi": phi}).to_json()["quantities"]
+        assert solve(same, set={"phi": phi}).to_json()["quantities"] == expected
+        assert solve(swapped, set={"phi": phi}).to_json()["quantities"] == expected
+
+
+def test_load_called_like_the_size_of_another_is_its_vector() -> None:
+    given = PRESS.replace("[givens]", '[givens]\nF_f = { unit = "N" }') + "F_f = 60\n"
+    friction = 'magnitude = "60 N"\nstroke = "idle"'
+    assert friction in given
+
+    plain = solve(read(PRESS), set={"phi": -130})
+    sized = solve(read(given.replace(friction, friction.replace("60 N", "F_f"))), set={"phi": -130})
+    moved = given.replace('name = "F_f"\nlink', 'name = "F_4"\nlink').replace('name = "F_3"', 'name = "F_f"')
+    other = solve(read(moved.replace(friction, friction.replace("60 N", "F_f"))), set={"phi": -130})
+
+    assert plain["F_f"].value == sized["F_f"].value == pytest.approx(60.0)
+    assert other["F_4"].value == plain["F_f"].value
+    assert plain["F_3"].value == sized["F_3"].value == other["F_f"].value
+    assert plain["F_bal"].value == sized["F_bal"].value == other["F_bal"].value
+
+
+def test_second_load_of_a_name_says_where_the_first_is() -> None:
+    text = PRESS.replace('name = "F_f"', 'name = "F_3"')
+    first = next(i for i, line in enumerate(text.splitlines(), 1) if line == 'name = "F_3"')
+
+    (fault,) = read_text(text, "mine.toml")[1]
+
+    assert f"in line {first}" in fault.text("en")
+    assert all(str(first) in fault.text(language).partition(": ")[2] for language in LANGUAGES)
 
 
 def test_places_of_a_diagram_are_checked_in_every_variant_and_setting() -> None:

@@ -38,6 +38,10 @@ class Checker:
         if len(self.faults) >= MOST_FAULTS:
             raise EnoughError
 
+    def twice(self, path: Path, name: object, first: Path) -> None:
+        """Note that `name` stands at `path` again, after it stood at `first`."""
+        self.fault(path, InputError("id-twice", name=name, line=self.places[first][0]))
+
     def wrong_type(self, path: Path, expected: str) -> None:
         """Note that the value at `path` is not of the `expected` kind, a key of a message."""
         self.fault(path, InputError(expected))

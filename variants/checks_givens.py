@@ -137,6 +137,7 @@ def literal(checker: Checker, path: Path, raw: object) -> Setting | None:
 def read_variants(checker: Checker, raw: object, givens: Mapping[str, Given]) -> dict[str, Variant]:
     """Read `[[variant]]`: every row states every given that has no default, and no two rows share an id."""
     variants: dict[str, Variant] = {}
+    stated: dict[str, Path] = {}
     for path, row in rows(checker, ("variant",), raw):
         if not isinstance(row, dict):
             checker.wrong_type(path, "type-table")
@@ -149,10 +150,11 @@ def read_variants(checker: Checker, raw: object, givens: Mapping[str, Given]) ->
                 checker.fault((*path, "reconstructed", i), unknown("given-missing", key, givens))
         number = read.get("id")
         if number in variants:
-            checker.fault((*path, "id"), InputError("id-twice", name=number))
+            checker.twice((*path, "id"), number, (*stated[number], "id"))
         elif number is not None:
             values = {key: value for key, value in read.items() if key in givens}
             variants[number] = Variant(number, values, read.get("reconstructed", ()))
+            stated[number] = path
     return variants
 
 

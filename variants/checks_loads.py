@@ -72,8 +72,9 @@ def read_diagrams(checker: Checker, rows: list[tuple[Path, object]], names: Name
     diagrams = [(path, *made) for path, made in found if made is not None]
     for path, diagram, wanted in diagrams:
         if diagram.name in names.dimensions:
-            checker.fault((*path, "name"), InputError("id-twice", name=diagram.name))
+            checker.twice((*path, "name"), diagram.name, names.stated[diagram.name])
         names.dimensions[diagram.name] = wanted
+        names.stated.setdefault(diagram.name, (*path, "name"))
     return [diagram for _, diagram, _ in diagrams]
 
 
@@ -116,7 +117,9 @@ def loads_joined(
     checker: Checker, mechanism: Mechanism, names: Names, links: Mapping[int, Mapping[str, object]]
 ) -> None:
     """Check that loads and couples act on links, forces at their points, each under a name of its own."""
-    seen: set[str] = set()
+    seen: dict[str, Path] = {}
+    sizes = {name for diagram in mechanism.diagrams for name in (diagram.name, *diagram.sizes)}
+    sizes |= {load.magnitude for load in mechanism.acting}
     placed: list[tuple[Path, Load | Couple]] = [
         *((("mechanism", "load", i), load) for i, load in enumerate(mechanism.loads)),
         *((("mechanism", "couple", i), couple) for i, couple in enumerate(mechanism.couples)),
@@ -128,9 +131,12 @@ def loads_joined(
             on_link(checker, path, "point", load.point, load.link, links)
         elif load.link not in links:
             checker.fault((*path, "link"), unknown("link-unknown", str(load.link), map(str, links)))
-        if load.name in seen or (load.name in names.dimensions and load.name != load.magnitude):
-            checker.fault((*path, "name"), InputError("id-twice", name=load.name))
-        seen.add(load.name)
+        if load.name in seen:
+            checker.twice((*path, "name"), load.name, (*seen[load.name], "name"))
+        elif load.name in names.dimensions and load.name not in sizes:
+            line, _ = checker.places[names.stated[load.name]]
+            checker.fault((*path, "name"), InputError("load-given", name=load.name, line=line))
+        seen.setdefault(load.name, path)
 
 
 def output_joined(checker: Checker, mechanism: Mechanism) -> None:

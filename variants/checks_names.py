@@ -20,12 +20,13 @@ _M = unit("m")
 class Names:
     """The values that a mechanism may name, and what it turned out to use.
 
-    `literals` are constants by value and dimension, `lengths` those of them that have customary names, such as links,
+    `stated` says where each stands, `literals` are constants by value and dimension, `lengths` those of them that have customary names, such as links,
     `positive` the names that must be greater than zero: without a length or a speed of the crank there is no plan.
     `moving` are those that must not be zero.
     """
 
     dimensions: dict[str, Dimension]
+    stated: dict[str, Path] = field(default_factory=dict)
     literals: dict[tuple[float, Dimension], str] = field(default_factory=dict)
     lengths: dict[str, float] = field(default_factory=dict)
     positive: set[str] = field(default_factory=set)

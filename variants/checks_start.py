@@ -11,6 +11,7 @@ from ..scales.names import unknown
 from ..scales.units import unit
 from .checks import Checker, Field, array_of, link_number
 from .checks_names import Names
+from .toml_places import Path
 
 _M, _RAD = unit("m"), unit("rad")
 
@@ -24,14 +25,14 @@ def start_fields(names: Names, slides: bool) -> dict[str, Field]:
 
 def starts_joined(checker: Checker, mechanism: Mechanism, links: Mapping[int, object]) -> None:
     """Check that the starts are those of different links."""
-    seen: set[int] = set()
+    seen: dict[int, Path] = {}
     for i, start in enumerate(mechanism.starts):
+        path: Path = ("mechanism", "start", i, "link")
         if start.link not in links:
-            error = unknown("link-unknown", str(start.link), map(str, links))
-            checker.fault(("mechanism", "start", i, "link"), error)
+            checker.fault(path, unknown("link-unknown", str(start.link), map(str, links)))
         elif start.link in seen:
-            checker.fault(("mechanism", "start", i, "link"), InputError("id-twice", name=start.link))
-        seen.add(start.link)
+            checker.twice(path, start.link, seen[start.link])
+        seen.setdefault(start.link, path)
 
 
 def started(checker: Checker, mechanism: Mechanism, structure: Structure) -> None:

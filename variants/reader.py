@@ -278,12 +278,14 @@ def _constructed(checker: Checker, mechanism: Mechanism, head: dict[str, Any]) -
 def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Names:
     """Return the values that the mechanism may name: givens and what choices set, no name twice."""
     names = Names({key: given.unit.dimension for key, given in givens.items() if given.unit is not None})
+    names.stated.update({key: ("givens", key) for key in names.dimensions})
     for choice, words in choices.items():
         first = next(iter(words), "")
         for key, setting in words.get(first, {}).items():
             if key in names.dimensions:
-                checker.fault(("choices", choice, first, key), InputError("id-twice", name=key))
+                checker.twice(("choices", choice, first, key), key, names.stated[key])
             names.dimensions[key] = setting.dimension
+            names.stated.setdefault(key, ("choices", choice, first, key))
     return names
 
 

@@ -180,11 +180,9 @@ def board_givens(
         from .following import followed  # which asks for position plans itself
 
         values = {**values, **followed(mechanism, values)}
-    named = {diagram.name for diagram in mechanism.diagrams}
     for diagram in mechanism.diagrams:
         in_order(diagram, values)
-    given = [load.magnitude for load in mechanism.acting if load.magnitude not in named]
-    sizes = {f"|{name}|": values[name] for name in given}
+    sizes = {f"|{name}|": values[name] for name in mechanism.sizes}
     if program is None or END not in program.needs or END in values:
         return {**values, **sizes}
     _, motion = construct(without_loads(mechanism), ("velocity",))

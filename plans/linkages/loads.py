@@ -5,7 +5,7 @@ What is not given follows first: masses from lengths, in which stroke the mechan
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -162,9 +162,9 @@ def _diagram(board: Board, mechanism: Mechanism, diagram: Diagram) -> None:
         _over_angle(board, mechanism, diagram)
         return
     name, forth = f"_diagram_{diagram.name}", f"_diagram_{diagram.name}_forth"
-    board.calc(forth if diagram.back else name, "piecewise", PART, *diagram.at, *diagram.values)
+    board.calc(forth if diagram.back else name, "piecewise", PART, *diagram.at, *_marks(mechanism, diagram.values))
     if diagram.back:
-        board.calc(f"{name}_back", "piecewise", PART, *diagram.at, *diagram.back)
+        board.calc(f"{name}_back", "piecewise", PART, *diagram.at, *_marks(mechanism, diagram.back))
         board.calc(name, "by_stroke", "_working", forth, f"{name}_back")
 
 
@@ -173,8 +173,14 @@ def _over_angle(board: Board, mechanism: Mechanism, diagram: Diagram) -> None:
     name, first = f"_diagram_{diagram.name}", diagram.at[0]
     board.calc(f"{name}_angle", "within_turn", mechanism.driver.coordinate, first)
     board.calc(f"{name}_next", "turn_later", first)
-    places, values = (*diagram.at, f"{name}_next"), (*diagram.values, diagram.values[0])
-    board.calc(name, "piecewise", f"{name}_angle", *places, *values)
+    values = _marks(mechanism, diagram.values)
+    board.calc(name, "piecewise", f"{name}_angle", *diagram.at, f"{name}_next", *values, values[0])
+
+
+def _marks(mechanism: Mechanism, values: Sequence[str]) -> list[str]:
+    """Return the names of a diagram's values on the board, where that of a load is its vector."""
+    sizes = mechanism.sizes
+    return [f"|{name}|" if name in sizes else name for name in values]
 
 
 def in_order(diagram: Diagram, values: Mapping[str, Any]) -> None:

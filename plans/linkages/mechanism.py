@@ -156,6 +156,11 @@ class Diagram:
     values: tuple[str, ...]
     back: tuple[str, ...] | None = None
 
+    @property
+    def sizes(self) -> tuple[str, ...]:
+        """Names of all its values, those of the idle stroke last."""
+        return (*self.values, *(self.back or ()))
+
 
 BOTH, WORKING, IDLE = "both", "working", "idle"
 
@@ -244,7 +249,9 @@ class Mechanism:
                 names += [*pair.through, pair.direction, pair.offset, pair.branch or ZERO]
         names += [load.direction or ZERO for load in self.loads] + [couple.sense or ZERO for couple in self.couples]
         names += [name for start in self.starts for name in (start.x, start.y, start.angle, start.driver)]
-        names += [name for d in self.diagrams for name in (*d.at, *d.values, *(d.back or ()))]
+        sizes = self.sizes
+        names += [name for d in self.diagrams for name in d.at]
+        names += [name for d in self.diagrams for name in d.sizes if name not in sizes]
         names += [self.gravity or ZERO, self.stroke.sense if self.stroke else ZERO]
         return frozenset((*names, *self.driver.givens)) - self.opposites.keys()
 
@@ -270,6 +277,17 @@ class Mechanism:
     def acting(self) -> tuple[Load | Couple, ...]:
         """All loads and couples."""
         return (*self.loads, *self.couples)
+
+    @property
+    def sizes(self) -> tuple[str, ...]:
+        """Names of the values that stand on the board as `|F_3|`, for `F_3` may be a vector there.
+
+        They are the magnitudes of loads, and values of diagrams that are called like a load.
+        """
+        diagrams, loads = {diagram.name for diagram in self.diagrams}, {load.name for load in self.acting}
+        names = [load.magnitude for load in self.acting if load.magnitude not in diagrams]
+        names += [name for diagram in self.diagrams for name in diagram.sizes if name in loads]
+        return tuple(dict.fromkeys(names))
 
     def loads_on(self, number: int) -> tuple[Load, ...]:
         """Return the loads on link `number`."""
