@@ -10,6 +10,8 @@ from typing import Any
 from .errors import InputError
 from .numbers import quote
 
+_CYRILLIC, _LATIN = "АВЕІКМНОРСТУХЅЈаеіоруксхѕј", "ABEIKMHOPCTYXSJaeiopykcxsj"
+_ALIKE = str.maketrans(_CYRILLIC, _LATIN)
 LONGEST = 200  # characters of a list of names in a message
 
 
@@ -26,8 +28,23 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Input
         The names there are.
     """
     names, text = list(known), str(asked)
-    like = difflib.get_close_matches(text, names, n=1, cutoff=0.6) if 2 < len(text) < 100 else []
+    if text != latin(text) in names:
+        return cyrillic(text)
+    turned = [name for name in names if sorted(name) == sorted(text)]  # l_BA for l_AB
+    like = turned[:1] if 2 < len(text) < 100 else []
+    like = like or difflib.get_close_matches(text, names, n=1, cutoff=0.6) if 2 < len(text) < 100 else []
     if like:
         return InputError(f"{key}-like", text=quote(text), like=like[0], **data)
     shown = textwrap.shorten(", ".join(names), LONGEST, placeholder=" …")
     return InputError(key, text=quote(text), known=shown or "—", **data)
+
+
+def latin(text: str) -> str:
+    """Return `text` with Latin letters for the Cyrillic ones that look like them."""
+    return text.translate(_ALIKE)
+
+
+def cyrillic(text: str) -> InputError:
+    """Return the error for a name with a Cyrillic letter that looks like a Latin one."""
+    letter = next(letter for letter in text if letter in _CYRILLIC)
+    return InputError("name-cyrillic", text=quote(text), n=text.index(letter) + 1, letter=latin(letter))

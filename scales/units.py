@@ -267,7 +267,7 @@ def parse(text: str, expected: Unit, default: Unit | None = None) -> float:
     elif default is not None or expected == ONE:
         written = default or ONE
     else:
-        raise InputError("unit-missing", text=quote(text.strip()), expected=expected.name)
+        raise InputError("unit-missing", text=quote(text.strip()), expected=customary(expected))
     return converted(value, written, expected)
 
 
@@ -323,6 +323,12 @@ def _spell(written: Unit, words: dict[str, str], times: str, power: Callable[[in
     return f"{top}/{under[0]}" if under else top
 
 
+def customary(written: Unit) -> str:
+    """Return the name of the unit in which people write quantities of this kind: mm, deg, rpm, not m, rad, rad/s."""
+    return _CUSTOMARY.get(written.dimension, written.name)
+
+
 RPM = Unit((("rpm", 1),))
+_CUSTOMARY = {_LENGTH: "mm", _ANGLE: "deg", RPM.dimension: "rpm"}
 _SEXAGESIMAL = re.compile(r"([-−]?)([0-9]{1,9})\s*[°º˚]\s*([0-9]{1,2}(?:[.,][0-9]{1,9})?)\s*['’′]")
 _COMMON = ("mm", "m", "deg", "rad", "rpm", "rad/s", "kg", "kg*m^2", "N", "kN", "N*m", "MPa", "s", "m/s")

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from kulman import cli
-from kulman.scales.errors import LANGUAGES
+from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants import solve
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled_text
@@ -164,6 +164,51 @@ BROKEN: dict[str, tuple[Sequence[tuple[str, str]], str, str, str]] = {
         "mechanism.pair",
         "expected branch = 1 where B lies to the left of the way from A to C, or branch = -1",
     ),
+    "branch at the crank": (
+        [("links = [1, 2]\n", "links = [1, 2]\nbranch = 1\n")],
+        "branch-needless",
+        "mechanism.pair.branch",
+        "'branch' means nothing at A: it is for the inner pair of a dyad of three revolute pairs",
+    ),
+    "point in Cyrillic": (
+        [('point = "A"\nlinks', 'point = "\u0410"\nlinks')],
+        "name-cyrillic",
+        "mechanism.pair.point",
+        "character 1 is a Cyrillic letter; type the Latin A",
+    ),
+    "length in Cyrillic": (
+        [('"l_AB"', '"l_A\u0412"')],
+        "name-cyrillic",
+        "mechanism.link.points.B",
+        "character 4 is a Cyrillic letter; type the Latin B",
+    ),
+    "letter of a point in Cyrillic": (
+        [('points = { C = ["0 mm"', 'points = { \u0421 = ["0 mm"')],
+        "name-cyrillic",
+        "",
+        "type the Latin C",
+    ),
+    "point with a dash": (
+        [('point = "A"\nlinks', 'point = "A-1"\nlinks')],
+        "type-name",
+        "mechanism.pair.point",
+        "'A-1' is no name; expected a Latin letter",
+    ),
+    "letters of a length turned round": (
+        [('"l_AB"', '"l_BA"')],
+        "value-unknown-like",
+        "mechanism.link.points.B",
+        "did you mean 'l_AB'?",
+    ),
+    "length without a unit": ([('"220 mm"', "220")], "unit-missing", "points.B", "expected one such as mm"),
+    "speed without a unit": ([('speed = "n_1"', "speed = 120")], "unit-missing", "driver.speed", "one such as rpm"),
+    "unit without quotes": (
+        [("phi = 60", "phi = 60 deg")],
+        "toml-bare",
+        "",
+        "a value with a unit or a decimal comma stands in quotes",
+    ),
+    "comma without quotes": ([("l_OA = 100", "l_OA = 100,5")], "toml-bare", "", "stands in quotes"),
     "branch of two": ([("branch = 1\n", "branch = 2\n")], "sign-bad", "branch", "'2': a sense or a branch is 1 or -1"),
     "group of class four": (
         [
@@ -213,6 +258,7 @@ BROKEN: dict[str, tuple[Sequence[tuple[str, str]], str, str, str]] = {
 # The same of a press with a load diagram over its stroke, and of one with a group of class III.
 PRESS, AUTOMATON = bundled_text("scheme-13-toggle-press"), bundled_text("scheme-20-press-automaton")
 START = AUTOMATON[AUTOMATON.index("[[mechanism.start]]") : AUTOMATON.index("[mechanism.stroke]")]
+RAM = PRESS[PRESS.index('[[mechanism.pair]]\nkind = "prismatic"') : PRESS.index("[mechanism.driver]")]
 LOADED: dict[str, tuple[str, Sequence[tuple[str, str]], str, str, str]] = {
     "stroke of a link off the frame": (
         PRESS,
@@ -301,9 +347,30 @@ LOADED: dict[str, tuple[str, Sequence[tuple[str, str]], str, str, str]] = {
     "start of a leg": (
         AUTOMATON,
         [("[[mechanism.start]]\nlink = 3", "[[mechanism.start]]\nlink = 4")],
-        "start-missing",
+        "start-leg",
+        "mechanism.start.link",
+        "the central link of a group of class III: of link 3, not of link 4",
+    ),
+    "branch in a triad": (
+        AUTOMATON,
+        [('point = "C"\nlinks = [3, 4]\n', 'point = "C"\nlinks = [3, 4]\nbranch = 1\n')],
+        "branch-triad",
+        "mechanism.pair.branch",
+        "means nothing at C, a pair of a group of class III: [[mechanism.start]] says which way",
+    ),
+    "output without its guide": (
+        PRESS,
+        [(RAM, "")],
+        "link-loose",
         "mechanism.link",
-        "where its central link 3 stands",
+        "link 5 hangs loose: its pairs: 1",
+    ),
+    "output without its guide, its stroke": (
+        PRESS,
+        [(RAM, "")],
+        "stroke-link",
+        "mechanism.stroke.link",
+        "link 5 is not an output",
     ),
     "start at no angle": (
         AUTOMATON,
@@ -398,6 +465,34 @@ def test_loop_that_does_not_close_is_refused_with_status_three(
     assert "mm are missing at B" in err
     assert reason is not None
     assert len({reason.text(language) for language in LANGUAGES}) == 3
+
+
+ALONE = (
+    pytest.param(GOOD.replace('n_1 = { unit = "rpm" }', 'n_1 = { unit = "rpmm" }'), "unit-unknown-like", id="unit"),
+    pytest.param(
+        GOOD.replace('n_1 = { unit = "rpm" }', 'n_1 = { unt = "rpm" }'), "key-unknown-like", id="key of a given"
+    ),
+    pytest.param(GOOD.replace('n_1 = { unit = "rpm" }', "n_1 = {}"), "given-kind", id="given of no kind"),
+    pytest.param(PRESS.replace("at = [0, 0.35, 0.35", "at = [0, 0.35, 0.3"), "diagram-stroke", id="places"),
+    pytest.param(PRESS.replace('over = "stroke"', 'over = "path"'), "diagram-over", id="diagram"),
+    pytest.param(PRESS.replace('values = ["0 N", "0 N", ', 'values = ["0 N", '), "diagram-uneven", id="values"),
+)
+
+
+@pytest.mark.parametrize(("text", "key"), ALONE)
+def test_what_follows_from_a_fault_is_no_other_fault(text: str, key: str) -> None:
+    assert text not in (GOOD, PRESS)
+    _, faults = read_text(text, "mine.toml")
+
+    assert [getattr(fault, "cause", fault).key for fault in faults] == [key]
+
+
+def test_setting_with_a_cyrillic_letter_says_so() -> None:
+    with pytest.raises(InputError) as refused:
+        solve("nau-slider-crank", set={"l_\u041e\u0410": "55 mm"})
+
+    assert refused.value.key == "name-cyrillic"
+    assert all(refused.value.text(language).endswith(("O", "same")) for language in LANGUAGES)
 
 
 def test_without_a_change_the_file_is_good() -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..scales.errors import InputError
-from ..scales.names import unknown
+from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote
 from .task import LocatedError
 from .toml_places import Path, Places
@@ -28,6 +28,7 @@ class Checker:
     file: str
     places: Places
     faults: list[tuple[int, int, InputError]] = field(default_factory=list)
+    unread: set[str] = field(default_factory=set)  # givens and diagrams at fault: that others name them is no fault
 
     def fault(self, path: Path, error: InputError) -> None:
         """Note `error` at `path`; the keys of the path go before its message."""
@@ -93,7 +94,10 @@ def name(checker: Checker, path: Path, raw: object) -> str | None:
     """Read a name: an ASCII letter, then letters, digits and underscores."""
     if isinstance(raw, str) and NAME.fullmatch(raw):
         return raw
-    checker.wrong_type(path, "type-name")
+    if isinstance(raw, str) and NAME.fullmatch(latin(raw)):
+        checker.fault(path, cyrillic(raw))
+    else:
+        checker.fault(path, InputError("type-name", text=quote(raw)))
     return None
 
 

@@ -57,11 +57,12 @@ def read_givens(checker: Checker, raw: object) -> dict[str, Given]:
         path: Path = ("givens", key)
         if name(checker, path, key) is None:
             continue
+        before = len(checker.faults)
         read = record(checker, path, value, _GIVEN)
-        if isinstance(value, dict) and ("unit" in value) == ("choices" in value):
+        if len(checker.faults) == before and ("unit" in read) == ("choices" in read):
             checker.fault(path, InputError("given-kind"))
-            continue
-        if not read.keys() & {"unit", "choices"}:
+        if len(checker.faults) > before:
+            checker.unread.add(key)
             continue
         givens[key] = _with_default(checker, path, Given(key, read.get("unit"), read.get("choices", ())), read)
     return givens
@@ -87,7 +88,7 @@ def read_choices(checker: Checker, raw: object, givens: Mapping[str, Given]) -> 
         return {}
     wanted = [given for given in givens.values() if given.choices]
     for key in raw:
-        if not any(key == given.name for given in wanted):
+        if key not in checker.unread and not any(key == given.name for given in wanted):
             checker.fault(("choices", key), unknown("key-unknown", key, [given.name for given in wanted]))
     choices = {}
     for given in wanted:
@@ -143,6 +144,7 @@ def read_variants(checker: Checker, raw: object, givens: Mapping[str, Given]) ->
             checker.wrong_type(path, "type-table")
             continue
         fields = {key: Field(_given(given), given.default is None) for key, given in givens.items()}
+        fields |= {key: Field(as_is, required=False) for key in checker.unread}
         fields |= {"id": Field(label), "reconstructed": Field(array_of(text), required=False)}
         read = record(checker, path, row, fields)
         for i, key in enumerate(read.get("reconstructed", ())):

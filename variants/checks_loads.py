@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..plans.linkages.loads import in_order
@@ -69,6 +69,9 @@ def read_stroke(checker: Checker, path: Path, raw: object, names: Names) -> Stro
 def read_diagrams(checker: Checker, rows: list[tuple[Path, object]], names: Names) -> list[Diagram]:
     """Read the load diagrams; from then on their names are those of forces or moments."""
     found = [(path, _diagram(checker, path, row, names)) for path, row in rows]
+    for (_, row), (_, made) in zip(rows, found, strict=True):
+        if made is None and isinstance(row, dict):
+            names.dimensions.setdefault(str(row.get("name")), None)
     diagrams = [(path, *made) for path, made in found if made is not None]
     for path, diagram, wanted in diagrams:
         if diagram.name in names.dimensions:
@@ -104,11 +107,12 @@ def _diagram(checker: Checker, path: Path, raw: object, names: Names) -> tuple[D
     return (diagram, wanted.dimension) if len(checker.faults) == before else None
 
 
-def diagrams_in_order(checker: Checker, mechanism: Mechanism, values: Mapping[str, float]) -> None:
-    """Check that the places of load diagrams do not decrease, and that they lie within the stroke or a turn."""
+def diagrams_in_order(checker: Checker, mechanism: Mechanism, rows: Sequence[Mapping[str, float]]) -> None:
+    """Check that the places of load diagrams do not decrease, and lie within the stroke or a turn, in any variant."""
     for i, diagram in enumerate(mechanism.diagrams):
         try:
-            in_order(diagram, values)
+            for values in rows:
+                in_order(diagram, values)
         except InputError as error:
             checker.fault(("mechanism", "diagram", i, "at"), error)
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ..plans.linkages.mechanism import FRAME, MINUS, ZERO, Link, Mechanism, Pair, Prismatic, Revolute, Start
+from ..plans.linkages.structure import analyse
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import quote
@@ -22,6 +23,7 @@ from .checks_loads import (
 )
 from .checks_names import Names
 from .checks_start import start_fields, starts_joined
+from .checks_structure import place_of
 from .toml_places import Path
 
 _RAD, _M_S2 = unit("rad"), unit("m/s^2")
@@ -153,6 +155,7 @@ def _pair(checker: Checker, path: Path, raw: object, names: Names) -> Pair | Non
 def _joined(checker: Checker, mechanism: Mechanism, names: Names) -> None:
     """Check that links, pairs, driver and loads speak of the same numbers and letters."""
     links: dict[int, Mapping[str, object]] = {}
+    before = len(checker.faults)
     for i, link in enumerate(mechanism.links):
         if link.number == FRAME or link.number in links:
             checker.fault(("mechanism", "link", i, "number"), InputError("link-number", number=link.number))
@@ -162,8 +165,19 @@ def _joined(checker: Checker, mechanism: Mechanism, names: Names) -> None:
     _places_joined(checker, mechanism)
     driver_joined(checker, mechanism, links)
     loads_joined(checker, mechanism, names, links)
-    output_joined(checker, mechanism)
     starts_joined(checker, mechanism, links)
+    whole = len(checker.faults) == before
+    output_joined(checker, mechanism)
+    if whole and len(checker.faults) > before:  # else the reader, which constructs it, finds what is wrong
+        _moves(checker, mechanism)
+
+
+def _moves(checker: Checker, mechanism: Mechanism) -> None:
+    """Check that the mechanism has a structure."""
+    try:
+        analyse(mechanism)
+    except InputError as error:
+        checker.fault(place_of(mechanism, error), error)
 
 
 def _places_joined(checker: Checker, mechanism: Mechanism) -> None:

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 from ..plans.linkages.mechanism import MINUS, ZERO
 from ..scales.errors import InputError
-from ..scales.names import unknown
+from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote, split_number
-from ..scales.units import ONE, Dimension, Unit, unit
+from ..scales.units import ONE, Dimension, Unit, customary, unit
 from .checks import NAME, Checker, Read
 from .checks_givens import NEVER_NEGATIVE, Setting, literal
 from .toml_places import Path
@@ -20,12 +20,13 @@ _M = unit("m")
 class Names:
     """The values that a mechanism may name, and what it turned out to use.
 
-    `stated` says where each stands, `literals` are constants by value and dimension, `lengths` those of them that have customary names, such as links,
+    A name whose own line is at fault has no dimension, and may stand anywhere. `stated` says where each name stands.
+    `literals` are constants by value and dimension, `lengths` those of them that have customary names, such as links,
     `positive` the names that must be greater than zero: without a length or a speed of the crank there is no plan.
     `moving` are those that must not be zero.
     """
 
-    dimensions: dict[str, Dimension]
+    dimensions: dict[str, Dimension | None]
     stated: dict[str, Path] = field(default_factory=dict)
     literals: dict[tuple[float, Dimension], str] = field(default_factory=dict)
     lengths: dict[str, float] = field(default_factory=dict)
@@ -51,13 +52,18 @@ class Names:
                     checker.fault(path, unknown("value-unknown", bare, self.dimensions))
                     return None
                 found, written = bare if bare == raw else MINUS + bare, self.dimensions[bare]
+                if written is None:
+                    return found
+            elif isinstance(bare, str) and NAME.fullmatch(latin(bare)):
+                checker.fault(path, cyrillic(bare))
+                return None
             else:
                 setting = self.literal(checker, path, raw, wanted)
                 if setting is None:
                     return None
                 found, written = self.constant(setting.value, setting.dimension), setting.dimension
             if written != wanted.dimension:
-                checker.fault(path, InputError("value-wrong", text=quote(raw), expected=wanted.name))
+                checker.fault(path, InputError("value-wrong", text=quote(raw), expected=customary(wanted)))
                 return None
             return found
 
@@ -93,7 +99,7 @@ class Names:
         """Read a literal with its unit; a mass is not negative."""
         setting = literal(checker, path, raw)
         if setting is not None and setting.dimension == ONE.dimension != wanted.dimension:
-            checker.fault(path, InputError("unit-missing", text=quote(raw), expected=wanted.name))
+            checker.fault(path, InputError("unit-missing", text=quote(raw), expected=customary(wanted)))
         elif setting is not None and setting.value < 0.0 and setting.dimension in NEVER_NEGATIVE:
             checker.fault(path, InputError("negative", text=quote(raw)))
         else:

@@ -37,7 +37,9 @@ def starts_joined(checker: Checker, mechanism: Mechanism, links: Mapping[int, ob
 
 def started(checker: Checker, mechanism: Mechanism, structure: Structure) -> None:
     """Check that only central links have a start."""
-    central = {group.central for group in structure.groups if group.kind == TRIAD}
+    central = [group.central for group in structure.groups if group.kind == TRIAD]
     for i, start in enumerate(mechanism.starts):
         if start.link not in central:
-            checker.fault(("mechanism", "start", i, "link"), InputError("start-link", link=start.link))
+            known = ", ".join(map(str, central))
+            error = InputError("start-leg" if central else "start-link", link=start.link, known=known)
+            checker.fault(("mechanism", "start", i, "link"), error)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from ..plans.linkages.mechanism import BOTH, WORKING, Couple, Diagram, Load, Mechanism, Revolute
-from ..plans.linkages.structure import Structure
+from ..plans.linkages.mechanism import BOTH, WORKING, Couple, Diagram, Load, Mechanism, Pair, Prismatic, Revolute
+from ..plans.linkages.structure import TRIAD, Structure
 from ..scales.errors import InputError
 from .checks import Checker
 from .toml_places import Path
@@ -43,3 +43,20 @@ def branched(checker: Checker, mechanism: Mechanism, structure: Structure) -> No
             data = {"links": ", ".join(map(str, sorted(group.links))), "point": point}
             error = InputError("branch-missing", start=ends[0][1].point, end=ends[1][1].point, **data)
             checker.fault(("mechanism", "pair", number), error)
+
+
+def needless_branches(checker: Checker, mechanism: Mechanism, structure: Structure) -> None:
+    """Check that only pairs at which there are two ways to go on say which is meant."""
+    pins = {group.inner[0].point for group in structure.groups if group.kind == "RRR"}
+    two_ways = [group for group in structure.groups if group.kind in ("RRP", "RPR")]
+    guides = [pair for group in two_ways for pair in (*group.inner, *group.outer) if isinstance(pair, Prismatic)]
+    for i, pair in enumerate(mechanism.pairs):
+        meant = pair.point in pins if isinstance(pair, Revolute) else pair in guides
+        if pair.branch is not None and not meant:
+            error = InputError("branch-triad" if _in_triad(structure, pair) else "branch-needless", point=pair.point)
+            checker.fault(("mechanism", "pair", i, "branch"), error)
+
+
+def _in_triad(structure: Structure, pair: Pair) -> bool:
+    triads = [group for group in structure.groups if group.kind == TRIAD]
+    return any(pair.point == other.point for group in triads for other in (*group.inner, *group.outer))

@@ -16,10 +16,11 @@ from ..drawing.words import notations
 from ..plans.linkages.chain import PLANS, construct, require_couplers
 from ..plans.linkages.mechanism import Mechanism
 from ..plans.linkages.solved import scale_symbols
+from ..plans.linkages.structure import analyse
 from ..scales.choose import Segment, chooser
 from ..scales.display import AS_INSIDE, LENGTHS, METRE, PAPER, Display
 from ..scales.errors import LANGUAGES, InputError, messages
-from ..scales.names import unknown
+from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote
 from .arguments import of_kind
 from .checks import Checker, EnoughError, Field, array_of, as_is, label, one_of, record, text
@@ -28,7 +29,7 @@ from .checks_loads import diagrams_in_order
 from .checks_mechanism import read_mechanism
 from .checks_names import Names
 from .checks_start import started
-from .checks_structure import branched, place_of
+from .checks_structure import branched, needless_branches, place_of
 from .shelf import bundled, bundled_text
 from .task import WITH_FORCES, Bound, Given, LocatedError, Task
 from .toml_places import Path, Places
@@ -36,6 +37,8 @@ from .toml_places import Path, Places
 LARGEST_FILE = 1_000_000
 # tomllib takes time as the square of the parts of a dotted key
 _LONG_KEY = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){64}""")
+
+_BARE = re.compile(r"""(?<![\w"'.-])[-+−]?[0-9]+([.][0-9]+)?(,[0-9]+|[ \t]*(?!\d)[\w°][^,#\]}]*)""")  # 50,5 or 50 deg
 
 
 class TaskFileError(InputError):
@@ -166,8 +169,17 @@ def _syntax(toml: str, file: str, reason: str) -> InputError:
         key = re.search(r"(?:inline table key |immutable namespace \()'(.*?)'", reason)
         cause = InputError("toml-twice", text=quote(key[1] if key else written.split("=")[0].strip()))
     else:
-        cause = InputError("toml-bad", text=quote(written.strip()))
+        cause = _not_toml(written, column)
     return LocatedError(f"{file}:{line}:{column}", cause)
+
+
+def _not_toml(written: str, column: int) -> InputError:
+    """Return the fault in a line that is not valid TOML: a letter that looks Latin, a value that lacks its quotes."""
+    word = next((found[0] for found in re.finditer(r"\w+", written) if found.start() < column <= found.end()), "")
+    if latin(word) != word:
+        return cyrillic(word)
+    bare = any(found.start() < column <= found.end() + 1 for found in _BARE.finditer(written))
+    return InputError("toml-bare" if bare else "toml-bad", text=quote(written.strip()))
 
 
 def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
@@ -246,8 +258,7 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
         variants=variants,
         file=checker.file,
     )
-    for variant in variants:
-        diagrams_in_order(checker, mechanism, task.values(variant))
+    diagrams_in_order(checker, mechanism, [task.values(variant) for variant in variants])
     return None if checker.faults else task
 
 
@@ -260,9 +271,14 @@ def _constructed(checker: Checker, mechanism: Mechanism, head: dict[str, Any]) -
         if "compound" in head["plans"]:
             require_couplers(mechanism, structure)
     except InputError as error:
-        checker.fault(place_of(mechanism, error), error)
+        before = len(checker.faults)
+        if error.key == "start-missing":  # or it is that of another link
+            started(checker, mechanism, analyse(mechanism))
+        if len(checker.faults) == before:
+            checker.fault(place_of(mechanism, error), error)
         return
     branched(checker, mechanism, structure)
+    needless_branches(checker, mechanism, structure)
     started(checker, mechanism, structure)
     symbols = scale_symbols(structure, program)
     lengths = {x for link in mechanism.links for x, _ in link.points.values()}
@@ -278,6 +294,7 @@ def _constructed(checker: Checker, mechanism: Mechanism, head: dict[str, Any]) -
 def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Names:
     """Return the values that the mechanism may name: givens and what choices set, no name twice."""
     names = Names({key: given.unit.dimension for key, given in givens.items() if given.unit is not None})
+    names.dimensions.update(dict.fromkeys(checker.unread))
     names.stated.update({key: ("givens", key) for key in names.dimensions})
     for choice, words in choices.items():
         first = next(iter(words), "")
