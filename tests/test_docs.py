@@ -29,7 +29,8 @@ EXAMPLES = sorted((DOCS / "examples").glob("*.toml"))
 
 def example_texts() -> list[str]:
     """Return the task files from which the documents quote."""
-    return [bundled_text(TASK), *(path.read_text(encoding="utf-8") for path in EXAMPLES)]
+    tasks = [bundled_text(task) for task in (TASK, "scheme-20-press-automaton")]
+    return [*tasks, *(path.read_text(encoding="utf-8") for path in EXAMPLES)]
 
 
 def keys_read(text: str, monkeypatch: pytest.MonkeyPatch) -> set[str]:
