@@ -70,8 +70,8 @@ def read_diagrams(checker: Checker, rows: list[tuple[Path, object]], names: Name
     """Read the load diagrams; from then on their names are those of forces or moments."""
     found = [(path, _diagram(checker, path, row, names)) for path, row in rows]
     for (_, row), (_, made) in zip(rows, found, strict=True):
-        if made is None and isinstance(row, dict):
-            names.dimensions.setdefault(str(row.get("name")), None)
+        if made is None and isinstance(row, dict) and isinstance(row.get("name"), str):
+            names.dimensions.setdefault(row["name"], None)
     diagrams = [(path, *made) for path, made in found if made is not None]
     for path, diagram, wanted in diagrams:
         if diagram.name in names.dimensions:
