@@ -63,7 +63,8 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
     length = LENGTH[scene.style.label]
     duration = float(drawn.times[-1])
     across = Scale("mu_t", rounded(duration / length, 6), "s")
-    bands = _bands(scene, drawn, diagrams(cycle, of, DENSE), across, motion)
+    dense = diagrams(cycle, of, DENSE)
+    bands = _bands(scene, drawn, dense, across, motion)
     low = 0.0
     for number, band in enumerate(bands):
         least, most = (band.scale.drawn(end) for end in band.ends)
@@ -73,7 +74,8 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
             pair = bands[number - 1 : number + 1]
             _pole(canvas, scene, _field(scene, band, across, drawn, 1j * low), pair, f"P_{{{number}}}")
         low += least
-    _chords(canvas, scene, _field(scene, bands[0], across, drawn, -1j * bands[0].scale.drawn(bands[0].ends[1])), drawn)
+    top = _field(scene, bands[0], across, drawn, -1j * bands[0].scale.drawn(bands[0].ends[1]))
+    _chords(canvas, top, drawn, float(np.nanmin(dense.s)))
     heading = (
         scene.words["heading.diagrams"].format(link=of),
         scene.words.scale(across),
@@ -149,9 +151,8 @@ def _pole(canvas: Canvas, scene: Scene, field: Field, bands: Sequence[Band], let
     canvas.label(text, feet, prefer=-1j, clear=0.8, height=scene.style.text)
 
 
-def _chords(canvas: Canvas, scene: Scene, field: Field, drawn: Diagrams) -> None:
-    """Draw the chords of the travel."""
-    least = float(np.nanmin(drawn.s))
+def _chords(canvas: Canvas, field: Field, drawn: Diagrams, least: float) -> None:
+    """Draw the chords of the travel, between points of the smooth curve."""
     points = [field.at(t, s - least) for t, s in zip(drawn.times.tolist(), drawn.s.tolist(), strict=True)]
     known = tuple(point for point in points if math.isfinite(point.imag))
     canvas.add(Group((Polyline(known, Pen.THIN),), "chords", "s"))

@@ -75,7 +75,7 @@ def _vectors(canvas: Canvas, scene: Scene, vectors: list[tuple[str, str, str]]) 
         named[ends] = None
         text = " = ".join(_symbol(scene, name) for name in names)
         ends_of = f"{text} = {scene.words.mark(tail)}{scene.words.mark(tip)}"
-        canvas.label(text, (vector.tail, vector.tip), prefer=side, clear=0.9, spare=ends_of)
+        canvas.label(text, (vector.tail, vector.tip), prefer=side, clear=0.9, strict=True, spare=ends_of)
 
 
 def _symbol(scene: Scene, quantity: str) -> str:

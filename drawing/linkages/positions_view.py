@@ -71,7 +71,8 @@ def _standing(scene: Scene, cycle: Cycle, place: float) -> Scene | None:
     """Return the scene with the driver at `place`, unless the mechanism cannot stand there."""
     givens = {**cycle.givens, cycle.drive.variable: place}
     solved = solve_linkage(cycle.mechanism, givens, ("position",))
-    return None if solved.trouble is not None else replace(scene, solved=solved)
+    # a guide on a moving link is drawn as far as the slider: how far it runs is counted from the calculated position
+    return None if solved.trouble is not None else replace(scene, solved=solved, runs={})
 
 
 def _stands(scene: Scene, cycle: Cycle) -> Iterator[Stand]:
