@@ -9,7 +9,7 @@ from ...plans.linkages.field import MARGIN, velocity_field
 from ...plans.linkages.mechanism import FRAME
 from ...plans.linkages.solved import Solved
 from ...scales.scale import Scale, steps
-from ..shapes import Circle, Pen, Vector
+from ..shapes import Circle, HeadPlace, Pen, Vector
 from ..view import Canvas, View
 from .links import draw_links, letter_links
 from .scene import Scene
@@ -58,7 +58,7 @@ def field_view(scene: Scene, link: int) -> View:
         tip = tail + velocity * (1.0 / scale.mu)
         short = abs(tip - tail) < scene.style.arrow
         canvas.add(Circle(tail, 0.3, Pen.THIN, fill="black"))
-        head = "none" if short else "tip"
+        head: HeadPlace = "none" if short else "tip"
         canvas.add(Vector(tail, tip, f"v_{link}", value, scale.unit, scale.mu, Pen.THIN, head=head))
     figures = draw_links(canvas, scene, [link], framed=False)
     letter_links(canvas, scene, [link], figures)

@@ -11,7 +11,7 @@ from ...scales.errors import InputError
 from ...scales.scale import Scale
 
 Ladders = Mapping[str, tuple[float, ...]]
-LONGEST = 100.0  # mm, the longest segment of a plan whose scale factor nobody has chosen
+LONGEST = 130.0  # mm, the longest segment of a plan whose scale factor nobody has chosen
 LARGEST = 200.0  # mm, the same for the mechanism from joint to joint, and for plans of many vectors
 CROWD, HUNG = 14, 8  # vectors on one plan; forces on the lever
 DRAWN = ("read", "chain")
