@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -19,25 +18,29 @@ ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYT
 
 
 def shell(*arguments: str) -> float:
-    """Return the median time of a whole process, seconds."""
+    """Return the shortest time of a whole process on the processor, seconds."""
+    import resource
+
+    def spent() -> float:
+        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return usage.ru_utime + usage.ru_stime
+
     times = []
-    for run in range(RUNS + 1):
-        start = time.perf_counter()
+    for _ in range(RUNS + 1):  # the first one warms the caches of the disk and writes bytecode
+        start = spent()
         subprocess.run([sys.executable, *arguments], check=True, stdout=subprocess.DEVNULL, env=ENVIRONMENT)
-        if run:  # the first one warms the caches of the disk and writes bytecode
-            times.append(time.perf_counter() - start)
-    return statistics.median(times)
+        times.append(spent() - start)
+    return min(times)
 
 
-def warm(work: Callable[[], object], runs: int = RUNS) -> float:
-    """Return the median time of a call within a process, seconds."""
-    work()
+def shortest(work: Callable[[], object], runs: int = RUNS) -> float:
+    """Return the shortest time of a call on the processor, seconds: others on the machine make it longer only."""
     times = []
-    for _ in range(runs):
-        start = time.perf_counter()
+    for _ in range(runs + 1):
+        start = time.process_time()
         work()
-        times.append(time.perf_counter() - start)
-    return statistics.median(times)
+        times.append(time.process_time() - start)
+    return min(times)
 
 
 def closed_form(phi, values):
@@ -90,8 +93,8 @@ FORCES = ("R_12", "R_03", "R_32", "R_01", "F_bal", "F_bal_lever")
 BATCHES = {
     "slider-crank, balancing moments by plans and by the lever": ("nau-slider-crank", ("M_bal", "M_bal_lever"), 100),
     "four-bar, position, velocity and acceleration": ("madi-four-bar", KINEMATICS, 80),
-    "four-bar, the balancing force by plans and by the lever": ("madi-four-bar", ("F_bal", "F_bal_lever"), 150),
-    "four-bar, motion, reactions, balancing force, lever": ("madi-four-bar", KINEMATICS + FORCES, 150),
+    "four-bar, balancing forces by plans and by the lever": ("madi-four-bar", ("F_bal", "F_bal_lever"), 150),
+    "four-bar, motion, reactions, balancing forces": ("madi-four-bar", KINEMATICS + FORCES, 150),
 }
 
 
@@ -126,16 +129,6 @@ def million() -> None:
         print(ours / MILLION * 1e9, hand / MILLION * 1e9, memory)
 
 
-def shortest(work: Callable[[], object], runs: int = 5) -> float:
-    """Return the shortest time of a call on the processor, seconds: others on the machine make it longer only."""
-    times = []
-    for _ in range(runs):
-        start = time.process_time()
-        work()
-        times.append(time.process_time() - start)
-    return min(times)
-
-
 def row(name: str, value: float, unit: str, goal: float, ratio: str) -> None:
     """Print one line of the table."""
     print(f"| {name} | {value:.3g} {unit} | {goal:g} {unit} | {ratio} |")
@@ -149,7 +142,9 @@ def main() -> None:
     from kulman.plans.exact import run
     from kulman.plans.linkages.chain import board_givens, construct
 
-    print(f"Python {sys.version.split()[0]}, numpy {np.__version__}, {os.cpu_count()} cores, medians of {RUNS} runs\n")
+    print(
+        f"Python {sys.version.split()[0]}, numpy {np.__version__}, {os.cpu_count()} cores; processor time, the shortest of {RUNS} runs\n"
+    )
     print("| what | measured | goal | ratio in the same run |\n|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         svg, pdf = (str(Path(folder) / f"sheet.{suffix}") for suffix in ("svg", "pdf"))
@@ -163,26 +158,21 @@ def main() -> None:
         ):
             taken = shell(*arguments)
             row(name, taken, "s", goal, f"{taken / bare:.1f} starts of Python")
-        once = warm(lambda: kulman.sheet("nau-slider-crank", "3").save(svg, pdf))
+        once = shortest(lambda: kulman.sheet("nau-slider-crank", "3").save(svg, pdf))
         row("SVG and PDF, warm", once * 1e3, "ms", 60, f"{once / bare:.2f} starts of Python")
     task = kulman.load_task("nau-slider-crank")
     _, program = construct(task.mechanism)
     givens = board_givens(task.mechanism, task.values("example"))
-    one = warm(lambda: [run(program, givens) for _ in range(200)]) / 200
+    one = shortest(lambda: [run(program, givens) for _ in range(200)]) / 200
     values = task.values("example")
-    hand = warm(lambda: [closed_form(values["phi"], values) for _ in range(200)]) / 200
+    hand = shortest(lambda: [closed_form(values["phi"], values) for _ in range(200)]) / 200
     row("one position, the full chain", one * 1e6, "us", 100, f"{one / hand:.1f} times a hand-written closed form")
-    row("recording the construction", warm(lambda: construct(task.mechanism)) * 1e3, "ms", 1, "")
+    row("recording the construction", shortest(lambda: construct(task.mechanism)) * 1e3, "ms", 1, "")
     output = subprocess.run([sys.executable, __file__, "million"], check=True, capture_output=True, text=True).stdout
     for (name, (_, _, goal)), line in zip(BATCHES.items(), output.splitlines(), strict=True):
         ours, hand, memory = map(float, line.split())
-        row(
-            f"{name}, a million positions, each",
-            ours,
-            "ns",
-            goal,
-            f"{ours / hand:.2f} times a hand-written closed form",
-        )
+        ratio = f"{ours / hand:.2f} times a hand-written closed form"
+        row(f"{name}, a million times, each", ours, "ns", goal, ratio)
         if goal == 100:
             row("peak memory of that run", memory, "MB", 150, "")
 
