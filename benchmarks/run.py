@@ -142,9 +142,8 @@ def main() -> None:
     from kulman.plans.exact import run
     from kulman.plans.linkages.chain import board_givens, construct
 
-    print(
-        f"Python {sys.version.split()[0]}, numpy {np.__version__}, {os.cpu_count()} cores; processor time, the shortest of {RUNS} runs\n"
-    )
+    versions = f"Python {sys.version.split()[0]}, numpy {np.__version__}, {os.cpu_count()} cores"
+    print(f"{versions}; processor time, the shortest of {RUNS} runs\n")
     print("| what | measured | goal | ratio in the same run |\n|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         svg, pdf = (str(Path(folder) / f"sheet.{suffix}") for suffix in ("svg", "pdf"))
