@@ -14,6 +14,7 @@ from .arithmetic import Entry
 PADDING = 72  # numbers between two buffers, lest all of them begin at the same place of a memory page
 Array = NDArray[np.float64]
 Call = tuple[Callable[..., Any], tuple[Any, ...]]
+LATER: Call = (tuple, ())  # the place of a call that depends on the chunk
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -93,7 +94,7 @@ class Chunks:
             traffic: list[Load | Store] = [Load(self._arrays[entry.given])] if entry.given else []
             for each in traffic + self._stores.get(place, []):
                 self._moving.append((len(self._calls), each, rows[place]))
-                self._calls.append(each.call(rows[place], slice(size)))
+                self._calls.append(LATER)
 
 
 def _keep(row: Array, operation: Callable[..., Any], operands: tuple[Any, ...]) -> None:
@@ -107,8 +108,8 @@ def _in_order(entries: Sequence[Entry], wanted: Collection[int]) -> list[int]:
     """Return the entries that `wanted` and the checks need, constants apart, each as late as it is asked for."""
     order: list[int] = []
     done = {place for place, entry in enumerate(entries) if entry.constant is not None}
-    for root in (place for place, entry in enumerate(entries) if place in wanted or entry.check):
-        waiting = [root]
+    for root, entry in enumerate(entries):
+        waiting = [root] if root in wanted or entry.check else []
         while waiting:
             place = waiting[-1]
             first = [operand for operand in entries[place].operands if operand not in done]
