@@ -105,7 +105,8 @@ def million() -> None:
     import numpy as np
 
     from kulman.plans.batch import batch, settle_heap
-    from kulman.plans.linkages.chain import board_givens, construct
+    from kulman.plans.linkages.chain import construct
+    from kulman.plans.linkages.givens import board_givens
     from kulman.variants import load_task
 
     settle_heap()
@@ -140,7 +141,8 @@ def main() -> None:
 
     import kulman
     from kulman.plans.exact import run
-    from kulman.plans.linkages.chain import board_givens, construct
+    from kulman.plans.linkages.chain import construct
+    from kulman.plans.linkages.givens import board_givens
 
     versions = f"Python {sys.version.split()[0]}, numpy {np.__version__}, {os.cpu_count()} cores"
     print(f"{versions}; processor time, the shortest of {RUNS} runs\n")

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from kulman.plans.batch import batch
 from kulman.plans.board import Program
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
 
 SEED = 20160101

@@ -10,8 +10,9 @@ import pytest
 from numpy.typing import NDArray
 
 from kulman.plans.batch import batch
-from kulman.plans.linkages.chain import board_givens, construct, hinged
+from kulman.plans.linkages.chain import construct, hinged
 from kulman.plans.linkages.compound import PARTS, Coupler
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Driver, Link, Mechanism, Prismatic, Revolute
 from kulman.plans.linkages.solved import disagreement, solve_linkage
 from kulman.tests.dyads import KINDS, LEAST_SINE, LEAST_SINE_BEFORE, Workshop, chosen, feeder

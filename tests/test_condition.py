@@ -16,7 +16,8 @@ from kulman import solve
 from kulman.plans.condition import conditions, derivatives
 from kulman.plans.exact import run
 from kulman.plans.linkages.accuracy import conditions_of, signs, varied
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.plans.worth import references, results

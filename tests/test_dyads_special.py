@@ -11,7 +11,8 @@ import pytest
 
 from kulman.plans.batch import batch
 from kulman.plans.exact import STATUSES
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
 from kulman.plans.linkages.solved import Solved, solve_linkage
 from kulman.scales.errors import InputError

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from kulman.plans.batch import batch
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import (
     ANGLE,
     FORCE,

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from kulman.plans.batch import batch
 from kulman.plans.board import Program
 from kulman.plans.exact import STATUSES, run
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import (
     ANGLE,
     FORCE,

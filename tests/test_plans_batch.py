@@ -9,7 +9,7 @@ import pytest
 
 from kulman.plans.batch import batch
 from kulman.plans.exact import STATUSES, run
-from kulman.plans.linkages.chain import board_givens
+from kulman.plans.linkages.givens import board_givens
 from kulman.tests.mechanisms import SEED, Solved, general_slider_crank, one_of, random_slider_cranks, solved
 
 

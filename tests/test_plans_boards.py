@@ -13,7 +13,8 @@ from kulman import load_task, solve
 from kulman.plans.batch import ArrayBoard
 from kulman.plans.board import POSITION, Program
 from kulman.plans.exact import ExactBoard, run
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 
 TASK = load_task("nau-slider-crank")
 PROGRAM = construct(TASK.mechanism)[1]

@@ -16,7 +16,8 @@ import math
 import pytest
 
 from kulman.plans.exact import ExactBoard, run
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.structure import analyse
 from kulman.tests.mechanisms import nau_slider_crank, nau_values
 

@@ -8,7 +8,8 @@ import pytest
 
 from kulman.plans.batch import batch
 from kulman.plans.exact import run
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Link, Load, Mechanism, Prismatic, Revolute
 from kulman.scales.errors import InputError
 from kulman.tests.mechanisms import ORIGIN, nau_slider_crank, nau_values

@@ -9,7 +9,8 @@ from mpmath import mp, mpf
 
 from kulman.plans.board import Program
 from kulman.plans.exact import ExactBoard, run
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.tests.mechanisms import (
     general_slider_crank,

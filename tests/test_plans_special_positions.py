@@ -11,7 +11,8 @@ import pytest
 from kulman.plans.batch import ArrayBoard
 from kulman.plans.board import Program
 from kulman.plans.exact import STATUSES, ExactBoard, run
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.tests.mechanisms import (
     NAU_VARIANTS,
     SIDES,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from kulman.plans.exact import run
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.tests.mechanisms import general_slider_crank, one_of, random_slider_cranks
 from kulman.tests.second_solver import SecondSolver
 from kulman.tests.test_plans_second_solver import differing, quantities

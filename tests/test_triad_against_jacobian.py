@@ -17,7 +17,8 @@ import pytest
 
 from kulman.plans.batch import batch
 from kulman.plans.exact import STATUSES, run
-from kulman.plans.linkages.chain import board_givens, construct
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism, Prismatic
 from kulman.tests.test_dyads_against_jacobian import ALL_KINDS, TOLERANCE, Both, solve_both, wrong
 from kulman.tests.triads import CENTRAL, PAIRS, random_triads

@@ -11,11 +11,12 @@ import pytest
 
 from kulman.plans.batch import batch
 from kulman.plans.exact import STATUSES, run
-from kulman.plans.linkages.chain import board_givens, construct
-from kulman.plans.linkages.following import Follower, followed
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Mechanism, Prismatic, Revolute, SlidingDriver, Start
 from kulman.plans.linkages.solved import Solved, solve_linkage
-from kulman.plans.linkages.special_points import by_special_points, with_special_points
+from kulman.plans.linkages.triad_following import Follower, followed
+from kulman.plans.linkages.triad_special_points import by_special_points, with_special_points
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.presses import ORIGIN, PRESS, RAM, RAM_VALUES, VALUES, press, two_presses
 

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from types import ModuleType
-from typing import Any
 
 from ...scales.errors import InputError
 from ..board import Program, RecordingBoard
 from . import compound, driver, prp, rpp, rpr, rrp, rrr, sliding_driver, triad
-from .bare import without_loads
 from .lever import lever
-from .loads import hung, in_order, lay_loads
+from .loads import hung, lay_loads
 from .mechanism import FRAME, ZERO, Driver, Mechanism, SlidingDriver
 from .parts import AssurGroup, Bodies, Forces, Span
 from .structure import Structure, analyse
-from .working_stroke import END, Moving, needs_stroke, stroke_ends
+from .working_stroke import Moving, needs_stroke
 
 PLANS = ("structure", "position", "velocity", "acceleration", "compound", "forces", "lever", "cycle")
 USUAL = tuple(plan for plan in PLANS if plan not in ("compound", "cycle"))  # without a word on which are wanted
@@ -160,33 +158,6 @@ def _place_frame(board: RecordingBoard, mechanism: Mechanism) -> None:
     """Mark the pivots on the frame."""
     for point, place in mechanism.frame_points.items():
         board.place(point, *place)
-
-
-def board_givens(
-    mechanism: Mechanism, values: Mapping[str, Any], program: Program | None = None, follow: bool = True
-) -> dict[str, Any]:
-    """Return `values` as the board wants them.
-
-    The size of a load is `|F_3|` there, for `F_3` is the vector. Groups of class III are followed from their starts,
-    unless the `values` say already where they lie. Where `program` needs the ends of the working stroke, these are
-    found first.
-
-    Raises
-    ------
-    InputError
-        A load diagram whose places decrease, or an output without a stroke.
-    """
-    if mechanism.starts and follow:
-        from .following import followed  # which asks for position plans itself
-
-        values = {**values, **followed(mechanism, values)}
-    for diagram in mechanism.diagrams:
-        in_order(diagram, values)
-    sizes = {f"|{name}|": values[name] for name in mechanism.sizes}
-    if program is None or END not in program.needs or END in values:
-        return {**values, **sizes}
-    _, motion = construct(without_loads(mechanism), ("velocity",))
-    return {**values, **sizes, **stroke_ends(mechanism, values, motion.needs)}
 
 
 def _forces(board: RecordingBoard, mechanism: Mechanism, dyads: Attached, bodies: Bodies) -> None:

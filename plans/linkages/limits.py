@@ -22,7 +22,8 @@ from ..exact import TANGENT
 from ..laws import TURN
 from ..zeros import Stretch, zeros
 from .bare import without_loads
-from .chain import board_givens, construct
+from .chain import construct
+from .givens import board_givens
 from .mechanism import FRAME, Mechanism, Prismatic, Revolute
 from .swept import Swept, swept
 

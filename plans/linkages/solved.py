@@ -12,7 +12,8 @@ from ..board import POSITION, Program
 from ..exact import Status, Trouble, run
 from ..quantities import Quantity, quantities, shown_on
 from . import compound
-from .chain import USUAL, board_givens, construct, hinged
+from .chain import USUAL, construct, hinged
+from .givens import board_givens
 from .mechanism import ZERO, Mechanism, Prismatic, SlidingDriver
 from .structure import TRIAD, Structure
 
@@ -82,7 +83,7 @@ class Solved:
             return PositionError("singular-triad", status_word="singular", link=link, legs=legs)
         given = {name: value for name, value in self.values.items() if isinstance(value, float)}
         gap = f"{trouble.gap * 1e3:.4g}"
-        from .following import Follower
+        from .triad_following import Follower
 
         limits = Follower(self.mechanism, given).limits()
         if limits is None:
@@ -165,8 +166,8 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     """
     near: dict[str, Any] = {}
     if mechanism.starts:  # groups of class III need arrays, and so numpy, on the way from their start
-        from .following import followed
-        from .special_points import with_special_points
+        from .triad_following import followed
+        from .triad_special_points import with_special_points
 
         near = followed(mechanism, values)
         mechanism = with_special_points(mechanism, values, near)

@@ -11,10 +11,10 @@ import numpy as np
 from ..along import Along
 from ..batch import ArrayBoard
 from ..board import Program
-from .chain import board_givens
-from .following import Follower, triads
+from .givens import board_givens
 from .mechanism import ZERO, Driver, Mechanism
-from .special_points import with_special_points
+from .triad_following import Follower, triads
+from .triad_special_points import with_special_points
 
 OWN = "_driver"  # the driver's variable where the mechanism has a literal in its place
 

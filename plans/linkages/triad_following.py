@@ -22,9 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..laws import TURN
-from .courses import Course, Poses, State
 from .mechanism import Driver, Mechanism
 from .structure import TRIAD, analyse
+from .triad_courses import Course, Poses, State
 from .triad_parts import start_names
 
 Array = NDArray[np.float64]

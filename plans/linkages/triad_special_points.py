@@ -19,8 +19,8 @@ from ..board import Program, RecordingBoard
 from ..exact import ILL, SMALL, run
 from .bare import without_loads
 from .chain import construct, named_groups
-from .following import followed
 from .mechanism import Mechanism
+from .triad_following import followed
 from .triad_legs import Leg
 from .triad_parts import Triad
 
@@ -38,7 +38,7 @@ def with_special_points(
     values : mapping of str to float or float64 array of shape (N,)
         Its numbers in SI, for one position or for many: of these the worst one counts.
     near : mapping, optional
-        What `following.followed` gives for them, where it is known already.
+        What `triad_following.followed` gives for them, where it is known already.
     enough : float
         The first two legs whose sines are nowhere below are taken, so that one position is constructed like another;
         without such ones the best two.
