@@ -10,7 +10,6 @@ from .bare import without_loads
 from .chain import construct
 from .loads import in_order
 from .mechanism import Mechanism
-from .triad_following import followed
 from .working_stroke import END, stroke_ends
 
 
@@ -29,6 +28,8 @@ def board_givens(
         A load diagram whose places decrease, or an output without a stroke.
     """
     if mechanism.starts and follow:
+        from .triad_following import followed  # which needs numpy, and few mechanisms need it
+
         values = {**values, **followed(mechanism, values)}
     for diagram in mechanism.diagrams:
         in_order(diagram, values)
