@@ -108,6 +108,40 @@ def _meetings(view: View, plan: str) -> Faults:
                 yield from unless(abs(((at - a) / e).imag) < NEAR and past >= 3.0, f"{name}: a line does not run past")
 
 
+def l5_similarity(case: Linkage, sheet: Sheet) -> Faults:
+    """Of every triangle that similarity names all three sides are drawn: on both plans, and on the mechanism."""
+    program = case.solution.solved.program
+    made = {step.name: step for step in program}
+    for step in program:
+        if step.verb != "similar" or not any(view.name == step.plan for view in sheet.views):
+            continue
+        marks = *step.operands[:2], step.name
+        yield from _sides(sheet[step.plan], marks)
+        point = step.name.rpartition(".")[2]
+        ends = [made[point].operands[i] if m.endswith(".p") else m.rpartition(".")[2] for i, m in enumerate(marks[:2])]
+        yield from _sides(sheet["position"], (*ends, point))
+
+
+def _sides(view: View, marks: tuple[str, ...]) -> Faults:
+    lines = [s.points for s in view.strokes if len(s.points) == 2]
+    lines += [(v.tail, v.tip) for v in view.vectors]
+    rings = max((ring.radius for ring in view.rings), default=0.0)
+    for i, first in enumerate(marks):
+        for second in marks[:i]:
+            a, b = view.point(second), view.point(first)
+            if abs(b - a) > 2 * rings:  # the lines of links stop at the circles of their joints
+                drawn = any(_along(line, a, b, rings) for line in lines)
+                yield from unless(drawn, f"{view.name}: no side {second}-{first} of a similar triangle")
+
+
+def _along(line: tuple[complex, ...], a: complex, b: complex, spare: float) -> bool:
+    """Whether a line, or the piece of it between circles on it, runs along the middle of the side a-b."""
+    e = (b - a) / abs(b - a)
+    low, high = sorted(((end - a) / e).real for end in line)
+    near = all(abs(((end - a) / e).imag) < NEAR for end in line)
+    return near and low <= abs(b - a) / 2 + spare and high >= abs(b - a) / 2 - spare and high - low > spare
+
+
 def l7_senses(case: Linkage, sheet: Sheet) -> Faults:
     """Arcs of omega and epsilon turn as the constraints say."""
     view = sheet["position"]
@@ -294,6 +328,7 @@ JUDGES: tuple[Callable[[Linkage, Sheet], Faults], ...] = (
     l1_plan,
     l2_structure,
     l3_to_l6_plans,
+    l5_similarity,
     l7_senses,
     l8_groups,
     l9_arms,

@@ -10,6 +10,8 @@ from kulman import sheet, solve
 from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.style import STYLES
 from kulman.drawing.view import Canvas
+from kulman.tests.linkage_cases import Linkage
+from kulman.tests.linkage_points import l5_similarity
 from kulman.tests.readback import View, read
 from kulman.tests.sheet_geometry import same
 
@@ -59,6 +61,13 @@ def test_rigid_corners_are_marked(task: str, corners: int, arcs: int) -> None:
 
     assert sum(s.arc is None for s in rigid) == corners
     assert sum(s.arc is not None for s in rigid) == arcs
+
+
+@pytest.mark.parametrize("task", ["scheme-17-sewing-machine", "scheme-20-press-automaton"])
+def test_triangles_named_by_similarity_have_three_sides(task: str) -> None:
+    case = Linkage(task, "0", format="A1", only=("position", "velocity", "acceleration"))
+
+    assert list(l5_similarity(case, case.sheet)) == []
 
 
 def test_block_lies_in_its_link_and_turns_with_it() -> None:

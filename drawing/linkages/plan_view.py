@@ -11,6 +11,7 @@ from ...plans.exact import SMALL
 from ..shapes import Circle, Group, Line, Pen
 from ..view import Canvas, View
 from .scene import Scene
+from .similarity import draw_sides
 
 PAST = 6.0  # mm by which a construction line runs past the point that it finds
 TOGETHER = 0.7  # mm within which marks share their letters: side by side they would cover one another
@@ -23,6 +24,7 @@ def plan_view(scene: Scene, plan: str, key: str, **fill: str) -> View:
     steps = scene.solved.program.on(plan)
     vectors = vectors_of(steps)
     _construction(canvas, scene, steps)
+    draw_sides(canvas, scene, plan, [(scene.mm(tail), scene.mm(tip)) for _, tail, tip in vectors])
     _vectors(canvas, scene, vectors)
     _letters(canvas, scene, plan, [tip for _, _, tip in vectors])
     return canvas.finish(plan, scene.heading(key, plan, **fill), tuple(_said(scene, plan, vectors)))

@@ -15,7 +15,8 @@ from .construction import axes, found_by, moving_guides, special_points
 from .links import draw_frame, draw_links, foot_of, letter_links
 from .scene import Scene
 from .senses import senses
-from .skeleton import Skeleton, guide_of, spread_of
+from .similarity import draw_sides
+from .skeleton import Skeleton, guide_of, skeleton, spread_of
 
 FARTHEST = 40.0  # mm from the pivot at which the arrow of omega_1 stands
 
@@ -30,6 +31,8 @@ def scheme(scene: Scene) -> View:
         if step.name in points or step.verb == "tangent":
             found_by(canvas, scene, step)
     special_points(canvas, scene)
+    strokes = [stroke for number in numbers for stroke in skeleton(scene, number).strokes]
+    draw_sides(canvas, scene, POSITION, strokes)
     figures = draw_links(canvas, scene, numbers)
     senses(canvas, scene)
     draw_frame(canvas, scene, numbers, figures)
