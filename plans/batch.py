@@ -12,10 +12,9 @@ from numpy.typing import NDArray
 from .arithmetic import Real, Vector
 from .board import Program
 from .chunks import Chunks, Store
-from .exact import ILL, NAN, RIGHT, SINGULAR, STATUSES, TANGENT, ExactBoard, Status, run
+from .exact import ILL, NAN, RIGHT, STATUSES, ExactBoard, Status, run
 from .noting import NotingBoard
 from .protractor import FARTHEST, MARKS, TURN, graduation
-from .template import CLOSED, FOLDED
 
 CHUNK = 8192
 _CODE = {status: code for code, status in enumerate(STATUSES)}
@@ -74,13 +73,13 @@ class ArrayBoard(ExactBoard):
             return sine
         size = np.abs(sine)
         self._mark(size < ILL, "ill-conditioned")
-        self._mark(size < SINGULAR, "singular")
-        return np.where(size < SINGULAR, NAN, sine)
+        self._mark(size < self.parallel, "singular")
+        return np.where(size < self.parallel, NAN, sine)
 
     def _reaches(self, square: Any, radius: Any, distance: Any) -> Any:
         if _least(square) >= (ILL * _most(radius)) ** 2:
             return square
-        out = square < -TANGENT * radius * radius
+        out = square < -self.touching * radius * radius
         self._mark(square < ILL * ILL * radius * radius, "ill-conditioned")
         self._mark(out, "no-assembly")
         return np.where(out, NAN, np.maximum(square, 0.0))
@@ -88,7 +87,7 @@ class ArrayBoard(ExactBoard):
     def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, double: Any) -> Any:
         if _least(product) > (ILL * _most(double)) ** 2:
             return product
-        out = product < -2.0 * TANGENT * total * total * first * second
+        out = product < -2.0 * self.touching * total * total * first * second
         self._mark(product < (ILL * double) ** 2, "ill-conditioned")
         self._mark(base == 0.0, "singular")
         self._mark(out, "no-assembly")
@@ -102,10 +101,10 @@ class ArrayBoard(ExactBoard):
 
     def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
         size = np.abs(determinant)
-        if _least(size) >= ILL and _most(apart) <= CLOSED and not np.any(astray):
+        if _least(size) >= ILL and _most(apart) <= self.closed and not np.any(astray):
             return determinant
-        reached, folded = astray == 0.0, size < FOLDED
-        apart_here = ~(reached & (folded | (apart <= CLOSED)))
+        reached, folded = astray == 0.0, size < self.folded
+        apart_here = ~(reached & (folded | (apart <= self.closed)))
         self._mark(size < ILL, "ill-conditioned")
         self._mark(reached & folded, "singular")
         self._mark(apart_here, "no-assembly")

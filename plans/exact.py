@@ -43,8 +43,11 @@ RIGHT = 2.0**-50  # component of a unit direction that is rounding: the directio
 class ExactBoard(TemplateBoard):
     """One position on Python numbers: `values` by name, and `trouble`, the first step that cannot be done.
 
-    What hangs on a failed step becomes NaN; what does not is computed all the same.
+    What hangs on a failed step becomes NaN; what does not is computed all the same. The thresholds go with the
+    precision of the numbers.
     """
+
+    parallel, touching, closed, folded = SINGULAR, TANGENT, CLOSED, FOLDED
 
     def __init__(self, givens: Mapping[str, Any]) -> None:
         super().__init__()
@@ -110,7 +113,7 @@ class ExactBoard(TemplateBoard):
     def _lines_sine(self, sine: Any) -> Any:
         """Note the sine of two lines; parallel lines do not meet."""
         self.sines[self._name] = abs(sine)
-        if abs(sine) < SINGULAR:
+        if abs(sine) < self.parallel:
             self._fail("singular", sine)
             return NAN
         return sine
@@ -121,7 +124,7 @@ class ExactBoard(TemplateBoard):
 
     def _reaches(self, square: Any, radius: Any, distance: Any) -> Any:
         """Return the square of the half chord; an arc that does not reach the line cuts no chord."""
-        if square < -TANGENT * radius * radius:
+        if square < -self.touching * radius * radius:
             self._fail("no-assembly", gap=distance - radius)
             return NAN
         square = max(square, 0.0)
@@ -130,7 +133,7 @@ class ExactBoard(TemplateBoard):
 
     def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, double: Any) -> Any:
         """Return Heron's product, factored, not to cancel; arcs that do not meet make no triangle."""
-        if product < -2.0 * TANGENT * total * total * first * second:
+        if product < -2.0 * self.touching * total * total * first * second:
             self._fail("no-assembly", gap=max(base - total, abs(first - second) - base))
             return NAN
         if base == 0.0:
@@ -160,10 +163,10 @@ class ExactBoard(TemplateBoard):
     def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
         """Return the determinant of the legs that hold a template: they must reach it, and must not concur."""
         self.sines[self._name] = abs(determinant)
-        if astray == 0.0 and abs(determinant) < FOLDED:
+        if astray == 0.0 and abs(determinant) < self.folded:
             self._fail("singular", determinant)
             return NAN
-        if not (astray == 0.0 and apart <= CLOSED):
+        if not (astray == 0.0 and apart <= self.closed):
             self._fail("no-assembly", gap=astray or missing)
             return NAN
         return determinant

@@ -88,7 +88,9 @@ def paths_of(marks: Sequence[Any], names: Sequence[str]) -> tuple[Path, Path, Pa
     return first, second, third
 
 
-def lay(place: Any, turn: Any, paths: tuple[Path, Path, Path], root: Callable[[Any], Any]) -> Laid:
+def lay(
+    place: Any, turn: Any, paths: tuple[Path, Path, Path], root: Callable[[Any], Any], corrections: int = CORRECTIONS
+) -> Laid:
     """Lay a template on three paths by Newton's method.
 
     Parameters
@@ -101,11 +103,13 @@ def lay(place: Any, turn: Any, paths: tuple[Path, Path, Path], root: Callable[[A
         Of its joints.
     root : callable
         The square root of the board's numbers.
+    corrections : int
+        How many, the last one included: each doubles the digits.
     """
     size = _size(paths, root)
     steps: list[Any] = []
     missing: Any = 0.0
-    for number in range(CORRECTIONS):
+    for number in range(corrections):
         lines, moments, gaps = zip(*(path.look(place, turn, size, root) for path in paths), strict=True)
         sines = cross(lines[1], lines[2]), cross(lines[2], lines[0]), cross(lines[0], lines[1])
         determinant = moments[0] * sines[0] + moments[1] * sines[1] + moments[2] * sines[2]
@@ -113,7 +117,7 @@ def lay(place: Any, turn: Any, paths: tuple[Path, Path, Path], root: Callable[[A
         move, twist = _correction(gaps, mending)
         if number == 0:
             missing = _missing((move, twist), mending, root)
-        if number < CORRECTIONS - 1:
+        if number < corrections - 1:
             inverse = -1.0 / (determinant + (determinant == 0.0))
             move, twist = move * inverse, twist * inverse
             place, turn = place + move, rotated(turn, twist / size)
@@ -180,6 +184,8 @@ class TemplateBoard(Board):
     it went astray on the way there, zero when it did not; then joint, start, radius and direction of each leg.
     """
 
+    corrections = CORRECTIONS
+
     def __init__(self) -> None:
         self._templates: dict[tuple[str, ...], Laid] = {}
         self._finished: dict[tuple[str, ...], tuple[Any, Any]] = {}
@@ -222,7 +228,8 @@ class TemplateBoard(Board):
         if laid is None:
             x, y, cosine, sine, _, *legs = marks
             place, turn = self._complex(x, y), self._complex(cosine, sine)
-            laid = self._templates[names] = lay(place, turn, paths_of(legs, names[ASTRAY + 1 :]), self._sqrt)
+            paths = paths_of(legs, names[ASTRAY + 1 :])
+            laid = self._templates[names] = lay(place, turn, paths, self._sqrt, self.corrections)
         return laid
 
     # What a board says of itself.

@@ -1,44 +1,16 @@
-"""The same construction with fifty digits, and what its results are by differences: an independent route to slopes."""
+"""What results of a construction are by differences with fifty digits: an independent route to slopes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
-from mpmath import mp, mpc, mpf
+from mpmath import mp, mpf
 
 from kulman.plans.board import Program
-from kulman.plans.exact import NAN, ExactBoard
+from kulman.plans.fifty_digits import DIGITS, fifty_digits
 
-DIGITS = 50
 STEP = mpf(10) ** -16  # part of a given; the error of a central difference is its square
-
-
-class FiftyDigits(ExactBoard):
-    """One position on numbers of mpmath, in whatever precision it works."""
-
-    def perform(self, operate: Callable[..., Any], name: str, operands: tuple[str, ...]) -> None:
-        self._name, self._operands = name, operands
-        self.values[name] = operate(*[self.values[operand] for operand in operands])
-
-    @staticmethod
-    def _sqrt(square: Any) -> Any:
-        return mp.sqrt(square) if square >= 0 else NAN
-
-    @staticmethod
-    def _complex(real: Any, imag: Any) -> Any:
-        return mpc(real, imag)
-
-    def _turn(self, angle: Any) -> Any:
-        return mp.expj(angle)
-
-
-def fifty_digits(program: Program, givens: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Run `program` with fifty digits."""
-    with mp.workdps(DIGITS):
-        board = FiftyDigits({name: mpf(value) for name, value in givens.items()})
-        program.run(board)
-        return board.values
 
 
 def differences(
