@@ -21,7 +21,7 @@ from kulman.plans.hand import PRESETS, Hand, preset
 from kulman.plans.linkages.accuracy import paper_of
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
-from kulman.plans.marking import failing
+from kulman.plans.marking.tolerances import failing
 from kulman.plans.shaky import Paper, ShakyBoard, draw
 from kulman.plans.spread import drawn
 from kulman.plans.worth import references, results

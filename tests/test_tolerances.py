@@ -10,7 +10,7 @@ import pytest
 from kulman import solve
 from kulman.plans.hand import PRESETS, Hand, Tolerance, preset
 from kulman.plans.linkages.accuracy import paper_of
-from kulman.plans.marking import failing, tolerances
+from kulman.plans.marking.tolerances import failing, tolerances
 from kulman.plans.shaky import Paper
 from kulman.plans.spread import drawn
 from kulman.scales.errors import InputError

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from .board import POSITION, Step
-from .hand import Tolerance
-from .laws import LAWS, dot
-from .quantities import POINTS
-from .shaky import Paper
-from .spread import Drawn
-from .worth import results, worst_behind
+from ..board import POSITION, Step
+from ..hand import Tolerance
+from ..laws import LAWS, dot
+from ..quantities import POINTS
+from ..shaky import Paper
+from ..spread import Drawn
+from ..worth import results, worst_behind
 
 READ = ("read", "measure", "distance")
 ROUNDING = 1e-9  # part of a tolerance
