@@ -79,19 +79,21 @@ class ArrayBoard(ExactBoard):
     def _reaches(self, square: Any, radius: Any, distance: Any) -> Any:
         if _least(square) >= (ILL * _most(radius)) ** 2:
             return square
-        out = square < -self.touching * radius * radius
+        touching = self.touching * radius * radius
+        out = square < -touching
         self._mark(square < ILL * ILL * radius * radius, "ill-conditioned")
         self._mark(out, "no-assembly")
-        return np.where(out, NAN, np.maximum(square, 0.0))
+        return np.where(out, NAN, np.where(square <= touching, 0.0, square))
 
     def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, double: Any) -> Any:
         if _least(product) > (ILL * _most(double)) ** 2:
             return product
-        out = product < -2.0 * self.touching * total * total * first * second
+        touching, together = 2.0 * self.touching * total * first * second, base <= self.touching * total
+        out = product < -touching * total
         self._mark(product < (ILL * double) ** 2, "ill-conditioned")
-        self._mark(base == 0.0, "singular")
+        self._mark(together, "singular")
         self._mark(out, "no-assembly")
-        return np.where(out | (base == 0.0), NAN, np.maximum(product, 0.0))
+        return np.where(out | together, NAN, np.where(product <= touching * base, 0.0, product))
 
     def _apart(self, distance: Any) -> Any:
         if _least(distance) > 0.0:

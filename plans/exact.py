@@ -123,23 +123,31 @@ class ExactBoard(TemplateBoard):
         return self._sqrt(self._reaches((radius - distance) * (radius + distance), radius, distance))
 
     def _reaches(self, square: Any, radius: Any, distance: Any) -> Any:
-        """Return the square of the half chord; an arc that does not reach the line cuts no chord."""
-        if square < -self.touching * radius * radius:
+        """Return the square of the half chord; an arc that does not reach the line cuts no chord.
+
+        One that crosses it by no more than rounding touches it: there is no angle to draw anything with.
+        """
+        touching = self.touching * radius * radius
+        if square < -touching:
             self._fail("no-assembly", gap=distance - radius)
             return NAN
-        square = max(square, 0.0)
+        square = 0.0 if square <= touching else square
         self.sines[self._name] = math.sqrt(square) / radius if radius else 0.0
         return square
 
     def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, double: Any) -> Any:
-        """Return Heron's product, factored, not to cancel; arcs that do not meet make no triangle."""
-        if product < -2.0 * self.touching * total * total * first * second:
+        """Return Heron's product, factored, not to cancel; arcs that do not meet make no triangle.
+
+        Links in line but for rounding are in line, and pins together but for rounding coincide.
+        """
+        touching = 2.0 * self.touching * total * first * second
+        if product < -touching * total:
             self._fail("no-assembly", gap=max(base - total, abs(first - second) - base))
             return NAN
-        if base == 0.0:
+        if base <= self.touching * total:
             self._fail("singular")
             return NAN
-        product = max(product, 0.0)
+        product = 0.0 if product <= touching * base else product
         self.sines[self._name] = math.sqrt(product) / double
         return product
 
