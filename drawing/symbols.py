@@ -68,17 +68,14 @@ def block(at: complex, u: complex, name: str, size: tuple[float, float]) -> Grou
 
 
 def slider_up(u: complex) -> complex:
-    """Return the side of a slider along the unit vector `u` that is free of its guide."""
+    """Return the side of a slider along the unit vector `u` that is usually free of its guide."""
     return 1j * u if (1j * u).imag >= -1e-12 else -1j * u
 
 
-def slider(at: complex, u: complex, name: str, size: tuple[float, float], style: Style) -> tuple[Group, Group]:
-    """Return the guide of a slider along the unit vector `u`, with hatching on its far side, and over it the block."""
-    length, height = size
-    below = -slider_up(u)
-    a, b = (at + below * (height / 2) + u * (s * length * 1.1) for s in (-1, 1))
-    guide = Group((Line(a, b, Pen.MAIN), *hatching(a, b, below, style)), "guide", name)
-    return guide, block(at, u, name, size)
+def guide(pieces: tuple[tuple[complex, complex], ...], up: complex, name: str, style: Style) -> Group:
+    """Return a guide of the frame: its lines, hatched on the side away from `up`."""
+    strokes = (stroke for a, b in pieces for stroke in hatching(a, b, -up, style))
+    return Group((*(Line(a, b, Pen.MAIN) for a, b in pieces), *strokes), "guide", name)
 
 
 def centre_of_mass(at: complex, name: str, style: Style) -> Group:

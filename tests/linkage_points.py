@@ -46,7 +46,22 @@ def l1_plan(case: Linkage, sheet: Sheet) -> Faults:
         if isinstance(pair, Prismatic) and FRAME in pair.links:
             strokes = [s for s in view.inside("guide") if s.role == "hatch"]
             yield from unless(len(strokes) > 3, "a guide of the frame is not hatched")
+    yield from _guides(view)
     yield from _driver(case, view)
+
+
+def _guides(view: View) -> Faults:
+    """No link crosses the hatching of a guide of the frame."""
+    links = [s.points for s in view.inside("link") if len(s.points) == 2]
+    for hatch in (s.points for s in view.inside("guide") if s.role == "hatch"):
+        for a, b in links:
+            yield from unless(not _cross(hatch, (a, b)), f"a link crosses the hatching at {hatch[0]:.1f}")
+
+
+def _cross(one: tuple[complex, ...], other: tuple[complex, ...]) -> bool:
+    """Whether two lines cross."""
+    ways = ((one, other), (other, one))
+    return all(cross(b - a, p - a) * cross(b - a, q - a) < 0 for (a, b), (p, q) in ways)
 
 
 def _driver(case: Linkage, view: View) -> Faults:

@@ -11,7 +11,7 @@ from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.style import STYLES
 from kulman.drawing.view import Canvas
 from kulman.tests.linkage_cases import Linkage
-from kulman.tests.linkage_points import l5_similarity
+from kulman.tests.linkage_points import l1_plan, l5_similarity
 from kulman.tests.readback import View, read
 from kulman.tests.sheet_geometry import same
 
@@ -70,6 +70,13 @@ def test_triangles_named_by_similarity_have_three_sides(task: str) -> None:
     assert list(l5_similarity(case, case.sheet)) == []
 
 
+@pytest.mark.parametrize("task", ["scheme-02-forging-press", "scheme-13-toggle-press", "scheme-19-scotch-yoke"])
+def test_no_link_crosses_the_hatching_of_a_guide(task: str) -> None:
+    case = Linkage(task, "0", format="A1", only=("position",))
+
+    assert list(l1_plan(case, case.sheet)) == []
+
+
 def test_block_lies_in_its_link_and_turns_with_it() -> None:
     view = position("scheme-09-shaper")
     pivot, pin = view.point("C"), view.point("A")
@@ -107,3 +114,17 @@ def test_letter_with_room_stands_beside_its_line() -> None:
 
     texts = [shape for shape in view.shapes if isinstance(shape, Text)]
     assert [text.role for text in texts if text.markup == "h = 1"] == ["label"]
+
+
+@pytest.mark.parametrize("mu", ["0.005", "0.008", "0.01", "0.012"])
+def test_arcs_of_one_link_stand_apart(mu: str) -> None:
+    """On a short link both arcs had the same least radius, one on the other."""
+    drawn = sheet("scheme-16-hay-baler", "8", only="position,velocity,acceleration", format="A1", scale={"mu_l": mu})
+    view = read(drawn.svg())["position"]
+
+    for link in ("2", "3", "4"):
+        omega, epsilon = (view.turning(f"{rate}_{link}") for rate in ("omega", "epsilon"))
+        assert omega is not None
+        assert epsilon is not None
+        assert same(omega[0], epsilon[0])
+        assert abs(abs(omega[2] - omega[0]) - abs(epsilon[2] - epsilon[0])) > 3.0

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ...plans.board import POSITION
 from ...plans.linkages.compound import Coupler
 from ..shapes import Arrow, Circle, Group, Line, Pen, Shape, Vector
-from ..symbols import slider_up, turning_arrow
+from ..symbols import turning_arrow
 from ..view import Canvas, View
 from .at_point import At, direction_words, shifted_vector
 from .inset import shows, windows, with_insets
@@ -197,8 +197,9 @@ def _busy(scene: Scene, points: Iterable[At], figures: Sequence[Skeleton]) -> li
         strokes += [(scene.mm(pivot), ground + side * 1j * down * base / 2) for side in (-1, 1)]
     for centre, u in (block for figure in figures for block in figure.blocks):
         length, height = scene.style.slider
-        below = centre - slider_up(u) * (height / 2 + scene.style.hatch[0])
-        strokes += [(edge - u * length * 1.1, edge + u * length * 1.1) for edge in (centre, below)]
+        beside = 1j * u * (height / 2 + scene.style.hatch[0])  # the guide is on one of the two sides
+        edges = centre, centre - beside, centre + beside
+        strokes += [(edge - u * length * 1.1, edge + u * length * 1.1) for edge in edges]
     for at in points:
         strokes += [(vector.tail, vector.tip) for vector in at.vectors()]
         strokes += [(tail, end) for tail, _, end, _ in at.lines()]

@@ -9,8 +9,8 @@ from collections.abc import Iterable, Sequence
 from ...plans.board import POSITION, Step
 from ...plans.linkages.mechanism import FRAME, ZERO, Prismatic
 from ..shapes import Arc, Circle, Group, Line, Pen
-from ..symbols import slider_up
 from ..view import Canvas
+from .guides import guide_up
 from .letters import guide_letters
 from .scene import Scene
 from .skeleton import Skeleton, guide_of
@@ -33,7 +33,7 @@ def axes(canvas: Canvas, scene: Scene) -> None:
         canvas.add(Line(*line, Pen.AXIS))
         # of several axes the far ends meet at one pivot
         far = min(line, key=lambda end: (len(_near(scene, end)), (1.0 if len(pairs) > 1 else -1.0) * abs(end - at)))
-        canvas.label(letters.get(name, ""), far, clear=1.0, prefer=-slider_up(u))
+        canvas.label(letters.get(name, ""), far, clear=1.0, prefer=-guide_up(scene, pair))
 
 
 def _near(scene: Scene, place: complex) -> set[complex]:

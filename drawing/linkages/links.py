@@ -21,12 +21,13 @@ from ..symbols import (
     bridge,
     centre_of_mass,
     fixed_pivot,
+    guide,
     revolute,
     rigid_corner,
-    slider,
     slider_up,
 )
 from ..view import Canvas
+from .guides import guide_pieces, guide_up
 from .scene import Scene
 from .skeleton import NEAR, Skeleton, Stroke, is_inside, nearest, pins_of, rays_of, skeleton, spread_of
 
@@ -100,7 +101,9 @@ def _blocks(scene: Scene, figure: Skeleton, framed: bool) -> Iterator[tuple[floa
     own = [p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] == figure.number]
     for pair, (at, u), size in zip(own, figure.blocks, figure.sizes, strict=True):
         if pair.links[1] == FRAME and framed:
-            yield size[0], slider(at, u, name, size, scene.style)
+            up = guide_up(scene, pair)
+            on_frame = guide(guide_pieces(scene, pair, up), up, name, scene.style)
+            yield size[0], (on_frame, block(at, u, name, size))
         else:
             yield size[0], (block(at, u, name, size),)
 
@@ -205,7 +208,7 @@ def _up(scene: Scene, number: int, at: complex, u: complex, figures: Sequence[Sk
     """Return the side of a block for its letter: away from the frame's guide, or from lines that leave it."""
     for pair in scene.solved.mechanism.pairs:
         if isinstance(pair, Prismatic) and pair.links == (number, FRAME):
-            return slider_up(u)
+            return guide_up(scene, pair)
     rays = rays_at(at, figures)
     sides = slider_up(u), -slider_up(u)
     return max(sides, key=lambda side: round(min((spread_of(side, ray) for ray in rays), default=math.pi), 3))

@@ -9,9 +9,10 @@ from collections.abc import Sequence
 from ...plans.board import POSITION
 from ...plans.linkages.mechanism import FRAME, Driver, Prismatic, SlidingDriver
 from ..shapes import Arrow, Line, Pen
-from ..symbols import angle_dimension, slider_up, turning_arrow
+from ..symbols import angle_dimension, turning_arrow
 from ..view import Canvas, View
 from .construction import axes, found_by, moving_guides, special_points
+from .guides import guide_up
 from .links import draw_frame, draw_links, foot_of, letter_links
 from .scene import Scene
 from .senses import senses
@@ -107,7 +108,7 @@ def _speed(canvas: Canvas, scene: Scene, driver: SlidingDriver) -> None:
     at, u = scene.mm(pair.point), guide_of(scene, pair)
     speed = scene.solved.values[driver.speed]
     if speed:
-        up, e = slider_up(u), u * math.copysign(1.0, speed)
+        up, e = guide_up(scene, pair), u * math.copysign(1.0, speed)
         tail = at + up * (scene.style.slider[1] / 2 + 3.0) - e * (0.3 * scene.style.force)
         canvas.add(Arrow(tail, tail + e * 0.6 * scene.style.force, Pen.THIN, name=driver.speed))
         canvas.label(scene.words.symbol(f"V_{driver.point}", bar=True), (tail, tail + e * 0.6 * scene.style.force))
@@ -121,7 +122,7 @@ def _frame_number(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> 
         if isinstance(pair, Prismatic) and FRAME in pair.links:
             at, u = scene.mm(pair.point), guide_of(scene, pair)
             length, height = style.slider
-            below = -slider_up(u)
+            below = -guide_up(scene, pair)
             edge = at + below * (height / 2 + style.hatch[0])
             canvas.keep_clear(*(at + u * (s * length * 1.1) for s in (-1, 1)), edge - u * length, edge + u * length)
             if pair.links[0] == driver.link:

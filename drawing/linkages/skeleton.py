@@ -59,7 +59,7 @@ def skeleton(scene: Scene, number: int) -> Skeleton:
     sliding = [pair for pair in pairs_of(scene, number) if isinstance(pair, Prismatic)]
     pins = [scene.mm(point) for point in pins_of(scene, number)]
     blocks = tuple((scene.mm(p.point), guide_of(scene, p)) for p in sliding if p.links[0] == number)
-    sizes = tuple(_block_size(scene, pair) for pair in sliding if pair.links[0] == number)
+    sizes = tuple(block_size(scene, pair) for pair in sliding if pair.links[0] == number)
     rails = [_rail(scene, pair) for pair in sliding if pair.links[1] == number]
     link = scene.solved.mechanism.link(number)
     nodes = [*pins, *(at for at, _ in blocks)]
@@ -74,7 +74,7 @@ def skeleton(scene: Scene, number: int) -> Skeleton:
     return Skeleton(number, tuple(_apart(pins)), blocks, sizes, guides, bars, corners)
 
 
-def _block_size(scene: Scene, pair: Prismatic) -> tuple[float, float]:
+def block_size(scene: Scene, pair: Prismatic) -> tuple[float, float]:
     """Return length and height of a block: on a moving link a little smaller; of two on one pin the first is larger."""
     others = [p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] != pair.links[0]]
     shared = [p for p in others if abs(scene.mm(p.point) - scene.mm(pair.point)) < NEAR]
