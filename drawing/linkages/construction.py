@@ -105,7 +105,7 @@ def _arc(canvas: Canvas, scene: Scene, centre: str, point: str, past: float, nam
 
 def _touched(canvas: Canvas, scene: Scene, step: Step) -> None:
     """Draw the circle that the guide of a rocking link touches when it does not run through the link's pivot."""
-    centre, point, offset, _ = step.operands
+    centre, point, offset = step.operands[:3]
     radius = abs(scene.solved.values[offset]) / scene.scales[POSITION].mu
     if radius > scene.style.pair:
         u = scene.solved.point(step.name)
