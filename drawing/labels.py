@@ -30,6 +30,8 @@ from .spots import (
     crossings,
 )
 
+AGAIN = 4  # times that all labels are placed anew when some found no place
+
 __all__ = ["Labels", "Obstacles", "Request", "place"]
 
 
@@ -66,23 +68,30 @@ def place(requests: Sequence[Request], obstacles: Obstacles, gap: float = 0.6, b
     if not requests:
         return Labels()
     wanted = Wanted.of(requests, circle_table(obstacles.circles), max(gap, 0.01))
-    bodies = Bodies.of(obstacles, wanted)
-    grid = Grid.around(wanted, bodies, NEAR, bounds)
-    board = _Board(wanted, grid.x, grid.y, grid.cost)
-    board.settle()
-    board.repair()
-    return _finish(requests, wanted, bodies, board, bounds)
+    scene = _Scene(requests, wanted, Bodies.of(obstacles, wanted), bounds)
+    grid = Grid.around(wanted, scene.bodies, NEAR, bounds)
+    best, first = scene.placed(grid, ()), tuple[int, ...]()
+    for _ in range(AGAIN):
+        if not best.failed:
+            break
+        # who found no place the last time chooses first the next time
+        failed = [i for i, request in enumerate(requests) if request.name in best.failed]
+        first = (*first, *(i for i in failed if i not in first))
+        other = scene.placed(grid, first)
+        best = min(best, other, key=lambda labels: len(labels.failed))
+    return best
 
 
 class _Board:
     """The places taken so far; it is changed in place while labels are tried and moved."""
 
-    def __init__(self, wanted: Wanted, x: Reals, y: Reals, cost: Reals) -> None:
-        self.wanted, self.x, self.y, self.cost = wanted, x, y, cost
-        rows = np.arange(len(x))
-        pick = cost.argmin(axis=1)
-        self.now_x, self.now_y, self.now = x[rows, pick], y[rows, pick], cost[rows, pick]
-        self.down = np.zeros(len(x), dtype=bool)
+    def __init__(self, wanted: Wanted, grid: Grid) -> None:
+        self.wanted, self.x, self.y, self.cost = wanted, grid.x, grid.y, grid.cost
+        rows = np.arange(len(self.x))
+        pick = self.cost.argmin(axis=1)
+        self.now_x, self.now_y, self.now = self.x[rows, pick], self.y[rows, pick], self.cost[rows, pick]
+        self.down = np.zeros(len(self.x), dtype=bool)
+        self.leaders: dict[int, Segment] = {}
 
     def clashes(self, i: int, x: Reals, y: Reals, apart: float = 0.0) -> Flags:
         """Tell, shape (K, L), which labels on the board label i would touch at x, y, or stand less than `apart` beside.
@@ -109,12 +118,26 @@ class _Board:
         self.now_x[i], self.now_y[i], self.now[i] = self.x[i, k], self.y[i, k], self.cost[i, k]
         self.down[i] = True
 
+    def set_apart(self, i: int, at: complex, leader: Segment) -> None:
+        """Put label i on a leader, on which no other label may stand from now on."""
+        w = self.wanted
+        self.now_x[i], self.now_y[i], self.now[i] = at.real, at.imag, 0.0
+        self.down[i] = True
+        self.leaders[i] = leader
+        line = Bodies.strokes(*np.array([leader]).T)
+        on = line.distance(self.x, self.y, w.hw[:, None], w.hh[:, None], 0) < w.gap
+        self.cost = self.cost + COVER * on
+        rows = np.flatnonzero(~self.down)
+        pick = self.cost[rows].argmin(axis=1)
+        self.now_x[rows], self.now_y[rows] = self.x[rows, pick], self.y[rows, pick]
+        self.now[rows] = self.cost[rows, pick]
+
     def settle(self) -> None:
         """Leave alone who is in nobody's way; then the most constrained label chooses first."""
         w = self.wanted
         touch = abs(self.now_x[:, None] - self.now_x) < w.hw[:, None] + w.hw + w.gap + APART
         touch &= abs(self.now_y[:, None] - self.now_y) < w.hh[:, None] + w.hh + w.gap
-        self.down = np.count_nonzero(touch, axis=1) == 1
+        self.down |= np.count_nonzero(touch, axis=1) == 1
         free = np.count_nonzero(self.cost < COVER, axis=1)
         rest = np.flatnonzero(~self.down)
         for i in rest[np.lexsort((rest, free[rest], -w.priority[rest]))].tolist():
@@ -146,7 +169,7 @@ class _Board:
         return any(self.cost[i, k] < COVER and self._push(i, k, np.flatnonzero(blocked[k]).tolist()) for k in order)
 
     def _push(self, i: int, k: int, blockers: list[int]) -> bool:
-        if len(blockers) > 3:
+        if len(blockers) > 3 or not self.leaders.keys().isdisjoint(blockers):
             return False
         before = self.now_x.copy(), self.now_y.copy(), self.now.copy()
         self.put(i, k)
@@ -159,64 +182,85 @@ class _Board:
         return True
 
 
-def _finish(requests: Sequence[Request], wanted: Wanted, bodies: Bodies, board: _Board, bounds: Box | None) -> Labels:
-    """Set apart, on leaders, the labels that found no free place or that a thin line would run through.
+@dataclass(frozen=True, slots=True, eq=False)
+class _Scene:
+    """What is to be lettered, and all that is in the way."""
 
-    Those that find no free place there either are given up.
-    """
-    leaders: dict[int, Segment] = {}
-    bad = board.in_trouble()
-    # Of two labels that touch, one may stay: take them up one by one, the less important first.
-    bad.sort(key=lambda i: (requests[i].priority, board.now[i] < COVER, i))
-    crossed = np.flatnonzero((board.now >= THIN) & (board.now < COVER)).tolist()
-    for i, limit in [*((i, COVER) for i in bad), *((i, THIN) for i in crossed if i not in bad)]:
-        if limit == THIN or i in board.in_trouble():
-            one = wanted.some(np.array([i]))
-            # beside a line a leader leaves along its normal; where that is barred, from a point of it to any side
-            ends = (one, one.at(0.5), one.at(0.25), one.at(0.75))
-            any(_lead(i, end, wanted, bodies, board, leaders, bounds, limit) for end in ends)
-    return Labels(
-        {
-            r.name: complex(x - r.width / 2, y - r.height / 2)
-            for r, x, y in zip(requests, board.now_x.tolist(), board.now_y.tolist(), strict=True)
-        },
-        {requests[i].name: leader for i, leader in sorted(leaders.items())},
-        tuple(requests[i].name for i in board.in_trouble()),
-    )
+    requests: Sequence[Request]
+    wanted: Wanted
+    bodies: Bodies
+    bounds: Box | None
 
+    def placed(self, grid: Grid, first: Sequence[int]) -> Labels:
+        """Place all labels, those of `first` before the others and as far away as they must."""
+        board = _Board(self.wanted, grid)
+        for i in first:
+            cost, k = board.best(i)
+            if cost < COVER or not self._lead(i, board, COVER, afield=self.requests[i].afield):
+                board.put(i, k)
+        board.settle()
+        board.repair()
+        self._set_apart(board, first)
+        return Labels(
+            {
+                r.name: complex(x - r.width / 2, y - r.height / 2)
+                for r, x, y in zip(self.requests, board.now_x.tolist(), board.now_y.tolist(), strict=True)
+            },
+            {self.requests[i].name: leader for i, leader in sorted(board.leaders.items())},
+            tuple(self.requests[i].name for i in board.in_trouble()),
+        )
 
-def _lead(
-    i: int,
-    one: Wanted,
-    wanted: Wanted,
-    bodies: Bodies,
-    board: _Board,
-    leaders: dict[int, Segment],
-    bounds: Box | None,
-    limit: float,
-) -> bool:
-    """Move label i, which is `one`, away onto a leader, if there is a place for both that costs less than `limit`."""
-    grid = Grid.around(one, bodies, FAR, bounds, led=True)
-    x, y, cost = grid.x[0], grid.y[0], grid.cost[0]
-    cost = cost + COVER * np.count_nonzero(board.clashes(i, x, y), axis=1)
-    foot = one.feet(x + 1j * y)
-    head = np.clip(foot.real, x - one.hw, x + one.hw) + 1j * np.clip(foot.imag, y - one.hh, y + one.hh)
-    way = (head - foot) / abs(head - foot)
-    start = foot + way * one.rim[0]
-    lines = Bodies.strokes(start + TOUCH * way, head)
-    # No leader runs through another label, and no label stands on a leader.
-    others = board.now_x[:, None], board.now_y[:, None], wanted.hw[:, None], wanted.hh[:, None]
-    touched = lines.distance(*others, slice(None)) < wanted.gap / 2
-    touched[i] = False
-    cost += COVER * np.count_nonzero(touched, axis=0)
-    if leaders:
-        old = Bodies.strokes(*np.array(list(leaders.values())).T)
-        on = old.distance(x[:, None], y[:, None], one.hw, one.hh, slice(None)) < wanted.gap
-        cost += COVER * np.count_nonzero(on, axis=1) + CROSSING * crossings(lines, old)
-    cost += CROSSING * crossings(lines, bodies)
-    k = int(cost.argmin())
-    if cost[k] >= limit:
-        return False
-    board.now_x[i], board.now_y[i], board.now[i] = x[k], y[k], 0.0
-    leaders[i] = (complex(head[k] - way[k] * wanted.gap / 2), complex(start[k]))
-    return True
+    def _set_apart(self, board: _Board, first: Sequence[int]) -> None:
+        """Set apart, on leaders, the labels that found no free place or that a thin line would run through.
+
+        Those that find no free place there either are given up.
+        """
+        bad = board.in_trouble()
+        # Of two labels that touch, one may stay: take them up one by one, the less important first.
+        bad.sort(key=lambda i: (self.requests[i].priority, board.now[i] < COVER, i))
+        crossed = np.flatnonzero((board.now >= THIN) & (board.now < COVER)).tolist()
+        for i, limit in [*((i, COVER) for i in bad), *((i, THIN) for i in crossed if i not in bad)]:
+            if limit == THIN or i in board.in_trouble():
+                self._lead(i, board, limit, afield=bool(first) and limit == COVER and self.requests[i].afield)
+
+    def _lead(self, i: int, board: _Board, limit: float, afield: bool) -> bool:
+        """Move label i away onto a leader, if there is a place for both that costs less than `limit`."""
+        one = self.wanted.some(np.array([i]))
+        # beside a line a leader leaves along its normal; where that is barred, from a point of it to any side
+        ends = (one, one.at(0.5), one.at(0.25), one.at(0.75))
+        ways = [(end, FAR) for end in ends] + [(one, ())] * afield
+        return any(self._led(i, end, board, steps, limit) for end, steps in ways)
+
+    def _led(self, i: int, one: Wanted, board: _Board, steps: Sequence[float], limit: float) -> bool:
+        grid = Grid.around(one, self.bodies, steps, self.bounds, led=True)
+        x, y, cost = grid.x[0], grid.y[0], grid.cost[0]
+        cost = cost + COVER * np.count_nonzero(board.clashes(i, x, y), axis=1)
+        foot = one.feet(x + 1j * y)
+        head = np.clip(foot.real, x - one.hw, x + one.hw) + 1j * np.clip(foot.imag, y - one.hh, y + one.hh)
+        far = abs(head - foot)
+        way = (head - foot) / np.where(far > TOUCH, far, 1.0)
+        cost[far < FAR[0] - 1.0] += COVER
+        start = foot + way * one.rim[0]
+        lines = Bodies.strokes(start + TOUCH * way, head)
+        cost += self._on_labels(i, lines, board)
+        if board.leaders:
+            old = Bodies.strokes(*np.array(list(board.leaders.values())).T)
+            on = old.distance(x[:, None], y[:, None], one.hw, one.hh, slice(None)) < one.gap
+            cost += COVER * np.count_nonzero(on, axis=1) + CROSSING * crossings(lines, old)
+        cost += CROSSING * crossings(lines, self.bodies)
+        k = int(cost.argmin())
+        if cost[k] >= limit:
+            return False
+        leader = complex(head[k] - way[k] * one.gap / 2), complex(start[k])
+        board.set_apart(i, complex(x[k], y[k]), leader)
+        return True
+
+    def _on_labels(self, i: int, lines: Bodies, board: _Board) -> Reals:
+        """Return what it costs that leaders of label i run through other labels: none may."""
+        w = self.wanted
+        others = board.now_x[:, None], board.now_y[:, None], w.hw[:, None], w.hh[:, None]
+        touched = lines.distance(*others, slice(None)) < w.gap / 2
+        touched &= board.down[:, None]
+        touched[i] = False
+        result: Reals = COVER * np.count_nonzero(touched, axis=0)
+        return result

@@ -24,6 +24,7 @@ APART = 1.4  # mm that should be left between two labels side by side, beyond th
 DOUBT = 1.0  # mm by which a label should be nearer to its own anchor than to anything else with a name
 NEAR = (0.0, 0.8, 2.0, 3.5)  # mm added to the distance that was asked for
 FAR = (5.0, 8.0, 11.0, 14.0, 17.0, 20.0, 25.0, 30.0)  # the same for a label on a leader
+AFIELD, PITCH = 75.0, 2.5  # mm, how far a label may go when it has no place nearer, and how dense its places are then
 ALONG = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78, 0.86])  # places along a segment
 TOUCH = 0.3  # mm: a stroke that comes so near to a node ends there
 SLACK = 1e-9  # mm, for rounding
@@ -45,7 +46,8 @@ class Request:
 
     `clear` is the distance wanted between the box and its anchor, `prefer` the side where it should stand;
     where two labels want the same place, the one with the higher `priority` chooses first. A `strict` label, such as
-    that of a dimension, stands rather on a leader than nearer to something else.
+    that of a dimension, stands rather on a leader than nearer to something else. One that may go `afield` takes a long
+    leader, through whatever is drawn, where it has no place nearer.
     """
 
     name: str
@@ -56,6 +58,7 @@ class Request:
     prefer: complex = 0j
     priority: int = 0
     strict: bool = False
+    afield: bool = True
 
 
 def circle_table(circles: Sequence[tuple[complex, float]]) -> tuple[Points, Reals]:
@@ -153,6 +156,15 @@ class Wanted:
         own = np.broadcast_to(away[:, None], centre.shape).reshape(shape)
         return centre.reshape(shape), own, (taste[:, :, None] + STEP * steps).reshape(shape)
 
+    def lattice(self) -> tuple[Points, Reals, Reals]:
+        """Return the same of places all round the middle of the anchors, a lattice as wide as leaders may be long."""
+        across = np.arange(-AFIELD, AFIELD + PITCH / 2, PITCH)
+        around = np.ravel(across[:, None] + 1j * across)
+        centre = (self.a + self.b)[:, None] / 2 + around
+        near = (np.abs(around.real) < self.hw[:, None] + FAR[0]) & (np.abs(around.imag) < self.hh[:, None] + FAR[0])
+        cost = STEP * np.broadcast_to(np.abs(around), centre.shape) + COVER * near
+        return centre, np.broadcast_to(np.abs(around), centre.shape), cost
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bodies:
@@ -248,8 +260,11 @@ class Grid:
     def around(
         cls, wanted: Wanted, bodies: Bodies, steps: Sequence[float], bounds: Box | None, led: bool = False
     ) -> Grid:
-        """Weigh all candidates at the given steps; a label on a leader (`led`) may be nearer to another thing."""
-        centre, own, cost = wanted.candidates(np.asarray(steps))
+        """Weigh all candidates at the given steps, or all round (`steps` empty).
+
+        A label on a leader (`led`) may be nearer to another thing.
+        """
+        centre, own, cost = wanted.candidates(np.asarray(steps)) if len(steps) else wanted.lattice()
         x, y = centre.real.copy(), centre.imag.copy()
         hw, hh = wanted.hw[:, None], wanted.hh[:, None]
         left, right, low, high = x.min(axis=1), x.max(axis=1), y.min(axis=1), y.max(axis=1)

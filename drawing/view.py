@@ -74,10 +74,11 @@ class Canvas:
         height = height or self.style.label
         layout = lay_out(markup, height)
         size = layout.width, layout.top - layout.bottom
-        self._requests.append(Request(str(len(self._requests)), *size, anchor, clear, prefer, priority, strict))
+        name = str(len(self._requests))
+        self._requests.append(Request(name, *size, anchor, clear, prefer, priority, strict, afield=not spare))
         self._markup.append((markup, height))
         if spare:
-            self._spare[self._requests[-1].name] = spare
+            self._spare[name] = spare
 
     def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:
         """Place the letters, write the heading lines and smaller notes above, and close the view."""

@@ -65,7 +65,7 @@ def covered(requests: list[Request], obstacles: Obstacles, labels: Labels, gap: 
 
 @pytest.mark.parametrize("block", [0, 1, 2, *(pytest.param(k, marks=pytest.mark.soak) for k in range(3, 10))])
 def test_no_label_covers_anything_unless_reported(block):
-    failed = total = 0
+    failed = 0
     for seed in range(block * 200, block * 200 + 200):
         requests, obstacles = random_scene(seed, labels=1 + seed % 24, strokes=seed % 40)
 
@@ -73,8 +73,7 @@ def test_no_label_covers_anything_unless_reported(block):
 
         assert covered(requests, obstacles, labels, GAP - 1e-6) <= set(labels.failed), seed
         failed += len(labels.failed)
-        total += len(requests)
-    assert failed < 0.01 * total
+    assert failed == 0
 
 
 def test_the_judge_sees_a_covered_label():
@@ -196,12 +195,46 @@ def test_a_hemmed_in_node_gets_a_leader():
 
 
 def test_a_label_without_any_place_is_reported():
-    walls = [(complex(-60, y), complex(60, y)) for y in range(-60, 61, 3)]
+    walls = [(complex(-90, y), complex(90, y)) for y in range(-90, 91, 3)]
 
     labels = place([Request("A", 5, 5, 0j)], Obstacles(segments=walls), GAP)
 
     assert labels.failed == ("A",)
     assert "A" in labels.corners
+
+
+def knot(seed: int, vectors: int) -> tuple[list[Request], Obstacles]:
+    """Vectors from all sides that end within a few millimetres of each other, as on a plan with a crowded end."""
+    r = random.Random(seed)
+    tips = [complex(r.uniform(-5, 5), r.uniform(-5, 5)) for _ in range(vectors)]
+    drawn = [(turned(40, 6 + 360 * k / vectors), tip) for k, tip in enumerate(tips)]
+    requests = [Request(f"n{i}", 6, 5.5, tip, 1.0, prefer=tip, priority=1) for i, tip in enumerate(tips)]
+    requests += [Request(f"v{i}", 12, 7, vector, 0.9, strict=True) for i, vector in enumerate(drawn)]
+    heads = [(tip.real - 1, tip.imag - 1, tip.real + 1, tip.imag + 1) for tip in tips]
+    return requests, Obstacles(drawn, boxes=heads)
+
+
+@pytest.mark.parametrize("vectors", [6, 8, 10, 12, 14])
+def test_every_letter_of_a_knot_finds_a_place(vectors):
+    """Such letters stood on vectors and on each other: the letters that had chosen before them barred every way out."""
+    for seed in range(4):
+        requests, obstacles = knot(seed, vectors)
+
+        labels = place(requests, obstacles, GAP)
+
+        assert not labels.failed
+        assert not covered(requests, obstacles, labels, GAP - 1e-6)
+
+
+@pytest.mark.parametrize(("afield", "failed"), [(True, ()), (False, ("A",))])
+def test_a_label_goes_far_afield_only_where_it_may(afield, failed):
+    walls = [(complex(-50, y), complex(50, y)) for y in range(-50, 51, 3)]
+
+    labels = place([Request("A", 5, 5, 0j, afield=afield)], Obstacles(segments=walls), GAP)
+
+    assert labels.failed == failed
+    assert ("A" in labels.leaders) is afield
+    assert covered([Request("A", 5, 5, 0j)], Obstacles(segments=walls), labels, GAP - 1e-6) == set(failed)
 
 
 def test_labels_stay_inside_the_bounds():

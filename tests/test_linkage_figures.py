@@ -119,7 +119,7 @@ def test_letter_with_room_stands_beside_its_line() -> None:
 @pytest.mark.parametrize("mu", ["0.005", "0.008", "0.01", "0.012"])
 def test_arcs_of_one_link_stand_apart(mu: str) -> None:
     """On a short link both arcs had the same least radius, one on the other."""
-    drawn = sheet("scheme-16-hay-baler", "8", only="position,velocity,acceleration", format="A1", scale={"mu_l": mu})
+    drawn = sheet("scheme-16-hay-baler", "8", only="position,velocity,acceleration", format="A1", scales={"mu_l": mu})
     view = read(drawn.svg())["position"]
 
     for link in ("2", "3", "4"):

@@ -14,7 +14,8 @@ from ..view import Canvas
 from .scene import Scene
 
 PLACES = {"omega": 0.30, "epsilon": 0.45}  # parts of the link at which its arcs stand
-NEAREST = 14.0  # mm from the joint about which they are drawn
+NEAREST, LEAST = 14.0, 10.0  # mm from the joint about which they are drawn: wanted, and where there is no room
+SHARES = (1.0, 0.8, 0.6, 0.45, 0.3)  # of the room that should be left between an arc and what else is on the link
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,19 +42,21 @@ def turns(scene: Scene) -> Iterator[Turn]:
 def senses(canvas: Canvas, scene: Scene) -> None:
     """Carry the vectors to the joints and draw the senses of omega and epsilon that they show."""
     taken: dict[tuple[complex, complex], float] = {}
+    arcs: dict[tuple[int, str], list[float]] = {}
     for turn in turns(scene):
         e, value = scene.direction(turn.vector), scene.solved.values[turn.rate]
         if e == 0 or value != value:
             continue
-        _arc(canvas, scene, turn, math.copysign(1.0, value))
+        _arc(canvas, scene, turn, math.copysign(1.0, value), arcs.setdefault((turn.link, turn.start), []))
         _carried(canvas, scene, turn, e, taken)
 
 
-def _arc(canvas: Canvas, scene: Scene, turn: Turn, sense: float) -> None:
-    """Draw the arc across the link, about the joint from which it is reckoned."""
+def _arc(canvas: Canvas, scene: Scene, turn: Turn, sense: float, others: list[float]) -> None:
+    """Draw the arc across the link, about the joint from which it is reckoned; `others` are there already."""
     a, b = scene.mm(turn.start), scene.mm(turn.end)
     along, reach = phase(b - a), abs(b - a)
-    radius = _off_points(scene, turn, max(NEAREST, PLACES[turn.rate.partition("_")[0]] * reach))
+    radius = _off_points(scene, turn, max(NEAREST, PLACES[turn.rate.partition("_")[0]] * reach), others)
+    others.append(radius)
     spread = min(0.9, 1.1 * scene.style.force / radius)  # long enough to be seen as an arc
     canvas.add(turning_arrow(a, radius, along, spread, sense, turn.rate))
     tip = a + rect(radius, along + sense * spread / 2)
@@ -71,11 +74,15 @@ def _carried(canvas: Canvas, scene: Scene, turn: Turn, e: complex, taken: dict[t
     canvas.label(scene.words.symbol(turn.vector, bar=True), (b + e * (length * 0.6), b + e * length), clear=1.0)
 
 
-def _off_points(scene: Scene, turn: Turn, radius: float) -> float:
-    """Return the radius of an arc about `start`, changed where the arc would run through a point of the link."""
+def _off_points(scene: Scene, turn: Turn, radius: float, arcs: list[float]) -> float:
+    """Return the radius of an arc about `start`, changed where it would run through a point or along another arc."""
     room, a = 0.3 * scene.style.force, scene.mm(turn.start)
-    others = [p for p in scene.solved.mechanism.link(turn.link).points if p not in (turn.start, turn.end)]
-    for reach in sorted(abs(scene.mm(point) - a) for point in others):
-        if abs(radius - reach) < room:
-            radius = reach - room if radius < reach and reach > 2 * room else reach + room
+    points = [p for p in scene.solved.mechanism.link(turn.link).points if p != turn.start]
+    others, end = [*(abs(scene.mm(point) - a) for point in points), *arcs], abs(scene.mm(turn.end) - a)
+    for share in SHARES:
+        free = [radius, *(reach + side * share * room for reach in others for side in (1, -1))]
+        free = [r for r in free if max(share * room, LEAST) <= r < max(end, radius + 1.0)]
+        free = [r for r in free if all(abs(r - other) >= 0.999 * share * room for other in others)]
+        if free:
+            return min(free, key=lambda r: abs(r - radius))
     return radius
