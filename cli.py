@@ -6,44 +6,20 @@ import errno
 import os
 import re
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any
 
 import click
 
 from . import __version__
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
+from .scales.language import system_language
 from .scales.numbers import quote
+from .variants.options import Word, columns_out, count, example, given, of_task, outputs
 
 INTERRUPTED, CLOSED = 130, 1
-Command = TypeVar("Command", bound=Callable[..., Any])
-if TYPE_CHECKING:
-    TextType = click.ParamType[str]
-else:  # only newer versions of click can be subscripted
-    TextType = click.ParamType
-
-
-def system_language() -> str:
-    """Return the language of messages: that of the environment, or of Windows; English for any other."""
-    for variable in ("LC_ALL", "LC_MESSAGES", "LANG"):
-        if os.environ.get(variable):
-            name = os.environ[variable]
-            break
-    else:
-        name = _windows_language()
-    return name[:2].lower() if name[:2].lower() in LANGUAGES else "en"
-
-
-def _windows_language() -> str:
-    """Return the language in which Windows shows itself to the user; nothing elsewhere."""
-    if sys.platform != "win32":
-        return ""
-    import ctypes
-    import locale
-
-    return locale.windows_locale.get(ctypes.windll.kernel32.GetUserDefaultUILanguage(), "")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -117,91 +93,7 @@ class _Group(click.Group):
         return super().resolve_command(ctx, args)
 
 
-class Word(TextType):
-    """One of a few words, in capitals or not."""
-
-    name = "word"
-
-    def __init__(self, *words: str) -> None:
-        """Accept `words`."""
-        self.words = words
-
-    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
-        """Show the words in the help."""
-        return "|".join(self.words)
-
-    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the word that is meant."""
-        for word in self.words:
-            if word.lower() == value.strip().lower():
-                return word
-        option = param.opts[0] if param else ""
-        raise InputError("cli-choice", option=option, text=quote(value), known=", ".join(self.words))
-
-
-def _pairs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> dict[str, str]:
-    """Split NAME=VALUE; no name twice."""
-    pairs: dict[str, str] = {}
-    for value in values:
-        name, equals, text = (part.strip() for part in value.partition("="))
-        if not name or not equals or not text:
-            raise InputError("cli-setting", option=param.opts[0], text=quote(value))
-        if name in pairs:
-            raise InputError("cli-setting-twice", option=param.opts[0], text=quote(name))
-        pairs[name] = text
-    return pairs
-
-
-def _given(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:
-    """Tell an option that was not given at all from an empty one."""
-    return values or None
-
-
-def _outputs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
-    """Refuse, before any work, files that cannot be written."""
-    from .drawing.writers import check_outputs
-
-    paths = tuple(map(Path, values))
-    check_outputs(*paths)
-    return paths
-
-
-def _of_task(command: Command) -> Command:
-    """Add what every command about a task takes."""
-    options = (
-        click.argument("task"),
-        click.option("-v", "--variant", help="A variant of the task; without it the first one."),
-        click.option(
-            "--set",
-            "settings",
-            metavar="NAME=VALUE",
-            multiple=True,
-            callback=_pairs,
-            help="Another value for a given: l_OA=55, 'n_1=765 об/хв', 'F_3=2 kN'. Repeatable.",
-        ),
-        click.option(
-            "--scale",
-            "scales",
-            metavar="NAME=VALUE",
-            multiple=True,
-            callback=_pairs,
-            help="A scale factor, mu_V=0.05, or a segment in mm, pa=80. Repeatable.",
-        ),
-        click.option("--only", metavar="PLAN,...", multiple=True, callback=_given, help="Only these plans."),
-        click.option("--notation", help="Letters of another school: artobolevsky, bauman, bertyaev, iso, madi, nau."),
-        click.option("--lang", type=Word(*LANGUAGES), help="Language of the results."),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
-
-
-def _example(*lines: str) -> str:
-    """Return the end of a help text that shows how the command is used."""
-    return "\b\nExample:\n" + "\n".join(f"  {line}" for line in lines)
-
-
-@click.group(cls=_Group, invoke_without_command=True, epilog=_example("kulman solve nau-slider-crank -v 3"))
+@click.group(cls=_Group, invoke_without_command=True, epilog=example("kulman solve nau-slider-crank -v 3"))
 @click.version_option(__version__, message="%(version)s")
 @click.pass_context
 def commands(ctx: click.Context) -> None:
@@ -210,7 +102,7 @@ def commands(ctx: click.Context) -> None:
         click.echo(ctx.get_help())
 
 
-@commands.command("list", epilog=_example("kulman list", "kulman list --json"))
+@commands.command("list", epilog=example("kulman list", "kulman list --json"))
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @click.option("--check", "file", metavar="FILE", help="Show every fault of a task file instead.")
 def list_tasks(as_json: bool, file: str | None) -> int:
@@ -265,13 +157,13 @@ def _print_json(data: Mapping[str, Any]) -> None:
 
 
 @commands.command(
-    epilog=_example(
+    epilog=example(
         "kulman solve nau-slider-crank -v 3",
         "kulman solve nau-slider-crank --set l_OA=30 --json",
         "kulman solve nau-slider-crank -v 3 --only velocity --condition",
     )
 )
-@_of_task
+@of_task
 @click.option(
     "--condition",
     is_flag=True,
@@ -293,12 +185,12 @@ def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, 
 
 
 @commands.command(
-    epilog=_example(
+    epilog=example(
         "kulman sheet nau-slider-crank -v 3 -o sheet.svg -o sheet.pdf",
         "kulman sheet nau-slider-crank -o sheet.pdf --format A3 --student 'І. Петренко'",
     )
 )
-@_of_task
+@of_task
 @click.option(
     "-o",
     "--output",
@@ -306,7 +198,7 @@ def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, 
     metavar="FILE",
     multiple=True,
     required=True,
-    callback=_outputs,
+    callback=outputs,
     help="Where to; the suffix picks the kind of file. Repeatable.",
 )
 @click.option("--format", type=Word("A4", "A3", "A2", "A1"), help="Without it the smallest one that holds everything.")
@@ -322,50 +214,32 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
     """Draw the sheet of TASK (an id, or a TOML file) to scale."""
     from . import variants
 
-    given = {name: value for name, value in options.items() if value is not None}
-    drawn = variants.sheet(task, set=settings, **given)
+    settled = {name: value for name, value in options.items() if value is not None}
+    drawn = variants.sheet(task, set=settings, **settled)
     saved = drawn.save(*files, tile=tile)
     for path in saved:
         click.echo(str(path))
     _warn(drawn.warnings)
 
 
-def _columns_out(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
-    """Refuse, before any work, files that a sweep cannot be written to."""
-    from .drawing.writers import check_outputs
-    from .variants.sweeps import SUFFIXES
-
-    paths = tuple(map(Path, values))
-    check_outputs(*paths, known=SUFFIXES)
-    return paths
-
-
-def _count(ctx: click.Context, param: click.Parameter, value: str) -> int:
-    """Read a whole number."""
-    try:
-        return int(value)
-    except ValueError:
-        raise InputError("cli-number", option=param.opts[0], text=quote(value)) from None
-
-
 @commands.command(
-    epilog=_example(
+    epilog=example(
         "kulman sweep nau-slider-crank -v 3 --only velocity",
         "kulman sweep nau-slider-crank -v 3 --positions 24 -o cycle.csv -o cycle.pdf",
         "kulman sweep nau-slider-crank --points B,S2 --chords B --from '30 deg'",
     )
 )
-@_of_task
+@of_task
 @click.option(
     "--positions",
     metavar="N",
     default="12",
     show_default=True,
-    callback=_count,
+    callback=count,
     help="How many positions: 8, 12, 24, ...",
 )
 @click.option(
-    "--points", metavar="POINT,...", multiple=True, callback=_given, help="Only these points, or numbered links."
+    "--points", metavar="POINT,...", multiple=True, callback=given, help="Only these points, or numbered links."
 )
 @click.option("--from", "start", metavar="PLACE", help="Where the driver begins; without it at the zero position.")
 @click.option("--to", "end", metavar="PLACE", help="Where a sliding driver stops.")
@@ -378,7 +252,7 @@ def _count(ctx: click.Context, param: click.Parameter, value: str) -> int:
     "files",
     metavar="FILE",
     multiple=True,
-    callback=_columns_out,
+    callback=columns_out,
     help="Where to: all columns to a .csv, the drawing to .svg, .pdf, .png. Repeatable.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
@@ -399,7 +273,7 @@ def sweep(
     return _refuse(swept.reason) if swept.reason is not None else 0
 
 
-@commands.command(epilog=_example("kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk"))
+@commands.command(epilog=example("kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk"))
 @click.argument("file")
 @click.option("--lang", type=Word(*LANGUAGES), help="Language of the comments.")
 def new(file: str, lang: str | None) -> None:
