@@ -9,6 +9,8 @@ from cmath import rect
 from .shapes import Arc, Circle, Group, Head, Line, Pen, Polyline, Shape
 from .style import Style
 
+SHARPEST = 2.6  # radii of a revolute pair that the filled corner between two sides reaches at most
+
 
 def revolute(at: complex, name: str, style: Style) -> Group:
     """Return a revolute pair: a white circle on which the links stop."""
@@ -42,12 +44,13 @@ def fixed_pivot(at: complex, name: str, style: Style, down: complex = -1j) -> Gr
 def rigid_corner(at: complex, u: complex, w: complex, style: Style, pin: bool) -> Polyline:
     """Return the filled corner between two sides of one link, along `u` and `w`; around the circle of a `pin`.
 
-    The sharper the angle, the farther it reaches: the sides must leave each other before it can be seen.
+    The sharper the angle, the farther it reaches, for the sides must leave each other before it can be seen; but no
+    farther than `SHARPEST`, lest it look like a wedge between them.
     """
     sweep = cmath.phase(w / u)
     apart = math.sin(min(abs(sweep), math.pi / 2))
     inner = style.pair if pin else 0.0
-    outer = max(inner + 0.65 * style.pair, min(1.1 * style.pair / max(apart, 1e-3), 5.0 * style.pair))
+    outer = max(inner + 0.65 * style.pair, min(1.1 * style.pair / max(apart, 1e-3), SHARPEST * style.pair))
     arc = tuple(at + u * rect(outer, sweep * k / 12) for k in range(13))
     rim = arc if pin else (at + u * outer, at + w * outer)
     return Polyline((at + u * inner, *rim, at + w * inner), Pen.THIN, closed=True, fill="black", role="rigid")

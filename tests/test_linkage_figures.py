@@ -53,6 +53,7 @@ def xy(solution: object, point: str) -> tuple[float, float]:
         pytest.param("scheme-15-lever-shears", 0, 1, id="three joints in line"),
         pytest.param("scheme-08-planer", 1, 0, id="two arms on a pivot"),
         pytest.param("scheme-06-opposed-compressor", 0, 1, id="two pins opposite on the crank"),
+        pytest.param("scheme-19-scotch-yoke", 2, 0, id="a yoke on its block"),
         pytest.param("nau-slider-crank", 0, 0, id="two joints a link"),
     ],
 )
@@ -75,6 +76,14 @@ def test_no_link_crosses_the_hatching_of_a_guide(task: str) -> None:
     case = Linkage(task, "0", format="A1", only=("position",))
 
     assert list(l1_plan(case, case.sheet)) == []
+
+
+@pytest.mark.parametrize("task", ["scheme-17-sewing-machine", "scheme-05-articulated-rod"])
+def test_corners_of_a_sharp_link_are_no_wedges(task: str) -> None:
+    pair = STYLES["A1"].pair
+    sizes = [max(abs(a - b) for a in s.points for b in s.points) for s in position(task).lines("rigid")]
+
+    assert 0.5 * pair < min(sizes) and max(sizes) < 3.7 * pair  # round a pin at most
 
 
 def test_block_lies_in_its_link_and_turns_with_it() -> None:

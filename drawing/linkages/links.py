@@ -29,7 +29,7 @@ from ..symbols import (
 from ..view import Canvas
 from .guides import guide_pieces, guide_up
 from .scene import Scene
-from .skeleton import NEAR, Skeleton, Stroke, is_inside, nearest, pins_of, rays_of, skeleton, spread_of
+from .skeleton import NEAR, Skeleton, Stroke, is_inside, nearest, pins_of, rays_of, rim_of, skeleton, spread_of
 
 __all__ = ["Skeleton", "draw_frame", "draw_links", "letter_links", "skeleton"]
 
@@ -84,10 +84,9 @@ def _rim(scene: Scene, figure: Skeleton, end: complex, e: complex) -> float:
     """Return where a line that leaves `end` along `e` begins: at the circle of a pin, at the edge of a block."""
     if _is_in(end, figure.pins):
         return scene.style.pair
-    for (at, u), (length, height) in zip(figure.blocks, figure.sizes, strict=True):
+    for (at, u), size in zip(figure.blocks, figure.sizes, strict=True):
         if abs(at - end) < NEAR:
-            along, across = abs((e / u).real), abs((e / u).imag)
-            return min(length / 2 / max(along, 1e-9), height / 2 / max(across, 1e-9))
+            return rim_of(u, size, e)
     return 0.0
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
@@ -70,7 +70,7 @@ def skeleton(scene: Scene, number: int) -> Skeleton:
     else:
         guides = ()
         bars, corners = _between(nodes, _pivot(scene, number))
-    corners = (*corners, *_through(pins, (*guides, *bars)))
+    corners = (*corners, *_through(pins, (*guides, *bars)), *_on_blocks(blocks, sizes, (*guides, *bars)))
     return Skeleton(number, tuple(_apart(pins)), blocks, sizes, guides, bars, corners)
 
 
@@ -110,7 +110,8 @@ def _apart(nodes: list[complex]) -> list[complex]:
     return found
 
 
-Parts = tuple[tuple[Stroke, ...], tuple[tuple[complex, complex, complex], ...]]
+Corner = tuple[complex, complex, complex]
+Parts = tuple[tuple[Stroke, ...], tuple[Corner, ...]]
 
 
 def _between(nodes: list[complex], pivot: complex | None) -> Parts:
@@ -146,7 +147,7 @@ def _arms(pivot: complex, nodes: list[complex]) -> Parts:
 
 def _on_rails(
     rails: list[Stroke], nodes: list[complex]
-) -> tuple[tuple[Stroke, ...], tuple[Stroke, ...], tuple[tuple[complex, complex, complex], ...]]:
+) -> tuple[tuple[Stroke, ...], tuple[Stroke, ...], tuple[Corner, ...]]:
     """Join the nodes of a link with its first guide, those beside it square to it or to a pin on it; tie the others."""
     (low, high), others = rails[0], rails[1:]
     u = _unit(high - low)
@@ -166,13 +167,30 @@ def _on_rails(
     return (first, *others), tuple(bar for bar in bars if abs(bar[1] - bar[0]) > NEAR), tuple(corners)
 
 
-def _through(pins: list[complex], strokes: tuple[Stroke, ...]) -> tuple[tuple[complex, complex, complex], ...]:
+def _through(pins: list[complex], strokes: tuple[Stroke, ...]) -> tuple[Corner, ...]:
     """Return as corners of 180 degrees the pins through which a line of the link runs."""
     found = []
     for at in _apart(pins):
         rays = [_unit(end - at) for stroke in strokes for end in stroke if _on(stroke, at) and abs(end - at) > NEAR]
         found += [(at, u, w) for u, w in combinations(rays, 2) if abs(u + w) < 1e-4][:1]
     return tuple(found)
+
+
+def _on_blocks(
+    blocks: Iterable[Stroke], sizes: Iterable[tuple[float, float]], strokes: Sequence[Stroke]
+) -> Iterator[Corner]:
+    """Go through the corners between a block and each line of its own link that leaves it."""
+    for (at, u), size in zip(blocks, sizes, strict=True):
+        for e in rays_of(at, strokes):
+            rim = rim_of(u, size, e)
+            along = 1j * u if abs((e / u).real) * rim > 0.999 * size[0] / 2 else u  # the edge at which it leaves
+            yield at + e * rim, e, along if (along / e).real >= 0 else -along
+
+
+def rim_of(u: complex, size: tuple[float, float], e: complex) -> float:
+    """Return how far from its centre the edge of a block along `u` is, along `e`."""
+    along, across = abs((e / u).real), abs((e / u).imag)
+    return min(size[0] / 2 / max(along, 1e-9), size[1] / 2 / max(across, 1e-9))
 
 
 def _on(stroke: Stroke, at: complex) -> bool:
