@@ -1,0 +1,1 @@
+"""Marking of answers: the form, what comes back in it, roster, rubric, and reports for students and teachers."""

@@ -1,0 +1,100 @@
+"""A student's answers: who gave them, for which sheet, and of each quantity millimetres, scale, value, direction."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from ...plans.quantities import Quantity
+from ...scales.display import Display
+from ..task import LocatedError
+
+
+@dataclass(frozen=True, slots=True)
+class Who:
+    """A student as the file, or the roster, names one; what is not said is empty."""
+
+    student: str = ""
+    group: str = ""
+    book: str = ""
+    number: str = ""
+    email: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Mu:
+    """A scale factor in SI per millimetre; `sure` when its unit says which way it is meant.
+
+    Without a unit 0.05 may be metres per second to a millimetre, or millimetres to a metre per second.
+    """
+
+    value: float
+    sure: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One answered quantity.
+
+    Parameters
+    ----------
+    place : str
+        Where it stands: file and row, or file and cell.
+    mm : float, optional
+        The segment on paper, millimetres.
+    decimals : int
+        Decimals with which the segment was written.
+    value : float, optional
+        SI, signed as written.
+    direction : float, optional
+        Radians from the x axis, counter-clockwise.
+    sense : int, optional
+        1 counter-clockwise or along the axis, -1 the other way.
+    """
+
+    name: str
+    place: str
+    mm: float | None = None
+    decimals: int = 0
+    mu: Mu | None = None
+    value: float | None = None
+    direction: float | None = None
+    sense: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Answers:
+    """All answers of one student; `about` is what the file says of task, variant and sheet id, as written.
+
+    `problems` are cells that could not be read; what stands beside them is marked all the same.
+    """
+
+    source: str
+    who: Who
+    about: Mapping[str, str]
+    lines: Mapping[str, Line]
+    scales: Mapping[str, Mu]
+    problems: tuple[LocatedError, ...] = ()
+
+    @property
+    def empty(self) -> bool:
+        """Whether nothing at all has been answered."""
+        return not self.lines
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What can be answered in a task: its quantities, its scale factors, and the units in which it shows results."""
+
+    quantities: Mapping[str, Quantity]
+    scales: Mapping[str, str]  # SI unit of what a scale factor draws, by symbol
+    display: Display = field(default_factory=Display)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All names that an answer may have."""
+        return (*(name for name, q in self.quantities.items() if q.kind != "point"), *self.scales)
+
+    def unit(self, name: str) -> str:
+        """Return the unit in which a quantity is asked for."""
+        return self.display.unit(self.quantities[name].unit)

@@ -1,0 +1,133 @@
+"""What stands in a cell of an answer: a segment, a scale factor, a value, a direction; or why it is none of them."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from ...scales.errors import InputError
+from ...scales.numbers import quote, split_number
+from ...scales.units import Unit, converted, unit
+from .answers import Asked, Mu
+from .grid import Grid
+from .headers import tidy
+
+NONE = frozenset(("", "-", "–", "—", "?", "n/a"))  # how people write that they have no answer
+_CCW = (
+    "+|1|ccw|counter-clockwise|counterclockwise|anticlockwise|проти|против|проти годинникової стрілки"
+    "|проти год стрілки|против часовой стрелки|против ч с|проти г с"
+)
+_CW = "-|−|–|-1|−1|cw|clockwise|за|по|за годинниковою стрілкою|за год стрілкою|по часовой стрелке|по ч с|за г с"
+CCW, CW = frozenset(_CCW.split("|")), frozenset(_CW.split("|"))
+SIDES = {
+    **dict.fromkeys(("right", "вправо", "праворуч", "→"), 0.0),
+    **dict.fromkeys(("up", "вгору", "угору", "вверх", "↑"), 90.0),
+    **dict.fromkeys(("left", "вліво", "ліворуч", "влево", "←"), 180.0),
+    **dict.fromkeys(("down", "вниз", "униз", "↓"), 270.0),
+}
+_DECIMALS = re.compile(r"^[^0-9]*[0-9 \u00a0\u2009\u202f]*[.,]([0-9]+)")
+MM = unit("mm")
+
+
+def checked(grid: Grid, row: int, column: int | None) -> str:
+    """Return the text of a cell for a number; nothing where there is no answer.
+
+    Raises
+    ------
+    InputError
+        A formula that nobody has worked out, or a date that a spreadsheet has made of a number.
+    """
+    text = grid.text(row, column)
+    at = (row, column if column is not None else -1)
+    if at in grid.formulas or (text.startswith("=") and len(text) > 1):
+        raise InputError("answer-formula", text=quote(text))
+    if at in grid.dates:
+        raise InputError("answer-date")
+    return "" if text in NONE else text
+
+
+def segment(text: str, written: str) -> tuple[float, int]:
+    """Return millimetres of paper, and the decimals with which they are written; `written` is the column's unit.
+
+    Raises
+    ------
+    InputError
+        No number, another unit than of length, a negative length.
+    """
+    number, rest = split_number(text)
+    own = unit(rest) if rest else unit(written) if written else MM
+    millimetres = converted(number, own, MM) * 1e3
+    if number < 0.0:
+        raise InputError("answer-negative", text=quote(text))
+    found = _DECIMALS.match(text)
+    digits = len(found[1]) if found else 0
+    return millimetres, max(digits - round(math.log10(own.to_si(1e3))), 0)
+
+
+def scale_factor(text: str, written: str, per_mm: str, display_per_mm: str) -> Mu:
+    """Return a scale factor in SI per millimetre.
+
+    Parameters
+    ----------
+    written : str
+        A unit that stands beside the number, if any.
+    per_mm, display_per_mm : str
+        The unit per millimetre in SI, and as the task shows it: what a bare number is meant in.
+
+    Raises
+    ------
+    InputError
+        No number, one that is not positive, or a unit that is none of a scale factor of this plan.
+    """
+    number, rest = split_number(text)
+    if number <= 0.0:
+        raise InputError("scale-not-positive", text=quote(text))
+    name, si = rest or written, unit(per_mm)
+    own = unit(name) if name else unit(display_per_mm)
+    on_paper = {("mm", 1), ("cm", 1)}
+    if own.powers and own.powers[0] in on_paper and (own.powers[-1][0], -own.powers[-1][1]) not in on_paper:
+        reciprocal = Unit(tuple((symbol, -power) for symbol, power in si.powers))
+        return Mu(1e-3 / converted(number, own, reciprocal), sure=True)
+    return Mu(converted(number, own, si) / 1e3, sure=bool(name))
+
+
+def value(text: str, written: str, name: str, asked: Asked) -> float:
+    """Return a value in SI; its unit stands in the cell, or beside it, or is that of the form.
+
+    Raises
+    ------
+    InputError
+        No number, an unknown unit, or one that does not fit the quantity.
+    """
+    number, rest = split_number(text)
+    return converted(number, unit(rest or written or asked.unit(name)), unit(asked.quantities[name].unit))
+
+
+def bare(text: str, name: str, asked: Asked) -> float | None:
+    """Return the number alone, as if it were in the form's unit; None where there is none."""
+    try:
+        return unit(asked.unit(name)).to_si(split_number(text)[0])
+    except InputError:
+        return None
+
+
+def direction(text: str) -> tuple[float | None, int | None]:
+    """Return an angle in radians from the x axis, or a sense.
+
+    Raises
+    ------
+    InputError
+        Neither an angle in degrees nor a sense.
+    """
+    word = tidy(text)
+    if text in ("+", "-", "−", "–"):
+        return None, 1 if text == "+" else -1
+    if word in CCW | CW:
+        return None, 1 if word in CCW else -1
+    if word in SIDES:
+        return math.radians(SIDES[word]), None
+    try:
+        number, rest = split_number(text)
+        return converted(number, unit(rest) if rest else unit("deg"), unit("deg")), None
+    except InputError:
+        raise InputError("answer-direction", text=quote(text)) from None

@@ -1,0 +1,71 @@
+"""CSV as spreadsheets write it: UTF-8, UTF-16 or cp1251; semicolons, tabs or commas; quoted cells."""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import io
+
+from ...scales.errors import InputError
+from ...scales.numbers import quote
+from .grid import MOST_ROWS, SHOWN, Grid, bounded
+from .headers import recognised
+
+SEPARATORS = (";", "\t", ",")
+LOOKED_AT = 60  # rows in which the header is looked for
+_ZIP = b"PK\x03\x04"
+
+
+def grid_of_csv(file: str, data: bytes) -> Grid:
+    """Return the cells of a CSV file; the separator is the one at which most header words are found.
+
+    Raises
+    ------
+    InputError
+        A file that is no text, or that no separator cuts into cells.
+    """
+    if data.startswith(_ZIP):
+        raise InputError("answers-is-xlsx", file=quote(file, SHOWN))
+    text = _decoded(file, data)
+    first, _, rest = text.partition("\n")
+    if first.strip().lower().startswith("sep=") and len(first.strip()) == 5:
+        return Grid(file, bounded(file, _rows(file, rest, first.strip()[-1])))
+    head = "\n".join(text.splitlines()[:LOOKED_AT])
+    best = max(SEPARATORS, key=lambda separator: recognised(_rows(file, head, separator)))
+    return Grid(file, bounded(file, _rows(file, text, best)))
+
+
+def _decoded(file: str, data: bytes) -> str:
+    """Return the text: UTF-8 if it can be, else the encoding of Cyrillic Windows."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        try:
+            return data.decode("utf-16")
+        except UnicodeDecodeError:
+            raise InputError("answers-encoding", file=quote(file, SHOWN)) from None
+    if b"\0" in data:
+        raise InputError("answers-encoding", file=quote(file, SHOWN))
+    for encoding in ("utf-8-sig", "cp1251"):
+        try:
+            return data.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+    raise InputError("answers-encoding", file=quote(file, SHOWN))
+
+
+def _rows(file: str, text: str, separator: str) -> list[tuple[str, ...]]:
+    """Cut a text into cells."""
+    rows = []
+    try:
+        for row in csv.reader(io.StringIO(text, newline=""), delimiter=separator):
+            rows.append(tuple(map(_cell, row)))
+            if len(rows) > 2 * MOST_ROWS:
+                break
+    except csv.Error:
+        raise InputError("answers-quotes", file=quote(file, SHOWN), row=len(rows) + 1) from None
+    return rows
+
+
+def _cell(text: str) -> str:
+    """Return a cell without the spaces round it, and without the apostrophe that keeps a text from being a formula."""
+    text = text.strip()
+    return text[1:] if text.startswith("'") and text[1:2] in {"=", "+", "-", "@", "'"} else text

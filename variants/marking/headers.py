@@ -1,0 +1,90 @@
+"""What the words over columns, and before the answers, mean: in Ukrainian, Russian and English, in any order."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from ...scales.names import latin
+
+# columns of a form, a row per quantity
+COLUMNS: Mapping[str, str] = {
+    "name": "quantity|величина|name|назва|название|имя",
+    "symbol": "symbol|позначення|обозначение",
+    "vector": "vector|вектор|стрілка",
+    "mm": "mm|мм|cm|см|segment|відрізок|отрезок|довжина|длина",
+    "mu": "mu|μ|µ|scale|scale factor|масштаб|масштабний коефіцієнт|масштабный коэффициент",
+    "value": "value|значення|значение|answer|відповідь|ответ",
+    "unit": "unit|units|одиниця|одиниці|единица|единицы|од|ед",
+    "direction": "direction or sense|direction|sense|angle|sign|напрям або знак|напрям|напрямок|кут"
+    "|направление или знак|направление|угол|знак",
+}
+# what is said of the student, in lines before the answers or in columns of a class
+ABOUT: Mapping[str, str] = {
+    "task": "task|задача|завдання|задание",
+    "variant": "variant|варіант|вариант",
+    "sheet": "sheet id|sheet|номер аркуша|аркуш|номер листа|лист|id",
+    "student": "student|name|full name|студент|студентка|здобувач|піб|фио|прізвище|фамилия"
+    "|прізвище та ім'я|прізвище ім'я|фамилия и имя|фамилия имя",
+    "group": "group|група|группа",
+    "book": "record book|book|залікова книжка|номер залікової книжки|залікова|зачетная книжка"
+    "|номер зачетной книжки|зачетка",
+    "number": "id number|idnumber|student id|identifier|номер студента",
+    "email": "email|e-mail|email address|електронна пошта|электронная почта|пошта|почта",
+}
+_COLUMN_OF = {word: kind for kind, words in COLUMNS.items() for word in words.split("|")}
+_ABOUT_OF = {word: kind for kind, words in ABOUT.items() for word in words.split("|")}
+_UNIT = re.compile(r"\s*(?:[,:]\s*(?P<plain>[^\[(]+)|\[(?P<square>[^\]]*)\]|\((?P<round>.*)\))\s*$")
+# a column of a class: a quantity, a part of its answer, a unit
+_QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|mu))?")
+MIXED = re.compile(r"[A-Za-z]+_\w+")
+
+
+def tidy(text: str) -> str:
+    """Return a header word in small letters, with plain spaces and apostrophes."""
+    plain = " ".join(text.lower().replace("ё", "е").replace("’", "'").replace("ʼ", "'").replace(".", " ").split())
+    return plain.rstrip(":*? ")
+
+
+def split_unit(text: str) -> tuple[str, str]:
+    """Return a header without the unit that stands behind it in brackets or after a comma, and the unit.
+
+    >>> split_unit("V_B [м/с]"), split_unit("відрізок, мм"), split_unit("V_B")
+    (('V_B', 'м/с'), ('відрізок', 'мм'), ('V_B', ''))
+    """
+    found = _UNIT.search(text.strip())
+    if found is None:
+        return text.strip(), ""
+    return text.strip()[: found.start()].strip(), next(part for part in found.groups() if part is not None).strip()
+
+
+def column_kind(text: str) -> str | None:
+    """Return what a column of a form holds, by the word over it."""
+    return _COLUMN_OF.get(tidy(text)) or _COLUMN_OF.get(tidy(split_unit(text)[0]))
+
+
+def about_kind(text: str) -> str | None:
+    """Return what a cell says of the student, by the word before it or over it."""
+    return _ABOUT_OF.get(tidy(text)) or _ABOUT_OF.get(tidy(split_unit(text)[0]))
+
+
+def quantity_part(text: str) -> tuple[str, str, str] | None:
+    """Return name, part ("", "mm", "dir" or "mu") and unit of a class's column; None where it can be no quantity.
+
+    >>> quantity_part("V_B.mm"), quantity_part("omega_2 [рад/с]"), quantity_part("прізвище")
+    (('V_B', 'mm', ''), ('omega_2', '', 'рад/с'), None)
+    """
+    head, unit = split_unit(text)
+    found = _QUANTITY.fullmatch(latin(head))
+    return None if found is None else (found["name"], found["part"] or "", unit)
+
+
+def recognised(rows: Sequence[Sequence[str]]) -> int:
+    """Return how many cells of the most telling row are headers; to choose a separator by."""
+    best = 0
+    for row in rows:
+        kinds = {kind for cell in row if (kind := column_kind(cell))}
+        names = {cell for cell in row if MIXED.match(latin(cell.strip()))}
+        about = {kind for cell in row if (kind := about_kind(cell))}
+        best = max(best, len(kinds | about) + (len(names) if len(row) > 1 else 0))
+    return best

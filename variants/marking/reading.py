@@ -1,0 +1,271 @@
+"""What stands in a file of answers: one student's form, a row per quantity, or a class, a row per student."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ...scales.errors import InputError
+from ...scales.names import latin, unknown
+from ...scales.numbers import quote
+from ..task import LocatedError
+from . import cells
+from .answers import Answers, Asked, Line, Mu, Who
+from .grid import SHOWN, Grid, read_grid
+from .headers import about_kind, column_kind, quantity_part, split_unit
+from .swapped import put_back
+
+NUMBERS = ("mm", "mu", "value")
+LOOKED_AT = 60  # rows in which the header is looked for
+
+
+def read_answers(file: str | Path, asked: Asked) -> list[Answers]:
+    """Return the answers that a file holds: of one student, or of a class.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or no row of it says what its columns hold.
+    """
+    grid = read_grid(file)
+    for row in range(min(len(grid.rows), LOOKED_AT)):
+        kinds = _first(column_kind(text) for text in grid.rows[row])
+        if "name" in kinds and kinds.keys() & {*NUMBERS, "direction"}:
+            return [_form(grid, row, kinds, asked)]
+        columns = _of_class(grid.rows[row], asked)
+        if len(columns) > 1 or (columns and any(map(about_kind, grid.rows[row]))):
+            return [student for student in _class(grid, row, asked) if student is not None]
+    raise InputError("answers-header", file=quote(grid.file, SHOWN))
+
+
+def _first(kinds: Iterator[str | None]) -> dict[str, int]:
+    """Return the first column of each kind."""
+    found: dict[str, int] = {}
+    for column, kind in enumerate(kinds):
+        if kind is not None:
+            found.setdefault(kind, column)
+    return found
+
+
+@dataclass(slots=True)
+class _Sheet:
+    """One student's answers while they are read."""
+
+    grid: Grid
+    asked: Asked
+    lines: dict[str, Line] = field(default_factory=dict)
+    scales: dict[str, Mu] = field(default_factory=dict)
+    problems: list[LocatedError] = field(default_factory=list)
+
+    def refuse(self, row: int, column: int | None, name: str, error: InputError) -> None:
+        """Note what cannot be read, with file, cell and quantity."""
+        self.problems.append(LocatedError(f"{self.grid.place(row, column)}, {quote(name)}", error))
+
+    def number(self, row: int, column: int | None, name: str) -> str:
+        """Return the text of a cell that should hold a number; note where it cannot."""
+        try:
+            return cells.checked(self.grid, row, column)
+        except InputError as error:
+            self.refuse(row, column, name, error)
+            return ""
+
+    def known(self, row: int, column: int, name: str) -> bool:
+        """Whether a name is one that can be answered; note where it is not."""
+        if name in self.asked.names:
+            return True
+        self.refuse(row, column, name, unknown("quantity-unknown", name, self.asked.names))
+        return False
+
+    def segment(self, row: int, column: int | None, name: str, written: str) -> tuple[float | None, int]:
+        """Read millimetres."""
+        text = self.number(row, column, name)
+        try:
+            return cells.segment(text, written) if text else (None, 0)
+        except InputError as error:
+            self.refuse(row, column, name, error)
+            return None, 0
+
+    def mu(self, row: int, column: int | None, name: str, symbol: str | None, written: str = "") -> Mu | None:
+        """Read the scale factor of a quantity's plan."""
+        text = self.number(row, column, name)
+        if not text:
+            return None
+        drawn = self.asked.scales.get(symbol or "") or self.asked.quantities[name].unit
+        shown, paper = self.asked.display.unit(drawn), self.asked.display.paper
+        try:
+            return cells.scale_factor(text, written, _per(drawn, "mm"), _per(shown, paper))
+        except InputError as error:
+            self.refuse(row, column, name, error)
+            return None
+
+    def value(self, row: int, column: int | None, name: str, written: str) -> float | None:
+        """Read a value; one with a wrong unit is noted, and taken in the unit of the form."""
+        text = self.number(row, column, name)
+        if not text:
+            return None
+        try:
+            return cells.value(text, written, name, self.asked)
+        except InputError as error:
+            self.refuse(row, column, name, error)
+            return cells.bare(text, name, self.asked) if error.key.startswith("unit-") else None
+
+    def direction(self, row: int, column: int | None, name: str) -> tuple[float | None, int | None]:
+        """Read an angle or a sense."""
+        text = self.grid.text(row, column)
+        if text in cells.NONE - {"-", "–"}:
+            return None, None
+        try:
+            return cells.direction(text)
+        except InputError as error:
+            self.refuse(row, column, name, error)
+            return None, None
+
+    def add(self, line: Line, row: int, column: int | None) -> None:
+        """Keep a line that says anything, the first of each name."""
+        if (line.mm, line.value, line.direction, line.sense) == (None,) * 4:
+            return
+        if line.name in self.lines:
+            self.refuse(row, column, line.name, InputError("answer-again", place=self.lines[line.name].place))
+            return
+        self.lines[line.name] = line
+
+    def answers(self, source: str, who: Who, about: Mapping[str, str]) -> Answers:
+        """Return what has been read."""
+        return Answers(source, who, about, self.lines, self.scales, tuple(self.problems))
+
+
+def _per(si: str, paper: str) -> str:
+    return f"({si})/{paper}"
+
+
+def _form(grid: Grid, header: int, columns: Mapping[str, int], asked: Asked) -> Answers:
+    """Read a form: what it says of the student, then a row per quantity."""
+    about: dict[str, str] = {}
+    for row in range(header):
+        kind = about_kind(grid.text(row, 0))
+        if kind is not None and grid.text(row, 1):
+            about.setdefault(kind, grid.text(row, 1))
+    sheet = _Sheet(grid, asked)
+    over = {kind: split_unit(grid.text(header, column))[1] for kind, column in columns.items()}
+    over["mm"] = over.get("mm") or _bare_unit(grid.text(header, columns["mm"])) if "mm" in columns else ""
+    for row in range(header + 1, len(grid.rows)):
+        _form_row(sheet, row, columns, over)
+    if not sheet.lines and not sheet.problems:
+        raise InputError("answers-none", file=quote(grid.file, SHOWN))
+    exchanged = put_back(sheet.lines, asked)
+    if exchanged is not None:
+        sheet.lines = exchanged
+        sheet.problems.append(LocatedError(grid.place(header), InputError("answers-swapped")))
+    return sheet.answers(grid.file, _who(about), about)
+
+
+def _bare_unit(text: str) -> str:
+    """Return the unit that a header is itself: "мм"."""
+    return text if text.strip().lower() in {"mm", "мм", "cm", "см"} else ""
+
+
+def _form_row(sheet: _Sheet, row: int, columns: Mapping[str, int], over: Mapping[str, str]) -> None:
+    """Read a row of a form; rows with nothing but a name are headings, or have no answer."""
+    grid = sheet.grid
+    name = latin(grid.text(row, columns["name"]))
+    filled = [kind for kind in (*NUMBERS, "direction") if grid.text(row, columns.get(kind)) not in cells.NONE - {"-"}]
+    if not name or not filled or column_kind(name) == "name" or not sheet.known(row, columns["name"], name):
+        return
+    written = grid.text(row, columns.get("unit"))
+    if name in sheet.asked.scales:
+        at = columns.get("mu") if grid.text(row, columns.get("mu")) else columns.get("value")
+        mu = sheet.mu(row, at, name, name, written)
+        if mu is not None:
+            sheet.scales.setdefault(name, mu)
+        return
+    mm, decimals = sheet.segment(row, columns.get("mm"), name, over["mm"])
+    direction, sense = sheet.direction(row, columns.get("direction"), name)
+    line = Line(
+        name,
+        grid.place(row),
+        mm,
+        decimals,
+        sheet.mu(row, columns.get("mu"), name, None, over.get("mu", "")),
+        sheet.value(row, columns.get("value"), name, written or over.get("value", "")),
+        direction,
+        sense,
+    )
+    sheet.add(line, row, columns["name"])
+
+
+def _who(about: Mapping[str, str]) -> Who:
+    """Return the student that a file names."""
+    return Who(*(about.get(key, "") for key in ("student", "group", "book", "number", "email")))
+
+
+def _of_class(header: tuple[str, ...], asked: Asked) -> dict[int, tuple[str, str, str]]:
+    """Return the columns of a class that hold answers: name, part and unit by column."""
+    found = {}
+    for column, text in enumerate(header):
+        part = quantity_part(text)
+        if part is not None and part[0] in asked.names:
+            found[column] = part
+    return found
+
+
+def _class(grid: Grid, header: int, asked: Asked) -> Iterator[Answers | None]:
+    """Go through the students of a class."""
+    columns, about = _of_class(grid.rows[header], asked), _first(about_kind(text) for text in grid.rows[header])
+    strangers = _strangers(grid, header, asked, {*columns, *about.values()})
+    for row in range(header + 1, len(grid.rows)):
+        if not any(text not in cells.NONE for text in grid.rows[row]):
+            continue
+        said = {kind: grid.text(row, column) for kind, column in about.items() if grid.text(row, column)}
+        sheet = _Sheet(grid, asked, problems=list(strangers))
+        strangers = []  # told once, not for each student
+        _class_row(sheet, row, columns)
+        yield sheet.answers(grid.place(row), _who(said), said)
+
+
+def _strangers(grid: Grid, header: int, asked: Asked, read: set[int]) -> list[LocatedError]:
+    """Return an error for each column whose name looks like a quantity's and is none."""
+    found = []
+    for column, text in enumerate(grid.rows[header]):
+        part = quantity_part(text)
+        if column not in read and part is not None and ("_" in text or part[1]):
+            error = unknown("quantity-unknown", part[0], asked.names)
+            found.append(LocatedError(f"{grid.place(header, column)}, {quote(text)}", error))
+    return found
+
+
+def _class_row(sheet: _Sheet, row: int, columns: Mapping[int, tuple[str, str, str]]) -> None:
+    """Read the answers of one student, all parts of each quantity together."""
+    parts: dict[str, dict[str, tuple[int, str]]] = {}
+    for column, (name, part, written) in columns.items():
+        parts.setdefault(name, {}).setdefault(_part(sheet.asked, name, part, written), (column, written))
+    for name, at in parts.items():
+        nothing: tuple[int | None, str] = (None, "")
+        if name in sheet.asked.scales:
+            mu = sheet.mu(row, *_swap(next(iter(at.values())), name))
+            if mu is not None:
+                sheet.scales[name] = mu
+            continue
+        mm, decimals = sheet.segment(row, *_named(at.get("mm", nothing), name))
+        direction, sense = sheet.direction(row, at.get("dir", nothing)[0], name)
+        scale_at, scale_unit = at.get("mu", nothing)
+        mu = sheet.mu(row, scale_at, name, None, scale_unit)
+        value = sheet.value(row, *_named(at.get("", nothing), name))
+        place = sheet.grid.place(row, min(number for number, _ in at.values()))
+        sheet.add(Line(name, place, mm, decimals, mu, value, direction, sense), row, None)
+
+
+def _named(at: tuple[int | None, str], name: str) -> tuple[int | None, str, str]:
+    return at[0], name, at[1]
+
+
+def _swap(at: tuple[int, str], name: str) -> tuple[int, str, str, str]:
+    return at[0], name, name, at[1]
+
+
+def _part(asked: Asked, name: str, part: str, written: str) -> str:
+    """Return what a column of a class holds: millimetres over a quantity that is no length are those of paper."""
+    if part or name in asked.scales:
+        return part
+    on_paper = written.strip().lower() in {"mm", "мм", "cm", "см"}
+    return "mm" if on_paper and asked.quantities[name].unit != "m" else ""

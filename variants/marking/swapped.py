@@ -1,0 +1,46 @@
+"""Columns that stand one in the place of the other: values under millimetres, millimetres under values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from ...scales.units import unit
+from .answers import Asked, Line, Mu
+
+NEAR = 0.05  # part by which a product may differ from what it should be
+FEWEST = 3  # lines that must tell
+
+
+def put_back(lines: Mapping[str, Line], asked: Asked) -> dict[str, Line] | None:
+    """Return the lines with segments and values exchanged where nearly all of them only then agree; else None."""
+    told = [verdict for line in lines.values() for verdict in _told(line, asked)]
+    if len(told) < FEWEST or sum(told) < 0.8 * len(told):
+        return None
+    return {name: _exchanged(line, asked) for name, line in lines.items()}
+
+
+def _told(line: Line, asked: Asked) -> Iterator[bool]:
+    """Say of a line with segment, scale and value whether it agrees only when exchanged; nothing where none agrees."""
+    mu = line.mu
+    if mu is None or not line.mm or not line.value:
+        return
+    as_it_is, other = _agrees(line, mu), _agrees(_exchanged(line, asked), mu)
+    if as_it_is != other:
+        yield other
+
+
+def _agrees(line: Line, mu: Mu) -> bool:
+    """Whether millimetres times the scale factor, or over it, are the value."""
+    assert line.mm is not None
+    assert line.value is not None
+    ways = (line.mm * mu.value,) if mu.sure else (line.mm * mu.value, line.mm / mu.value)
+    return any(abs(way - abs(line.value)) <= NEAR * abs(line.value) for way in ways)
+
+
+def _exchanged(line: Line, asked: Asked) -> Line:
+    """Return a line with the two numbers exchanged, each read in the unit of its new column."""
+    own = unit(asked.unit(line.name))
+    value = None if line.mm is None else own.to_si(line.mm)
+    mm = None if line.value is None else abs(own.from_si(line.value))
+    return replace(line, mm=mm, value=value)

@@ -1,0 +1,23 @@
+"""The words of forms and reports, and plain text of what a sheet sets with scripts."""
+
+from __future__ import annotations
+
+import re
+
+from ...scales.packaged import packaged
+
+
+def texts(language: str) -> dict[str, str]:
+    """Return the texts of forms and reports, by key."""
+    return packaged(__package__, "texts", language)
+
+
+def plain(markup: str) -> str:
+    """Return markup as plain text.
+
+    >>> plain("a^{n}_{BA}"), plain("s_{2}")
+    ('a^n_BA', 's2')
+    """
+    text = re.sub(r"\\bar\{([^{}]*)\}", r"\1", markup)
+    text = re.sub(r"(?<![A-Z])([a-z]′*)_\{(\d+)\}$", r"\1\2", text)
+    return re.sub(r"[{}]", "", text)
