@@ -41,7 +41,8 @@ who read forms and write reports build on the functions here.
     `first_wrong` is the name of the first line that is wrong by itself, or None; `step` the `board.Step` that it
     reads or calculates, whose plan and letters say what to look at again. `marking["V_B"]` is a line.
 `verdicts.mark(key, answers) -> Marking`
-    Mark the answers of one student. Raises `InputError` for a name that is not in the key, or one that comes twice.
+    Mark the answers of one student, of two to one question the first. Raises `InputError` (`quantity-unknown`) for a
+    name that is not in the key.
 `student.StudentBoard`
     The board that takes quantities from a student.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -25,9 +26,11 @@ def tolerances(
 ) -> dict[str, float]:
     """Return for each quantity by how much an answer may differ, SI.
 
-    Of a segment that is read |difference| <= max(mm, part of it) / |sin gamma|, gamma being the angle of the lines
-    whose meeting is read, the worst of those behind the segment's ends on its own plan. A calculated quantity inherits
-    what the segments in it may miss; data have none.
+    Of a segment that is read |difference| <= max(mm, part of it, tilt) / |sin gamma|, gamma being the angle of the
+    lines whose meeting is read, the worst of those behind the segment's ends on its own plan. The tilt is what the
+    longest segment of the plan misses at its end when its direction misses by the degrees of the preset: a short side
+    closes a plan of long vectors no better. Of an arm it is that of the way to the point of the force. A calculated
+    quantity inherits what the segments in it may miss; data have none.
 
     Parameters
     ----------
@@ -36,7 +39,7 @@ def tolerances(
     most : Tolerance
         A preset's, or one's own.
     """
-    rule = _Rule(paper, values, worst_behind(paper.program, sines, _same_plan), most, {})
+    rule = _Rule(paper, values, worst_behind(paper.program, sines, same_plan), most, {}, _longest(paper, values))
     for step in paper.program:
         rule.allowed[step.name] = float(rule.of(step))
     return {step.name: rule.allowed[step.name] for step in results(paper.program)}
@@ -51,24 +54,31 @@ class _Rule:
     flat: Mapping[str, float]
     most: Tolerance
     allowed: dict[str, float]
+    longest: Mapping[str, float]
 
     def of(self, step: Step) -> Any:
         """Return by how much the result of a step may differ, SI."""
         values = self.values
         if step.verb in READ:
             mu, sine = self._mu(step.operands[0]), min(self.flat.get(mark, 1.0) for mark in step.operands)
-            return self.most.of_segment(abs(values[step.name]) / mu, sine) * mu
+            least = self._tilt(self.longest.get(step.plan, 0.0)) / sine
+            return max(self.most.of_segment(abs(values[step.name]) / mu, sine) * mu, least)
         if step.verb == "moment":
-            force, at, _ = step.operands
+            force, at, about = step.operands
             mu, size = self._mu(at), abs(values[force])
             arm = abs(values[step.name]) / size if size else 0.0
-            return size * self.most.of_segment(arm / mu) * mu + arm * self.allowed.get(force, 0.0)
+            missed = max(self.most.of_segment(arm / mu) * mu, self._tilt(abs(values[at] - values[about])))
+            return size * missed + arm * self.allowed.get(force, 0.0)
         if step.verb == "arm":
             return self._arm(*step.operands)
         if step.verb == "calc":
             return self._inherited(step)
         is_point = step.verb in POINTS and "." not in step.name
         return self.most.mm * self._mu(step.name) / self.flat[step.name] if is_point else 0.0
+
+    def _tilt(self, length: float) -> float:
+        """Return what a line of this length misses at its end when its direction does."""
+        return math.radians(self.most.degrees) * length if length == length else 0.0
 
     def _mu(self, mark: str) -> float:
         return float(self.paper.mus[mark.rpartition(".")[0] or POSITION])
@@ -89,6 +99,17 @@ class _Rule:
         return total
 
 
+def _longest(paper: Paper, values: Mapping[str, Any]) -> dict[str, float]:
+    """Return the longest vector of every plan but that of the mechanism, which is drawn link by link."""
+    found: dict[str, float] = {}
+    for step in paper.program:
+        if step.verb in ("read", "chain") and step.plan != POSITION:
+            size = abs(values[step.operands[1] if step.verb == "chain" else step.name])
+            if size == size:
+                found[step.plan] = max(found.get(step.plan, 0.0), size)
+    return found
+
+
 def _longer(value: Any, miss: float) -> Any:
     """Return a value that misses, a vector along itself."""
     if not isinstance(value, complex):
@@ -97,7 +118,8 @@ def _longer(value: Any, miss: float) -> Any:
     return value * (1.0 + miss / size) if size else complex(miss)
 
 
-def _same_plan(step: Step, operand: str) -> bool:
+def same_plan(step: Step, operand: str) -> bool:
+    """Whether a step draws on the plan of one of its operands."""
     return step.name.rpartition(".")[0] == operand.rpartition(".")[0]
 
 

@@ -1,0 +1,111 @@
+"""One line of a student's form, and what it says: a magnitude, a sign or a direction, as far as it says so."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from dataclasses import dataclass
+from typing import Any
+
+FREE = re.compile(r"R_\w+_t$|M_bal$|F_bal$|M_bal_lever$|F_bal_lever$")  # whose sense is assumed, and found by the sign
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a student says of one quantity, in SI; any part may be left out.
+
+    Parameters
+    ----------
+    name : str
+        Of the quantity.
+    mm : float, optional
+        The segment on paper.
+    mu : float, optional
+        The scale factor as the student writes it: value per mm, or mm per unit.
+    value : float, optional
+        Of a vector its magnitude.
+    direction : float, optional
+        Radians from the x axis, of a vector.
+    sense : int, optional
+        Of a scalar: +1 counter-clockwise (or along the axis), -1 the other way.
+    """
+
+    name: str
+    mm: float | None = None
+    mu: float | None = None
+    value: float | None = None
+    direction: float | None = None
+    sense: int | None = None
+
+    @property
+    def empty(self) -> bool:
+        """Whether it says nothing that can be marked."""
+        return not any(map(known, (self.mm, self.value, self.direction, self.sense)))
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """One way to take an answer: `size` without its sign; None for what it does not say."""
+
+    size: float | None
+    sign: int | None
+    direction: complex | None
+
+    def taken(self, follows: Any) -> Any:
+        """Return the value to go on with: what the answer does not say is taken from what follows without it."""
+        if isinstance(follows, complex):
+            return self._vector(follows)
+        size = abs(follows) if self.size is None else self.size
+        return size * (self.sign if self.sign is not None else -1.0 if follows < 0.0 else 1.0)
+
+    def _vector(self, follows: complex) -> complex:
+        length = abs(follows)
+        size = length if self.size is None else self.size
+        if self.direction is not None:
+            return self.direction * size
+        return follows * (size * (1.0 / length)) if length else follows
+
+
+def known(number: float | None) -> bool:
+    """Whether a number is there, and is one."""
+    return number is not None and math.isfinite(number)
+
+
+def values_of(answer: Answer, mu: float | None = None) -> tuple[float, ...]:
+    """Return the values that an answer may mean, signed: the one written, else mm times or through mu.
+
+    `mu` is that of other lines of the plan, for a line that has none.
+    """
+    if answer.value is not None and known(answer.value):
+        return (answer.value,)
+    return measured(answer, mu)
+
+
+def measured(answer: Answer, mu: float | None = None) -> tuple[float, ...]:
+    """Return the values that the millimetres mean, in either convention of the scale factor."""
+    factor = answer.mu if known(answer.mu) else mu
+    if answer.mm is None or not known(answer.mm) or not factor or not known(factor):
+        return ()
+    return tuple(dict.fromkeys(x for x in (answer.mm * factor, answer.mm / factor) if math.isfinite(x)))
+
+
+def readings(answer: Answer, values: tuple[float, ...]) -> tuple[Said, ...]:
+    """Return all ways to take an answer whose value is one of `values`.
+
+    Where the sense is free to be assumed, a minus says that it is the other one, and does no harm without it.
+    """
+    turned = cmath.rect(1.0, answer.direction) if answer.direction is not None and known(answer.direction) else None
+    free, found = FREE.match(answer.name), []
+    for value in values or (None,):
+        size, minus = (None, False) if value is None else (abs(value), value < 0.0)
+        sign = answer.sense if answer.sense else None
+        if minus and free:
+            found += [Said(size, sign, turned), Said(size, None if sign is None else -sign, _opposite(turned))]
+        else:
+            found.append(Said(size, -1 if minus and sign is None else sign, turned))
+    return tuple(found)
+
+
+def _opposite(direction: complex | None) -> complex | None:
+    return None if direction is None else direction * -1.0

@@ -1,0 +1,117 @@
+"""The answer key of one task and variant: right values, tolerances, and what may be asked, in order of construction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..board import POSITION, Step
+from ..exact import run
+from ..hand import Tolerance
+from ..quantities import POINTS, shown_on, unit_of
+from ..shaky import Paper
+from ..worth import results, worst_behind
+from .tolerances import same_plan, tolerances
+
+ROUNDED = 0.005  # part of a value by which three digits are rounded
+COARSER = 2.0  # how much coarser than ours a student's own scale may be for its millimetres to count
+LIKE = 1.02  # ratio of scale factors that count as one
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """One line that may be asked: the plan that shows it, or on whose way it is calculated; whether it is a vector."""
+
+    name: str
+    plan: str
+    vector: bool
+    unit: str
+    step: Step
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """The answer key; `allowed` are sizes in SI, `angles` directions in radians."""
+
+    paper: Paper
+    tolerance: Tolerance
+    limits: Mapping[str, float]
+    values: Mapping[str, Any]
+    sines: Mapping[str, float]
+    allowed: Mapping[str, float]
+    angles: Mapping[str, float]
+    questions: Mapping[str, Question]
+
+    def __getitem__(self, name: str) -> Any:
+        """Return the right value, a float or complex."""
+        return self.values[name]
+
+    def drawn_to(self, mus: Mapping[str, float]) -> Key:
+        """Return the key for a sheet drawn to a student's own scale factors, by plan, value in SI per mm.
+
+        Their millimetres count, but for a plan much smaller than ours: a small plan makes no error right.
+        """
+        within = {plan: min(max(mus.get(plan, mu), mu / COARSER), mu * COARSER) for plan, mu in self.paper.mus.items()}
+        if all(mu / LIKE < within[plan] < mu * LIKE for plan, mu in self.paper.mus.items()):
+            return self
+        return _key(replace(self.paper, mus=within), self)
+
+
+def answer_key(
+    paper: Paper,
+    tolerance: Tolerance,
+    limits: Mapping[str, float] | None = None,
+    wanted: Collection[str] | None = None,
+) -> Key:
+    """Make the answer key of one position.
+
+    Parameters
+    ----------
+    paper : Paper
+        The construction with the scale factors of the sheet, those that a student is supposed to take.
+    limits : mapping of str to float, optional
+        Tolerances of single quantities in SI, in the place of the rule.
+    wanted : collection of str, optional
+        The quantities that are asked; all when left out. What is undefined is not asked.
+    """
+    board = run(paper.program, paper.givens)
+    asked = _questions(paper, board.values, wanted)
+    return _key(paper, Key(paper, tolerance, limits or {}, board.values, board.sines, {}, {}, asked))
+
+
+def _key(paper: Paper, key: Key) -> Key:
+    """Find the tolerances of a key on another paper."""
+    allowed = tolerances(paper, key.values, key.sines, key.tolerance)
+    least = max(ROUNDED, 0.2 * key.tolerance.part)
+    for name in key.questions:
+        size = abs(key.values[name])
+        allowed[name] = key.limits.get(name, max(allowed[name], least * size))
+    flat = worst_behind(paper.program, key.sines, same_plan)
+    angles = {
+        name: _angle(key, name, allowed[name], flat) for name, question in key.questions.items() if question.vector
+    }
+    return replace(key, paper=paper, allowed=allowed, angles=angles)
+
+
+def _angle(key: Key, name: str, allowed: float, flat: Mapping[str, float]) -> float:
+    """Return by how much a direction may miss: as lines may, and as a mark that misses turns a short vector."""
+    size, step = abs(key.values[name]), key.questions[name].step
+    sine = min(flat.get(mark, 1.0) for mark in step.operands) if step.verb == "read" else 1.0
+    if allowed >= size:
+        return math.pi
+    return min(math.radians(key.tolerance.degrees) / sine + math.asin(allowed / size), math.pi)
+
+
+def _questions(paper: Paper, values: Mapping[str, Any], wanted: Collection[str] | None) -> dict[str, Question]:
+    shown, last, found = shown_on(paper.program), POSITION, {}
+    asked = {step.name for step in results(paper.program) if step.verb not in POINTS and step.law != "difference"}
+    for step in paper.program:
+        if step.verb != "calc" and step.plan != POSITION:
+            last = step.plan
+        value = values[step.name]
+        if step.name in asked and value == value and (wanted is None or step.name in wanted):
+            plan = shown.get(step.name, last)
+            found[step.name] = Question(step.name, plan, isinstance(value, complex), unit_of(step.name), step)
+    return found

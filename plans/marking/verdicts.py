@@ -1,0 +1,289 @@
+"""The verdict of every line: right, right given the earlier error, wrong, arithmetic, scale, missing.
+
+Each line is held against the right value, against what follows from all that the student said before (so that errors
+of drawing do not add up), and against what follows from what was wrong before (so that an error counts once).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from statistics import median
+from typing import Any
+
+from ...scales.names import unknown
+from ..board import Step
+from .answers import Answer, Said, known, measured, readings, values_of
+from .comparing import NEVER, SIZE, Miss, least, miss
+from .key import Key
+from .student import follow
+
+UNITS = tuple(10.0**power for power in (-6, -3, -2, -1, 1, 2, 3, 6))  # what a unit may be wrong by
+SHOWN = 5.0  # mm from which a segment shows to which scale its plan is drawn
+CLEAR = 1.5  # tolerances from which an error is more than a slip of the hand
+SLACK = 0.5  # part of a tolerance by which mm times mu may differ from the value written
+
+
+class Verdict(StrEnum):
+    """What a line is."""
+
+    RIGHT = "right"
+    CARRIED = "carried"
+    WRONG = "wrong"
+    ARITHMETIC = "arithmetic"
+    SCALE = "scale"
+    MISSING = "missing"
+
+    @property
+    def passed(self) -> bool:
+        """Whether the line counts as right."""
+        return self in (Verdict.RIGHT, Verdict.CARRIED)
+
+    @property
+    def faulty(self) -> bool:
+        """Whether there is an error in this very line."""
+        return self in (Verdict.WRONG, Verdict.ARITHMETIC, Verdict.SCALE)
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line marked; sizes in SI, vectors complex.
+
+    Parameters
+    ----------
+    said : float or complex, optional
+        What the answer says; what it leaves out (a direction, a sense) is that of what follows.
+    right, follows : float or complex
+        The right value, and what follows from the answers before it.
+    allowed : float
+        The tolerance of the size.
+    off : float
+        By how many tolerances it misses the better of the two.
+    about : str
+        Of a line that does not pass: "size" or "direction", that of a scalar being its sense.
+    """
+
+    name: str
+    plan: str
+    verdict: Verdict
+    answer: Answer | None
+    said: Any
+    right: Any
+    follows: Any
+    allowed: float
+    off: float
+    about: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Marking:
+    """All lines in order of construction, the first one with an error of its own, and the step that it shows."""
+
+    key: Key
+    lines: tuple[Line, ...]
+    first_wrong: str | None
+    step: Step | None
+
+    def __getitem__(self, name: str) -> Line:
+        """Return the line of a quantity."""
+        return next(line for line in self.lines if line.name == name)
+
+    @property
+    def answered(self) -> tuple[Line, ...]:
+        """The lines that are not missing."""
+        return tuple(line for line in self.lines if line.verdict is not Verdict.MISSING)
+
+
+def mark(key: Key, answers: Iterable[Answer]) -> Marking:
+    """Mark the answers of one student.
+
+    Raises
+    ------
+    InputError
+        A quantity that is not asked.
+    """
+    said = _by_name(key, answers)
+    marker = _Marker(key, said, {name: (known(a.mu) and a.mu) or None for name, a in said.items()})
+    marker.settle_scales()
+    lines = tuple(marker.lines())
+    first = first_wrong(lines)
+    return Marking(marker.key, lines, first, None if first is None else behind(key, first))
+
+
+def first_wrong(lines: Iterable[Line]) -> str | None:
+    """Return the first line with an error of its own.
+
+    One that misses by little more than its tolerance may be a slip of the hand: it comes first only if there is no
+    line that misses clearly.
+    """
+    faulty = [line for line in lines if line.verdict.faulty]
+    clear = (line for line in faulty if line.off > CLEAR or line.verdict is not Verdict.WRONG)
+    first = next(clear, faulty[0] if faulty else None)
+    return None if first is None else first.name
+
+
+def behind(key: Key, name: str) -> Step:
+    """Return the step that a quantity shows: of one that is read the mark that was made last, else its calculation."""
+    step = key.questions[name].step
+    if step.verb != "read":
+        return step
+    return next(s for s in reversed(key.paper.program.steps) if s.name in step.operands)
+
+
+def _by_name(key: Key, answers: Iterable[Answer]) -> dict[str, Answer]:
+    found: dict[str, Answer] = {}
+    for answer in answers:
+        if answer.name not in key.questions:
+            raise unknown("quantity-unknown", answer.name, key.questions)
+        if not answer.empty:
+            found.setdefault(answer.name, answer)  # the first one counts
+    return found
+
+
+class _Marker:
+    """Marks the lines of one student, one after the other."""
+
+    def __init__(self, key: Key, answers: Mapping[str, Answer], mus: dict[str, float | None]) -> None:
+        self.key, self.answers, self.mus = key, answers, mus
+        self.true: dict[str, float] = {}  # to which scale the segments of a plan seem to be drawn
+        self.verdicts: dict[str, tuple[Verdict, Said | None, Miss]] = {}
+        self.failed = False
+
+    def settle_scales(self) -> None:
+        """Find the scale factor of every line with millimetres, and draw the key to the student's scales."""
+        by_plan: dict[str, list[str]] = {}
+        for name, answer in self.answers.items():
+            if answer.mm and known(answer.mm) and answer.mm > 0.0:
+                by_plan.setdefault(self.key.questions[name].plan, []).append(name)
+        drawn = {}
+        for plan, names in by_plan.items():
+            written = next((mu for name in names if (mu := self.mus[name])), None) or self._from_pairs(names)
+            shown = [self._drawn_to(name) for name in names if abs(self.answers[name].mm or 0.0) >= SHOWN]
+            if len(shown) > 1:
+                self.true[plan] = median(shown)
+            mu = written or self.true.get(plan) or self._drawn_to(names[0])
+            self.mus.update({name: mu for name in names if not self.mus[name]})
+            drawn[plan] = _nearest(mu, self.key.paper.mus.get(plan, mu))
+        self.key = self.key.drawn_to({plan: mu for plan, mu in drawn.items() if mu > 0.0})
+
+    def _drawn_to(self, name: str) -> float:
+        return float(abs(self.key[name])) / abs(self.answers[name].mm or 1.0)
+
+    def _from_pairs(self, names: list[str]) -> float | None:
+        """Return the scale factor by which students went on from millimetres to values."""
+        found = [abs(a.value / a.mm) for a in (self.answers[name] for name in names) if a.value and a.mm]
+        return median(found) if found else None
+
+    def lines(self) -> Iterator[Line]:
+        """Judge every line in order of construction."""
+        program, givens = self.key.paper.program, self.key.paper.givens
+        self.still = follow(program, givens, lambda name, value: (self._first(name), False))
+        self.moved = follow(program, givens, lambda name, value: (self._first(name), True))
+        follows = follow(program, givens, self._judge)
+        for name, question in self.key.questions.items():
+            verdict, said, found = self.verdicts.get(name, (Verdict.MISSING, None, Miss(NEVER, "")))
+            value = follows[name]
+            taken = None if said is None else said.taken(value if value == value else self.key[name])
+            about = found.about if verdict.faulty else ""
+            yield Line(
+                name,
+                question.plan,
+                verdict,
+                self.answers.get(name),
+                taken,
+                self.key[name],
+                value,
+                self.key.allowed[name],
+                found.off,
+                about,
+            )
+
+    def _first(self, name: str) -> Said | None:
+        """Return what the student goes on with."""
+        answer = self.answers.get(name)
+        if answer is None:
+            return None
+        values = values_of(answer, self.mus[name])
+        if len(values) > 1:
+            values = (_nearest_to(values, abs(self.key[name])),)
+        return readings(answer, values)[0]
+
+    def _judge(self, name: str, value: Any) -> tuple[Said | None, bool]:
+        """Judge a line whose value follows from what was wrong before; go on with what the student says if it differs.
+
+        A slip of the pen or of the scale does not move the mark.
+        """
+        if name not in self.answers or name not in self.key.questions:
+            return None, False
+        if name not in self.verdicts:
+            self.verdicts[name] = self._verdict(name, value)
+        verdict, said, _ = self.verdicts[name]
+        assert said is not None
+        if self._miss((said,), name, value).off <= 1.0:
+            return None, False
+        return said, verdict is Verdict.WRONG
+
+    def _verdict(self, name: str, value: Any) -> tuple[Verdict, Said | None, Miss]:
+        answer = self.answers[name]
+        values = values_of(answer, self.mus[name])
+        verdict, said, found = self._held(readings(answer, values), name, value)
+        if answer.value is not None and (instead := measured(answer, self.mus[name])):
+            agrees = any(abs(x - abs(answer.value)) <= self._slack(name, x) for x in instead)
+            by_mm = self._held(readings(answer, instead), name, value)[0]
+            if not agrees and verdict.passed is not by_mm.passed:
+                return Verdict.ARITHMETIC, said, found
+        if not verdict.passed and found.about == SIZE and self._is_scale(answer, values, name, value):
+            verdict = Verdict.SCALE
+        self.failed |= verdict.faulty
+        return verdict, said, found
+
+    def _slack(self, name: str, value: float) -> float:
+        tolerance, mu = self.key.tolerance, self.key.paper.mus.get(self.key.questions[name].plan, 0.0)
+        return max(SLACK * tolerance.mm * mu, SLACK * tolerance.part * value)
+
+    def _held(self, ways: tuple[Said, ...], name: str, value: Any) -> tuple[Verdict, Said, Miss]:
+        """Hold an answer against the right value, and against what follows."""
+        right = self._best(ways, name, self.key[name])
+        others = [self._best(ways, name, x) for x in (self.still.get(name), self.moved.get(name), value)]
+        said, found = min((right, *others), key=lambda pair: pair[1].off)
+        if right[1].off <= 1.0:
+            return Verdict.RIGHT, *right
+        if found.off <= 1.0:
+            return Verdict.CARRIED if self.failed else Verdict.RIGHT, said, found
+        return Verdict.WRONG, self._first(name) or said, found
+
+    def _best(self, ways: tuple[Said, ...], name: str, value: Any) -> tuple[Said, Miss]:
+        return min(((way, self._miss((way,), name, value)) for way in ways), key=lambda pair: pair[1].off)
+
+    def _miss(self, ways: tuple[Said, ...], name: str, value: Any) -> Miss:
+        """Return the least miss; a value that follows from larger ones may miss in proportion."""
+        if value is None or value != value:
+            return Miss(NEVER, SIZE)
+        size = float(abs(self.key[name]))
+        allowed = self.key.allowed[name] * max(1.0, abs(value) / size if size else 1.0)
+        return least(miss(way, value, allowed, self.key.angles.get(name, math.pi)) for way in ways)
+
+    def _is_scale(self, answer: Answer, values: tuple[float, ...], name: str, value: Any) -> bool:
+        """Whether only a unit, the convention of the scale factor or the scale itself makes a line wrong."""
+        others = [x * unit for x in values for unit in UNITS] + list(measured(answer, self.mus[name]))
+        true = self.true.get(self.key.questions[name].plan)
+        if true is not None and answer.mm:
+            others.append(answer.mm * true)
+        return any(self._held(readings(answer, (x,)), name, value)[0].passed for x in others)
+
+
+def _nearest(mu: float, ours: float) -> float:
+    """Return a scale factor as value per mm, whichever convention is nearer to ours."""
+    return _nearest_to((mu, 1.0 / mu), ours)
+
+
+def _nearest_to(values: tuple[float, ...], ours: float) -> float:
+    """Return the value nearest to ours in ratio."""
+    return min(values, key=lambda x: abs(math.log(abs(x) / ours)) if x and ours else math.inf)
+
+
+def carried(line: Line) -> Line:
+    """Return a line that an earlier mistake explains."""
+    return replace(line, verdict=Verdict.CARRIED, about="")
