@@ -153,9 +153,12 @@ class Cutter:
                     width, height, BESIDE_COST * (j - i), area, j + 1, (tuple((k, 0) for k in range(i, j + 1)),)
                 )
 
-    def rows(self, i: int, room: Room, head: Edge) -> tuple[list[Row], list[Row]]:
-        """Rows that begin with view `i`: those that leave the page open, and those that end it."""
-        gap, count = self.gap, len(self.views)
+    def rows(self, i: int, room: Room, head: Edge, spent: float = 0.0) -> tuple[list[Row], list[Row]]:
+        """Rows that begin with view `i`: those that leave the page open, and those that end it.
+
+        At least `spent` mm2 have been left empty above them.
+        """
+        gap, count, waste = self.gap, len(self.views), self.waste - spent
         widest, highest = room.width - head.left - head.right + SLACK, room.height + SLACK
         partial: dict[int, list[_Partial]] = {i: [_Partial(-gap, head.height, 0.0, 0.0)]}
         opened: list[Row] = []
@@ -179,7 +182,7 @@ class Cutter:
                         break
                     height = height if height > least else least
                     filled = area + extra
-                    if (width + gap) * (height + gap) - filled <= self.waste and height <= highest:
+                    if (width + gap) * (height + gap) - filled <= waste and height <= highest:
                         grown = _Partial(width, height, cost + more, filled, before, column)
                         partial.setdefault(end, []).append(grown)
         return opened, closed
@@ -265,7 +268,7 @@ class _Pages:
             parts = self._followed(i)
             if parts:
                 room = self.rooms[parts[0].pages > 0]
-                rows = self.cutter.rows(i, room, Edge())
+                rows = self.cutter.rows(i, room, Edge(), self._spent(i, parts, room))
                 for part in parts:
                     self._add(part, part.used, rows, room)
         last = self.ended[self.count]
@@ -280,6 +283,13 @@ class _Pages:
         if len(kept) > KEPT_PAGES:
             kept = [kept[k * (len(kept) - 1) // (KEPT_PAGES - 1)] for k in range(KEPT_PAGES)]
         return kept
+
+    def _spent(self, i: int, parts: list[_Part], room: Room) -> float:
+        """Return the area that all these parts of a single page leave empty above view `i`."""
+        if self.limit != 1:
+            return 0.0
+        highest = min(part.used for part in parts)
+        return (highest + self.gap) * (room.width + self.gap) - (self.left[0] - self.left[i]) - SLACK
 
     def _add(self, part: _Part, used: float, rows: tuple[list[Row], list[Row]], room: Room) -> None:
         lowest = room.height + SLACK - self.gap - used

@@ -10,8 +10,9 @@ marks of the mechanism itself are bare letters.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from ..scales.errors import InputError
 
@@ -171,17 +172,25 @@ class RecordingBoard(Board):
             raise InputError("name-twice", name=name.lstrip("_"))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Program:
-    """A construction as it was recorded: straight steps on names, in order."""
+    """A construction as it was recorded: straight steps on names, in order; what is looked up in it is kept."""
 
     steps: tuple[Step, ...]
+
+    def __hash__(self) -> int:
+        """Return the hash of the steps, computed once: tables of what a program says are looked up by it."""
+        return self._hash
 
     def __iter__(self) -> Iterator[Step]:
         """Go through the steps in order."""
         return iter(self.steps)
 
-    @property
+    @cached_property
+    def _hash(self) -> int:
+        return hash(self.steps)
+
+    @cached_property
     def names(self) -> tuple[str, ...]:
         """All names that the steps make, in order."""
         return tuple(step.name for step in self.steps)
@@ -191,14 +200,21 @@ class Program:
         """All names that the steps need and none of them makes."""
         return frozenset(name for step in self.steps for name in step.operands).difference(self.names)
 
-    @property
+    @cached_property
     def plans(self) -> tuple[str, ...]:
         """The plans that are drawn, in order."""
         return tuple(dict.fromkeys(step.plan for step in self.steps if step.verb != "calc"))
 
+    @cached_property
+    def _by_plan(self) -> Mapping[str, tuple[Step, ...]]:
+        by_plan: dict[str, list[Step]] = {}
+        for step in self.steps:
+            by_plan.setdefault(step.plan, []).append(step)
+        return {plan: tuple(steps) for plan, steps in by_plan.items()}
+
     def on(self, plan: str) -> tuple[Step, ...]:
         """Return the steps drawn on `plan`."""
-        return tuple(step for step in self.steps if step.plan == plan)
+        return self._by_plan.get(plan, ())
 
     def needed_for(self, wanted: Iterable[str]) -> Program:
         """Keep only the steps that `wanted` needs."""

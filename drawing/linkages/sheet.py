@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from operator import is_
 
 from ...scales.errors import InputError
 from ...scales.scale import Scale
@@ -12,6 +13,7 @@ from ..formats import FORMATS, Format
 from ..packing import Placement
 from ..page import Page
 from ..titleblock import Stamp
+from ..view import View
 from .fitting import SMALLEST_FIRST, Contents, Fitted, Fitting
 from .zones import zoned
 
@@ -76,6 +78,7 @@ def _worth_trying(fitting: Fitting) -> list[Format]:
 def _single(fitting: Fitting, sheet: Format, coarser: int) -> tuple[Fitted, list[Placement]] | None:
     """Try one page, each scale factor up to `coarser` rungs beyond the first at which its views fit."""
     tries = [(step, False) for step in range(coarser + 1)] + [(coarser, True)] * bool(coarser)
+    before: list[View] = []
     for step, any_order in tries:
         try:
             fitted = fitting.views(sheet, step)
@@ -83,6 +86,10 @@ def _single(fitting: Fitting, sheet: Format, coarser: int) -> tuple[Fitted, list
             if coarser or fitting.firm:
                 raise
             return None
+        same = len(before) == len(fitted[0]) and all(map(is_, before, fitted[0]))
+        if same and not any_order:  # a coarser rung that sizes nothing
+            continue
+        before = fitted[0]
         places = arrange(fitted[0], sheet, fitting.contents.norm, 1, any_order)
         if places is not None:
             return fitted, places
