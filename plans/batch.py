@@ -112,6 +112,14 @@ class ArrayBoard(ExactBoard):
         self._mark(apart_here, "no-assembly")
         return np.where(folded | apart_here, NAN, determinant)
 
+    def _clear(self, distance: Any, size: Any) -> Any:
+        if _least(distance) >= ILL * _most(size):
+            return distance
+        together = distance <= self.parallel * size
+        self._mark(distance < ILL * size, "ill-conditioned")
+        self._mark(together, "singular")
+        return np.where(together, NAN, distance)
+
     def _divisor(self, size: Any) -> Any:
         return size if _least(size) > 0.0 else np.where(size == 0.0, 1.0, size)
 

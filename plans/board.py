@@ -87,12 +87,13 @@ class Board:
         """Mark where arcs about `first` and `second` cross, to the left (+1) or right (-1) of the way between them."""
         self.step("arcs", name, first, radius, second, other, side)
 
-    def tangent(self, name: str, centre: str, point: str, offset: str, side: str) -> None:
+    def tangent(self, name: str, centre: str, point: str, offset: str, side: str, size: str) -> None:
         """Take the unit direction of a line through `point` at `offset` to the left of `centre`.
 
         There are two; `side` says whether the line runs from the foot of the normal towards `point` (+1) or back (-1).
+        `size` is that of the whole drawing: two marks that are close together beside it settle no direction.
         """
-        self.step("tangent", name, centre, point, offset, side)
+        self.step("tangent", name, centre, point, offset, side, size)
 
     def template(self, name: str, point: str, *where: str) -> None:
         """Lay a template of a link on the paths of its three joints and mark `point` through it.

@@ -158,6 +158,15 @@ class ExactBoard(TemplateBoard):
             return NAN
         return distance
 
+    def _clear(self, distance: Any, size: Any) -> Any:
+        """Return the distance of two joints, which must not be rounding beside the whole mechanism."""
+        if distance <= self.parallel * size:
+            self._fail("singular")
+            return NAN
+        if distance < ILL * size:
+            self.sines[self._name] = min(self.sines[self._name], float(distance / size))
+        return distance
+
     def _divisor(self, size: Any) -> Any:
         """Return a size to divide by: one in the place of zero, where what is divided is known to fail."""
         return size or 1.0
@@ -219,8 +228,9 @@ class ExactBoard(TemplateBoard):
         sine = self._sine_of.get(key)
         if sine is None:
             sine = self._sine_of[key] = self._lines_sine(cross(u, w))
-        offset = cross(w, p) if q is POLE else cross(q - p, w)
-        return p + u * (offset / sine)
+        if q is POLE:  # on its line to the last bit, however far the way along the other
+            return w * (cross(u, p) / sine)
+        return self._chain(p, u * (cross(self._read(p, q), w) / sine))
 
     def _arc(self, centre: Any, radius: Any, q: Any, w: Any, side: Any) -> Any:
         to_centre = self._read(q, centre)
@@ -236,11 +246,11 @@ class ExactBoard(TemplateBoard):
         along, across = (square + (radius - other) * (radius + other)) * half, side * root * half
         return self._chain(first, between * along + (between * 1j) * across)
 
-    def _tangent(self, centre: Any, point: Any, offset: Any, side: Any) -> Any:
+    def _tangent(self, centre: Any, point: Any, offset: Any, side: Any, size: Any) -> Any:
         between = self._read(centre, point)
-        distance = self._measure(centre, point)
+        distance = self._distance(centre, point)
         part = side * self._half_chord(distance, abs(offset))
-        inverse = 1.0 / distance
+        inverse = 1.0 / self._clear(distance, size)
         along = between * inverse
         return along * (part * inverse) - (along * 1j) * (offset * inverse)
 

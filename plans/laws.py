@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import reduce
 from typing import Any
 
 Law = Callable[..., Any]
@@ -81,6 +82,10 @@ def _above(value: Any) -> Any:
     return (value + abs(value)) * 0.5
 
 
+def _larger(first: Any, second: Any) -> Any:
+    return first + _above(second - first)
+
+
 def _within(value: Any, most: Any) -> Any:
     """Return a value kept between zero and `most`."""
     return most - _above(most - _above(value))
@@ -143,6 +148,8 @@ LAWS: dict[str, Law] = {
     "resisting_moment": lambda size, omega, reference: -size * _sign(omega, reference),
     # a length that none in the mechanism exceeds, and an angular velocity that goes with it
     "reach": lambda *lengths: _sum(*map(abs, lengths)),
+    # the largest of several lengths
+    "largest": lambda *lengths: reduce(_larger, map(abs, lengths)),
     "rate_over": lambda v, length: v / length,
     # 1 in the working stroke, 0 in the idle one
     "working": _working,

@@ -104,6 +104,9 @@ class NotingBoard(ExactBoard):
     def _apart(self, *operands: Any) -> Any:
         return self._checked("_apart", *operands)
 
+    def _clear(self, *operands: Any) -> Any:
+        return self._checked("_clear", *operands)
+
     def _divisor(self, *operands: Any) -> Any:
         return self._checked("_divisor", *operands)
 

@@ -234,11 +234,11 @@ def _arcs(b: ShakyBoard, exact: Operate, first: Any, radius: Any, second: Any, o
     return exact(b._off(first, b._name), radius, b._off(second, b._name), other, side)
 
 
-def _tangent(b: ShakyBoard, exact: Operate, centre: Any, point: Any, offset: Any, side: Any) -> Any:
+def _tangent(b: ShakyBoard, exact: Operate, centre: Any, point: Any, offset: Any, *rest: Any) -> Any:
     """Lay the ruler on a mark and on the circle, or on another mark where the circle has no radius."""
     if b._operands[2] != ZERO:
         offset = offset + b._reading(b._name)
-    return exact(b._off(centre, b._name), b._off(point, b._name), offset, side)
+    return exact(b._off(centre, b._name), b._off(point, b._name), offset, *rest)
 
 
 def _mark(b: ShakyBoard, exact: Operate, *operands: Any) -> Any:

@@ -122,6 +122,14 @@ class Span:
         return Body(self.link, self.start, self.e, local, omega, epsilon)
 
 
+def size_of(board: Board, mechanism: Mechanism) -> str:
+    """Calculate the largest coordinate of the mechanism: what its places are rounded by; return its name."""
+    places = [place for link in mechanism.links for place in link.points.values()]
+    places += mechanism.frame_points.values()
+    board.calc("_size", "largest", *dict.fromkeys(xy for place in places for xy in place if xy != ZERO))
+    return "_size"
+
+
 def normal_of(direction: str) -> str:
     """Return the name of the normal to a direction: n_AB to e_AB, n_u_30 to u_30."""
     return f"n_{direction.removeprefix('e_')}"

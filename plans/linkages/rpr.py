@@ -28,6 +28,7 @@ from .parts import (
     normal_of,
     place_points,
     settle,
+    size_of,
 )
 from .structure import Group
 
@@ -100,7 +101,7 @@ def position(board: Board, d: Dyad) -> None:
     """The guide's direction is that of the tangent through A to a circle about C, which is CA when it has no offset."""
     slider, guide = d.bodies
     offset = pin_offset(board, d.pair, d.slider, d.A, d.guide, d.C)
-    board.tangent(d.u, d.C, d.A, offset, d.pair.branch or "one")
+    board.tangent(d.u, d.C, d.A, offset, d.pair.branch or "one", size_of(board, d.mechanism))
     board.normal(normal_of(d.u), d.u)
     board.measure(f"l_{d.CA}", d.C, d.A)
     board.direction(f"e_{d.CA}", d.C, d.A, f"l_{d.CA}")
