@@ -38,7 +38,10 @@ class FiftyDigits(ExactBoard):
     def _turn(self, angle: Any) -> Any:
         from mpmath import mp
 
-        return mp.expj(angle) if math.isfinite(angle) else NAN
+        if not math.isfinite(angle):
+            return NAN
+        direction = mp.expj(angle)
+        return self._complex(self._upright(direction.real), self._upright(direction.imag))
 
     def _angle(self, first: Any, second: Any) -> Any:
         from mpmath import mp
