@@ -1,0 +1,171 @@
+"""Stability over the cycle: how flatly lines meet, how errors of the data come through, by how much a hand misses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..board import Program
+from ..condition import conditions
+from ..exact import run
+from ..hand import Hand
+from ..laws import TURN
+from ..shaky import Paper, Shape, draw
+from ..worth import plans_of, worst_behind
+from .accuracy import signs
+from .contest import one_of
+from .cycle import Cycle
+from .undetermined import undetermined_at
+
+Array = NDArray[Any]
+DIGITS = 16.0  # of double precision
+DRAWINGS, SHARE = 300, 0.95
+AT_ONCE = 60_000  # drawings in one go, of all positions together
+DEAD, CHANGE, POLE, LIMIT = "dead", "change", "parallel", "limit"
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """A place of the driver that is special: `dead` (of `link`), `change`, `parallel` guides, or a `limit`."""
+
+    kind: str
+    place: float
+    link: int | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stability:
+    """What is lost over the cycle; all arrays of shape (N,), NaN where a position has no plan.
+
+    Attributes
+    ----------
+    places : float64 array
+        Of the driver, rad or m.
+    sines : float64 array
+        Of the worst intersection on which the chosen quantities hang; `worst` names its marks.
+    conditions : mapping of str to float64 array
+        K of every quantity.
+    misses : mapping of str to float64 array
+        What most drawings of a hand keep, in millimetres where a plan shows the quantity, otherwise in per cent of its
+        largest value over the cycle; `in_mm` tells which.
+    """
+
+    places: Array
+    statuses: tuple[str, ...]
+    sines: Array
+    worst: tuple[str, ...]
+    conditions: Mapping[str, Array]
+    misses: Mapping[str, Array]
+    in_mm: Mapping[str, bool]
+    spots: tuple[Spot, ...]
+
+    @property
+    def angles(self) -> Array:
+        """Angles of the worst intersection, degrees."""
+        found: Array = np.degrees(np.arcsin(np.clip(self.sines, 0.0, 1.0)))
+        return found
+
+    def digits(self, name: str) -> Array:
+        """Return how many digits of double precision are left of a quantity, beside the largest vector of its plan."""
+        with np.errstate(divide="ignore"):
+            lost = np.log10(np.maximum(self.conditions[name], 1.0))
+        found: Array = DIGITS - lost
+        return found
+
+
+def stability(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand: Hand, seed: int = 0) -> Stability:
+    """Look at quantities at all places of a cycle.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Quantities.
+    mus : mapping of str to float
+        Scale factors by plan, SI per mm.
+    """
+    places = cycle.angles
+    statuses = list(cycle.statuses)
+    sines, worst = np.full(len(places), np.nan), [""] * len(places)
+    found = {name: np.full(len(places), np.nan) for name in names}
+    lost = undetermined_at(cycle.drive, cycle.reach, places)
+    givens = cycle.drive.givens(cycle.givens, _within(cycle, places), cycle.program)
+    for i in range(len(places)):
+        values = one_of(givens, i)
+        board = run(cycle.program, values)
+        if board.trouble is not None or lost[i]:
+            sines[i] = 0.0 if board.status == "singular" or lost[i] else np.nan
+            continue
+        sines[i], worst[i] = _worst(cycle.program, board.sines, names)
+        fixed = signs(cycle.mechanism)
+        varied = [name for name, value in values.items() if name not in fixed and value]
+        known = conditions(cycle.program, values, varied, board.values, board.sines)
+        for name in names:
+            value = known[name].value
+            found[name][i] = np.nan if value is None else value
+    plans = plans_of(cycle.program)
+    in_mm = {name: plans.get(name, "") in mus for name in names}
+    misses = _misses(cycle, names, mus, hand, seed)
+    for name in names:
+        size = mus[plans[name]] if in_mm[name] else np.nanmax(np.abs(cycle.values[name]), initial=0.0) / 100.0
+        misses[name] = np.where(lost, np.nan, misses[name]) * (1.0 / size if size else np.nan)
+    return Stability(places, tuple(statuses), sines, tuple(worst), found, misses, in_mm, spots(cycle))
+
+
+def _within(cycle: Cycle, places: Array) -> Array:
+    """Return angles of a crank between -180 and 180 degrees: of an angle its radians count as a given."""
+    if not cycle.drive.turns:
+        return places
+    found: Array = places - TURN * np.rint(places / TURN)
+    return found
+
+
+def _worst(program: Program, sines: Mapping[str, float], names: Sequence[str]) -> tuple[float, str]:
+    """Return the least sine on which any of the names hangs, and the mark where the lines meet so."""
+    least = min((worst_behind(program, sines)[name] for name in names), default=1.0)
+    needed = {step.name for step in program.needed_for(names)}
+    marks = [mark for mark, sine in sines.items() if mark in needed and abs(sine) == least]
+    return least, marks[0] if marks else ""
+
+
+@dataclass(frozen=True, slots=True)
+class _Alike:
+    """Errors that are the same in all positions, so that curves over the cycle are smooth."""
+
+    random: np.random.Generator
+
+    def standard_normal(self, size: Shape, /) -> Array:
+        """Return an array of errors in standard deviations."""
+        assert isinstance(size, tuple)
+        return np.broadcast_to(self.random.standard_normal((1, *size[1:])), size)
+
+
+def _misses(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand: Hand, seed: int) -> dict[str, Array]:
+    """Return what most drawings keep, SI."""
+    program = cycle.program.needed_for(names)
+    givens = cycle.drive.givens(cycle.givens, cycle.angles, cycle.program)
+    count, some = len(cycle.angles), max(AT_ONCE // DRAWINGS, 1)
+    found = {name: np.full(count, np.nan) for name in names}
+    last = int(np.ceil(SHARE * DRAWINGS)) - 1
+    for start in range(0, count, some):
+        part = slice(start, min(start + some, count))
+        shape = (part.stop - start, DRAWINGS)
+        here = {name: value[part, None] if np.ndim(value) else value for name, value in givens.items()}
+        board = draw(Paper(program, here, mus), hand, _Alike(np.random.default_rng(seed)), shape)
+        for name in names:
+            exact = np.broadcast_to(cycle.values[name], count)[part, None]
+            off = np.broadcast_to(np.abs(board.values[name] - exact), shape)
+            found[name][part] = np.sort(off, axis=1)[:, last]  # what cannot be drawn comes last
+    return found
+
+
+def spots(cycle: Cycle) -> tuple[Spot, ...]:
+    """Return the special places of the driver."""
+    found = [Spot(DEAD, dead.angle, motion.output.link) for motion in cycle.motions for dead in motion.dead]
+    found += [Spot(CHANGE, place) for place in cycle.reach.changes]
+    found += [Spot(POLE, place) for place in cycle.reach.poles]
+    found += [Spot(LIMIT, place) for place in cycle.reach.limits]
+    return tuple(found)

@@ -1,0 +1,106 @@
+"""Newton's method on closed contours beside plans: another route to the same motion, whose error its tolerance sets."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from kulman.plans.linkages.contest import places_of
+from kulman.plans.linkages.cycle import Cycle, cycle
+from kulman.plans.linkages.mechanism import Mechanism
+from kulman.plans.linkages.rivals import Newton, Rivals, groups
+from kulman.tests.linkages import (
+    four_bar,
+    piston_engine,
+    random_crank_rockers,
+    random_slider_cranks,
+    slider_crank,
+)
+from kulman.variants.reader import load_task
+from kulman.variants.shelf import bundled
+
+MOTION = ("velocity", "acceleration")
+PLANS = ("position", *MOTION)
+TOLERANCES = (1e-1, 1e-2, 1e-4, 1e-8)
+
+
+def of_task(name: str, positions: int = 12) -> Cycle:
+    task = load_task(name)
+    return cycle(task.mechanism, task.values(None, {}), PLANS, positions)
+
+
+def differences(found: Any, exact: Any) -> float:
+    """Return the largest difference of quantities, in parts of the largest value of each kind."""
+    sizes: dict[str, float] = {}
+    for name, values in exact.items():
+        kind = name.partition("_")[0]
+        sizes[kind] = max(sizes.get(kind, 0.0), float(np.nanmax(np.abs(values))))
+    return max(float(np.nanmax(np.abs(found[n] - x))) / (sizes[n.partition("_")[0]] or 1.0) for n, x in exact.items())
+
+
+def both(whole: Cycle, tolerance: float) -> tuple[Any, Any]:
+    """Return motion by Newton's method and by plans, half a step off the ends of the cycle."""
+    rivals, places = Rivals.of(whole), places_of(whole, 24)
+    names = [name for group in groups(whole) if group.kind in MOTION for name in group.names]
+    return Newton(rivals).way(tolerance)(places, names), rivals.plan(places, names)
+
+
+@pytest.mark.parametrize("name", bundled())
+def test_newton_agrees_with_plans(name: str) -> None:
+    found, exact = both(of_task(name), 1e-9)
+
+    assert any(name.startswith("a_") for name in exact)
+    assert differences(found, exact) < 1e-8
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "values"),
+    [
+        *((four_bar(), values) for values in random_crank_rockers(11, 8)),
+        *((slider_crank(), values) for values in random_slider_cranks(12, 8)),
+    ],
+)
+def test_newton_agrees_with_plans_of_random_mechanisms(mechanism: Mechanism, values: dict[str, float]) -> None:
+    found, exact = both(cycle(mechanism, values, PLANS), 1e-9)
+
+    assert differences(found, exact) < 1e-9
+
+
+def test_newton_takes_a_driver_that_slides_and_speeds_up() -> None:
+    from dataclasses import replace
+
+    driven = piston_engine()
+    driven = replace(driven, driver=replace(driven.driver, acceleration="a"))
+    values = {"gamma": 0.3, "l_AB": 0.5, "l_OA": 0.2, "side": 1.0, "travel": 0.55, "speed": 2.0, "a": 3.0}
+    found, exact = both(cycle(driven, values, PLANS, start=0.45, end=0.6), 1e-9)
+
+    assert differences(found, exact) < 1e-10
+
+
+def test_error_falls_with_the_tolerance() -> None:
+    whole = of_task("madi-four-bar")
+    errors = [differences(*both(whole, tolerance)) for tolerance in TOLERANCES]
+
+    assert errors == sorted(errors, reverse=True)
+    assert errors[0] > 1e-6
+    assert errors[-1] < 1e-13
+
+
+def test_what_newton_does_not_find_is_not_a_number() -> None:
+    whole = of_task("madi-four-bar")
+    places = places_of(whole, 24)
+    newton = Newton(Rivals.of(whole))
+
+    found = newton.way(0.0)(places, ("V_C",))["V_C"]
+
+    assert np.isnan(found).all()
+
+
+def test_contours_are_no_more_than_loops() -> None:
+    whole = of_task("scheme-09-shaper")
+    closure = Newton(Rivals.of(whole))._closure
+
+    assert len(closure.contours.closed) == 2
+    assert closure.contours.count == 4  # frame and slide, crank, lever and block, rod
