@@ -76,19 +76,21 @@ class ArrayBoard(ExactBoard):
         self._mark(size < self.parallel, "singular")
         return np.where(size < self.parallel, NAN, sine)
 
-    def _reaches(self, square: Any, radius: Any, distance: Any) -> Any:
+    def _reaches(self, square: Any, radius: Any, distance: Any, *places: Any) -> Any:
         if _least(square) >= (ILL * _most(radius)) ** 2:
             return square
-        touching = self.touching * radius * radius
+        touching = self.touching * radius * (radius + sum(map(abs, places)))
         out = square < -touching
         self._mark(square < ILL * ILL * radius * radius, "ill-conditioned")
         self._mark(out, "no-assembly")
         return np.where(out, NAN, np.where(square <= touching, 0.0, square))
 
-    def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, double: Any) -> Any:
+    def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, *places: Any) -> Any:
+        double = first * second * 2.0
         if _least(product) > (ILL * _most(double)) ** 2:
             return product
-        touching, together = 2.0 * self.touching * total * first * second, base <= self.touching * total
+        rounded = self.touching * (total + sum(map(abs, places)))
+        touching, together = rounded * double, base <= rounded
         out = product < -touching * total
         self._mark(product < (ILL * double) ** 2, "ill-conditioned")
         self._mark(together, "singular")

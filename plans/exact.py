@@ -118,16 +118,18 @@ class ExactBoard(TemplateBoard):
             return NAN
         return sine
 
-    def _half_chord(self, radius: Any, distance: Any) -> Any:
+    def _half_chord(self, radius: Any, distance: Any, first: Any, second: Any) -> Any:
         """Half the chord that a circle cuts from a line at `distance` from its centre, factored, not to cancel."""
-        return self._sqrt(self._reaches((radius - distance) * (radius + distance), radius, distance))
+        square = (radius - distance) * (radius + distance)
+        return self._sqrt(self._reaches(square, radius, distance, first.real, first.imag, second.real, second.imag))
 
-    def _reaches(self, square: Any, radius: Any, distance: Any) -> Any:
+    def _reaches(self, square: Any, radius: Any, distance: Any, *places: Any) -> Any:
         """Return the square of the half chord; an arc that does not reach the line cuts no chord.
 
-        One that crosses it by no more than rounding touches it: there is no angle to draw anything with.
+        One that crosses it by no more than rounding touches it: there is no angle to draw anything with. The distance
+        is rounded as the coordinates of the `places` are from which it comes.
         """
-        touching = self.touching * radius * radius
+        touching = self.touching * radius * (radius + sum(map(abs, places)))
         if square < -touching:
             self._fail("no-assembly", gap=distance - radius)
             return NAN
@@ -135,16 +137,18 @@ class ExactBoard(TemplateBoard):
         self.sines[self._name] = math.sqrt(square) / radius if radius else 0.0
         return square
 
-    def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, double: Any) -> Any:
+    def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, *places: Any) -> Any:
         """Return Heron's product, factored, not to cancel; arcs that do not meet make no triangle.
 
         Links in line but for rounding are in line, and pins together but for rounding coincide.
         """
-        touching = 2.0 * self.touching * total * first * second
+        rounded = self.touching * (total + sum(map(abs, places)))
+        double = first * second * 2.0
+        touching = rounded * double
         if product < -touching * total:
             self._fail("no-assembly", gap=max(base - total, abs(first - second) - base))
             return NAN
-        if base <= self.touching * total:
+        if base <= rounded:
             self._fail("singular")
             return NAN
         product = 0.0 if product <= touching * base else product
@@ -234,14 +238,15 @@ class ExactBoard(TemplateBoard):
 
     def _arc(self, centre: Any, radius: Any, q: Any, w: Any, side: Any) -> Any:
         to_centre = self._read(q, centre)
-        half = self._half_chord(radius, abs(cross(w, to_centre)))
+        half = self._half_chord(radius, abs(cross(w, to_centre)), centre, q)
         return self._chain(q, w * (dot(w, to_centre) + side * half))
 
     def _arcs(self, first: Any, radius: Any, second: Any, other: Any, side: Any) -> Any:
         between = self._read(first, second)
         square = dot(between, between)
-        total, double, product = heron(radius, other, base := self._sqrt(square))
-        root = self._sqrt(self._assembles(product, radius, other, base, total, double))
+        total, product = heron(radius, other, base := self._sqrt(square))
+        places = first.real, first.imag, second.real, second.imag
+        root = self._sqrt(self._assembles(product, radius, other, base, total, *places))
         half = 0.5 / self._divisor(square)  # parts of the way between the centres: along it, and across
         along, across = (square + (radius - other) * (radius + other)) * half, side * root * half
         return self._chain(first, between * along + (between * 1j) * across)
@@ -249,7 +254,7 @@ class ExactBoard(TemplateBoard):
     def _tangent(self, centre: Any, point: Any, offset: Any, side: Any, size: Any) -> Any:
         between = self._read(centre, point)
         distance = self._distance(centre, point)
-        part = side * self._half_chord(distance, abs(offset))
+        part = side * self._half_chord(distance, abs(offset), centre, point)
         inverse = 1.0 / self._clear(distance, size)
         along = between * inverse
         return along * (part * inverse) - (along * 1j) * (offset * inverse)
@@ -301,10 +306,10 @@ class ExactBoard(TemplateBoard):
         return "ill-conditioned" if min(self.sines.values(), default=1.0) < ILL else "ok"
 
 
-def heron(first: Any, second: Any, base: Any) -> tuple[Any, Any, Any]:
-    """Return the sum of two sides, twice their product, and 16 times the squared area of the triangle on `base`."""
+def heron(first: Any, second: Any, base: Any) -> tuple[Any, Any]:
+    """Return the sum of two sides, and 16 times the squared area of the triangle on `base`."""
     total, between = first + second, first - second
-    return total, first * second * 2.0, (total + base) * (total - base) * (base + between) * (base - between)
+    return total, (total + base) * (total - base) * (base + between) * (base - between)
 
 
 def _is_zero(value: Any) -> bool:

@@ -111,13 +111,13 @@ class MarginBoard(ArrayBoard):
         super().restart(givens, codes)
         self.margins = {}
 
-    def _reaches(self, square: Any, radius: Any, distance: Any) -> Any:
+    def _reaches(self, square: Any, radius: Any, distance: Any, *places: Any) -> Any:
         self.margins[self._name] = square + TANGENT * radius * radius
-        return super()._reaches(square, radius, distance)
+        return super()._reaches(square, radius, distance, *places)
 
-    def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, double: Any) -> Any:
+    def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, *places: Any) -> Any:
         self.margins[self._name] = product + 2.0 * TANGENT * total * total * first * second
-        return super()._assembles(product, first, second, base, total, double)
+        return super()._assembles(product, first, second, base, total, *places)
 
     def _lines_sine(self, sine: Any) -> Any:
         self.margins[self._name] = sine
