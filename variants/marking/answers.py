@@ -66,7 +66,8 @@ class Line:
 class Answers:
     """All answers of one student; `about` is what the file says of task, variant and sheet id, as written.
 
-    `problems` are cells that could not be read; what stands beside them is marked all the same.
+    `problems` are cells that could not be read; what stands beside them is marked all the same. `columns` are the
+    quantities that a class was asked, nothing for a form of one's own.
     """
 
     source: str
@@ -75,6 +76,7 @@ class Answers:
     lines: Mapping[str, Line]
     scales: Mapping[str, Mu]
     problems: tuple[LocatedError, ...] = ()
+    columns: tuple[str, ...] = ()
 
     @property
     def empty(self) -> bool:

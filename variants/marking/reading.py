@@ -130,9 +130,10 @@ class _Sheet:
             return
         self.lines[line.name] = line
 
-    def answers(self, source: str, who: Who, about: Mapping[str, str]) -> Answers:
+    def answers(self, source: str, about: Mapping[str, str], columns: tuple[str, ...] = ()) -> Answers:
         """Return what has been read."""
-        return Answers(source, who, about, self.lines, self.scales, tuple(self.problems))
+        who = Who(*(about.get(key, "") for key in ("student", "group", "book", "number", "email")))
+        return Answers(source, who, about, self.lines, self.scales, tuple(self.problems), columns)
 
 
 def _per(si: str, paper: str) -> str:
@@ -157,7 +158,7 @@ def _form(grid: Grid, header: int, columns: Mapping[str, int], asked: Asked) -> 
     if exchanged is not None:
         sheet.lines = exchanged
         sheet.problems.append(LocatedError(grid.place(header), InputError("answers-swapped")))
-    return sheet.answers(grid.file, _who(about), about)
+    return sheet.answers(grid.file, about)
 
 
 def _bare_unit(text: str) -> str:
@@ -194,11 +195,6 @@ def _form_row(sheet: _Sheet, row: int, columns: Mapping[str, int], over: Mapping
     sheet.add(line, row, columns["name"])
 
 
-def _who(about: Mapping[str, str]) -> Who:
-    """Return the student that a file names."""
-    return Who(*(about.get(key, "") for key in ("student", "group", "book", "number", "email")))
-
-
 def _of_class(header: tuple[str, ...], asked: Asked) -> dict[int, tuple[str, str, str]]:
     """Return the columns of a class that hold answers: name, part and unit by column."""
     found = {}
@@ -212,6 +208,7 @@ def _of_class(header: tuple[str, ...], asked: Asked) -> dict[int, tuple[str, str
 def _class(grid: Grid, header: int, asked: Asked) -> Iterator[Answers | None]:
     """Go through the students of a class."""
     columns, about = _of_class(grid.rows[header], asked), _first(about_kind(text) for text in grid.rows[header])
+    asked_here = tuple(dict.fromkeys(name for name, _, _ in columns.values() if name in asked.quantities))
     strangers = _strangers(grid, header, asked, {*columns, *about.values()})
     for row in range(header + 1, len(grid.rows)):
         if not any(text not in cells.NONE for text in grid.rows[row]):
@@ -220,7 +217,7 @@ def _class(grid: Grid, header: int, asked: Asked) -> Iterator[Answers | None]:
         sheet = _Sheet(grid, asked, problems=list(strangers))
         strangers = []  # told once, not for each student
         _class_row(sheet, row, columns)
-        yield sheet.answers(grid.place(row), _who(said), said)
+        yield sheet.answers(grid.place(row), said, asked_here)
 
 
 def _strangers(grid: Grid, header: int, asked: Asked, read: set[int]) -> list[LocatedError]:

@@ -21,3 +21,8 @@ def plain(markup: str) -> str:
     text = re.sub(r"\\bar\{([^{}]*)\}", r"\1", markup)
     text = re.sub(r"(?<![A-Z])([a-z]′*)_\{(\d+)\}$", r"\1\2", text)
     return re.sub(r"[{}]", "", text)
+
+
+def mistake_texts(language: str) -> dict[str, str]:
+    """Return what was done by whoever made a mistake, by its id."""
+    return packaged(__package__, "texts", f"mistakes.{language}")

@@ -1,0 +1,130 @@
+"""The answer form: what is asked, grouped by plan in order of construction, as rows of cells."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from ...drawing.linkages.letters import lettered
+from ...drawing.linkages.reading import read
+from ...drawing.words import Words
+from ...plans.board import POSITION
+from ...plans.linkages.solved import Solved
+from ...plans.marking.key import Question
+from ...scales.units import format_unit
+from .answers import Asked
+from .wording import plain, texts
+
+ASKED_ABOUT = ("task", "variant", "sheet", "student", "group", "book")
+COLUMNS = ("name", "symbol", "vector", "mm", "mu", "value", "unit", "direction")
+KINEMATIC = {"l": "velocity", "V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """The questions of one plan: its heading, its scale factors, the names asked."""
+
+    heading: str
+    scales: tuple[str, ...]
+    questions: tuple[Question, ...]
+
+
+def sections(solved: Solved, questions: Iterable[Question], words: Words) -> list[Section]:
+    """Return the questions plan by plan, in order of construction."""
+    by_key: dict[str, list[Question]] = {}
+    current = ""
+    for question in questions:
+        current = _section(solved, question, current)
+        by_key.setdefault(current, []).append(question)
+    found, taken = [], set[str]()
+    for key, own in by_key.items():
+        plans = (question.plan for question in own if drawn(question))
+        symbols = dict.fromkeys(solved.scale_of_plan[plan] for plan in plans if plan in solved.scale_of_plan)
+        fresh = tuple(symbol for symbol in symbols if symbol not in taken)
+        taken.update(fresh)
+        found.append(Section(_heading(key, words), fresh, tuple(own)))
+    return found
+
+
+def drawn(question: Question) -> bool:
+    """Whether a quantity can be measured on a plan."""
+    return question.vector or question.step.verb in ("read", "arm", "measure", "distance")
+
+
+def _section(solved: Solved, question: Question, current: str) -> str:
+    """Return the section of a question; an arm stands with the forces dealt with before it."""
+    head, plan = question.name.partition("_")[0], question.plan
+    if plan == "lever" or current == "lever":
+        return "lever"
+    if plan.startswith(("V_at_", "a_at_")):
+        return plan
+    if head in KINEMATIC and plan in (POSITION, "velocity", "acceleration") and "forces" not in current:
+        return KINEMATIC[head]
+    if head in ("R", "M") and plan.startswith("forces"):
+        return f"forces:{solved.scale_of_plan[plan].removeprefix('mu_F_')}"
+    return "loads" if head not in ("h", "M", "F") or current in ("", "acceleration", "loads") else current
+
+
+def _heading(key: str, words: Words) -> str:
+    """Return the heading of a section, as the sheet has it."""
+    kind, _, rest = key.partition(":")
+    if kind == "loads":
+        return texts(words.language)["form.loads"]
+    if kind == "forces":
+        many = len(rest) > 1
+        return words["heading.group_forces"].format(links=", ".join(rest)) if many else words["heading.driver"]
+    if kind.startswith("V_at_"):
+        return words["heading.compound_velocity"]
+    if kind.startswith("a_at_"):
+        return words["heading.compound_acceleration"].format(point=kind.removeprefix("a_at_"))
+    return words[f"heading.{kind}"]
+
+
+def form_rows(
+    solved: Solved, parts: Iterable[Section], asked: Asked, words: Words, about: Mapping[str, str]
+) -> Iterator[tuple[str, ...]]:
+    """Go through the rows of an empty form; `about` is what is known of the sheet already."""
+    said = texts(words.language)
+    words = lettered(words, solved)
+    for key in ASKED_ABOUT:
+        yield (said[f"about.{key}"], about.get(key, ""))
+    yield (said["form.hint"],)
+    yield tuple(said[f"column.{column}"] for column in COLUMNS)
+    letters = vector_letters(solved, words)
+    for part in parts:
+        yield (plain(part.heading),)
+        for symbol in part.scales:
+            unit = _written(f"({asked.display.unit(asked.scales[symbol])})/{asked.display.paper}", words)
+            yield (symbol, plain(words.symbol(symbol)), "", "", "", "", unit)
+        for question in part.questions:
+            name, unit = question.name, _written(asked.unit(question.name), words)
+            yield (name, plain(words.symbol(name)), letters.get(name, ""), "", "", "", unit)
+
+
+def vector_letters(solved: Solved, words: Words) -> dict[str, str]:
+    """Return the letters of the vector that shows a quantity on its plan: pb, ab, n_BA b."""
+    reading = read(solved.program)
+    edges = (edge for plan in solved.program.plans for edge in reading.on(plan))
+    found: dict[str, str] = {}
+    for edge in edges:
+        tail, tip = (plain(words.mark(mark)) for mark in (edge.tail, edge.tip))
+        found.setdefault(edge.name.removeprefix("_"), f"{tail}{tip}")
+    return found
+
+
+def _written(unit: str, words: Words) -> str:
+    return format_unit(unit, words.language)
+
+
+def class_header(parts: Iterable[Section], language: str) -> tuple[str, ...]:
+    """Return the columns of a class: who it is, then scale factors, and segment, value and sense of each quantity."""
+    said = texts(language)
+    columns = [said[f"about.{key}"] for key in ("student", "group", "book", "number", "variant", "sheet")]
+    for part in parts:
+        columns += part.scales
+        for question in part.questions:
+            name = question.name
+            columns += [f"{name}.mm"] if drawn(question) else []
+            columns += [name]
+            columns += [f"{name}.dir"] if question.vector else []
+    return tuple(columns)

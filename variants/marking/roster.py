@@ -1,0 +1,126 @@
+"""The roster of a class: who is in it, which variant and data each one has; or a variant by the record book."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...scales.errors import InputError
+from ...scales.names import latin, unknown
+from ...scales.numbers import quote
+from ..task import LocatedError, Task
+from .answers import Answers, Who
+from .grid import SHOWN, Grid, read_grid
+from .headers import about_kind, quantity_part
+
+KEYS = ("number", "book", "email", "student")  # by which a student is found, the surest first
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One student of the roster: the variant, empty where the record book decides, and other values for givens."""
+
+    who: Who
+    variant: str
+    settings: Mapping[str, str]
+    place: str
+
+
+@dataclass(frozen=True, slots=True)
+class Roster:
+    """The students of a class, in the order of the file."""
+
+    entries: tuple[Entry, ...]
+
+    def find(self, who: Who) -> Entry | None:
+        """Return the entry of a student: by number, record book, e-mail or name, whichever is there first."""
+        for key in KEYS:
+            said = _folded(getattr(who, key))
+            found = [entry for entry in self.entries if said and _folded(getattr(entry.who, key)) == said]
+            if len(found) == 1:
+                return found[0]
+        return None
+
+    def missing(self, handed_in: Iterable[Answers]) -> list[Entry]:
+        """Return those who have handed in nothing."""
+        there = [id(entry) for answers in handed_in if (entry := self.find(answers.who)) is not None]
+        return [entry for entry in self.entries if id(entry) not in there]
+
+
+def _folded(text: str) -> str:
+    """Return a name without what people write differently: capitals, apostrophes, dots, spaces."""
+    return re.sub(r"[\s.'’ʼ`]+", "", text.casefold().replace("ё", "е"))
+
+
+def read_roster(file: str | Path, task: Task) -> Roster:
+    """Read a roster: CSV or XLSX with a column `student`, and `variant`, `record book`, givens such as `phi [deg]`.
+
+    Raises
+    ------
+    InputError
+        No such columns; an unknown variant or given, or a value that it cannot take, with the cell.
+    """
+    grid = read_grid(file)
+    header = next((row for row in range(min(len(grid.rows), 20)) if _is_header(grid.rows[row])), None)
+    if header is None:
+        raise InputError("roster-header", file=quote(grid.file, SHOWN))
+    about: dict[str, int] = {}
+    givens: dict[int, tuple[str, str]] = {}
+    for column, text in enumerate(grid.rows[header]):
+        kind, part = about_kind(text), quantity_part(text)
+        if kind is not None:
+            about.setdefault(kind, column)
+        elif part is not None and part[0] in task.givens:
+            givens[column] = (part[0], part[2])
+        elif part is not None and "_" in text:
+            error = unknown("given-unknown", part[0], task.givens, task=task.id)
+            raise LocatedError(grid.place(header, column), error)
+    rows = range(header + 1, len(grid.rows))
+    return Roster(tuple(_entry(grid, row, about, givens, task) for row in rows if any(grid.rows[row])))
+
+
+def _is_header(row: tuple[str, ...]) -> bool:
+    kinds = {about_kind(text) for text in row}
+    return bool(kinds & set(KEYS)) and len(row) > 1
+
+
+def _entry(grid: Grid, row: int, about: Mapping[str, int], givens: Mapping[int, tuple[str, str]], task: Task) -> Entry:
+    """Read one student."""
+    said = {kind: grid.text(row, column) for kind, column in about.items()}
+    variant = said.get("variant", "")
+    if variant and variant not in task.variants:
+        error = unknown("variant-unknown", variant, task.variants, task=task.id)
+        raise LocatedError(grid.place(row, about["variant"]), error)
+    settings = {}
+    for column, (name, unit) in givens.items():
+        text = grid.text(row, column)
+        if text:
+            settings[name] = f"{text} {unit}" if unit and re.fullmatch(r"[-−+0-9.,\s]+", text) else text
+            try:
+                task.givens[name].read(settings[name])
+            except InputError as error:
+                raise LocatedError(f"{grid.place(row, column)}, {name}", error) from error
+    who = Who(*(said.get(key, "") for key in ("student", "group", "book", "number", "email")))
+    return Entry(who, variant, settings, grid.place(row))
+
+
+def variant_of_book(task: Task, book: str, digits: int = 1) -> str:
+    """Return the variant by the last digits of a record book: the one of this number, else counted round.
+
+    Raises
+    ------
+    InputError
+        The record book has no such digits.
+
+    >>> from kulman import load_task
+    >>> variant_of_book(load_task("nau-slider-crank"), "АТ-2023/417")
+    '7'
+    """
+    found = re.sub(r"\D", "", latin(book))[-digits:]
+    if len(found) < digits:
+        raise InputError("roster-book", text=quote(book), n=digits)
+    names = [name for name in task.variants if name.isdigit()] or list(task.variants)
+    by_number = {int(name): name for name in names if name.isdigit()}
+    return by_number.get(int(found)) or names[int(found) % len(names)]

@@ -1,0 +1,184 @@
+"""The rubric: what each quantity weighs, what each verdict is worth, what is asked, and what tolerance holds."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ...plans.hand import Tolerance, preset
+from ...plans.marking.verdicts import Line, Verdict
+from ...scales.errors import InputError
+from ...scales.names import unknown
+from ...scales.numbers import quote
+from ..task import LocatedError
+from .answers import Asked
+
+WORTH = {
+    Verdict.RIGHT: 1.0,
+    Verdict.CARRIED: 1.0,
+    Verdict.ARITHMETIC: 0.5,
+    Verdict.SCALE: 0.5,
+    Verdict.WRONG: 0.0,
+    Verdict.MISSING: 0.0,
+}
+LARGEST = 100_000  # bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Rubric:
+    """How answers are marked.
+
+    Parameters
+    ----------
+    out_of : float
+        The full mark.
+    weights : mapping of str to float
+        What quantities weigh; those that are not named weigh one.
+    worth : mapping of str to float
+        What a verdict is worth, in parts of the weight.
+    asked : tuple of str
+        The quantities asked; all when empty.
+    limits : mapping of str to float
+        Tolerances of single quantities, SI.
+    """
+
+    tolerance: Tolerance
+    out_of: float = 100.0
+    weights: Mapping[str, float] = field(default_factory=dict)
+    worth: Mapping[Verdict, float] = field(default_factory=lambda: WORTH)
+    asked: tuple[str, ...] = ()
+    limits: Mapping[str, float] = field(default_factory=dict)
+
+    def weight(self, name: str) -> float:
+        """Return what a quantity weighs."""
+        return self.weights.get(name, 1.0)
+
+    def mark(self, lines: Iterable[Line]) -> float:
+        """Return the mark, to a tenth."""
+        weights = [(self.weight(line.name), self.worth[line.verdict]) for line in lines]
+        total = sum(weight for weight, _ in weights)
+        return round(self.out_of * sum(weight * worth for weight, worth in weights) / total, 1) if total else 0.0
+
+
+def read_rubric(file: str | Path | None, preset_name: str, asked: Asked) -> Rubric:
+    """Read a rubric, a small TOML file; without one every quantity weighs the same.
+
+        out_of = 100
+        asked = ["V_B", "omega_2", "a_B"]
+
+        [weights]
+        a_B = 3
+
+        [worth]
+        carried = 0.8
+
+        [tolerance]
+        mm = 2
+        percent = 5
+        degrees = 1
+
+        [limits]
+        V_B = "0.1 m/s"
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or holds what no rubric has; with file and key.
+    """
+    tolerance = preset(preset_name).tolerance
+    if file is None:
+        return Rubric(tolerance)
+    raw = _table(Path(file))
+    return _Reader(quote(file, 200), raw, asked).rubric(tolerance)
+
+
+def _table(path: Path) -> dict[str, Any]:
+    """Return the table of a rubric's file."""
+    shown = quote(path, 200)
+    try:
+        data = path.read_bytes() if path.stat().st_size <= LARGEST else b"\0"
+        return tomllib.loads(data.decode("utf-8-sig"))
+    except FileNotFoundError:
+        raise InputError("file-missing", file=shown) from None
+    except (OSError, ValueError, RecursionError) as problem:
+        if isinstance(problem, OSError):
+            raise InputError("file-unreadable", file=shown) from None
+        raise InputError("rubric-toml", file=shown) from None
+
+
+@dataclass(frozen=True, slots=True)
+class _Reader:
+    """Reads the keys of a rubric and says which one is wrong."""
+
+    file: str
+    raw: Mapping[str, Any]
+    asked: Asked
+
+    def rubric(self, tolerance: Tolerance) -> Rubric:
+        """Return what the file says."""
+        known = ("out_of", "asked", "weights", "worth", "tolerance", "limits")
+        for key in self.raw:
+            if key not in known:
+                raise self._at(key, unknown("key-unknown", key, known))
+        worth = {Verdict(name): value for name, value in self._numbers("worth", list(map(str, Verdict))).items()}
+        found = self._numbers("tolerance", ("mm", "percent", "degrees"))
+        return Rubric(
+            Tolerance(
+                found.get("mm", tolerance.mm),
+                found["percent"] / 100.0 if "percent" in found else tolerance.part,
+                found.get("degrees", tolerance.degrees),
+            ),
+            self._number("out_of", self.raw.get("out_of", 100.0)),
+            self._numbers("weights", self.asked.quantities),
+            {**WORTH, **worth},
+            self._names(),
+            self._limits(),
+        )
+
+    def _names(self) -> tuple[str, ...]:
+        """Return the quantities asked."""
+        names = self.raw.get("asked", [])
+        if not isinstance(names, list):
+            raise self._at("asked", InputError("rubric-names"))
+        for name in names:
+            if name not in self.asked.quantities or self.asked.quantities[name].kind == "point":
+                raise self._at("asked", unknown("quantity-unknown", name, self.asked.quantities))
+        return tuple(names)
+
+    def _limits(self) -> dict[str, float]:
+        """Return tolerances with their units."""
+        from .cells import value
+
+        found = {}
+        for name, text in self._under("limits", self.asked.quantities).items():
+            try:
+                found[name] = value(str(text), "", name, self.asked)
+            except InputError as error:
+                raise self._at(f"limits.{name}", error) from error
+        return found
+
+    def _numbers(self, table: str, known: Iterable[str]) -> dict[str, float]:
+        """Return the numbers of a table, none of them negative."""
+        return {name: self._number(f"{table}.{name}", value) for name, value in self._under(table, known).items()}
+
+    def _under(self, table: str, known: Iterable[str]) -> dict[str, Any]:
+        """Return a table whose keys are all known."""
+        found = self.raw.get(table, {})
+        if not isinstance(found, dict):
+            raise self._at(table, InputError("type-table"))
+        names = list(known)
+        for name in found:
+            if name not in names:
+                raise self._at(f"{table}.{name}", unknown("key-unknown", name, names))
+        return found
+
+    def _number(self, key: str, value: object) -> float:
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0.0 <= value < 1e9:
+            raise self._at(key, InputError("rubric-number", text=quote(value)))
+        return float(value)
+
+    def _at(self, key: str, error: InputError) -> LocatedError:
+        return LocatedError(f"{self.file}: {quote(key)}", error)
