@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from statistics import median
 from typing import Any
@@ -63,6 +63,8 @@ class Line:
         By how many tolerances it misses the better of the two.
     about : str
         Of a line that does not pass: "size" or "direction", that of a scalar being its sense.
+    way : Said, optional
+        How the answer was taken.
     """
 
     name: str
@@ -75,6 +77,7 @@ class Line:
     allowed: float
     off: float
     about: str = ""
+    way: Said | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,12 +107,23 @@ def mark(key: Key, answers: Iterable[Answer]) -> Marking:
     InputError
         A quantity that is not asked.
     """
-    said = _by_name(key, answers)
-    marker = _Marker(key, said, {name: (known(a.mu) and a.mu) or None for name, a in said.items()})
+    marker = _marker(key, answers)
     marker.settle_scales()
     lines = tuple(marker.lines())
     first = first_wrong(lines)
     return Marking(marker.key, lines, first, None if first is None else behind(key, first))
+
+
+def judge(key: Key, answers: Iterable[Answer]) -> tuple[Line, ...]:
+    """Judge the lines with a key that is drawn to the student's scales already, that of a broken rule too."""
+    marker = _marker(key, answers)
+    marker.settle_scales(redraw=False)
+    return tuple(marker.lines())
+
+
+def _marker(key: Key, answers: Iterable[Answer]) -> _Marker:
+    said = _by_name(key, answers)
+    return _Marker(key, said, {name: (known(a.mu) and a.mu) or None for name, a in said.items()})
 
 
 def first_wrong(lines: Iterable[Line]) -> str | None:
@@ -151,7 +165,7 @@ class _Marker:
         self.verdicts: dict[str, tuple[Verdict, Said | None, Miss]] = {}
         self.failed = False
 
-    def settle_scales(self) -> None:
+    def settle_scales(self, redraw: bool = True) -> None:
         """Find the scale factor of every line with millimetres, and draw the key to the student's scales."""
         by_plan: dict[str, list[str]] = {}
         for name, answer in self.answers.items():
@@ -166,7 +180,8 @@ class _Marker:
             mu = written or self.true.get(plan) or self._drawn_to(names[0])
             self.mus.update({name: mu for name in names if not self.mus[name]})
             drawn[plan] = _nearest(mu, self.key.paper.mus.get(plan, mu))
-        self.key = self.key.drawn_to({plan: mu for plan, mu in drawn.items() if mu > 0.0})
+        if redraw:
+            self.key = self.key.drawn_to({plan: mu for plan, mu in drawn.items() if mu > 0.0})
 
     def _drawn_to(self, name: str) -> float:
         return float(abs(self.key[name])) / abs(self.answers[name].mm or 1.0)
@@ -198,6 +213,7 @@ class _Marker:
                 self.key.allowed[name],
                 found.off,
                 about,
+                said,
             )
 
     def _first(self, name: str) -> Said | None:
@@ -282,8 +298,3 @@ def _nearest(mu: float, ours: float) -> float:
 def _nearest_to(values: tuple[float, ...], ours: float) -> float:
     """Return the value nearest to ours in ratio."""
     return min(values, key=lambda x: abs(math.log(abs(x) / ours)) if x and ours else math.inf)
-
-
-def carried(line: Line) -> Line:
-    """Return a line that an earlier mistake explains."""
-    return replace(line, verdict=Verdict.CARRIED, about="")

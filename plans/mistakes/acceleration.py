@@ -1,0 +1,253 @@
+"""The acceleration plan: mistakes M37 to M56."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ..board import Step
+from .rules import (
+    Change,
+    Scene,
+    constant,
+    instead,
+    length_of,
+    mistake,
+    operand,
+    opposed,
+    scaled,
+    times,
+)
+from .velocity import (
+    ACCELERATION,
+    absolute_reading,
+    along_links,
+    drive,
+    middle,
+    mirrored,
+    other_end,
+    rate_from,
+    rates,
+)
+
+POLE = f"{ACCELERATION}.p"
+
+
+@mistake("M37", ACCELERATION)
+def away_from_pivot(scene: Scene) -> Iterator[Change]:
+    """The acceleration of the crank pin is drawn away from the pivot."""
+    step = drive(scene, ACCELERATION)
+    if step is not None and step.verb == "back":
+        yield instead(step, verb="lay")
+
+
+def normals(scene: Scene) -> Iterator[tuple[Step, str]]:
+    """Go through the steps that lay off normal parts of links of groups, with the kind of link.
+
+    That is `slotted` for the link of a slotted pair, `rocker` for one on a fixed pivot after another of its group,
+    else `link`.
+    """
+    first, partner = drive(scene, ACCELERATION), None
+    for step in scene.made_by("back", plan=ACCELERATION):
+        if step is first:
+            continue
+        if step.name[-2:-1].isdigit() or any(letter.isdigit() for letter in step.name.partition(".n_")[2][1:2]):
+            yield step, "slotted"
+        elif step.operands[0] == POLE and partner is not None:
+            yield step, "rocker"
+        else:
+            yield step, "link"
+        partner = step
+
+
+def _normals(scene: Scene, *kinds: str) -> Iterator[Step]:
+    return (step for step, kind in normals(scene) if kind in kinds)
+
+
+@mistake("M38", ACCELERATION)
+def away_from_centre(scene: Scene) -> Iterator[Change]:
+    """The normal part is drawn from A to B."""
+    yield from (instead(step, verb="lay") for step in _normals(scene, "link", "rocker"))
+
+
+def _forgotten(step: Step) -> Change:
+    return instead(step, "none", operands=operand(step, 2, "zero"))
+
+
+@mistake("M39", ACCELERATION)
+def normal_forgotten(scene: Scene) -> Iterator[Change]:
+    """The normal part is forgotten."""
+    yield from map(_forgotten, _normals(scene, "link"))
+
+
+@mistake("M47", ACCELERATION)
+def second_normal_forgotten(scene: Scene) -> Iterator[Change]:
+    """The normal part of the rocker is forgotten."""
+    yield from map(_forgotten, _normals(scene, "rocker"))
+
+
+@mistake("M54", ACCELERATION)
+def normal_of_slotted_link(scene: Scene) -> Iterator[Change]:
+    """The normal part of the slotted link is forgotten, or drawn away from its pivot."""
+    for step in _normals(scene, "slotted"):
+        yield _forgotten(step)
+        yield instead(step, "away", verb="lay")
+
+
+def normal_laws(scene: Scene) -> Iterator[tuple[Step, Step]]:
+    """Go through the calculations of normal parts, with the readings of their velocities."""
+    for step in scene.made_by("calc", law="normal_part"):
+        reading = scene.steps.get(step.operands[0])
+        if reading is not None and reading.verb == "read":
+            yield step, reading
+
+
+@mistake("M40", ACCELERATION)
+def normal_from_another(scene: Scene) -> Iterator[Change]:
+    """The normal part is calculated from the absolute velocity, or from the angular velocity of the crank."""
+    for step, reading in normal_laws(scene):
+        absolute = absolute_reading(scene, reading)
+        if absolute is not None:
+            yield instead(step, "v", operands=operand(step, 0, absolute.name))
+        if "omega_1" in scene.steps:
+            yield instead(step, "omega_1", operands=operand(step, 0, "omega_1"), law="centripetal")
+
+
+@mistake("M41", ACCELERATION)
+def square_lost(scene: Scene) -> Iterator[Change]:
+    """The normal part is v / l, or omega l^2: a square is lost, or is in the wrong place."""
+    for step, reading in normal_laws(scene):
+        size = length_of(reading.name)
+        for how, law in (("v/l", "rate_over"), ("omega l^2", "circular_speed")):
+            last = replace(step, operands=(size[-1].name, step.operands[1]), law=law)
+            yield Change(step.name, {step.name: (*size, last)}, {}, how)
+
+
+@mistake("M42", ACCELERATION)
+def tangential_along_link(scene: Scene) -> Iterator[Change]:
+    """The line of the tangential part is drawn along the link."""
+    yield from along_links(scene, ACCELERATION)
+
+
+@mistake("M43", ACCELERATION)
+def rate_from_full(scene: Scene) -> Iterator[Change]:
+    """The angular acceleration is calculated from the full relative acceleration."""
+    for step, reading in rates(scene, ACCELERATION):
+        full = reading.name.removesuffix("_t")
+        if full != reading.name and full in scene.steps:
+            yield rate_from(scene, step, full)
+
+
+@mistake("M44", ACCELERATION)
+def rate_from_absolute(scene: Scene) -> Iterator[Change]:
+    """The angular acceleration is calculated from the absolute acceleration."""
+    for step, reading in rates(scene, ACCELERATION):
+        absolute = absolute_reading(scene, reading)
+        if absolute is not None and absolute.name != reading.name.removesuffix("_t"):
+            yield rate_from(scene, step, absolute.name)
+
+
+@mistake("M45", ACCELERATION)
+def sense_of_acceleration(scene: Scene) -> Iterator[Change]:
+    """The sense of an angular acceleration is wrong: the tangential part stands at the wrong end of the link."""
+    yield from (opposed(step) for step, _ in rates(scene, ACCELERATION))
+
+
+@mistake("M46", ACCELERATION)
+def crank_tangential_lost(scene: Scene) -> Iterator[Change]:
+    """The tangential part of the crank pin is lost though the crank speeds up."""
+    for step in scene.made_by("calc", law="circular_acceleration"):
+        laid = next((s for s in scene.made_by("lay", plan=ACCELERATION) if step.name in s.operands), None)
+        if laid is not None:
+            yield instead(laid, operands=operand(laid, 2, "zero"))
+
+
+def coriolis(scene: Scene) -> Iterator[Step]:
+    """Go through the accelerations of Coriolis."""
+    return scene.made_by("calc", law="coriolis")
+
+
+@mistake("M48", ACCELERATION)
+def coriolis_forgotten(scene: Scene) -> Iterator[Change]:
+    """The acceleration of Coriolis is forgotten."""
+    for step in coriolis(scene):
+        yield instead(step, operands=("zero", step.operands[1]), law="along")
+
+
+@mistake("M49", ACCELERATION)
+def coriolis_reversed(scene: Scene) -> Iterator[Change]:
+    """The acceleration of Coriolis is turned against the rotation."""
+    yield from map(opposed, coriolis(scene))
+
+
+@mistake("M50", ACCELERATION)
+def coriolis_halved(scene: Scene) -> Iterator[Change]:
+    """The acceleration of Coriolis without its factor two."""
+    yield from (scaled(step, 0.5) for step in coriolis(scene))
+
+
+@mistake("M51", ACCELERATION)
+def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
+    """The acceleration of Coriolis with the angular velocity of the crank, or with the velocity of its pin."""
+    for step in coriolis(scene):
+        if "omega_1" in scene.steps and step.operands[0] != "omega_1":
+            yield instead(step, "omega_1", operands=operand(step, 0, "omega_1"))
+        pin, slide = abs(scene.values.get(f"V_{scene.pin}", 0.0)), abs(scene.values[step.operands[1]])
+        if pin and slide:
+            yield scaled(step, pin / slide, "v")
+
+
+@mistake("M52", ACCELERATION)
+def coriolis_along_guide(scene: Scene) -> Iterator[Change]:
+    """The acceleration of Coriolis is drawn along the guide."""
+    for step in coriolis(scene):
+        twice = f"_twice_{step.name}"
+        double = Step("calc", twice, (constant(2.0), step.operands[0]), "along")
+        along = Step("calc", step.name, (twice, step.operands[1]), "along")
+        yield Change(step.name, {step.name: (double, along)}, {constant(2.0): 2.0})
+
+
+@mistake("M53", ACCELERATION)
+def coriolis_without_rotation(scene: Scene) -> Iterator[Change]:
+    """An acceleration of Coriolis is added where the guide does not turn."""
+    for step in scene.made_by("meet", plan=ACCELERATION):
+        for place in (1, 3):
+            tip = step.name.partition(".")[2]
+            own = next((u for u in step.operands[1::2] if u.startswith("n_") and not u.startswith("n_u")), None)
+            rate = next((s.name for s, _ in rates(scene, "velocity") if s.operands[1] == own), None)
+            still = step.operands[place].startswith("u_") and step.operands[place - 1] == POLE
+            if still and rate is not None and f"V_{tip}" in scene.steps:
+                for omega in dict.fromkeys((rate, "omega_1" if "omega_1" in scene.steps else rate)):
+                    yield _with_coriolis(step, place, omega, f"V_{tip}")
+
+
+def _with_coriolis(step: Step, place: int, omega: str, speed: str) -> Change:
+    vector, mark = f"_k_at_{step.name}", f"{ACCELERATION}.k_{step.name.partition('.')[2]}"
+    new = (
+        Step("calc", vector, (omega, speed), "coriolis"),
+        Step("chain", mark, (step.operands[place - 1], vector)),
+        replace(step, operands=operand(step, place - 1, mark)),
+    )
+    return Change(step.name, {step.name: new}, {}, omega)
+
+
+@mistake("M55", ACCELERATION)
+def point_wrong(scene: Scene) -> Iterator[Change]:
+    """A point of a link counted from the other end, put in the middle, or on the other side, on the plan."""
+    for how, found in (
+        ("end", other_end(scene, ACCELERATION)),
+        ("middle", middle(scene, ACCELERATION)),
+        ("mirrored", mirrored(scene, ACCELERATION)),
+    ):
+        yield from (replace(change, how=how) for change in found)
+
+
+@mistake("M56", ACCELERATION, by_scale=True)
+def read_from_velocity_plan(scene: Scene) -> Iterator[Change]:
+    """An acceleration is read from the letter of the velocity plan."""
+    for step in scene.made_by("read", plan=ACCELERATION):
+        speed = f"V_{step.name.partition('_')[2]}"
+        if step.plan == ACCELERATION and speed in scene.steps and step.name not in scene.laid_off:
+            factor = scene.mu(ACCELERATION) / scene.mu("velocity")
+            made, givens = times(Step("calc", step.name, (speed,), "given"), factor)
+            yield Change(step.name, {step.name: made}, givens)

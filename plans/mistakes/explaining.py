@@ -1,0 +1,226 @@
+"""Why answers are wrong: the mistakes that explain them, the simplest first.
+
+All signatures are held against the answers at once; the nearest ones are then taken for the right construction, and
+the answers marked with it: what is still wrong is not explained. Where one mistake leaves something, two are tried.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..marking.answers import FREE, Said
+from ..marking.verdicts import CLEAR, Line, Marking, Verdict, judge
+from .book import Book, Signature, broken, key_of, signature
+from .rules import Broken
+
+MOST = 4.0  # tolerances beyond which a miss counts no more
+ALIKE = 0.5  # tolerances by which values differ that answers cannot tell apart
+NEAR = 12  # signatures that are looked at closely
+PAIRS = 8  # pairs of them
+FIRSTS = 4  # mistakes to which a second one is added
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """An explanation: one mistake or two; those in `same` cannot be told from it by these answers.
+
+    Parameters
+    ----------
+    explained, left : tuple of str
+        Lines that are wrong without it and right with it, and those that stay wrong.
+    misses : float
+        Root of the mean square of the misses of all answers, in tolerances, those above MOST counting as MOST.
+    """
+
+    mistakes: tuple[Broken, ...]
+    same: tuple[tuple[Broken, ...], ...]
+    explained: tuple[str, ...]
+    left: tuple[str, ...]
+    misses: float
+
+    @property
+    def ids(self) -> frozenset[str]:
+        """The numbers of all mistakes that it may be."""
+        return frozenset(one.mistake for found in (self.mistakes, *self.same) for one in found)
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """The candidates, the simplest first, and the marking in which the first one is an earlier error."""
+
+    candidates: tuple[Candidate, ...]
+    marking: Marking
+
+
+@dataclass(frozen=True, slots=True)
+class _Answers:
+    """The answers of one student as columns: sizes, directions (unit vectors or signs, zero where not said)."""
+
+    size: Floats
+    way: NDArray[np.complex128]
+    free: NDArray[np.bool_]
+    angle: Floats
+
+    def misses(self, book: Book, table: NDArray[np.complex128]) -> Floats:
+        """Return the misses of rows of values, in tolerances, NaN where nothing is said; shape of `table`."""
+        sizes = np.abs(table)
+        with np.errstate(all="ignore"):
+            most = book.allowed * np.maximum(1.0, np.where(np.abs(book.right) > 0.0, sizes / np.abs(book.right), 1.0))
+            off = np.abs(self.size - sizes)
+            off = np.where(np.isnan(self.size), 0.0, _parts(off, most))
+            turned = np.abs(np.angle(np.conj(self.way) * table))
+            turned = np.where(self.free, np.minimum(turned, np.pi - turned), turned)
+            astray = np.where(book.vector, turned / self.angle, _parts(2.0 * sizes, most) * (turned > 1.0))
+            off = np.where((self.way != 0.0) & (sizes > most), np.maximum(off, astray), off)
+        said = ~np.isnan(self.size) | (self.way != 0.0)
+        return np.where(said, np.where(np.isnan(table), MOST, off), np.nan)
+
+
+def _parts(off: Floats, most: Floats) -> Floats:
+    """Return misses in tolerances, where nothing may miss zero."""
+    return np.where(off == 0.0, 0.0, off / most)
+
+
+def explain(book: Book, marking: Marking) -> Explanation:
+    """Find the mistakes that explain the answers of one student; none for answers without an error."""
+    if marking.first_wrong is None:
+        return Explanation((), marking)
+    return _Search(book.drawn_to(marking.key), marking).explanation()
+
+
+class _Search:
+    """The search for the mistakes of one student."""
+
+    def __init__(self, book: Book, marking: Marking) -> None:
+        self.book, self.marking = book, marking
+        self.said = _columns(marking)
+        self.faulty = {line.name: line.off for line in marking.lines if line.verdict.faulty}
+        self.answers = [line.answer for line in marking.lines if line.answer is not None]
+        self.first = next(i for i, line in enumerate(marking.lines) if line.name == marking.first_wrong)
+        self.without = _mean(self.said.misses(book, book.right[None, :]))[0]
+
+    def explanation(self) -> Explanation:
+        """Return the candidates in order, and the marking with the first one as an earlier error."""
+        off = self.said.misses(self.book, self.book.table)
+        means = _mean(off)
+        near = [int(i) for i in np.argsort(means, kind="stable")[:NEAR] if means[i] < self.without]
+        found = [c for i in near if (c := self._candidate((self.book.signatures[i],))) is not None]
+        if not any(self._complete(c) for c, _ in found):
+            found += self._pairs(off)
+        ranked = sorted(found, key=lambda pair: self._rank(pair[0]))
+        if not ranked:
+            return Explanation((), self.marking)
+        candidates = _grouped([(c, rows) for c, rows in ranked], self.book, self.said)
+        return Explanation(candidates, self._carried(candidates[0]))
+
+    def _complete(self, candidate: Candidate) -> bool:
+        """Whether nothing that is clearly wrong is left."""
+        return not any(self.faulty.get(name, MOST) > CLEAR for name in candidate.left)
+
+    def _rank(self, candidate: Candidate) -> tuple[bool, int, float]:
+        return not self._complete(candidate), len(candidate.mistakes), candidate.misses
+
+    def _candidate(self, signatures: tuple[Signature, ...]) -> tuple[Candidate, Signature] | None:
+        """Mark the answers with a broken construction; None where it does not explain the first wrong line."""
+        last = signatures[-1]
+        again = judge(key_of(self.book.key, last), self.answers)
+        wrong = {line.name: line.off for line in again if line.verdict.faulty}
+        if wrong.get(str(self.marking.first_wrong), 0.0) > CLEAR:
+            return None
+        left = tuple(wrong)
+        explained = tuple(name for name in self.faulty if name not in wrong)
+        if not explained:
+            return None
+        misses = float(_mean(self.said.misses(self.book, last.row[None, :]))[0])
+        return Candidate(tuple(s.broken for s in signatures), (), explained, left, misses), last
+
+    def _pairs(self, off: Floats) -> list[tuple[Candidate, Signature]]:
+        """Add a second mistake to the first ones: as if ratios multiplied, then in truth."""
+        book, firsts = self.book, self._firsts(off)
+        with np.errstate(all="ignore"):
+            ratio = np.where(np.abs(book.right) > 0.0, book.table / book.right, 1.0)
+        tried: list[tuple[float, int, int]] = []
+        for i in firsts:
+            with np.errstate(all="ignore"):
+                both = np.where(np.isfinite(ratio), book.table[i] * ratio, book.table)
+            means = _mean(self.said.misses(book, both))
+            tried += [(float(means[j]), i, int(j)) for j in np.argsort(means, kind="stable")[:PAIRS] if j != i]
+        found = []
+        for mean, i, j in sorted(tried)[:PAIRS]:
+            if mean < self.without and (pair := self._both(i, j)) is not None:
+                found.append(pair)
+        return found
+
+    def _firsts(self, off: Floats) -> list[int]:
+        """Return the mistakes that explain the first wrong line, those first that leave least."""
+        right = np.flatnonzero(off[:, self.first] <= 1.0)
+        means = _mean(off[right])
+        return [int(right[i]) for i in np.argsort(means, kind="stable")[:FIRSTS]]
+
+    def _both(self, i: int, j: int) -> tuple[Candidate, Signature] | None:
+        one, two = self.book.signatures[i], self.book.signatures[j]
+        paper = replace(self.book.key.paper, program=one.broken.program, givens=one.broken.givens)
+        again = broken(paper, one.values, (two.broken.mistake,))
+        then = next((b for b in again if b.place == two.broken.place), None)
+        made = None if then is None else signature(self.book.key, then)
+        return None if made is None else self._candidate((one, made))
+
+    def _carried(self, candidate: Candidate) -> Marking:
+        """Return the marking in which lines after the first wrong one that the candidate explains are carried."""
+        explained = set(candidate.explained) - {self.marking.first_wrong}
+        lines = tuple(_carried(line) if line.name in explained else line for line in self.marking.lines)
+        return replace(self.marking, lines=lines)
+
+
+def _carried(line: Line) -> Line:
+    return replace(line, verdict=Verdict.CARRIED, about="")
+
+
+def _columns(marking: Marking) -> _Answers:
+    """Return the answers as columns."""
+    said = [line.way or Said(None, None, None) for line in marking.lines]
+    size = np.array([np.nan if s.size is None else s.size for s in said])
+    way = np.array([s.direction if s.direction is not None else s.sign or 0.0 for s in said], complex)
+    minus = [line.answer is not None and (line.answer.value or 0.0) < 0.0 for line in marking.lines]
+    free = np.array([bool(FREE.match(line.name)) and m for line, m in zip(marking.lines, minus, strict=True)])
+    angle = np.array([marking.key.angles.get(line.name, np.pi) for line in marking.lines])
+    return _Answers(size, way, free, angle)
+
+
+def _mean(off: Floats) -> Floats:
+    """Return the root of the mean square of misses, each at most MOST."""
+    most = np.minimum(off, MOST)
+    count = np.maximum(np.sum(~np.isnan(most), axis=1), 1)
+    return np.asarray(np.sqrt(np.nansum(most * most, axis=1) / count))
+
+
+def _grouped(found: Iterable[tuple[Candidate, Signature]], book: Book, said: _Answers) -> tuple[Candidate, ...]:
+    """Put candidates together that the answers cannot tell apart."""
+    groups: list[tuple[Candidate, Any]] = []
+    asked = ~np.isnan(said.size)
+    for candidate, made in found:
+        row = made.row[asked]
+        for place, (first, other) in enumerate(groups):
+            alike = _alike(row, other, book, said, asked)
+            if alike and len(first.mistakes) == len(candidate.mistakes):
+                groups[place] = (replace(first, same=(*first.same, candidate.mistakes)), other)
+                break
+        else:
+            groups.append((candidate, row))
+    return tuple(candidate for candidate, _ in groups)
+
+
+def _alike(row: Any, other: Any, book: Book, said: _Answers, asked: NDArray[np.bool_]) -> bool:
+    """Whether two rows differ by less than answers can tell: in size, and in direction where that is said."""
+    allowed, turned = book.allowed[asked], said.way[asked] != 0.0
+    apart = np.where(turned, np.abs(row - other), np.abs(np.abs(row) - np.abs(other)))
+    sizes = np.maximum(np.abs(book.right[asked]), 1e-300)
+    most = allowed * np.maximum(1.0, np.abs(row) / sizes)
+    return bool(np.all((apart <= ALIKE * most) | np.isnan(row)))

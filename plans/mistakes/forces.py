@@ -1,0 +1,294 @@
+"""Forces and force plans: mistakes M57 to M76; M74, the scale of another group, stands with the other scales."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ..board import Step
+from .rules import (
+    Change,
+    Scene,
+    aside,
+    constant,
+    instead,
+    length_of,
+    mistake,
+    operand,
+    opposed,
+    reversed_,
+    scaled,
+    with_sign,
+)
+
+FORCES = "forces"
+G = 9.81
+
+
+def inertia_forces(scene: Scene) -> list[Step]:
+    """Return the calculations of inertia forces."""
+    return list(scene.made_by("calc", law="inertia_force"))
+
+
+def inertia_moments(scene: Scene) -> list[Step]:
+    """Return the calculations of inertia moments."""
+    return list(scene.made_by("calc", law="inertia_moment"))
+
+
+def hung(scene: Scene) -> dict[str, list[Step]]:
+    """Return the steps that hang each force on a force plan."""
+    found: dict[str, list[Step]] = {}
+    for step in scene.made_by("chain", plan=FORCES):
+        found.setdefault(step.operands[1], []).append(step)
+    return found
+
+
+def loads(scene: Scene) -> list[str]:
+    """Return the forces that are known beforehand: inertia forces, weights, outer loads."""
+    return [force for force in hung(scene) if not force.lstrip("_").startswith(("R", "F_bal"))]
+
+
+@mistake("M57", FORCES)
+def along_acceleration(scene: Scene) -> Iterator[Change]:
+    """Inertia forces are drawn along the accelerations: one of them, or all."""
+    steps = inertia_forces(scene)
+    yield from map(opposed, steps)
+    if len(steps) > 1:
+        yield Change("F_i", {step.name: reversed_(step) for step in steps}, {}, "all")
+
+
+@mistake("M58", FORCES)
+def force_left_out(scene: Scene) -> Iterator[Change]:
+    """A known force is left out of the polygon, or of everything."""
+    polygons = hung(scene)
+    for force in loads(scene):
+        gone = {step.name: (Step("same", step.name, step.operands[:1]),) for step in polygons[force]}
+        yield Change(force, gone, {}, "polygon")
+        made = scene.steps[force]
+        if made.verb == "calc":
+            nothing = (replace(made, name=aside(force)), Step("calc", force, ("zero", aside(force)), "along"))
+            yield Change(force, {force: nothing}, {}, "everywhere")
+    weights = list(scene.made_by("calc", law="weight"))
+    if len(weights) > 1:
+        yield Change("G", {s.name: (instead_zero(s)) for s in weights}, {}, "all")
+
+
+def instead_zero(step: Step) -> tuple[Step, ...]:
+    """Return the steps that make nothing of what one step makes."""
+    return replace(step, name=aside(step.name)), Step("calc", step.name, ("zero", aside(step.name)), "along")
+
+
+@mistake("M59", FORCES)
+def force_reversed(scene: Scene) -> Iterator[Change]:
+    """A known force acts the other way: in the polygon, or everywhere."""
+    inertia = {step.name for step in inertia_forces(scene)}
+    for force in loads(scene):
+        against = f"_against_{force}"
+        opposite = Step("calc", against, (force,), "opposite")
+        turned = {
+            step.name: (opposite, replace(step, operands=(step.operands[0], against))) for step in hung(scene)[force]
+        }
+        yield Change(force, turned, {}, "polygon")
+        made = scene.steps[force]
+        if force not in inertia and made.law in ("along", "weight"):
+            yield opposed(made, "everywhere")
+
+
+@mistake("M60", FORCES)
+def inertia_moment_lost(scene: Scene) -> Iterator[Change]:
+    """The inertia moment is forgotten, or has the wrong sense."""
+    for step in inertia_moments(scene):
+        yield scaled(step, 0.0, "none")
+        yield opposed(step, "sense")
+
+
+@mistake("M61", FORCES)
+def inertia_about_end(scene: Scene) -> Iterator[Change]:
+    """The moment of inertia is taken about the end of the link: m l^2 / 3 for m l^2 / 12."""
+    yield from (scaled(step, 4.0) for step in inertia_moments(scene))
+
+
+@mistake("M62", FORCES)
+def force_at_wrong_point(scene: Scene) -> Iterator[Change]:
+    """An inertia force stands at a joint or in the middle of the link, instead of the centre of mass."""
+    inertia = {step.name for step in inertia_forces(scene)}
+    for step in scene.made_by("moment"):
+        force, at, about = step.operands
+        centre = scene.steps.get(at)
+        if force not in inertia or "." in at or centre is None or centre.verb not in ("divide", "similar"):
+            continue
+        for end in centre.operands[:2]:
+            if end != about:
+                yield instead(step, end, operands=operand(step, 1, end))
+        half, middle = constant(0.5), f"_middle_of_{at}"
+        point = Step("divide", middle, (*centre.operands[:2], half, "one"))
+        moved = replace(step, operands=operand(step, 1, middle))
+        yield Change(step.name, {step.name: (point, moved)}, {half: 0.5}, "middle")
+
+
+@mistake("M63", FORCES)
+def mass_and_weight(scene: Scene) -> Iterator[Change]:
+    """The weight stands for the mass in inertia forces, or the mass for the weight."""
+    for law, factor in (("inertia_force", G), ("weight", 1.0 / G)):
+        steps = list(scene.made_by("calc", law=law))
+        yield from (scaled(step, factor) for step in steps)
+        if len(steps) > 1:
+            right = [(step.name, scaled(step, factor)) for step in steps]
+            yield Change(law, {n: c.steps[n] for n, c in right}, {constant(factor): factor}, "all")
+
+
+@mistake("M64", FORCES)
+def load_from_pressure(scene: Scene) -> Iterator[Change]:
+    """The force on a piston from its diameter in the place of the radius, without pi / 4, or in kilonewtons."""
+    for step in scene.made_by("calc"):
+        size = step.operands[0] if step.operands else ""
+        if (
+            step.law in ("along", "resisting_force")
+            and step.name.startswith(("F_", "P_"))
+            and size.startswith(("|", "_"))
+        ):
+            for factor in (4.0, 4.0 / math.pi, 1e3, 1e-3, 1e6, 1e-6):
+                yield scaled(step, factor, f"{factor:.4g}")
+
+
+@mistake("M65", FORCES)
+def resistance_along_motion(scene: Scene) -> Iterator[Change]:
+    """A resistance acts along the motion, or in the idle stroke too."""
+    for law in ("resisting_force", "resisting_moment"):
+        yield from map(opposed, scene.made_by("calc", law=law))
+    for step in scene.made_by("calc"):
+        if step.law in ("in_working", "in_idle"):
+            yield instead(step, "other stroke", law="in_idle" if step.law == "in_working" else "in_working")
+
+
+def moments(scene: Scene) -> Iterator[Step]:
+    """Go through the moments taken on the plan of the mechanism."""
+    return (step for step in scene.made_by("moment") if "." not in step.operands[1])
+
+
+@mistake("M66", FORCES)
+def arm_to_point(scene: Scene) -> Iterator[Change]:
+    """The arm is measured to the point of application instead of the line of action."""
+    for step in moments(scene):
+        force, at, about = step.operands
+        size, arm, turning = length_of(force), f"_way_{step.name}", f"_whole_{step.name}"
+        way = Step("distance", arm, (at, about))
+        product = Step("calc", turning, (size[-1].name, arm), "crank_moment")
+        yield with_sign(step, (*size, way, product), scene.values[step.name])
+
+
+def equations(scene: Scene) -> Iterator[tuple[Step, list[Step]]]:
+    """Go through the moment equations of the force plans, with the moments of forces in them."""
+    for step in scene.made_by("calc", law="moment_equation"):
+        taken = [scene.steps[name] for name in step.operands[1:] if name in scene.steps]
+        found = [s for s in taken if s.verb == "moment" and "." not in s.operands[1]]
+        if step.name.startswith("_R"):
+            yield step, found
+
+
+@mistake("M67", FORCES)
+def arms_from_another_hinge(scene: Scene) -> Iterator[Change]:
+    """Moments are taken about one hinge with arms measured from another."""
+    for equation, found in equations(scene):
+        direction = next((s for s in scene.made_by("lay", "back") if equation.name in s.operands), None)
+        link = scene.steps.get("e_" + direction.operands[1][2:]) if direction else None
+        if link is None or link.verb != "direction":
+            continue
+        new = {}
+        for step in found:
+            other = next((end for end in link.operands[:2] if end != step.operands[2]), None)
+            if other is not None and step.operands[2] in link.operands[:2]:
+                new[step.name] = (replace(step, operands=operand(step, 2, other)),)
+        if new:
+            yield Change(equation.name, new, {})
+
+
+@mistake("M68", FORCES, by_scale=True)
+def arms_in_millimetres(scene: Scene) -> Iterator[Change]:
+    """Arms in millimetres beside a moment in newton metres, or the other way round."""
+    for equation, _ in equations(scene):
+        couples = [name for name in equation.operands[1:] if not name.startswith("_M_") and scene.values[name]]
+        for factor, how in ((scene.mu("position"), "mu"), (1e3, "mm"), (1e-3, "m")):
+            new, operands = [], list(equation.operands)
+            for name in couples:
+                weighted = f"_weighted_{name}"
+                new.append(Step("calc", weighted, (constant(factor), name), "along"))
+                operands[operands.index(name)] = weighted
+            if new:
+                steps = (*new, replace(equation, operands=tuple(operands)))
+                yield Change(equation.name, {equation.name: steps}, {constant(factor): factor}, how)
+
+
+@mistake("M69", FORCES)
+def minus_lost(scene: Scene) -> Iterator[Change]:
+    """The minus of a tangential part is lost: it is drawn the other way."""
+    yield from (opposed(equation) for equation, _ in equations(scene))
+
+
+@mistake("M70", FORCES)
+def component_for_whole(scene: Scene) -> Iterator[Change]:
+    """A component is taken for the full reaction."""
+    for step in scene.made_by("read", plan=FORCES):
+        for part in ("_n", "_t"):
+            other = scene.steps.get(step.name + part)
+            if other is not None and other.verb == "read":
+                yield instead(step, part, operands=other.operands)
+
+
+def passed(scene: Scene) -> list[Step]:
+    """Return the reactions that links before get from the groups, each with its opposite."""
+    used = {name for step in scene.program if step.verb in ("chain", "moment") for name in step.operands[:2]}
+    return [s for s in scene.made_by("calc", law="opposite") if s.name.startswith("R_") and s.name in used]
+
+
+@mistake("M71", FORCES)
+def not_reversed(scene: Scene) -> Iterator[Change]:
+    """A reaction is carried to the next link without being reversed."""
+    yield from (instead(step, law="given") for step in passed(scene))
+
+
+@mistake("M72", FORCES)
+def from_driver_end(scene: Scene) -> Iterator[Change]:
+    """Groups are solved from the driver's end: the reaction of the later group is missing."""
+    driver = next((s.operands[1] for s in reversed(list(scene.made_by("chain", plan=FORCES)))), "")
+    for step in passed(scene):
+        if step.name != driver:
+            yield Change(step.name, {step.name: instead_zero(step)}, {})
+
+
+@mistake("M73", FORCES)
+def reaction_along_guide(scene: Scene) -> Iterator[Change]:
+    """The reaction of a guide is not normal to it; or its moment is skipped."""
+    for step in scene.made_by("meet", plan=FORCES):
+        for place in (1, 3):
+            direction = step.operands[place]
+            if direction.startswith("n_u") and direction[2:] in scene.steps:
+                yield instead(step, direction, operands=operand(step, place, direction[2:]))
+    for step in scene.made_by("arm"):
+        made = scene.steps[step.operands[0]]
+        if made.name.startswith("M_") and made.verb == "calc" and scene.values[made.name]:
+            yield Change(made.name, {made.name: instead_zero(made)}, {}, "moment")
+
+
+def closing(scene: Scene) -> Iterator[Step]:
+    """Go through the reactions read from force plans."""
+    return (s for s in scene.made_by("read", plan=FORCES) if s.name not in scene.laid_off and s.name[0] == "R")
+
+
+@mistake("M75", FORCES)
+def arrow_reversed(scene: Scene) -> Iterator[Change]:
+    """The polygon is closed with the arrow the wrong way round."""
+    yield from (instead(step, operands=step.operands[::-1]) for step in closing(scene))
+
+
+@mistake("M76", FORCES)
+def wrong_vertex(scene: Scene) -> Iterator[Change]:
+    """A reaction is read to the vertex beside the right one."""
+    for step in closing(scene):
+        for place, mark in enumerate(step.operands):
+            plan, _, number = mark.rpartition(".")
+            for beside in (int(number) - 1, int(number) + 1):
+                other = f"{plan}.{beside}"
+                if other in scene.steps and other not in step.operands:
+                    yield instead(step, f"{place} {beside}", operands=operand(step, place, other))

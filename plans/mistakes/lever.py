@@ -1,0 +1,105 @@
+"""Zhukovsky's lever: mistakes M77 to M82."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ..board import POSITION, Step
+from .forces import instead_zero
+from .rules import Change, Scene, instead, mistake, opposed, scaled
+
+LEVER = "lever"
+
+
+def turned(scene: Scene) -> list[Step]:
+    """Return the marks of the turned plan."""
+    return list(scene.made_by("normal", plan=LEVER))
+
+
+def moments(scene: Scene) -> Iterator[Step]:
+    """Go through the moments of forces on the lever."""
+    return (step for step in scene.made_by("moment") if step.operands[1].startswith(f"{LEVER}."))
+
+
+@mistake("M77", LEVER)
+def not_turned(scene: Scene) -> Iterator[Change]:
+    """The plan is not turned."""
+    marks = turned(scene)
+    if marks:
+        yield Change(marks[0].name, {step.name: (replace(step, verb="same"),) for step in marks}, {})
+
+
+@mistake("M78", LEVER)
+def force_on_wrong_point(scene: Scene) -> Iterator[Change]:
+    """A force hangs on another point of its link."""
+    marks = {step.name for step in turned(scene)}
+    for step in moments(scene):
+        force, at, about = step.operands
+        letter = at.partition(".")[2]
+        for other in _beside(scene, letter):
+            mark = f"{LEVER}.{other}"
+            if mark in marks and "_couple" not in force:
+                yield instead(step, other, operands=(force, mark, about))
+
+
+def _beside(scene: Scene, letter: str) -> list[str]:
+    """Return the points that lie on a link with another: its ends, or the points between them."""
+    found: dict[str, None] = {}
+    for step in scene.made_by("divide", "similar", plan=POSITION):
+        if "." in step.name:
+            continue
+        ends = step.operands[:2]
+        if letter == step.name:
+            found.update(dict.fromkeys(ends))
+        elif letter in ends:
+            found[step.name] = None
+    return [*found]
+
+
+def couples(scene: Scene) -> list[Step]:
+    """Return the couples that hang on the lever as pairs of forces, or with their powers."""
+    return [s for s in scene.made_by("calc") if s.law in ("couple", "couple_on_lever")]
+
+
+@mistake("M79", LEVER, by_scale=True)
+def moment_missing(scene: Scene) -> Iterator[Change]:
+    """A moment is missing on the lever, or hangs there as it is, without ab / AB."""
+    for step in couples(scene):
+        yield Change(step.name, {step.name: instead_zero(step)}, {}, "none")
+        length = scene.values.get(step.operands[1])
+        speed = _relative(scene, step)
+        if step.law == "couple" and speed and length:
+            factor = (length / scene.mu(POSITION)) / (speed / scene.mu("velocity"))
+            yield scaled(step, factor, "M")
+
+
+def _relative(scene: Scene, couple: Step) -> float:
+    """Return the size of the relative velocity of the ends of a link with a couple."""
+    rate = f"omega_{couple.operands[0].rpartition('_')[2].lstrip('i')}"
+    return float(abs(scene.values.get(rate, 0.0)) * abs(scene.values[couple.operands[1]]))
+
+
+@mistake("M80", LEVER)
+def sense_of_moment(scene: Scene) -> Iterator[Change]:
+    """The sense of a moment on the lever is not checked against the direction of ab."""
+    yield from map(opposed, couples(scene))
+
+
+@mistake("M81", LEVER)
+def reactions_on_lever(scene: Scene) -> Iterator[Change]:
+    """A reaction hangs on the lever."""
+    last = next((s for s in scene.made_by("calc", law="moment_equation") if not s.name.startswith("_R")), None)
+    mark, reaction = f"{LEVER}.{scene.pin}", next((n for n in scene.steps if n.startswith("R_1")), None)
+    if last is None or reaction is None or mark not in scene.steps:
+        return
+    extra = f"_M_{reaction}_p"
+    step = Step("moment", extra, (reaction, mark, f"{LEVER}.p"))
+    yield Change(last.name, {last.name: (step, replace(last, operands=(*last.operands, extra)))}, {}, reaction)
+
+
+@mistake("M82", LEVER)
+def force_for_moment(scene: Scene) -> Iterator[Change]:
+    """The balancing moment is the force, its arm being lost."""
+    for step in scene.made_by("calc", law="crank_moment"):
+        yield instead(step, operands=step.operands[:1], law="given")

@@ -1,0 +1,206 @@
+"""Rules that can be broken: each a rewrite of the same construction, found to apply from its steps alone.
+
+The numbers of the mistakes are those of the list that teachers keep, M01 to M87; M83 and later concern diagrams over
+the cycle and have no place in the plans of one position.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from ..board import POSITION, Program, Step
+from ..shaky import Paper
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A construction in which a rule may be broken: its steps, data, right values, and the scales of its plans."""
+
+    paper: Paper
+    values: Mapping[str, Any]
+
+    @property
+    def program(self) -> Program:
+        """The construction."""
+        return self.paper.program
+
+    @cached_property
+    def steps(self) -> dict[str, Step]:
+        """The steps by the names they make."""
+        return {step.name: step for step in self.program}
+
+    def made_by(self, *verbs: str, law: str = "", plan: str = "") -> Iterator[Step]:
+        """Go through the steps of some verbs, of one law, on the plans whose names begin so."""
+        for step in self.program:
+            if step.verb in verbs and (not law or step.law == law) and step.plan.startswith(plan):
+                yield step
+
+    def mu(self, plan: str) -> float:
+        """Return the scale factor of a plan, SI per mm."""
+        return float(self.paper.mus[plan])
+
+    def is_given(self, name: str) -> bool:
+        """Whether a name stands for data, other than nothing."""
+        return name in self.paper.givens and bool(self.paper.givens[name])
+
+    @cached_property
+    def pin(self) -> str:
+        """The point of the driver: the first to have a velocity."""
+        return next((s.name.partition(".")[2] for s in self.made_by("lay", plan="velocity")), "")
+
+    @cached_property
+    def laid_off(self) -> frozenset[str]:
+        """Vectors that are calculated and laid off; to read them back needs no scale."""
+        steps = self.made_by("lay", "back")
+        return frozenset(s.operands[2].removeprefix("_") for s in steps if s.operands[2].startswith("_"))
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """How a rule is broken at one place: other steps in the place of those of the same names, other data.
+
+    `how` tells apart several ways to break one rule at one place.
+    """
+
+    at: str
+    steps: Mapping[str, tuple[Step, ...]]
+    givens: Mapping[str, Any]
+    how: str = ""
+
+
+Rule = Callable[[Scene], Iterator[Change]]
+
+
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    """A mistake of the list; where `by_scale` it hangs on the scale factors that the student has chosen."""
+
+    id: str
+    chapter: str
+    breaks: Rule
+    by_scale: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Broken:
+    """A construction with one rule broken, or several one after the other, at the steps or data `at`."""
+
+    mistake: str
+    at: str
+    how: str
+    program: Program
+    givens: Mapping[str, Any]
+
+    @property
+    def place(self) -> tuple[str, str, str]:
+        """What tells it apart from others of the same construction."""
+        return self.mistake, self.at, self.how
+
+
+MISTAKES: dict[str, Mistake] = {}
+
+
+def mistake(id: str, chapter: str, by_scale: bool = False) -> Callable[[Rule], Rule]:
+    """Enter a rule in the list; several functions may break the rule of one mistake."""
+
+    def enter(rule: Rule) -> Rule:
+        before = MISTAKES.get(id)
+        breaks = rule if before is None else _both(before.breaks, rule)
+        MISTAKES[id] = Mistake(id, chapter, breaks, by_scale or (before is not None and before.by_scale))
+        return rule
+
+    return enter
+
+
+def _both(first: Rule, second: Rule) -> Rule:
+    def rule(scene: Scene) -> Iterator[Change]:
+        yield from first(scene)
+        yield from second(scene)
+
+    return rule
+
+
+def breaks(scene: Scene, id: str) -> Iterator[Broken]:
+    """Go through all ways in which the rule of one mistake can be broken here."""
+    for change in MISTAKES[id].breaks(scene):
+        steps = [new for step in scene.program for new in change.steps.get(step.name, (step,))]
+        givens = {**scene.paper.givens, **change.givens}
+        yield Broken(id, change.at, change.how, Program(tuple(steps)), givens)
+
+
+# Rewrites that many rules share.
+
+
+def aside(name: str) -> str:
+    """Return a name for what was right before it was spoilt."""
+    return f"_right_{name}"
+
+
+def constant(value: float) -> str:
+    """Return the name of a number that a mistake brings in."""
+    return f"_times_{value!r}"
+
+
+def instead(step: Step, how: str = "", **changed: Any) -> Change:
+    """Do one step otherwise: another verb, other operands, another law."""
+    return Change(step.name, {step.name: (replace(step, **changed),)}, {}, how)
+
+
+def operand(step: Step, place: int, name: str) -> tuple[str, ...]:
+    """Return the operands of a step with another one at a place."""
+    return (*step.operands[:place], name, *step.operands[place + 1 :])
+
+
+def reversed_(step: Step) -> tuple[Step, ...]:
+    """Return the steps that make the opposite of what one step makes."""
+    right = aside(step.name)
+    return replace(step, name=right), Step("calc", step.name, (right,), "opposite")
+
+
+def times(step: Step, factor: float) -> tuple[tuple[Step, ...], dict[str, float]]:
+    """Return the steps that make so many times what one step makes, and the data they need."""
+    right, name = aside(step.name), constant(factor)
+    return (replace(step, name=right), Step("calc", step.name, (name, right), "along")), {name: factor}
+
+
+def scaled(step: Step, factor: float, how: str = "") -> Change:
+    """Make so many times what one step makes."""
+    steps, givens = times(step, factor)
+    return Change(step.name, {step.name: steps}, givens, how)
+
+
+def all_scaled(at: str, steps: Iterator[Step] | list[Step], factor: float, how: str = "") -> Change:
+    """Make so many times what each of some steps makes."""
+    found = [(step.name, times(step, factor)) for step in steps]
+    return Change(at, {name: new for name, (new, _) in found}, {constant(factor): factor}, how)
+
+
+def opposed(step: Step, how: str = "") -> Change:
+    """Make the opposite of what one step makes."""
+    return Change(step.name, {step.name: reversed_(step)}, {}, how)
+
+
+def with_sign(step: Step, size: tuple[Step, ...], value: Any, how: str = "") -> Change:
+    """Make the scalar of a step anew, its size by other steps (the last one makes it), with the sign of `value`."""
+    sense = constant(-1.0 if value < 0.0 else 1.0)
+    given = {sense: -1.0 if value < 0.0 else 1.0}
+    signed = Step("calc", step.name, (size[-1].name, sense), "signed")
+    return Change(step.name, {step.name: (*size, signed)}, given, how)
+
+
+def length_of(vector: str) -> tuple[Step, ...]:
+    """Return the steps that find the size of a vector; the last one makes it."""
+    pole, tip = f"_aside_{vector}.0", f"_aside_{vector}.1"
+    return (
+        Step("pole", pole, ()),
+        Step("chain", tip, (pole, vector)),
+        Step("distance", f"_size_{vector}", (pole, tip)),
+    )
+
+
+def on_mechanism(step: Step) -> bool:
+    """Whether a step draws on the plan of the mechanism."""
+    return step.plan == POSITION

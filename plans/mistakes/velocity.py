@@ -1,0 +1,205 @@
+"""The velocity plan: mistakes M23 to M36; M55 is the same on the acceleration plan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ..board import Step
+from .rules import Change, Scene, aside, constant, instead, length_of, mistake, operand, opposed, with_sign
+
+VELOCITY, ACCELERATION = "velocity", "acceleration"
+
+
+def drive(scene: Scene, plan: str) -> Step | None:
+    """Return the step that lays off the vector of the driver's point."""
+    return next(scene.made_by("lay", "back", plan=plan), None)
+
+
+@mistake("M23", VELOCITY)
+def against_rotation(scene: Scene) -> Iterator[Change]:
+    """The vector pa is drawn against the rotation."""
+    step = drive(scene, VELOCITY)
+    if step is not None:
+        yield instead(step, verb="back")
+
+
+@mistake("M24", VELOCITY)
+def along_crank(scene: Scene) -> Iterator[Change]:
+    """The vector pa is drawn along the crank."""
+    step = drive(scene, VELOCITY)
+    if step is not None and step.operands[1].startswith("n_"):
+        yield instead(step, operands=operand(step, 1, "e_" + step.operands[1][2:]))
+
+
+def lines(scene: Scene, plan: str) -> Iterator[tuple[Step, int, str]]:
+    """Go through the lines that meet on the plans of a kind: the step, the place and the name of the direction."""
+    for step in scene.made_by("meet", plan=plan):
+        for place in (1, 3):
+            yield step, place, step.operands[place]
+
+
+def along_links(scene: Scene, plan: str) -> Iterator[Change]:
+    """Draw the line of a relative vector along the link instead of normal to it."""
+    for step, place, direction in lines(scene, plan):
+        along = "e_" + direction[2:]
+        if direction.startswith("n_") and along in scene.steps:
+            yield instead(step, direction, operands=operand(step, place, along))
+
+
+@mistake("M25", VELOCITY)
+def relative_along_link(scene: Scene) -> Iterator[Change]:
+    """The relative velocity is drawn along the link."""
+    yield from along_links(scene, VELOCITY)
+
+
+def _slotted(step: Step) -> bool:
+    """Whether a slotted pair meets here: one line goes through the mark of its pin, the other is normal to the link."""
+    starts, directions = step.operands[0::2], step.operands[1::2]
+    pins = [start.partition(".")[2] for start, u in zip(starts, directions, strict=True) if u.startswith("u_")]
+    normals = [u for u in directions if u.startswith("n_") and not u.startswith("n_u")]
+    return bool(normals) and any(pin and normals[0].endswith(pin) for pin in pins)
+
+
+def _exchanged(step: Step) -> Change:
+    p, u, q, w = step.operands
+    return instead(step, operands=(p, w, q, u))
+
+
+@mistake("M26", VELOCITY)
+def lines_from_swapped_points(scene: Scene) -> Iterator[Change]:
+    """Each of two lines is drawn through the mark of the other."""
+    yield from (_exchanged(step) for step in scene.made_by("meet", plan=VELOCITY) if not _slotted(step))
+
+
+@mistake("M27", VELOCITY)
+def across_guide(scene: Scene) -> Iterator[Change]:
+    """The line of the guide is drawn normal to it."""
+    for step, place, direction in lines(scene, VELOCITY):
+        if direction.startswith("u_") and f"n_{direction}" in scene.steps:
+            yield instead(step, direction, operands=operand(step, place, f"n_{direction}"))
+
+
+def absolute_reading(scene: Scene, relative: Step) -> Step | None:
+    """Return the reading of the absolute vector that ends where a relative one does."""
+    pole = f"{relative.plan}.p"
+    wanted = (pole, relative.operands[1])
+    if relative.operands[0] == pole:
+        return None
+    return next((s for s in scene.made_by("read", plan=relative.plan) if s.operands == wanted), None)
+
+
+def rate_from(scene: Scene, rate: Step, vector: str, how: str = "") -> Change:
+    """Calculate an angular velocity or acceleration from the size of another vector."""
+    size = length_of(vector)
+    over = Step("calc", aside(rate.name), (size[-1].name, rate.operands[2]), "rate_over")
+    return with_sign(rate, (*size, over), scene.values[rate.name], how)
+
+
+def rates(scene: Scene, plan: str) -> Iterator[tuple[Step, Step]]:
+    """Go through the rates that follow from a reading on a plan, with the reading."""
+    for step in scene.made_by("calc", law="turning"):
+        reading = scene.steps.get(step.operands[0])
+        if reading is not None and reading.verb == "read" and reading.plan.startswith(plan):
+            yield step, reading
+
+
+@mistake("M28", VELOCITY)
+def rate_from_absolute(scene: Scene) -> Iterator[Change]:
+    """The angular velocity is calculated from the absolute velocity."""
+    for step, reading in rates(scene, VELOCITY):
+        absolute = absolute_reading(scene, reading)
+        if absolute is not None:
+            yield rate_from(scene, step, absolute.name)
+
+
+@mistake("M29", VELOCITY)
+def sense_of_rotation(scene: Scene) -> Iterator[Change]:
+    """The sense of an angular velocity is wrong: the vector stands at the wrong end of the link."""
+    yield from (opposed(step) for step, _ in rates(scene, VELOCITY))
+
+
+def other_end(scene: Scene, plan: str) -> Iterator[Change]:
+    """Count a point that divides a segment from its other end."""
+    for step in scene.made_by("divide", plan=plan):
+        start, end, part, whole = step.operands
+        yield instead(step, operands=(end, start, part, whole))
+
+
+def middle(scene: Scene, plan: str) -> Iterator[Change]:
+    """Put a point that divides a segment in its middle."""
+    half = constant(0.5)
+    for step in scene.made_by("divide", plan=plan):
+        yield Change(step.name, {step.name: (replace(step, operands=(*step.operands[:2], half, "one")),)}, {half: 0.5})
+
+
+def mirrored(scene: Scene, plan: str) -> Iterator[Change]:
+    """Draw a similar figure on the other side: against the order of the letters."""
+    for step in scene.made_by("similar", plan=plan):
+        other = f"_other{step.operands[3]}"
+        opposite = Step("calc", other, (step.operands[3],), "opposite")
+        yield Change(step.name, {step.name: (opposite, replace(step, operands=operand(step, 3, other)))}, {})
+
+
+@mistake("M30", VELOCITY)
+def point_from_other_end(scene: Scene) -> Iterator[Change]:
+    """A point of a link is counted from the other end of ab."""
+    yield from other_end(scene, VELOCITY)
+
+
+@mistake("M31", VELOCITY)
+def point_in_middle(scene: Scene) -> Iterator[Change]:
+    """A point of a link is always put in the middle of ab."""
+    yield from middle(scene, VELOCITY)
+
+
+@mistake("M32", VELOCITY)
+def triangle_mirrored(scene: Scene) -> Iterator[Change]:
+    """The similar triangle is mirrored."""
+    yield from mirrored(scene, VELOCITY)
+
+
+@mistake("M33", VELOCITY)
+def slide_and_rotation_exchanged(scene: Scene) -> Iterator[Change]:
+    """In a slotted pair the directions of sliding and of rotation are exchanged."""
+    yield from (_exchanged(step) for step in scene.made_by("meet", plan=VELOCITY) if _slotted(step))
+
+
+@mistake("M34", VELOCITY)
+def over_cosine(scene: Scene) -> Iterator[Change]:
+    """The velocity is divided by the cosine instead of multiplied: the right angle stands at the wrong vertex."""
+    for step in scene.made_by("meet", plan=VELOCITY):
+        if _slotted(step):
+            place = 1 if step.operands[1].startswith("u_") else 3
+            start, pole = step.operands[place - 1], f"{step.plan}.p"
+            size, along, across = (f"_{kind}_at_{step.name}" for kind in ("size", "along", "across"))
+            new = (
+                Step("measure", size, (pole, start)),
+                Step("direction", along, (pole, start, size)),
+                Step("normal", across, (along,)),
+                replace(step, operands=operand(step, place, across)),
+            )
+            yield Change(step.name, {step.name: new}, {})
+
+
+@mistake("M35", VELOCITY)
+def points_not_distinguished(scene: Scene) -> Iterator[Change]:
+    """The point of the slotted link is taken for that of the slider."""
+    for step in scene.made_by("meet", plan=VELOCITY):
+        if _slotted(step):
+            start = step.operands[0 if step.operands[1].startswith("u_") else 2]
+            yield Change(step.name, {step.name: (Step("same", step.name, (start,)),)}, {})
+
+
+@mistake("M36", VELOCITY)
+def same_side(scene: Scene) -> Iterator[Change]:
+    """A point on the other side of the shaft is put on the side of the pin."""
+    for step in scene.made_by("divide", plan=VELOCITY):
+        part = step.operands[2]
+        if part.startswith("_minus_"):
+            yield instead(step, operands=operand(step, 2, part.removeprefix("_minus_")))
+    for step in scene.made_by("similar", plan=VELOCITY):
+        if step.operands[0].endswith(".p") and scene.values[step.operands[2]] < 0.0:
+            other = f"_other{step.operands[2]}"
+            opposite = Step("calc", other, (step.operands[2],), "opposite")
+            yield Change(step.name, {step.name: (opposite, replace(step, operands=operand(step, 2, other)))}, {})
