@@ -165,6 +165,23 @@ def l7_senses(case: Linkage, sheet: Sheet) -> Faults:
             turning = view.turning(f"{name}_{link.number}")
             if turning is not None:
                 yield from unless(turning[1] == math.copysign(1.0, rate), f"sense of {name}_{link.number}")
+                yield from _across_its_link(view, f"{name}_{link.number}", case.oracle.m.driver.link)
+
+
+def _across_its_link(view: View, name: str, driver: int) -> Faults:
+    """An arc of turning crosses its own link and no other; that of the driver may stand beside it."""
+    number = name.rpartition("_")[2]
+    (arc,) = [s for s in view.inside("arrow", name) if s.arc]
+    lines = [(own, s) for s in view.strokes for kind, own in s.path if kind == "link"]
+    crossed = {
+        own
+        for own, stroke in lines
+        for side in pairwise(stroke.points)
+        if any(_cross(piece, side) for piece in pairwise(arc.points))
+    }
+    yield from unless(crossed <= {number}, f"the arc of {name} crosses links {sorted(crossed - {number})}")
+    if int(number) != driver and any(own == number and len(s.points) == 2 for own, s in lines):
+        yield from unless(number in crossed, f"the arc of {name} is not at its link")
 
 
 def l8_groups(case: Linkage, sheet: Sheet) -> Faults:

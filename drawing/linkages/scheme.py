@@ -11,13 +11,14 @@ from ...plans.linkages.mechanism import FRAME, Driver, Prismatic, SlidingDriver
 from ..shapes import Arrow, Line, Pen
 from ..symbols import angle_dimension, turning_arrow
 from ..view import Canvas, View
+from .arc_places import free_arc, obstacles
 from .construction import axes, found_by, moving_guides, special_points
 from .guides import guide_up
 from .links import draw_frame, draw_links, foot_of, letter_links
 from .scene import Scene
 from .senses import senses
 from .similarity import draw_sides
-from .skeleton import Skeleton, guide_of, skeleton, spread_of
+from .skeleton import Skeleton, guide_of, skeleton
 
 FARTHEST = 40.0  # mm from the pivot at which the arrow of omega_1 stands
 
@@ -35,20 +36,20 @@ def scheme(scene: Scene) -> View:
     strokes = [stroke for number in numbers for stroke in skeleton(scene, number).strokes]
     draw_sides(canvas, scene, POSITION, strokes)
     figures = draw_links(canvas, scene, numbers)
-    senses(canvas, scene)
     draw_frame(canvas, scene, numbers, figures)
     driver = scene.solved.mechanism.driver
     if isinstance(driver, Driver):
-        _angle(canvas, scene, driver, figures)
+        _angle(canvas, scene, driver)
     else:
         _speed(canvas, scene, driver)
+    senses(canvas, scene, figures)
     _frame_number(canvas, scene, figures)
     moving_guides(canvas, scene, figures)
     letter_links(canvas, scene, numbers, figures)
     return canvas.finish("position", scene.heading("heading.position", "position"))
 
 
-def _angle(canvas: Canvas, scene: Scene, driver: Driver, figures: Sequence[Skeleton]) -> None:
+def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
     """Dimension phi from the axis x, and draw the arrows of omega_1 and epsilon_1 on the other side."""
     o, style, words = scene.mm(driver.pivot), scene.style, scene.words
     crank_mm = abs(scene.mm(driver.point) - o)
@@ -66,40 +67,16 @@ def _angle(canvas: Canvas, scene: Scene, driver: Driver, figures: Sequence[Skele
     omega = scene.solved.values.get(f"omega_{driver.link}")
     sense = math.copysign(1.0, omega) if omega else scene.solved.values[driver.sense]
     radius = min(crank_mm * 0.78, FARTHEST) if crank_mm > 24.0 else radius + 5.0
-    middle = phi + math.pi * 0.78 if phi < math.pi else phi / 2 + math.pi * 0.86
-    busy = _busy(scene, o, phi, figures)
+    wanted = phi + math.pi * 0.78 if phi < math.pi else phi / 2 + math.pi * 0.86
     arrows = [(f"omega_{driver.link}", sense)]
     epsilon = scene.solved.values.get(f"epsilon_{driver.link}")
     if epsilon:
         arrows.append((f"epsilon_{driver.link}", math.copysign(1.0, epsilon)))
     for name, turn in arrows:
-        middle = _free(busy, middle)
-        canvas.add(turning_arrow(o, radius, middle, 1.0, turn, name))
-        canvas.label(words.symbol(name), o + rect(radius, middle), prefer=rect(1.0, middle))
-        busy += [rect(1.0, middle + k * 0.5) for k in (-1, 0, 1)]
-
-
-def _busy(scene: Scene, o: complex, phi: float, figures: Sequence[Skeleton]) -> list[complex]:
-    """Return the directions from the pivot in which there is something: links, the angle, the foot."""
-    driver = scene.solved.mechanism.driver
-    foot = foot_of(scene, driver.pivot, figures) if isinstance(driver, Driver) else -1j
-    busy = [rect(1.0, phi), rect(1.0, phi / 2), foot, 1.0 + 0j]
-    for figure in figures:
-        for a, b in figure.strokes:
-            for k in (0.0, 0.25, 0.5, 1.0):
-                at = a + (b - a) * k - o
-                if abs(at) > 1.0:
-                    busy.append(at / abs(at))
-    return busy
-
-
-def _free(busy: list[complex], wanted: float) -> float:
-    """Choose the direction for a turning arrow that is farthest from all else."""
-
-    def room(angle: float) -> float:
-        return min(spread_of(rect(1.0, angle), other) for other in busy)
-
-    return max((wanted, *(k * math.pi / 12 for k in range(24))), key=lambda angle: (round(room(angle), 6), -angle))
+        busy = list(obstacles(canvas.shapes))
+        at, middle = free_arc(o, [radius * part for part in (1.0, 0.75, 1.3, 1.6)], 1.0, wanted, busy)
+        canvas.add(turning_arrow(o, at, middle, 1.0, turn, name))
+        canvas.label(words.symbol(name), o + rect(at, middle), prefer=rect(1.0, middle))
 
 
 def _speed(canvas: Canvas, scene: Scene, driver: SlidingDriver) -> None:

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import math
-from cmath import phase, rect
-from collections.abc import Iterator
+from cmath import rect
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ...plans.linkages.compound import RELATIVE
 from ..shapes import Arrow, Pen
 from ..symbols import turning_arrow
 from ..view import Canvas
+from .arc_places import obstacles, place_arcs
 from .scene import Scene
+from .skeleton import Skeleton
 
 PLACES = {"omega": 0.30, "epsilon": 0.45}  # parts of the link at which its arcs stand
-NEAREST, LEAST = 14.0, 10.0  # mm from the joint about which they are drawn: wanted, and where there is no room
-SHARES = (1.0, 0.8, 0.6, 0.45, 0.3)  # of the room that should be left between an arc and what else is on the link
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,28 +39,41 @@ def turns(scene: Scene) -> Iterator[Turn]:
             yield Turn(step.name, int(step.name.rpartition("_")[2]), vector, *along.operands[:2])
 
 
-def senses(canvas: Canvas, scene: Scene) -> None:
-    """Carry the vectors to the joints and draw the senses of omega and epsilon that they show."""
+def senses(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
+    """Carry the vectors to the joints and draw the senses of omega and epsilon that they show.
+
+    All else but letters has been drawn: the arcs keep clear of it.
+    """
     taken: dict[tuple[complex, complex], float] = {}
-    arcs: dict[tuple[int, str], list[float]] = {}
+    shown: dict[int, list[Turn]] = {}
     for turn in turns(scene):
         e, value = scene.direction(turn.vector), scene.solved.values[turn.rate]
-        if e == 0 or value != value:
-            continue
-        _arc(canvas, scene, turn, math.copysign(1.0, value), arcs.setdefault((turn.link, turn.start), []))
-        _carried(canvas, scene, turn, e, taken)
+        if e != 0 and value == value:
+            shown.setdefault(turn.link, []).append(turn)
+            _carried(canvas, scene, turn, e, taken)
+    for figure in figures:
+        if figure.number in shown:
+            _arcs(canvas, scene, shown[figure.number], figure)
 
 
-def _arc(canvas: Canvas, scene: Scene, turn: Turn, sense: float, others: list[float]) -> None:
-    """Draw the arc across the link, about the joint from which it is reckoned; `others` are there already."""
-    a, b = scene.mm(turn.start), scene.mm(turn.end)
-    along, reach = phase(b - a), abs(b - a)
-    radius = _off_points(scene, turn, max(NEAREST, PLACES[turn.rate.partition("_")[0]] * reach), others)
-    others.append(radius)
-    spread = min(0.9, 1.1 * scene.style.force / radius)  # long enough to be seen as an arc
-    canvas.add(turning_arrow(a, radius, along, spread, sense, turn.rate))
-    tip = a + rect(radius, along + sense * spread / 2)
-    canvas.label(scene.words.symbol(turn.rate), tip, prefer=rect(sense, along + math.pi / 2), clear=1.4)
+def _arcs(canvas: Canvas, scene: Scene, shown: Sequence[Turn], figure: Skeleton) -> None:
+    """Draw the arcs of one link across one of its lines, that between the joints of the rate if there is one."""
+    ends, own = (scene.mm(shown[0].start), scene.mm(shown[0].end)), figure.strokes
+    rays = [ray for line in own for ray in (line, line[::-1])]
+    belongs = shown[0].start in scene.solved.mechanism.link(figure.number).points
+    if belongs or not rays:
+        rays.insert(0, ends)
+    force, wanted = scene.style.force, [PLACES[turn.rate.partition("_")[0]] for turn in shown]
+    # centres of mass are drawn with their letters, later
+    marks = [scene.mm(point) for link in scene.solved.mechanism.links for point in link.points]
+    busy = [*obstacles(canvas.shapes), *((at, at, scene.style.centre, 2.0) for at in marks)]
+    places = place_arcs(rays, wanted, busy, force, own)
+    for turn, place in zip(shown, places, strict=True):
+        sense = math.copysign(1.0, scene.solved.values[turn.rate])
+        canvas.add(turning_arrow(place.centre, place.radius, place.along, place.spread, sense, turn.rate))
+        tip = place.centre + rect(place.radius, place.along + sense * place.spread / 2)
+        prefer = rect(sense, place.along + math.pi / 2)
+        canvas.label(scene.words.symbol(turn.rate), tip, prefer=prefer, clear=1.4)
 
 
 def _carried(canvas: Canvas, scene: Scene, turn: Turn, e: complex, taken: dict[tuple[complex, complex], float]) -> None:
@@ -72,17 +85,3 @@ def _carried(canvas: Canvas, scene: Scene, turn: Turn, e: complex, taken: dict[t
     taken[key] = length + 0.2 * scene.style.force
     canvas.add(Arrow(b, b + e * length, Pen.THIN, name=turn.vector))
     canvas.label(scene.words.symbol(turn.vector, bar=True), (b + e * (length * 0.6), b + e * length), clear=1.0)
-
-
-def _off_points(scene: Scene, turn: Turn, radius: float, arcs: list[float]) -> float:
-    """Return the radius of an arc about `start`, changed where it would run through a point or along another arc."""
-    room, a = 0.3 * scene.style.force, scene.mm(turn.start)
-    points = [p for p in scene.solved.mechanism.link(turn.link).points if p != turn.start]
-    others, end = [*(abs(scene.mm(point) - a) for point in points), *arcs], abs(scene.mm(turn.end) - a)
-    for share in SHARES:
-        free = [radius, *(reach + side * share * room for reach in others for side in (1, -1))]
-        free = [r for r in free if max(share * room, LEAST) <= r < max(end, radius + 1.0)]
-        free = [r for r in free if all(abs(r - other) >= 0.999 * share * room for other in others)]
-        if free:
-            return min(free, key=lambda r: abs(r - radius))
-    return radius
