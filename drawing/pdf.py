@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import rect
 from collections.abc import Sequence
 from contextlib import closing
-from functools import cache
+from functools import cache, lru_cache
 from io import BytesIO
 from math import ceil, cos, pi, sin, tan
 from typing import TYPE_CHECKING, BinaryIO, assert_never
@@ -14,7 +14,7 @@ from .font import font
 from .page import Page
 from .pens import Pens, arrow_parts, head_outline, length_of
 from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
-from .text import lay_out, placed
+from .text import lay_out, placer
 
 if TYPE_CHECKING:
     from reportlab.pdfbase.ttfonts import TTFont
@@ -111,6 +111,7 @@ class _Writer:
         self.pens = pens
         self.inked: tuple[object, ...] = ()
         self.filled = ""
+        self.codes: dict[str, list[tuple[str, str]]] = {}  # of strings in the document's subsets of the font
 
     def draw(self, shape: Shape) -> None:
         """Draw one shape."""
@@ -166,17 +167,30 @@ class _Writer:
         """Draw the runs of a text as one text object, and its rules as thin lines."""
         lines = lay_out(text.markup, text.height)
         self.fill(True, text.colour)
-        c, s, k = cos(text.angle), sin(text.angle), text.squeeze
-        turn = f"{k * c:.6f} {k * s:.6f} {-s:.6f} {c:.6f}"
-        words = "BT"
+        turn, place = _turn(text.angle + 0.0, text.squeeze), placer(text)
+        words = ["BT"]
         for run in lines.runs:
-            words += f" {turn} {_place(placed(text, run.x, run.y))} Tm"
-            for subset, codes in self.font.splitString(run.string, self.document):
-                face = self.font.getSubsetInternalName(subset, self.document)
-                words += f" {face} {run.size * POINT:.5f} Tf <{codes.hex()}> Tj"
-        self.put(f"{words} ET")
+            words += (turn, _place(place(run.x, run.y)), "Tm", *self.shown(run.string, run.size))
+        words.append("ET")
+        self.put(" ".join(words))
         for x0, y0, x1, y1 in lines.rules:
-            self.draw(Line(placed(text, x0, y0), placed(text, x1, y1), Pen.THIN, colour=text.colour))
+            self.draw(Line(place(x0, y0), place(x1, y1), Pen.THIN, colour=text.colour))
+
+    def shown(self, string: str, size: float) -> list[str]:
+        """Return the operators that show characters of one size."""
+        codes = self.codes.get(string)
+        if codes is None:
+            split = self.font.splitString(string, self.document)
+            codes = [(self.font.getSubsetInternalName(subset, self.document), f"<{c.hex()}> Tj") for subset, c in split]
+            self.codes[string] = codes
+        return [f"{face} {size * POINT:.5f} Tf {shown}" for face, shown in codes]
+
+
+@lru_cache(maxsize=64)
+def _turn(angle: float, squeeze: float) -> str:
+    """Return the first four numbers of the matrix of a turned or squeezed text."""
+    c, s, k = cos(angle), sin(angle), squeeze
+    return f"{k * c:.6f} {k * s:.6f} {-s:.6f} {c:.6f}"
 
 
 def _outline(points: tuple[complex, ...]) -> str:

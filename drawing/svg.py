@@ -15,7 +15,7 @@ from .font import FAMILY, subset, web_subset
 from .page import Page
 from .pens import Pens, arrow_parts, head_outline, length_of
 from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
-from .text import lay_out, placed
+from .text import lay_out, placer
 
 BLACK = "#000"
 _CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 0xFFFE, 0xFFFF), "")  # XML forbids them
@@ -77,6 +77,7 @@ def _exact(value: float) -> str:
     return repr(float(value))
 
 
+@lru_cache(maxsize=1024)
 def _quoted(text: str) -> str:
     """Return `text` as XML allows it, in an attribute or in an element."""
     return text.translate(_ENTITIES)
@@ -182,13 +183,14 @@ class _Writer:
         if grouped:
             self.parts.append(f"<g{identity}>")
             identity = ""
+        place_of = placer(text)
         for run in lines.runs:
             self.characters.update(run.string)
-            x, y = self.point(at := placed(text, run.x, run.y))
+            x, y = self.point(at := place_of(run.x, run.y))
             place = f' x="{x}" y="{y}" font-size="{_number(run.size)}"{self.turn(text, at)}'
             self.parts.append(f"<text{identity}{place}{ink}>{_quoted(run.string)}</text>")
         for x0, y0, x1, y1 in lines.rules:
-            self.draw(Line(placed(text, x0, y0), placed(text, x1, y1), Pen.THIN, "rule", "", text.colour))
+            self.draw(Line(place_of(x0, y0), place_of(x1, y1), Pen.THIN, "rule", "", text.colour))
         if grouped:
             self.parts.append("</g>")
 

@@ -7,6 +7,7 @@ twice: known by direction, known in full); it may be nested. `\{ \} \\ \_ \^` st
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from math import cos, inf, sin
@@ -176,18 +177,20 @@ class _Reader:
         return _ESCAPE.sub(r"\1", found.group())
 
 
-def placed(text: Text, x: float, y: float) -> complex:
-    """Return the point of the sheet where the point (x, y) of the text's layout lies."""
+def placer(text: Text) -> Callable[[float, float], complex]:
+    """Return what tells where on the sheet the point (x, y) of the text's layout lies."""
+    at, squeeze, turn = text.at, text.squeeze, complex(cos(text.angle), sin(text.angle))
     before = _SHARES[text.anchor] * lay_out(text.markup, text.height).width
-    offset = complex((x - before) * text.squeeze, y)
-    return text.at + (offset * complex(cos(text.angle), sin(text.angle)) if text.angle else offset)
+    if not text.angle:
+        return lambda x, y: at + complex((x - before) * squeeze, y)
+    return lambda x, y: at + complex((x - before) * squeeze, y) * turn
 
 
 def corners(text: Text) -> tuple[complex, complex, complex, complex]:
     """Return the corners of the rectangle that `text` fills, which turns with it."""
-    lines = lay_out(text.markup, text.height)
-    start, end = placed(text, 0.0, lines.bottom), placed(text, lines.width, lines.bottom)
-    up = placed(text, 0.0, lines.top) - start
+    lines, place = lay_out(text.markup, text.height), placer(text)
+    start, end = place(0.0, lines.bottom), place(lines.width, lines.bottom)
+    up = place(0.0, lines.top) - start
     return start, end, end + up, start + up
 
 

@@ -9,11 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .arithmetic import Real, Vector
 from .board import Program
-from .chunks import Chunks, Store
 from .exact import ILL, NAN, RIGHT, STATUSES, ExactBoard, Status, run
-from .noting import NotingBoard
 from .protractor import FARTHEST, MARKS, TURN, graduation
 
 CHUNK = 8192
@@ -166,6 +163,9 @@ def batch(
     codes : int8 array of shape (N,)
         Index into `STATUSES`.
     """
+    from .chunks import Chunks, Store, room  # a board of arrays alone does without a tape
+    from .noting import NotingBoard
+
     arrays = {name: np.asarray(value, float) for name, value in givens.items() if np.ndim(value)}
     size = len(next(iter(arrays.values())))
     if size > chunk:
@@ -179,7 +179,7 @@ def batch(
     results: dict[str, NDArray[Any]] = {}
     stores: list[Store] = []
     for name in wanted:
-        results[name], into = _room(board.values[name], size)
+        results[name], into = room(board.values[name], size)
         stores += into
     codes = np.full(size, _CODE[board.status], np.int8)
     chunks = Chunks(board.tape.entries, stores, arrays, min(size, chunk))
@@ -189,22 +189,6 @@ def batch(
             checks.codes = codes[part]
             chunks.do(part)
     return results, codes
-
-
-def _room(value: Any, size: int) -> tuple[NDArray[Any], list[Store]]:
-    """Return an array for a value at all positions, filled where it is the same everywhere, and what fills the rest."""
-    if not isinstance(value, (Real, Vector)):
-        return np.full(size, value + type(value)()), []
-    if isinstance(value, Real):
-        room = np.empty(size)
-        return room, [Store(value.place, value.negative, room)]
-    points, stores = np.empty(size, complex), []
-    for number, into in ((value.real, points.real), (value.imag, points.imag)):
-        if isinstance(number, Real):
-            stores.append(Store(number.place, number.negative, into))
-        else:
-            into[:] = number + 0.0
-    return points, stores
 
 
 def settle_heap() -> None:

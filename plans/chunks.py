@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .arithmetic import Entry
+from .arithmetic import Entry, Real, Vector
 
 PADDING = 72  # numbers between two buffers, lest all of them begin at the same place of a memory page
 Array = NDArray[np.float64]
@@ -95,6 +95,22 @@ class Chunks:
             for each in traffic + self._stores.get(place, []):
                 self._moving.append((len(self._calls), each, rows[place]))
                 self._calls.append(LATER)
+
+
+def room(value: Any, size: int) -> tuple[NDArray[Any], list[Store]]:
+    """Return an array for a value at all positions, filled where it is the same everywhere, and what fills the rest."""
+    if not isinstance(value, (Real, Vector)):
+        return np.full(size, value + type(value)()), []
+    if isinstance(value, Real):
+        room = np.empty(size)
+        return room, [Store(value.place, value.negative, room)]
+    points, stores = np.empty(size, complex), []
+    for number, into in ((value.real, points.real), (value.imag, points.imag)):
+        if isinstance(number, Real):
+            stores.append(Store(number.place, number.negative, into))
+        else:
+            into[:] = number + 0.0
+    return points, stores
 
 
 def _keep(row: Array, operation: Callable[..., Any], operands: tuple[Any, ...]) -> None:

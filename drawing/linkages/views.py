@@ -12,8 +12,6 @@ from ...plans.linkages.mechanism import Prismatic
 from ...plans.linkages.solved import Solved
 from ...plans.linkages.structure import Group
 from ..view import View
-from .compound_text import compound_block
-from .compound_view import acceleration_figure, velocity_figure
 from .driver_view import driver_view
 from .forces_text import LOADS, WHOLE, force_parts, forces_block
 from .group_view import group_view, link_view
@@ -71,6 +69,8 @@ def _kinematics(solved: Solved, plans: tuple[str, ...], width: float) -> Iterato
 def _compound(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
     if "compound" not in plans:
         return
+    from .compound_view import velocity_figure  # few tasks split motions
+
     couplers = hinged(solved.mechanism, solved.structure)
     if couplers:
         yield Figure(lambda scene: velocity_figure(scene, couplers), "mu_V", "mu_l")
@@ -153,11 +153,15 @@ def _lever(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Fig
 
 def _accelerations(coupler: Coupler, point: str) -> Figure:
     """Return the figure of the accelerations of one point of a coupler."""
+    from .compound_view import acceleration_figure
+
     symbol = scale_symbol(f"{ACCELERATION}{coupler.letters[point]}") or ""
     return Figure(lambda scene: acceleration_figure(scene, coupler, point), symbol, "mu_l")
 
 
 def _compound_text(coupler: Coupler, kind: str, width: float) -> Figure:
+    from .compound_text import compound_block
+
     return Figure(lambda scene: compound_block(scene, width, coupler, kind))
 
 

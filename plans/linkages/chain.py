@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from importlib import import_module
 from types import ModuleType
 
 from ...scales.errors import InputError
 from ..board import Program, RecordingBoard
-from . import compound, driver, prp, rpp, rpr, rrp, rrr, sliding_driver, triad
+from . import compound
 from .lever import lever
 from .loads import hung, lay_loads
 from .mechanism import FRAME, ZERO, Driver, Mechanism, SlidingDriver
@@ -28,13 +29,18 @@ NEEDS = {
     "lever": ("acceleration",),
 }
 Attached = list[tuple[ModuleType, AssurGroup]]
-CONSTRUCTIONS: dict[str, ModuleType] = {"RRR": rrr, "RRP": rrp, "RPR": rpr, "PRP": prp, "RPP": rpp, "III": triad}
-DRIVERS: dict[type, ModuleType] = {Driver: driver, SlidingDriver: sliding_driver}
+# modules with the constructions of each kind, which a mechanism without such a group does without
+CONSTRUCTIONS = {"RRR": "rrr", "RRP": "rrp", "RPR": "rpr", "PRP": "prp", "RPP": "rpp", "III": "triad"}
+DRIVERS: dict[type, str] = {Driver: "driver", SlidingDriver: "sliding_driver"}
 
 
 def driver_of(mechanism: Mechanism) -> ModuleType:
     """Return the constructions of the mechanism's driver."""
-    return DRIVERS[type(mechanism.driver)]
+    return _module(DRIVERS[type(mechanism.driver)])
+
+
+def _module(name: str) -> ModuleType:
+    return import_module(f".{name}", __package__)
 
 
 def with_needs(plans: Iterable[str]) -> tuple[str, ...]:
@@ -138,7 +144,7 @@ def _named(mechanism: Mechanism, structure: Structure) -> tuple[Attached, Bodies
     bodies = {mechanism.driver.link: first.body(mechanism)}
     dyads = []
     for group in structure.groups:
-        module = CONSTRUCTIONS[group.kind]
+        module = _module(CONSTRUCTIONS[group.kind])
         dyad: AssurGroup = module.dyad(mechanism, group, bodies)
         for span in dyad.spans:
             _has_length(span)

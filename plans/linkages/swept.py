@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,8 +13,9 @@ from ..batch import ArrayBoard
 from ..board import Program
 from .givens import board_givens
 from .mechanism import ZERO, Driver, Mechanism
-from .triad_following import Follower, triads
-from .triad_special_points import with_special_points
+
+if TYPE_CHECKING:
+    from .triad_following import Follower
 
 OWN = "_driver"  # the driver's variable where the mechanism has a literal in its place
 
@@ -74,7 +75,13 @@ def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
         name = OWN
         key = "angle" if turns else "travel"
         mechanism = replace(mechanism, driver=replace(driver, **{key: name}))  # type: ignore[arg-type]
-    follower = Follower(mechanism, {**values, name: start}) if mechanism.starts and triads(mechanism) else None
-    if follower is not None:
-        mechanism = with_special_points(mechanism, {**values, name: follower.places}, follower.near(follower.places))
+    follower = None
+    if mechanism.starts:  # few mechanisms have groups of class III
+        from .triad_following import Follower, triads
+        from .triad_special_points import with_special_points
+
+        if triads(mechanism):
+            follower = Follower(mechanism, {**values, name: start})
+            places = follower.places
+            mechanism = with_special_points(mechanism, {**values, name: places}, follower.near(places))
     return Swept(mechanism, name, turns, start, -1.0 if sense < 0.0 else 1.0, follower)
