@@ -94,6 +94,21 @@ def test_senses_stand_across_their_own_link(task: str) -> None:
     assert list(l7_senses(case, case.sheet)) == []
 
 
+@pytest.mark.parametrize("task", ["nau-slider-crank", "scheme-03-crank-rocker", "scheme-17-sewing-machine"])
+def test_compass_arcs_can_be_seen_beside_carried_vectors(task: str) -> None:
+    """A vector carried to a joint lies along the tangent of the arc by which the joint was found."""
+    drawn = sheet(task, only="position,velocity,acceleration", format="A1")
+    view = read(drawn.svg())["position"]
+    arcs = [s.points for s in view.lines("construction") if s.arc]
+    assert arcs
+
+    for arrow in view.arrows:
+        for arc in arcs:
+            ends = [((end - arrow.tail) * arrow.unit.conjugate()) for end in (arc[0], arc[-1])]
+            if min(abs(at - arrow.tail) for at in arc) < 0.5:
+                assert all(abs(end.imag) > 1.2 for end in ends)
+
+
 def test_block_lies_in_its_link_and_turns_with_it() -> None:
     view = position("scheme-09-shaper")
     pivot, pin = view.point("C"), view.point("A")

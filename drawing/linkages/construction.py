@@ -16,6 +16,7 @@ from .scene import Scene
 from .skeleton import Skeleton, guide_of
 
 PAST = 16.0  # mm by which the axis of a guide runs past its slider and a pivot
+LEAVES, FARTHEST = 1.6, 34.0  # mm by which the end of an arc leaves its tangent, unless the arc would be too long
 CROSS = 8.0  # mm by which arcs and lines run past the joint that they find
 
 
@@ -96,8 +97,12 @@ def _line(canvas: Canvas, scene: Scene, start: str, direction: str, point: str, 
 
 
 def _arc(canvas: Canvas, scene: Scene, centre: str, point: str, past: float, name: str) -> None:
-    """Draw an arc about one joint through another, `past` it on both sides."""
+    """Draw an arc about one joint through another, `past` it on both sides, and farther where it is nearly straight.
+
+    A vector carried to the joint lies along the tangent: the arc must leave it before it ends.
+    """
     way = scene.mm(point) - scene.mm(centre)
+    past = max(past, min(math.sqrt(2.0 * abs(way) * LEAVES), FARTHEST))
     spread = 2 * past / abs(way)
     start = phase(way) - spread / 2
     canvas.add(Arc(scene.mm(centre), abs(way), start, spread, Pen.THIN, role="construction", name=name))
