@@ -56,13 +56,15 @@ class StudentBoard(ExactBoard):
     def _lay_off(self, name: str, start: str, quantity: str) -> None:
         """Lay off the student's segment in the place of ours: the part that is calculated, laid off, and read."""
         values = self.values
-        said, _ = self._take(quantity, values[name] - values[start])
+        vector = complex(values[name] - values[start])
+        said, _ = self._take(quantity, vector)
         if said is not None:
-            values[name] = values[start] + said.taken(complex(values[name] - values[start]))
+            self.follows[quantity] = vector
+            values[name] = values[start] + said.taken(vector)
 
     def _replace(self, verb: str, name: str, operands: tuple[str, ...]) -> None:
         value = self.values[name]
-        self.follows[name] = value
+        self.follows.setdefault(name, value)
         said, moves = self._take(name, value)
         if said is None:
             return
