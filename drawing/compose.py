@@ -10,38 +10,42 @@ from .frame import frame_shapes
 from .packing import Placement, pack
 from .page import Page
 from .pens import Norm
+from .rows import Size
 from .titleblock import Stamp
 from .view import View
 
 MARGIN = 4.0  # mm between the frame and any view
 GAP = 7.0  # mm between views
 CLOSE = 4.0  # mm between views on the smallest format
+SHARES = (0.0, 0.02, -0.02, 0.04, -0.04, 0.06, -0.06, 0.09, -0.09)  # of the width, by which halves may be unequal
 
 
-def room(sheet: Format, norm: Norm) -> tuple[float, float]:
-    """Return width and height of the largest view that a page of its own can hold, beside nothing else."""
-    x0, _, x1, y1 = _area(sheet, norm)
-    block = reserved_boxes(sheet, norm, first=False)[0]
-    return x1 - x0, y1 - block[3] - CLOSE
+def room(sheet: Format, norm: Norm, first: bool = False) -> tuple[float, float]:
+    """Return width and height of the largest view that a page of its own can hold, beside nothing else.
 
-
-def arrange(
-    views: Sequence[View], sheet: Format, norm: Norm, pages: int | None, any_order: bool = True
-) -> list[Placement] | None:
-    """Place the views on at most `pages` pages of `sheet`, or on as many as they need; None if they do not fit.
-
-    They stand in reading order; only with `any_order` they may leave it where nothing else fits.
+    The `first` page has the larger title block, and column 26 in another corner.
     """
-    return _arranged(views, sheet, norm, pages, any_order)
+    x0, _, x1, y1 = _area(sheet, norm)
+    block, *turned = reserved_boxes(sheet, norm, first=first)
+    top = min((box[1] - _gap(sheet) for box in turned), default=y1)
+    return x1 - x0, top - block[3] - _gap(sheet) * first - CLOSE * (not first)
 
 
-def arrange_parts(parts: Sequence[Sequence[View]], sheet: Format, norm: Norm) -> list[Placement] | None:
+def arrange(sizes: Sequence[Size], sheet: Format, norm: Norm, pages: int | None) -> list[Placement] | None:
+    """Place views of these sizes, in reading order, on at most `pages` pages of `sheet`, or on as many as they need.
+
+    None if they do not fit.
+    """
+    return _arranged(sizes, sheet, norm, pages)
+
+
+def arrange_parts(parts: Sequence[Sequence[Size]], sheet: Format, norm: Norm) -> list[Placement] | None:
     """Place views on as many pages as they need, each part on pages of its own where that takes no more of them."""
-    together = arrange([view for part in parts for view in part], sheet, norm, None)
+    together = arrange([size for part in parts for size in part], sheet, norm, None)
     places: list[Placement] = []
     for part in filter(None, parts):
         pages = max((place.page + 1 for place in places), default=0)
-        own = _arranged(part, sheet, norm, None, True, first=not pages)
+        own = _arranged(part, sheet, norm, None, first=not pages)
         if own is None:
             return together
         places += [replace(place, page=place.page + pages) for place in own]
@@ -50,24 +54,43 @@ def arrange_parts(parts: Sequence[Sequence[View]], sheet: Format, norm: Norm) ->
     return together
 
 
+def arrange_halves(sizes: Sequence[Size], boundary: int, sheet: Format, norm: Norm) -> list[Placement] | None:
+    """Place views on one page: those before about the `boundary` in its left part, the others in the right one."""
+    (x0, y0, x1, y1), taken, gap = _area(sheet, norm), reserved_boxes(sheet, norm), _gap(sheet)
+    areas = [(wide + gap) * (high + gap) for wide, high in sizes]
+    for end in (end for end in (boundary, boundary + 1, boundary - 1) if 0 < end < len(sizes)):
+        for share in SHARES:
+            middle = x0 + (sum(areas[:end]) / sum(areas) + share) * (x1 - x0)
+            left, right = (x0, y0, middle - gap / 2, y1), (middle + gap / 2, y0, x1, y1)
+            if min(left[2] - x0, x1 - right[0]) < max(wide for wide, _ in sizes):
+                continue
+            places: list[Placement] = []
+            for part, box in ((sizes[:end], left), (sizes[end:], right)):
+                own = [block for block in taken if block[0] < box[2] and block[2] > box[0]]
+                places += pack([[size] for size in part], box, own, gap=gap, any_order=False) or []
+            if len(places) == len(sizes):
+                return places
+    return None
+
+
 def _arranged(
-    views: Sequence[View], sheet: Format, norm: Norm, pages: int | None, any_order: bool, first: bool = True
+    sizes: Sequence[Size], sheet: Format, norm: Norm, pages: int | None, first: bool = True
 ) -> list[Placement] | None:
     return pack(
-        [[view.size] for view in views],
+        [[size] for size in sizes],
         _area(sheet, norm),
         reserved_boxes(sheet, norm, first=first),
         later=reserved_boxes(sheet, norm, first=False),
-        gap=CLOSE if sheet.letters == "A4" else GAP,
+        gap=_gap(sheet),
         pages=pages,
-        any_order=any_order,
+        any_order=False,
     )
 
 
 def arrange_rest(views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] | None:
     """Place views on as many following pages as they need, counted from 0; None if one has no room on a page."""
     later = reserved_boxes(sheet, norm, first=False)
-    return pack([[view.size] for view in views], _area(sheet, norm), later, gap=GAP, pages=None)
+    return pack([[view.size] for view in views], _area(sheet, norm), later, gap=GAP, pages=None, any_order=False)
 
 
 def compose(views: Sequence[View], places: Sequence[Placement], sheet: Format, norm: Norm, stamp: Stamp) -> list[Page]:
@@ -80,6 +103,10 @@ def compose(views: Sequence[View], places: Sequence[Placement], sheet: Format, n
         figures = [v.at(p.x, p.y) for v, p in zip(views, places, strict=True) if p.page == number]
         pages.append(Page(sheet.width, sheet.height, (*frame, *figures), stamp.title, stamp.language, norm))
     return pages
+
+
+def _gap(sheet: Format) -> float:
+    return CLOSE if sheet.letters == "A4" else GAP
 
 
 def _area(sheet: Format, norm: Norm) -> tuple[float, float, float, float]:

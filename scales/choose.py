@@ -34,9 +34,19 @@ class Fixed:
     firm: bool = False
 
     def ladder(self, value: Callable[[str], float]) -> tuple[float, ...]:
+        """Return mu; the rounder coarser ones, unless it is firm, are for a page that cannot hold the plan alone."""
+        return (self.mu,) if self.firm else From(self.mu).ladder(value)
+
+
+@dataclass(frozen=True, slots=True)
+class From:
+    """A given mu in SI per millimetre, or a coarser one where so the sheet is a single one."""
+
+    mu: float
+    firm: bool = False
+
+    def ladder(self, value: Callable[[str], float]) -> tuple[float, ...]:
         """Return mu, then the rounder coarser ones."""
-        if self.firm:
-            return (self.mu,)
         return (self.mu, *(mu for mu in steps(self.mu) if mu > self.mu * 1.0001))[:RUNGS]
 
 
@@ -86,7 +96,7 @@ class CrankScale:
         return tuple(rounded(mu * value("omega_1") ** self.power, 6) for mu in base)
 
 
-Chooser = Fixed | Segment | Round | CrankScale
+Chooser = Fixed | From | Segment | Round | CrankScale
 Choosers = Mapping[str, Chooser]
 
 
@@ -97,7 +107,8 @@ def chooser(symbol: str, text: str, firm: bool = False) -> Chooser:
     ----------
     text : str
         `15 N/mm`, `20 mm/(m/s)` or `0.05` (a given mu), `pa=80 mm` (a chosen segment), `round` or `round 120 mm`
-        (the customary series, the longest segment at most so long), `crank` (the crank scale).
+        (the customary series, the longest segment at most so long), `crank` (the crank scale), `from 15 N/mm` (this mu,
+        or a coarser one of the series where there is little room).
     firm : bool
         Said by the user: no other scale factor will do.
 
@@ -118,11 +129,18 @@ def chooser(symbol: str, text: str, firm: bool = False) -> Chooser:
         return Round(symbol, _positive(parse(rest, unit("mm"), unit("mm")) * 1e3, text) if rest else 100.0, firm)
     if text.strip() == "crank" and kind in CRANK:
         return CrankScale(CRANK[kind], firm)
-    if split_number(text)[1].replace("мм", "mm").startswith("mm/"):  # the other convention: millimetres per unit
-        per_unit = parse(text, unit(f"mm/({UNITS[kind]})")) * 1e3
-        return Fixed(1.0 / _positive(per_unit, text), firm)
+    if word == "from":
+        return From(_given(kind, rest, text), firm)
+    return Fixed(_given(kind, text, text), firm)
+
+
+def _given(kind: str, written: str, text: str) -> float:
+    """Read a scale factor in either convention; `text` is the whole of what was said."""
+    if split_number(written)[1].replace("мм", "mm").startswith("mm/"):  # the other convention: millimetres per unit
+        per_unit = parse(written, unit(f"mm/({UNITS[kind]})")) * 1e3
+        return 1.0 / _positive(per_unit, text)
     per_mm = unit(f"({UNITS[kind]})/mm")
-    return Fixed(_positive(parse(text, per_mm, per_mm) / 1e3, text), firm)
+    return _positive(parse(written, per_mm, per_mm) / 1e3, text)
 
 
 def segment_symbol(segment: str) -> str:

@@ -42,6 +42,7 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "scale below zero": ({"scales": {"mu_V": -1}}, "scale-not-positive"),
     "scale of an unknown segment": ({"scales": {"pz": 80}}, "scale-segment"),
     "scale of an unknown symbol": ({"scales": {"mu_F_9": 80}}, "scale-unknown-like"),
+    "scale of a plan not drawn": ({"scales": {"mu_a": 80}, "only": "velocity"}, "scale-not-drawn"),
     "scale by a number": ({"scales": {1: 80}}, "argument-type"),
     "scales as a text": ({"scales": "pa=80"}, "argument-type"),
     "unknown plan": ({"only": ["nonsense"]}, "plan-unknown"),

@@ -9,7 +9,7 @@ import pytest
 import kulman
 from kulman.drawing.words import Words
 from kulman.scales import InputError, Scale
-from kulman.scales.choose import Fixed, Segment, chooser
+from kulman.scales.choose import Fixed, From, Segment, chooser
 from kulman.scales.scale import SERIES, rounded, steps
 
 
@@ -48,7 +48,12 @@ def test_a_chosen_segment_is_read_by_its_letters() -> None:
     assert chooser("mu_l", "AB=13 cm") == Segment("l_AB", 130.0)
 
 
-@pytest.mark.parametrize("text", ["abc", "-5", "0", "20 mm/s", "pa=0", "qa=5", "1e400", ""])
+def test_a_scale_to_begin_with_may_be_coarser() -> None:
+    assert chooser("mu_F_23", "from 15 N/mm") == From(15.0)
+    assert chooser("mu_V", "from 20 mm/(m/s)").ladder(lambda name: 1.0)[:3] == (0.05, 0.1, 0.2)
+
+
+@pytest.mark.parametrize("text", ["from", "from pa=80", "abc", "-5", "0", "20 mm/s", "pa=0", "qa=5", "1e400", ""])
 def test_what_is_no_scale_is_refused(text: str) -> None:
     with pytest.raises(InputError):
         chooser("mu_V", text)

@@ -103,6 +103,9 @@ def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser
                 _shown(chosen, solved, name)
         except InputError as error:
             raise LocatedError(name, error) from error
+        if symbol not in solved.scale_of_plan.values():
+            drawn = ", ".join(dict.fromkeys(solved.scale_of_plan.values())) or "-"
+            raise InputError("scale-not-drawn", text=quote(name), known=drawn)
         choosers[symbol] = chosen
     return choosers
 

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
 from ..drawing.formats import Format, format_named
 from ..drawing.linkages.fitting import Contents
-from ..drawing.linkages.sheet import draw
+from ..drawing.linkages.sheet import Drawn, draw
 from ..drawing.page import Page
 from ..drawing.pens import Norm
 from ..drawing.titleblock import Stamp
 from ..drawing.words import Words
 from ..drawing.writers import write_pages
+from ..scales.choose import Fixed
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.scale import Scale
@@ -173,7 +174,16 @@ def cycle_sheet(case: Case, whole: Cycle, words: Words) -> Sheet:
 
 def _drawn(contents: Contents, stamp: Stamp, paper: Format | None, warnings: tuple[InputError, ...]) -> Sheet:
     drawn = draw(contents, stamp, paper)
-    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, warnings)
+    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, (*warnings, *_coarser(contents, drawn)))
+
+
+def _coarser(contents: Contents, drawn: Drawn) -> Iterator[InputError]:
+    """Say of each scale factor that the task fixes, but whose plan has no room on the format, how it is drawn."""
+    for scale in dict.fromkeys(drawn.scales.values()):
+        chosen = contents.choosers.get(scale.symbol)
+        if isinstance(chosen, Fixed) and scale.mu != chosen.mu:
+            said = {"mu": f"{chosen.mu:g}", "drawn": f"{scale.mu:g}", "unit": scale.per_mm_unit}
+            yield InputError("scale-coarser", symbol=scale.symbol, format=drawn.format, **said)
 
 
 def _cycle(case: Case) -> Cycle | None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ...plans.linkages.slider_runs import Runs, slider_runs
 from ...plans.linkages.solved import Solved
-from ...scales.choose import UNITS, Choosers, CrankScale
+from ...scales.choose import UNITS, Choosers, CrankScale, Fixed
 from ...scales.errors import InputError
 from ...scales.scale import Scale, steps
 from ..compose import room
@@ -18,7 +18,7 @@ from ..pens import Norm
 from ..style import STYLES
 from ..view import View
 from ..words import Words
-from .ladders import Ladders, by_plan, ladders_of
+from .ladders import Ladders, by_plan, finer_of, ladders_of
 from .letters import lettered
 from .scene import Given, Scene
 from .views import Figure, figures
@@ -77,9 +77,10 @@ class Fitting:
 
     contents: Contents
     ladders: Ladders = field(init=False)
+    finer: Ladders = field(init=False)
     runs: Runs = field(init=False)
     _root: dict[str, str] = field(init=False)
-    _built: dict[tuple[str, int], Fitted] = field(default_factory=dict)
+    _built: dict[tuple[str, int, bool], tuple[Fitted, dict[str, int]]] = field(default_factory=dict)
     _drawings: dict[tuple[str, int], list[tuple[dict[str, Scale], View]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -87,36 +88,46 @@ class Fitting:
         self.runs = slider_runs(self.contents.solved)
         choosers = self.contents.choosers
         self.ladders = ladders_of(self.contents.solved, choosers)
+        self.finer = finer_of(self.ladders, choosers)
         self._root = {s: "mu_l" if isinstance(choosers.get(s), CrankScale) else s for s in self.ladders}
 
-    @property
-    def firm(self) -> bool:
-        """Whether the user has fixed a scale factor himself."""
-        return any(chooser.firm for chooser in self.contents.choosers.values())
+    def is_fixed(self, symbol: str) -> bool:
+        """Whether the task or the user has fixed a scale factor: several pages are better than a coarser one."""
+        chooser = self.contents.choosers.get(symbol)
+        return isinstance(chooser, Fixed) or (chooser is not None and chooser.firm)
+
+    def keeps(self, scales: Mapping[str, Scale]) -> bool:
+        """Whether all fixed scale factors are among these as they were fixed."""
+        return all(s.mu == self.ladders[s.symbol][0] for s in scales.values() if self.is_fixed(s.symbol))
 
     def views(self, sheet: Format, step: int = 0) -> Fitted:
-        """Return views and scale factors for pages of `sheet`, force plans `step` rungs or more below the wanted one.
+        """Return views and scale factors as `fitted` does."""
+        return self.fitted(sheet, step)[0]
 
-        After `FORCES_ONLY` steps the other plans follow, too: a student sooner shrinks forces than pa or OA.
+    def fitted(self, sheet: Format, step: int = 0, first: bool = False) -> tuple[Fitted, dict[str, int]]:
+        """Return views, scale factors and rungs for pages of `sheet`, force plans `step` rungs or more coarser.
+
+        After `FORCES_ONLY` steps the other plans follow, too: a student sooner shrinks forces than pa or OA. What is
+        fixed becomes coarser only where a page cannot hold it alone. With `first` all have room even on the first page.
 
         Raises
         ------
         InputError
             When a view has no room on a page even at the last rung.
         """
-        key = sheet.name, step
+        key = sheet.name, step, first
         if key not in self._built:
-            self._built[key] = self._fitted(sheet, step)
+            self._built[key] = self._fitted(sheet, step, first)
         return self._built[key]
 
-    def _fitted(self, sheet: Format, step: int) -> Fitted:
-        width, height = room(sheet, self.contents.norm)
+    def _fitted(self, sheet: Format, step: int, first: bool) -> tuple[Fitted, dict[str, int]]:
+        width, height = room(sheet, self.contents.norm, first)
         rungs = self.rungs(sheet, step)
         while True:
             built, scales = self.build(sheet, rungs)
             too_large = {s: view for view, s in built if s and (view.size[0] > width or view.size[1] > height)}
             if not too_large:
-                return [view for view, _ in built], scales
+                return ([view for view, _ in built], scales), rungs
             for symbol, view in too_large.items():
                 rungs[symbol] += 1
                 if rungs[symbol] >= len(self.ladders[symbol]):
@@ -130,13 +141,18 @@ class Fitting:
         """Draw all figures with the scale factors on these rungs; each with the ladder that sizes it, or ""."""
         contents, root = self.contents, self._root
         text_width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
-        mus = {s: ladder[rungs[root[s]]] for s, ladder in self.ladders.items()}
+        mus = {s: self.mu(s, rungs[root[s]]) for s in self.ladders}
         scene = self._scene(sheet, mus)
         built = []
         for number, figure in enumerate(figures(contents.solved, contents.plans, text_width, contents.cycle)):
             view = self._drawn(sheet, number, figure, scene)
             built.append((view, root.get(self._sizing(figure, mus), "")))
         return built, scene.scales
+
+    def mu(self, symbol: str, rung: int) -> float:
+        """Return a scale factor on a rung; those below 0 are finer than the wanted one, where there are such."""
+        finer = self.finer[symbol]
+        return self.ladders[symbol][max(rung, 0)] if rung >= 0 or not finer else finer[min(-rung, len(finer)) - 1]
 
     def _sizing(self, figure: Figure, mus: Mapping[str, float]) -> str:
         """Return the scale factor that makes a figure as large as it is: of two the one with the longer lines."""
@@ -162,6 +178,8 @@ class Fitting:
         first = step if symbol.startswith("mu_F") else step - FORCES_ONLY
         # several pages are better than a plan on which nothing can be measured
         least = LEAST[sheet.letters] * LARGER[symbol.split("_")[1]]
+        if self.is_fixed(symbol):
+            first = 0
         legible = sum(reach >= least * mu for mu in ladder) - 1
         for rung in range(max(min(first, legible), 0), len(ladder)):
             if reach <= diagonal * ladder[rung]:

@@ -1,20 +1,21 @@
-"""Ladders of scale factors: for each plan the wanted one first, then coarser and coarser."""
+"""Ladders of scale factors: for each plan the wanted one first, then coarser and coarser; finer ones for much room."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from ...plans.board import POSITION
 from ...plans.linkages.solved import Solved
 from ...scales.choose import UNITS, Choosers, CrankScale, Round
 from ...scales.errors import InputError
-from ...scales.scale import Scale
+from ...scales.scale import Scale, steps
 
 Ladders = Mapping[str, tuple[float, ...]]
 LONGEST = 130.0  # mm, the longest segment of a plan whose scale factor nobody has chosen
 LARGEST = 200.0  # mm, the same for the mechanism from joint to joint, and for plans of many vectors
 CROWD, HUNG = 14, 8  # vectors on one plan; forces on the lever
 DRAWN = ("read", "chain")
+FINER = 2.05  # times that a plan may be enlarged whose pages have room to spare
 
 
 def first_scales(solved: Solved, choosers: Choosers) -> dict[str, Scale]:
@@ -47,6 +48,15 @@ def ladders_of(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...
         else:
             ladders[symbol] = chooser.ladder(value)
     return ladders
+
+
+def finer_of(ladders: Mapping[str, Sequence[float]], choosers: Choosers) -> dict[str, tuple[float, ...]]:
+    """Return for each scale factor that nobody has chosen the finer ones of the series, the nearest first."""
+    finer = {}
+    for symbol, ladder in ladders.items():
+        below = steps(ladder[0] / 100.0) if choosers.get(symbol) is None else ()
+        finer[symbol] = tuple(mu for mu in reversed(below) if ladder[0] / FINER <= mu < 0.999 * ladder[0])
+    return finer
 
 
 def _crowded(solved: Solved, symbol: str) -> bool:

@@ -8,19 +8,20 @@ from operator import is_
 
 from ...scales.errors import InputError
 from ...scales.scale import Scale
-from ..compose import arrange, arrange_parts, compose
+from ..compose import arrange, arrange_halves, compose
 from ..formats import FORMATS, Format
 from ..packing import Placement
 from ..page import Page
+from ..pens import Norm
 from ..titleblock import Stamp
 from ..view import View
 from .fitting import SMALLEST_FIRST, Contents, Fitted, Fitting
+from .several import forces_begin, several
 from .zones import zoned
 
 # part of the area on the largest format that the same figures take on a smaller one, with its smaller letters
 LIGHTER = {"A4": 0.5, "A3": 0.55, "A2": 0.9, "A1": 1.0}
 COARSER = 5  # steps below the wanted scales, pa = 50 mm, beyond which several pages are better than one
-FORCES = ("equations_forces_loads", "group_", "driver", "lever")  # views with which the part of the forces begins
 CROWDED = 1.6  # parts of a page whose figures no coarser rung brings on one page
 
 
@@ -54,13 +55,7 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         found = _single(fitting, candidate, COARSER if candidate is formats[-1] else 0)
         if found is not None:
             return _drawn(fitting, stamp, candidate, *found)
-    views, scales = fitting.views(formats[-1])
-    # several pages: kinematics on the first ones, forces on the others
-    forces = next((i for i, view in enumerate(views) if view.name.startswith(FORCES)), len(views))
-    places = arrange_parts((views[:forces], views[forces:]), formats[-1], contents.norm)
-    if places is None:
-        raise InputError("sheet-too-small", format=formats[-1].name)
-    return _drawn(fitting, stamp, formats[-1], (views, scales), places)
+    return _drawn(fitting, stamp, formats[-1], *several(fitting, formats[-1]))
 
 
 def _area(fitted: Fitted) -> float:
@@ -77,25 +72,34 @@ def _worth_trying(fitting: Fitting) -> list[Format]:
 
 def _single(fitting: Fitting, sheet: Format, coarser: int) -> tuple[Fitted, list[Placement]] | None:
     """Try one page, each scale factor up to `coarser` rungs beyond the first at which its views fit."""
-    tries = [(step, False) for step in range(coarser + 1)] + [(coarser, True)] * bool(coarser)
     before: list[View] = []
-    for step, any_order in tries:
+    tried: list[Fitted] = []
+    for step in range(coarser + 1):
         try:
             fitted = fitting.views(sheet, step)
         except InputError:
-            if coarser or fitting.firm:
+            if coarser:
                 raise
             return None
-        same = len(before) == len(fitted[0]) and all(map(is_, before, fitted[0]))
-        if same and not any_order:  # a coarser rung that sizes nothing
-            continue
+        if not coarser and not fitting.keeps(fitted[1]):
+            return None  # a larger format may hold what is fixed
+        if len(before) == len(fitted[0]) and all(map(is_, before, fitted[0])):
+            continue  # a coarser rung that sizes nothing
         before = fitted[0]
-        places = arrange(fitted[0], sheet, fitting.contents.norm, 1, any_order)
+        tried.append(fitted)
+        places = arrange([view.size for view in fitted[0]], sheet, fitting.contents.norm, 1)
         if places is not None:
             return fitted, places
         if _area(fitted) > CROWDED * sheet.width * sheet.height:
             return None
-    return None
+    halved = ((fitted, _halved(fitted, sheet, fitting.contents.norm)) for fitted in tried)
+    return next(((fitted, places) for fitted, places in halved if places is not None), None)
+
+
+def _halved(fitted: Fitted, sheet: Format, norm: Norm) -> list[Placement] | None:
+    """Try kinematics in the left part of a page, forces in the right one."""
+    views, _ = fitted
+    return arrange_halves([view.size for view in views], forces_begin([view.name for view in views]), sheet, norm)
 
 
 def _drawn(fitting: Fitting, stamp: Stamp, sheet: Format, fitted: Fitted, places: list[Placement]) -> Drawn:

@@ -56,7 +56,8 @@ def zoned(fitting: Fitting, sheet: Format, norm: Norm) -> Zoned | None:
         placed, tight = _place(views, zones, structure)
         coarser: dict[str, str] = {}
         for (_, symbol), zone in zip(built, zones, strict=True):
-            if symbol and zone in tight - crowded and symbol.startswith(OWN[zone]):
+            own = bool(symbol) and zone in tight - crowded and symbol.startswith(OWN[zone])
+            if own and not fitting.is_fixed(symbol):
                 coarser[symbol] = zone
         if not coarser:
             break
