@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from dataclasses import replace
-from functools import lru_cache
 from itertools import combinations
 
-from ...plans.board import Program
-from ...plans.linkages.mechanism import ZERO
+from ...plans.linkages.guides import guide_letters
 from ...plans.linkages.solved import Solved
 from ..words import Words
 from .reading import Reading, read
 
-AXES = "xyzuvw"
+__all__ = ["guide_letters", "lettered"]
 
 
 def lettered(words: Words, solved: Solved) -> Words:
@@ -22,21 +19,6 @@ def lettered(words: Words, solved: Solved) -> Words:
     reading = read(solved.program)
     frame = str(len(solved.mechanism.links) + 1) if words.notation["frame"] == "last" else "0"
     return replace(words, seconds=_seconds(reading), letters=_ends(reading, words), frame=frame, ends=_joints(solved))
-
-
-@lru_cache(maxsize=16)
-def guide_letters(program: Program) -> Mapping[str, str]:
-    """Return the letters of guides by the name of their direction: `u_30` is x–x, the next one y–y.
-
-    The guide along the line of two pins needs none: it is named by them, as any link.
-    """
-    letters: dict[str, str] = {}
-    for step in program:
-        if step.name.startswith("u_") and not (step.verb == "tangent" and step.operands[2] == ZERO):
-            turn, at = divmod(len(letters), len(AXES))
-            axis = AXES[at] + "′" * turn
-            letters[step.name] = f"{axis}–{axis}"
-    return letters
 
 
 def _seconds(reading: Reading) -> frozenset[str]:

@@ -6,12 +6,31 @@ guide.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 from ...scales.errors import InputError
-from ..board import Board
+from ..board import Board, Program
 from .mechanism import FRAME, ZERO, Link, Mechanism, Prismatic
 from .parts import Bodies, Body, carry, coordinates, lay_off, local_mark, normal_of, place_points, settle, turning
+
+AXES = "xyzuvw"
+
+
+@lru_cache(maxsize=16)
+def guide_letters(program: Program) -> Mapping[str, str]:
+    """Return the letters of guides by the name of their direction: `u_30` is x–x, the next one y–y.
+
+    The guide along the line of two pins needs none: it is named by them, as any link.
+    """
+    letters: dict[str, str] = {}
+    for step in program:
+        if step.name.startswith("u_") and not (step.verb == "tangent" and step.operands[2] == ZERO):
+            turn, at = divmod(len(letters), len(AXES))
+            axis = AXES[at] + "′" * turn
+            letters[step.name] = f"{axis}–{axis}"
+    return letters
 
 
 @dataclass(frozen=True, slots=True)

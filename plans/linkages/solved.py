@@ -14,6 +14,7 @@ from ..quantities import Quantity, quantities, shown_on
 from . import compound
 from .chain import USUAL, construct, hinged
 from .givens import board_givens
+from .guides import guide_letters
 from .mechanism import ZERO, Mechanism, Prismatic, SlidingDriver
 from .structure import TRIAD, Structure
 
@@ -69,7 +70,7 @@ class Solved:
             pins = [step.operands[i] for i in COINCIDENT[step.verb]]
             return PositionError("singular-pins", status_word="singular", first=pins[0], second=pins[1])
         key = f"singular-{step.plan}" if step.plan in (POSITION, "velocity", "acceleration") else "singular-forces"
-        lines = [_spoken(step.operands[i]) for i in (1, 3)]
+        lines = [_spoken(step.operands[i], self.program) for i in (1, 3)]
         return PositionError(
             key, status_word="singular", point=trouble.name.rpartition(".")[2], first=lines[0], second=lines[1]
         )
@@ -139,12 +140,13 @@ def _is_given(name: str) -> bool:
     return name != ZERO and not name.startswith("_")
 
 
-def _spoken(direction: str) -> str:
+def _spoken(direction: str, program: Program) -> str:
     """Return a direction as it is written in equations: normal to AB, along AB, along the guide x-x."""
     kind, _, name = direction.partition("_")
-    if name.startswith("u_"):
-        return "⊥x–x"
-    return {"n": f"⊥{name}", "e": f"∥{name}", "u": "∥x–x"}[kind]
+    guide = direction if kind == "u" else name
+    if guide in (letters := guide_letters(program)):
+        return f"{'∥' if kind == 'u' else '⊥'}{letters[guide]}"
+    return {"n": f"⊥{name}", "e": f"∥{name}"}[kind]
 
 
 def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iterable[str] = USUAL) -> Solved:
