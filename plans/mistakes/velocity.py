@@ -44,7 +44,7 @@ def along_links(scene: Scene, plan: str) -> Iterator[Change]:
     for step, place, direction in lines(scene, plan):
         along = "e_" + direction[2:]
         if direction.startswith("n_") and along in scene.steps:
-            yield instead(step, direction, operands=operand(step, place, along))
+            yield by_size(scene, instead(step, direction, operands=operand(step, place, along)))
 
 
 @mistake("M25", VELOCITY)
@@ -61,15 +61,15 @@ def _slotted(step: Step) -> bool:
     return bool(normals) and any(pin and normals[0].endswith(pin) for pin in pins)
 
 
-def _exchanged(step: Step) -> Change:
+def _exchanged(scene: Scene, step: Step) -> Change:
     p, u, q, w = step.operands
-    return instead(step, operands=(p, w, q, u))
+    return by_size(scene, instead(step, operands=(p, w, q, u)))
 
 
 @mistake("M26", VELOCITY)
 def lines_from_swapped_points(scene: Scene) -> Iterator[Change]:
     """Each of two lines is drawn through the mark of the other."""
-    yield from (_exchanged(step) for step in scene.made_by("meet", plan=VELOCITY) if not _slotted(step))
+    yield from (_exchanged(scene, step) for step in scene.made_by("meet", plan=VELOCITY) if not _slotted(step))
 
 
 @mistake("M27", VELOCITY)
@@ -96,6 +96,17 @@ def rate_from(scene: Scene, rate: Step, vector: str, how: str = "") -> Change:
     return with_sign(rate, (*size, over), scene.values[rate.name], how)
 
 
+def by_size(scene: Scene, change: Change) -> Change:
+    """Let the rates that follow from a mark be calculated from whole segments, whichever way these run now."""
+    steps, givens, plan = {**change.steps}, {**change.givens}, change.at.rpartition(".")[0]
+    for rate, reading in rates(scene, plan):
+        if change.at in reading.operands:
+            found = rate_from(scene, rate, reading.name)
+            steps |= found.steps
+            givens |= found.givens
+    return replace(change, steps=steps, givens=givens)
+
+
 def rates(scene: Scene, plan: str) -> Iterator[tuple[Step, Step]]:
     """Go through the rates that follow from a reading on a plan, with the reading."""
     for step in scene.made_by("calc", law="turning"):
@@ -120,17 +131,19 @@ def sense_of_rotation(scene: Scene) -> Iterator[Change]:
 
 
 def other_end(scene: Scene, plan: str) -> Iterator[Change]:
-    """Count a point that divides a segment from its other end."""
-    for step in scene.made_by("divide", plan=plan):
-        start, end, part, whole = step.operands
-        yield instead(step, operands=(end, start, part, whole))
+    """Count a point of a link from the other end of its segment."""
+    for step in scene.made_by("divide", "similar", plan=plan):
+        start, end, *where = step.operands
+        yield instead(step, operands=(end, start, *where))
 
 
 def middle(scene: Scene, plan: str) -> Iterator[Change]:
     """Put a point that divides a segment in its middle."""
     half = constant(0.5)
-    for step in scene.made_by("divide", plan=plan):
-        yield Change(step.name, {step.name: (replace(step, operands=(*step.operands[:2], half, "one")),)}, {half: 0.5})
+    for step in scene.made_by("divide", "similar", plan=plan):
+        if step.verb == "divide" or not scene.values[step.operands[3]]:
+            middle = Step("divide", step.name, (*step.operands[:2], half, "one"))
+            yield Change(step.name, {step.name: (middle,)}, {half: 0.5})
 
 
 def mirrored(scene: Scene, plan: str) -> Iterator[Change]:
@@ -162,7 +175,7 @@ def triangle_mirrored(scene: Scene) -> Iterator[Change]:
 @mistake("M33", VELOCITY)
 def slide_and_rotation_exchanged(scene: Scene) -> Iterator[Change]:
     """In a slotted pair the directions of sliding and of rotation are exchanged."""
-    yield from (_exchanged(step) for step in scene.made_by("meet", plan=VELOCITY) if _slotted(step))
+    yield from (_exchanged(scene, step) for step in scene.made_by("meet", plan=VELOCITY) if _slotted(step))
 
 
 @mistake("M34", VELOCITY)
@@ -188,7 +201,7 @@ def points_not_distinguished(scene: Scene) -> Iterator[Change]:
     for step in scene.made_by("meet", plan=VELOCITY):
         if _slotted(step):
             start = step.operands[0 if step.operands[1].startswith("u_") else 2]
-            yield Change(step.name, {step.name: (Step("same", step.name, (start,)),)}, {})
+            yield by_size(scene, Change(step.name, {step.name: (Step("same", step.name, (start,)),)}, {}))
 
 
 @mistake("M36", VELOCITY)
