@@ -1,0 +1,218 @@
+"""Speed against accuracy: error across, time per position upwards, one field for each kind of quantities."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
+
+from ...plans.linkages.contest import CHORDS, DIFFERENCES, HAND, NEWTON, PLAN, Contest, Entry
+from ..words import Words
+from .lettering import Box, Label, put
+from .paper import BLACK, GREY, SMALL, TEXT, box, page
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SINGLE, EXTENDED = f"{PLAN}-single", f"{PLAN}-extended"
+FIELDS = ((24.0, 116.0), (164.0, 116.0), (24.0, 25.0), (164.0, 25.0))  # left and bottom of four fields, mm
+SIZE = (126.0, 74.0)
+LARGEST = 3.0  # error beyond which a method means nothing
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """How a method is drawn: its marker, filled or not, the line between its points, where labels go."""
+
+    marker: str
+    filled: bool
+    line: Any
+    prefer: tuple[float, float]
+    words: str
+
+
+LOOKS: Mapping[str, Look] = {
+    PLAN: Look("o", True, "-", (1, 0), "plan"),
+    SINGLE: Look("s", False, "", (0, -1), "plan-single"),
+    EXTENDED: Look("s", False, "", (0, 1), "plan-single"),
+    NEWTON: Look("^", False, (0, (5, 2)), (0, 1), "newton"),
+    DIFFERENCES: Look("D", True, (0, (1, 1.5)), (0, -1), "differences"),
+    CHORDS: Look("x", True, (0, (6, 1.5, 1, 1.5)), (1, 0), "chords"),
+}
+
+
+def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: str, turns: bool) -> Figure:
+    """Draw a contest.
+
+    Parameters
+    ----------
+    note : str
+        How and on what it was measured.
+    hand : str
+        Name of the hand that draws.
+    turns : bool
+        Whether the driver turns: steps are angles then.
+    """
+
+    def draw(figure: Figure) -> None:
+        shown = [
+            field(figure, place, contest, group.kind, words)
+            for group, place in zip(contest.groups, FIELDS, strict=False)
+        ]
+        _align(shown)
+        for axes, group in zip(shown, contest.groups, strict=True):
+            letter(axes, contest, group.kind, words)
+        left, bottom = FIELDS[len(shown)]
+        _key(box(figure, left, bottom - 8.0, SIZE[0], SIZE[1] + 8.0), words, hand, contest, turns)
+
+    return page(title, note, draw)
+
+
+def field(figure: Figure, place: tuple[float, float], contest: Contest, kind: str, words: Words) -> Axes:
+    """Draw the points and lines of one kind of quantities."""
+    axes = box(figure, *place, *SIZE)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_title(words[f"chart.kind.{kind}"], loc="left", pad=4.0)
+    axes.grid(True)
+    axes.set_axisbelow(True)
+    for method, look in LOOKS.items():
+        xs, ys = _coordinates(drawable(contest.of(kind), method))
+        axes.plot(
+            xs,
+            ys,
+            linestyle=look.line or "none",
+            color=GREY,
+            marker=look.marker,
+            markersize=4.2,
+            markerfacecolor=BLACK if look.filled else "white",
+            markeredgecolor=BLACK,
+            markeredgewidth=0.9,
+            zorder=3,
+            label=method,
+        )
+    xs, ys = _coordinates(entry for entry in contest.front(kind) if (entry.error or 0.0) < LARGEST)
+    axes.plot(xs, ys, "o", ms=9.5, mfc="none", mec=BLACK, mew=0.7, zorder=2)
+    if xs:
+        axes.step(xs, ys, where="post", color=BLACK, lw=0.5, zorder=1)
+    axes.set_xlabel(words["chart.error"], labelpad=1.0)
+    axes.set_ylabel(words["chart.time"], labelpad=1.0)
+    return axes
+
+
+def _coordinates(entries: Iterable[Entry]) -> tuple[list[float], list[float]]:
+    """Return where entries stand: errors and seconds."""
+    places = [(e.error or 0.0, e.seconds or 0.0) for e in entries]
+    return [x for x, _ in places], [y for _, y in places]
+
+
+def drawable(entries: Iterable[Entry], method: str) -> list[Entry]:
+    """Return the entries of a method that have a place in the field."""
+    return [e for e in entries if e.method == method and e.error and e.seconds and e.error < LARGEST]
+
+
+def _align(fields: Sequence[Axes]) -> None:
+    """Give all fields the same axes, in whole powers of ten."""
+    from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
+
+    lows, highs = zip(*(axes.get_ylim() for axes in fields), strict=True)
+    lefts = [axes.get_xlim()[0] for axes in fields]
+    for axes in fields:
+        axes.set_xlim(10.0 ** math.floor(math.log10(min(lefts))), 10.0)
+        axes.set_ylim(10.0 ** math.floor(math.log10(min(lows))), 10.0 ** math.ceil(math.log10(max(highs)) + 0.8))
+        axes.xaxis.set_major_locator(LogLocator(100.0, numticks=20))
+        axes.xaxis.set_minor_locator(NullLocator())
+        axes.yaxis.set_major_locator(LogLocator(10.0, numticks=20))
+        axes.yaxis.set_minor_locator(NullLocator())
+        axes.yaxis.set_minor_formatter(NullFormatter())
+
+
+def letter(axes: Axes, contest: Contest, kind: str, words: Words) -> None:
+    """Draw the hand, and put a label beside every point."""
+    entries = contest.of(kind)
+    taken = _hands(axes, [e for e in entries if e.method == HAND and e.error], words)
+    labels, points = [], []
+    for method, look in LOOKS.items():
+        for entry in drawable(entries, method):
+            points.append((entry.error or 0.0, entry.seconds or 0.0))
+            named = method in (SINGLE, EXTENDED)
+            text = method.removeprefix(f"{PLAN}-").replace("single", "float32") if named else setting(entry)
+            labels.append(Label(*points[-1], text, _side(entry, entries, look), named))
+    put(axes, labels, points, taken)
+
+
+def _side(entry: Entry, entries: Iterable[Entry], look: Look) -> tuple[float, float]:
+    """Return the side of a point for its label: steps so small that rounding counts stand above the others."""
+    if entry.method != DIFFERENCES:
+        return look.prefer
+    best = min(drawable(entries, DIFFERENCES), key=lambda e: e.error or 0.0)
+    return (0, 1) if float(entry.setting) < float(best.setting) else (0, -1)
+
+
+def setting(entry: Entry) -> str:
+    """Return the setting of a method as its point has it.
+
+    >>> setting(Entry("plan", 1000, "velocity", None, None, "", 0.0, None, 1, 0.0))
+    '$10^{3}$'
+    """
+    if entry.method == CHORDS or isinstance(entry.setting, str):
+        return str(entry.setting)
+    power = math.log10(entry.setting)
+    return f"$10^{{{round(power)}}}$".replace("-", "−") if entry.setting != 1 else "1"
+
+
+def _hands(axes: Axes, entries: Sequence[Entry], words: Words) -> list[Box]:
+    """Draw for every paper a bar from the typical to the worst error; papers of one scale share it."""
+    renderer: Any = axes.figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    across, taken = axes.get_xaxis_transform(), list[Box]()
+    ordered = sorted(entries, key=lambda e: (-(e.error or 0.0), e.typical or 0.0))
+    for number, (_, group) in enumerate(groupby(ordered, key=lambda e: (e.typical, e.error))):
+        same = list(group)
+        low, high, height = same[0].typical or 0.0, same[0].error or 0.0, 0.955 - 0.065 * number
+        axes.plot([low, high], [height] * 2, transform=across, marker="|", ms=6.0, color=BLACK, lw=2.2, zorder=4)
+        axes.plot([high] * 2, [0.0, height], transform=across, color=GREY, lw=0.6, ls=(0, (8, 2)), zorder=1)
+        papers = ", ".join(str(e.setting) for e in same)
+        text = axes.text(
+            low / 1.6,
+            height,
+            f"{words['chart.hand']}: {papers}",
+            fontsize=SMALL,
+            transform=across,
+            va="center",
+            ha="right",
+        )
+        extent = text.get_window_extent(renderer)
+        taken.append((extent.x0, extent.y0, extent.x1 + 30.0, extent.y1))
+    return taken
+
+
+def _key(axes: Axes, words: Words, hand: str, contest: Contest, turns: bool) -> None:
+    """Say what markers and numbers mean."""
+    axes.set_axis_off()
+    axes.set_xlim(0.0, 126.0)
+    axes.set_ylim(83.0, 0.0)
+    present = {entry.method for entry in contest.entries}
+    rows = [(look, look.words) for method, look in LOOKS.items() if method in present and method != EXTENDED]
+    y = 6.0
+    for look, key in rows:
+        text = f"{key}-slide" if key == DIFFERENCES and not turns else key
+        axes.plot([0.0, 5.0, 10.0], [y] * 3, linestyle=look.line or "none", color=GREY, lw=1.0)
+        face = BLACK if look.filled else "white"
+        axes.plot(5.0, y, look.marker, ms=4.2, mfc=face, mec=BLACK, mew=0.9)
+        axes.text(13.0, y, words[f"chart.key.{text}"], va="center", fontsize=TEXT)
+        y += 6.5
+    axes.plot(5.0, y, "o", ms=9.5, mfc="none", mec=BLACK, mew=0.7)
+    axes.text(13.0, y, words["chart.key.front"], va="center", fontsize=TEXT)
+    if HAND in present:
+        y += 8.0
+        axes.plot([1.0, 9.0], [y] * 2, marker="|", ms=6.0, color=BLACK, lw=2.2)
+        _wrapped(axes, 13.0, y, words["chart.key.hand"].format(hand=hand))
+
+
+def _wrapped(axes: Axes, x: float, y: float, text: str) -> None:
+    import textwrap
+
+    axes.text(x, y, "\n".join(textwrap.wrap(text, 64)), va="center", fontsize=TEXT, linespacing=1.3)

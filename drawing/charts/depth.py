@@ -1,0 +1,130 @@
+"""Depth of the model: what each simplification changes, one row each, on a logarithmic scale of per cents."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from ...plans.linkages.depth import Cost, Depth
+from ...plans.quantities import unit_of
+from ...scales.units import format_unit
+from ..words import Words
+from .paper import BLACK, GREY, SMALL, TEXT, box, decimals, mathtext, page
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+LEFT, WIDTH, GAP = 62.0, 108.0, 8.0  # mm
+FOOT, HEAD, ROW = 30.0, 34.0, 9.0
+TALL = 210.0
+LEAST, MOST = 1e-3, 3e2  # per cent
+SHOWN = 3  # digits
+
+
+def depth_page(found: Depth, words: Words, title: str) -> Figure:
+    """Draw what simplifications cost."""
+
+    def draw(figure: Figure) -> None:
+        tall = min(TALL - FOOT - HEAD, ROW * (len(found.costs) + 1))
+        fields = 2 if found.reaction else 1
+        bottom = TALL - HEAD - tall
+        shown = [box(figure, LEFT + i * (WIDTH + GAP), bottom, WIDTH * (3 - fields), tall) for i in range(fields)]
+        for axes, head in zip(shown, _heads(found, words), strict=False):
+            axes.set_title(head, fontsize=TEXT, loc="left", pad=5.0)
+        _rows(shown[0], found.costs, [(c.balance, c.balance_rms) for c in found.costs], found.tolerance, words)
+        if found.reaction:
+            pairs = [(c.reaction or 0.0, c.reaction_rms or 0.0) for c in found.costs]
+            _rows(shown[1], found.costs, pairs, found.tolerance, words)
+            shown[1].tick_params(labelleft=False)
+        shown[0].set_yticks(range(len(found.costs)), [named(cost, words) for cost in found.costs], fontsize=TEXT)
+        figure.text(
+            LEFT / 297.0, (bottom - 16.0) / TALL, verdict(found, words), fontsize=TEXT + 0.5, va="top", linespacing=1.5
+        )
+
+    return page(title, words["chart.whole"], draw)
+
+
+def _heads(found: Depth, words: Words) -> Sequence[str]:
+    """Return what the two fields show."""
+
+    def of(key: str, name: str, value: float) -> str:
+        unit = words.display.unit(unit_of(name))
+        size = words.short(words.display.value(value, unit_of(name)), 4)
+        symbol = mathtext(words.symbol(name))
+        return words[key].format(name=symbol, value=size, unit=format_unit(unit, words.language, raised=True))
+
+    heads = [of("chart.change_of", found.balance, found.largest_balance)]
+    if found.reaction:
+        heads.append(of("chart.change_of_reactions", found.reaction, found.largest_reaction or 0.0))
+    return heads
+
+
+def named(cost: Cost, words: Words) -> str:
+    """Return the words of a row."""
+    if cost.parts == (cost.key,):
+        return words["chart.without"].format(part=mathtext(words.symbol(cost.key)))
+    return words[f"chart.without.{cost.key}"]
+
+
+def verdict(found: Depth, words: Words, plain: bool = False) -> str:
+    """Return which parts a tolerance asks for, and which may go; `plain` names them as the data do."""
+
+    def names(parts: Sequence[str]) -> str:
+        shown = (part if plain else mathtext(words.symbol(part)) for part in parts)
+        return ", ".join(shown) or words["chart.nothing"]
+
+    tolerance = words.short(found.tolerance)
+    lines = [words["chart.needed"].format(tolerance=tolerance, parts=names(found.needed))]
+    cost = words.short(found.together.worst, SHOWN)
+    lines.append(words["chart.spare"].format(parts=names(found.spare), cost=cost))
+    return "\n".join(lines)
+
+
+def _rows(
+    axes: Axes, costs: Sequence[Cost], pairs: Sequence[tuple[float, float]], tolerance: float, words: Words
+) -> None:
+    """Draw a row for each simplification: the largest change filled, the root of the mean square hollow."""
+    axes.set_xscale("log")
+    axes.set_xlim(LEAST, MOST)
+    axes.set_ylim(len(costs) - 0.4, -0.6)
+    axes.grid(True, axis="x")
+    axes.set_axisbelow(True)
+    axes.axvline(tolerance, color=BLACK, lw=0.9, ls=(0, (6, 2)))
+    axes.text(
+        tolerance,
+        -0.02,
+        words["chart.tolerance"].format(value=words.short(tolerance)),
+        transform=axes.get_xaxis_transform(),
+        ha="center",
+        va="top",
+        fontsize=SMALL,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+        zorder=4,
+    )
+    for row, (most, mean) in enumerate(pairs):
+        at, half = (min(max(value, LEAST), MOST) for value in (most, mean))
+        axes.plot([LEAST, at], [row, row], color=GREY, lw=2.4, solid_capstyle="butt", zorder=2, clip_on=False)
+        axes.plot(half, row, "o", mfc="white", mec=BLACK, ms=4.6, mew=0.8, zorder=3, clip_on=False)
+        axes.plot(at, row, "D", mfc=BLACK, mec=BLACK, ms=4.6, zorder=3, clip_on=False)
+        axes.annotate(
+            _short(most, words),
+            (at, row),
+            (7.0, 0.0),
+            textcoords="offset points",
+            va="center",
+            fontsize=SMALL,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4},
+        )
+    decimals(axes.xaxis, words)
+    axes.minorticks_off()
+
+
+def _short(value: float, words: Words) -> str:
+    return (
+        words.short(float(f"{value:.{SHOWN}g}"))
+        if value >= LEAST
+        else "0"
+        if value < 1e-12
+        else f"< {words.short(LEAST)}"
+    )

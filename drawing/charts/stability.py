@@ -1,0 +1,281 @@
+"""Stability over the cycle: the worst intersection, the condition, the error of drawing, over the driver's place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...plans.exact import SMALL as SMALL_SINE
+from ...plans.laws import TURN
+from ...plans.linkages.limits import Arc
+from ...plans.linkages.stability import CHANGE, DEAD, DIGITS, LIMIT, POLE, Spot, Stability
+from ..words import Words
+from .paper import BLACK, GREY, LIGHT, SMALL, TEXT, box, decimals, mathtext, page
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Array = NDArray[Any]
+LEFT, WIDTH = 24.0, 232.0  # mm
+FOOT, HEAD, GAP = 27.0, 27.0, 9.0
+TALL = 210.0
+LOOKS: tuple[tuple[Any, str], ...] = (
+    ("-", "o"),
+    ((0, (6, 2)), "s"),
+    ((0, (6, 1.5, 1, 1.5)), "^"),
+    ((0, (1, 1.2)), "D"),
+    ((0, (10, 3)), "v"),
+    ((0, (3, 1, 1, 1, 1, 1)), "x"),
+)
+MARKED = 12  # markers along a curve
+SPOTS = {CHANGE: "chart.change", POLE: "chart.parallel", LIMIT: "chart.limit"}
+
+
+@dataclass(frozen=True, slots=True)
+class Abscissa:
+    """The driver's place as the axis shows it: its name and unit, degrees within a turn or millimetres."""
+
+    label: str
+    turns: bool
+
+    def shown(self, places: Array) -> Array:
+        """Return places as they are shown."""
+        if not self.turns:
+            return places * 1e3
+        found: Array = np.degrees(places % TURN)
+        return np.where(found > 360.0 - 1e-9, 0.0, found)
+
+
+def stability_page(
+    found: Stability, apart: Sequence[Arc], words: Words, title: str, along: Abscissa, hand: str
+) -> Figure:
+    """Draw what is lost over a cycle.
+
+    Parameters
+    ----------
+    apart : sequence of Arc
+        Where the mechanism cannot be assembled.
+    """
+    lengths = [name for name, mm in found.in_mm.items() if mm]
+    others = [name for name, mm in found.in_mm.items() if not mm]
+
+    def draw(figure: Figure) -> None:
+        x = along.shown(found.places)
+        order = np.argsort(x, kind="stable")
+        looks = dict(zip(found.conditions, LOOKS * 4, strict=False))
+        fields = _fields(figure, 2 + bool(lengths) + bool(others))
+        _angles(fields[0], x[order], found.angles[order], words)
+        _curves(fields[1], x[order], {n: c[order] for n, c in found.conditions.items()}, looks, words)
+        _log(fields[1], words["chart.condition"])
+        _digits(fields[1], words)
+        for axes, names, key in zip(
+            fields[2:],
+            [names for names in (lengths, others) if names],
+            [key for key, names in (("millimetres", lengths), ("per_cent", others)) if names],
+            strict=True,
+        ):
+            _curves(axes, x[order], {n: found.misses[n][order] for n in names}, looks, words)
+            _log(axes, words[f"chart.{key}"], words)
+        for axes in fields:
+            _along(axes, along, x)
+            _special(axes, found.spots, apart, along)
+        _named(fields[0], found.spots, along, words)
+        fields[-1].set_xlabel(along.label, labelpad=1.0)
+
+    return page(title, words["chart.drawn"].format(hand=hand), draw)
+
+
+def _fields(figure: Figure, count: int) -> list[Axes]:
+    """Return fields one below the other."""
+    tall = (TALL - FOOT - HEAD - GAP * (count - 1)) / count
+    fields = [box(figure, LEFT, FOOT + (tall + GAP) * (count - 1 - i), WIDTH, tall) for i in range(count)]
+    for axes in fields[:-1]:
+        axes.tick_params(labelbottom=False)
+    for axes in fields:
+        axes.grid(True)
+        axes.set_axisbelow(True)
+    return fields
+
+
+def _angles(axes: Axes, x: Array, angles: Array, words: Words) -> None:
+    axes.plot(x, angles, color=BLACK, lw=1.1)
+    small = math.degrees(math.asin(SMALL_SINE))
+    axes.axhline(small, color=GREY, lw=0.7, ls=(0, (4, 2)))
+    axes.text(
+        1.005, small, words["chart.small"], transform=axes.get_yaxis_transform(), fontsize=SMALL, va="center", wrap=True
+    )
+    axes.set_ylim(0.0, 92.0)
+    axes.set_yticks(range(0, 91, 30))
+    _titled(axes, words["chart.angle"])
+
+
+def _curves(
+    axes: Axes, x: Array, curves: Mapping[str, Array], looks: Mapping[str, tuple[Any, str]], words: Words
+) -> None:
+    """Draw curves with a marker here and there, and the symbol of each at its right end."""
+    ends = {}
+    for number, (name, values) in enumerate(curves.items()):
+        line, marker = looks[name]
+        positive = np.where(values > 0.0, values, np.nan)
+        every = max(len(x) // MARKED, 1)
+        first = (number * every) // max(len(curves), 1)
+        axes.plot(
+            x,
+            positive,
+            ls=line,
+            color=BLACK,
+            lw=1.0,
+            marker=marker,
+            ms=3.6,
+            mfc="white",
+            mew=0.8,
+            markevery=(first, every),
+        )
+        known = positive[np.isfinite(positive)]
+        if known.size:
+            ends[name] = float(known[-1])
+    axes.set_yscale("log")
+    _widen(axes)
+    _beside(axes, ends, looks, words)
+
+
+def _widen(axes: Axes) -> None:
+    """Give an axis at least one power of ten, so that it has divisions."""
+    low, high = axes.get_ylim()
+    if high < 10.0 * low:
+        middle = math.sqrt(low * high)
+        axes.set_ylim(middle / 10.0**0.55, middle * 10.0**0.55)
+
+
+def _beside(axes: Axes, ends: Mapping[str, float], looks: Mapping[str, tuple[Any, str]], words: Words) -> None:
+    """Write the symbols of curves to the right of the field, with their lines, none over another."""
+    low, high = (math.log10(y) for y in axes.get_ylim())
+    apart = 3.6 / (axes.get_position().height * TALL)  # 3.6 mm
+    wanted = sorted(((math.log10(value) - low) / (high - low), name) for name, value in ends.items())
+    heights: list[float] = []
+    for height, _ in wanted:
+        heights.append(max(height, heights[-1] + apart) if heights else height)
+    over = max(heights[-1] - 0.97, 0.0) if heights else 0.0
+    for height, (_, name) in zip(heights, wanted, strict=True):
+        line, marker = looks[name]
+        y = height - over
+        axes.plot(
+            [1.045, 1.075],
+            [y, y],
+            ls=line,
+            marker=marker,
+            markevery=[0],
+            ms=3.6,
+            mfc="white",
+            mew=0.8,
+            color=BLACK,
+            lw=1.0,
+            transform=axes.transAxes,
+            clip_on=False,
+        )
+        axes.text(1.082, y, mathtext(words.symbol(name)), transform=axes.transAxes, va="center", fontsize=TEXT)
+
+
+def _log(axes: Axes, label: str, words: Words | None = None) -> None:
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    axes.yaxis.set_major_locator(LogLocator(10.0, subs=(1.0, 2.0, 5.0) if _decades(axes) < 2.5 else (1.0,)))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+    if _decades(axes) < 5.0 and words is not None:
+        decimals(axes.yaxis, words)
+    elif _decades(axes) < 5.0:
+        axes.yaxis.set_major_formatter("{x:g}")
+    _titled(axes, label)
+
+
+def _titled(axes: Axes, label: str) -> None:
+    """Say above a field what it shows."""
+    axes.set_title(label, loc="left", fontsize=TEXT, pad=3.0)
+
+
+def _decades(axes: Axes) -> float:
+    low, high = axes.get_ylim()
+    return math.log10(high / low)
+
+
+def _digits(axes: Axes, words: Words) -> None:
+    """Write at the right how many digits are left."""
+    low, high = (math.log10(y) for y in axes.get_ylim())
+    whole = [k for k in range(math.ceil(low), math.floor(high) + 1) if k >= 0]
+    for k in whole:
+        axes.text(
+            1.008,
+            (k - low) / (high - low),
+            words.short(DIGITS - k),
+            transform=axes.transAxes,
+            fontsize=SMALL,
+            va="center",
+            style="italic",
+        )
+    axes.text(1.008, 1.03, words["chart.digits"], transform=axes.transAxes, fontsize=SMALL, va="bottom", style="italic")
+
+
+def _along(axes: Axes, along: Abscissa, x: Array) -> None:
+    if along.turns:
+        axes.set_xlim(0.0, 360.0)
+        axes.set_xticks(range(0, 361, 30))
+    else:
+        axes.set_xlim(float(x.min()), float(x.max()))
+
+
+def _special(axes: Axes, spots: Sequence[Spot], apart: Sequence[Arc], along: Abscissa) -> None:
+    """Draw special places as vertical lines, and hatch what cannot be assembled."""
+    for spot in spots:
+        dashes = (0, (1, 2)) if spot.kind == DEAD else (0, (7, 2, 1, 2, 1, 2))
+        axes.axvline(float(along.shown(np.array([spot.place]))[0]), color=BLACK, lw=0.8, ls=dashes, zorder=1)
+    for low, high in _stretches(apart, along):
+        axes.axvspan(low, high, facecolor="none", edgecolor=LIGHT, hatch="///", lw=0.0, zorder=0)
+
+
+def _stretches(apart: Sequence[Arc], along: Abscissa) -> list[tuple[float, float]]:
+    """Return arcs as they are shown, cut at the end of a turn."""
+    found: list[tuple[float, float]] = []
+    for arc in apart:
+        low, high = (float(end) for end in along.shown(np.array([arc.low, arc.high])))
+        if along.turns and arc.high - arc.low >= TURN:
+            found.append((0.0, 360.0))
+        elif along.turns and high < low:
+            found += [(low, 360.0), (0.0, high)]
+        else:
+            found.append((low, high))
+    return found
+
+
+def _named(axes: Axes, spots: Sequence[Spot], along: Abscissa, words: Words) -> None:
+    """Write above the first field what its vertical lines are."""
+    texts: dict[float, list[str]] = {}
+    dead: dict[float, list[int]] = {}
+    for spot in spots:
+        x = round(float(along.shown(np.array([spot.place]))[0]), 3)
+        if spot.kind == DEAD:
+            dead.setdefault(x, []).append(spot.link or 0)
+        elif words[SPOTS[spot.kind]] not in texts.setdefault(x, []):
+            texts[x].append(words[SPOTS[spot.kind]])
+    for x, links in dead.items():
+        texts.setdefault(x, []).insert(0, words["chart.dead"].format(links=", ".join(map(str, links))))
+    low, high = axes.get_xlim()
+    last, row = -math.inf, 0
+    for x, said in sorted(texts.items()):
+        row = row + 1 if (x - last) / (high - low) < 0.09 else 0
+        side = "left" if x - low < 0.03 * (high - low) else "right" if high - x < 0.03 * (high - low) else "center"
+        axes.text(
+            x,
+            1.16 + 0.1 * (row % 3),
+            "; ".join(said),
+            transform=axes.get_xaxis_transform(),
+            fontsize=SMALL,
+            ha=side,
+            va="bottom",
+        )
+        last = x

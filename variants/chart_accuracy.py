@@ -1,0 +1,157 @@
+"""The chart of speed against accuracy of one variant: rows, table, CSV, JSON, picture."""
+
+from __future__ import annotations
+
+import os
+import platform
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import __version__
+from ..drawing.formats import format_named
+from ..drawing.linkages.fitting import Contents
+from ..drawing.linkages.sheet import draw
+from ..drawing.titleblock import Stamp
+from ..drawing.words import Words
+from ..plans.hand import preset
+from ..plans.linkages.contest import AT_ONCE, BATCHES, Contest, Entry, by_hand, contest
+from ..plans.linkages.cycle import Cycle
+from ..scales.errors import InputError
+from .chart_data import Cell, Scene, aligned, as_csv, finite, place_value, short
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FORMATS = ("A4", "A3", "A2", "A1")
+SEED = 1
+HEAD = ("method", "setting", "kind", "error", "typical", "quantity", "place", "seconds", "at_once", "failed", "front")
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class AccuracyChart:
+    """Speed against accuracy: `contest` holds an entry for every method, setting and kind of quantities."""
+
+    scene: Scene
+    cycle: Cycle
+    contest: Contest
+
+    def table(self, words: Words) -> str:
+        """Return a row for every method and setting: error and time by kinds; * where no other method beats it."""
+        kinds = [group.kind for group in self.contest.groups]
+        head = [words["chart.method"], words["chart.setting"]]
+        head += [text for kind in kinds for text in (words[f"chart.kind.{kind}"], words["chart.seconds"], "")]
+        fronts = {kind: set(map(id, self.contest.front(kind))) for kind in kinds}
+        rows: dict[tuple[str, float | str], dict[str, list[str]]] = {}
+        for entry in self.contest.entries:
+            row = rows.setdefault((entry.method, entry.setting), {})
+            beaten = "" if id(entry) in fronts[entry.kind] else " "
+            row[entry.kind] = [short(words, entry.error), short(words, entry.seconds), "*" if not beaten else ""]
+        lines = [head]
+        for (method, setting), row in rows.items():
+            shown = words.decimal(f"{setting:g}" if isinstance(setting, float) else str(setting))
+            cells = [cell for kind in kinds for cell in row.get(kind, ["", "", ""])]
+            lines.append([words[f"chart.{method}"], shown, *cells])
+        said = words["chart.front_mark"].format(text=words["chart.key.front"])
+        return "\n".join((aligned(lines), "", said, *self.notes(words)))
+
+    def notes(self, words: Words) -> tuple[str, str]:
+        """Return how and on what it was measured."""
+        batch = words.number(AT_ONCE, 0)
+        return words["chart.compared"].format(positions=len(self.contest.places), batch=batch), machine(words)
+
+    def csv(self, words: Words) -> bytes:
+        """Return all entries."""
+        fronts = {id(entry) for group in self.contest.groups for entry in self.contest.front(group.kind)}
+        rows = [self._row(entry, id(entry) in fronts) for entry in self.contest.entries]
+        return as_csv(HEAD, rows, words)
+
+    def _row(self, e: Entry, front: bool) -> list[Cell]:
+        at = place_value(self.cycle, e.place)
+        head: list[Cell] = [e.method, e.setting, e.kind, e.error, e.typical, e.name, at]
+        return [*head, e.seconds, e.at_once, e.failed, int(front)]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all entries as data."""
+        return {
+            "machine": machine(Words.of("en", self.scene.case.task.notation)),
+            "hand": self.scene.hand,
+            "places": self.contest.places.tolist(),
+            "entries": [self._item(entry) for entry in self.contest.entries],
+        }
+
+    def _item(self, entry: Entry) -> dict[str, Any]:
+        return {
+            "method": entry.method,
+            "setting": entry.setting,
+            "kind": entry.kind,
+            "error": finite(entry.error),
+            "typical": finite(entry.typical),
+            "quantity": entry.name,
+            "at": entry.place,
+            "seconds": finite(entry.seconds),
+            "at_once": entry.at_once,
+            "failed": entry.failed,
+            "front": any(entry is one for one in self.contest.front(entry.kind)),
+        }
+
+    def figure(self, words: Words) -> Figure:
+        """Draw the picture."""
+        from ..drawing.charts.accuracy import accuracy_page
+
+        title, turns = self.scene.title("chart.accuracy"), self.cycle.drive.turns
+        return accuracy_page(self.contest, words, title, "\n".join(self.notes(words)), self.scene.hand, turns)
+
+
+def accuracy_chart(
+    scene: Scene, cycle: Cycle, positions: int, names: Sequence[str], batches: Sequence[int] = BATCHES
+) -> AccuracyChart:
+    """Let all methods compete.
+
+    Raises
+    ------
+    InputError
+        With the key `chart-no-rivals`: nothing that is wanted can be compared.
+    """
+    found = contest(cycle, positions, names, batches)
+    if not found.groups:
+        raise InputError("chart-no-rivals")
+    hands = tuple(_hands(scene, cycle, found))
+    return AccuracyChart(scene, cycle, Contest(found.groups, found.places, found.entries + hands))
+
+
+def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
+    """Go through the errors of a hand on the sheets of all formats."""
+    for name in FORMATS:
+        mus = _scales(scene, name)
+        if mus is not None:
+            random = np.random.default_rng(SEED)  # the same hand on every format
+            yield from by_hand(cycle, mus, preset(scene.hand).hand, found.groups, random, name)
+
+
+def _scales(scene: Scene, name: str) -> Mapping[str, float] | None:
+    """Return the scale factors, by plan, that a sheet of a format takes; None where there is no such sheet."""
+    case, words = scene.case, scene.words
+    if case.solved.trouble is not None:
+        return None
+    plans = tuple(plan for plan in case.plans if plan != "cycle")
+    stamp = Stamp(title=case.task.title[words.language], language=words.language)
+    contents = Contents(case.solved, plans, case.choosers, case.givens, words)
+    try:
+        drawn = draw(contents, stamp, format_named(name))
+    except InputError:  # too small for a plan, or for a scale factor that was asked for
+        return None
+    return {plan: scale.mu for plan, scale in drawn.scales.items()}
+
+
+def machine(words: Words) -> str:
+    """Return the machine and the versions on which times were measured."""
+    return words["chart.machine"].format(
+        machine=f"{platform.system()} {platform.machine()}",
+        cores=os.cpu_count() or 1,
+        python=platform.python_version(),
+        numpy=np.__version__,
+        version=__version__,
+    )
