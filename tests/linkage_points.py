@@ -304,6 +304,9 @@ def l12_lever(case: Linkage, sheet: Sheet) -> Faults:
         if view.has(f"lever.{name}"):
             turned = case.oracle.moves(name)[0] * 1j / mu
             yield from unless(same(view.point(f"lever.{name}") - p, turned), f"lever: {name} is not turned by 90°")
+    for one in dict.fromkeys(x.name.rpartition("_")[0] for x in view.arrows if "_couple_" in x.name):
+        ends = [x.unit for x in view.arrows if x.name.startswith(f"{one}_")]
+        yield from unless(len(ends) == 2 and same(ends[0], -ends[1]), f"lever: {one} is no pair of opposite forces")
     total, largest = 0.0, 0.0
     for arrow in view.arrows:
         wanted = case.oracle.known.get(arrow.name)

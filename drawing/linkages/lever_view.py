@@ -101,6 +101,10 @@ def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
         for step in scene.solved.program
         if step.verb == "moment" and step.operands[2] == "lever.p"
     ]
+    # of a couple on a link that turns about a pivot the second force stands at the pole: it has no moment
+    pulling = {name for name, _ in hung}
+    made = (step.name for step in scene.solved.program if "_couple_" in step.name and step.law in ("along", "opposite"))
+    hung += [(name, "lever.p") for name in made if name not in pulling]
     balance = next(name for name in BALANCE if name in scene.solved.values)
     return [*hung, (balance, f"lever.{scene.solved.mechanism.driver.point}")]
 

@@ -9,7 +9,7 @@ from types import ModuleType
 from ...scales.errors import InputError
 from ..board import Program, RecordingBoard
 from . import compound
-from .lever import lever
+from .lever import Joined, lever, points_of
 from .loads import hung, lay_loads
 from .mechanism import FRAME, ZERO, Driver, Mechanism, SlidingDriver
 from .parts import AssurGroup, Bodies, Forces, Span
@@ -184,10 +184,14 @@ def _forces(board: RecordingBoard, mechanism: Mechanism, dyads: Attached, bodies
 
 
 def _lever(board: RecordingBoard, mechanism: Mechanism, spans: Mapping[int, Span], bodies: Bodies) -> None:
-    """Hang all forces on the lever, and the couples: as pairs of forces on links with two joints, else as powers."""
+    """Hang all forces on the lever, and the couples: as pairs of forces where two points are known, else as powers."""
     forces, couples = hung(mechanism, bodies)
-    pairs = [(couple, span) for number, span in spans.items() for couple in couples[number]]
-    alone = {number: bodies[number].omega for number in couples if number not in spans}
-    turning = [(couple, omega) for number, omega in alone.items() if omega for couple in couples[number]]
+    rates = {omega: span for number, span in spans.items() if (omega := bodies[number].omega)}
+    pairs: list[tuple[str, Joined]] = [(couple, span) for number, span in spans.items() for couple in couples[number]]
+    turning = []
+    for number, omega in ((n, bodies[n].omega) for n in couples if n not in spans):
+        points = points_of(omega, board.steps, rates) if omega else None
+        pairs += [(couple, points) for couple in couples[number] if points]
+        turning += [(couple, omega) for couple in couples[number] if omega and not points]
     moments = lever(board, mechanism, [force for link in forces.values() for force in link], pairs, turning)
     driver_of(mechanism).on_lever(board, mechanism, moments)

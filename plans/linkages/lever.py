@@ -6,22 +6,27 @@ balances the driver follows from it.
 
 from __future__ import annotations
 
-from ..board import Board
+from collections.abc import Iterable, Mapping
+from typing import TypeAlias
+
+from ..board import Board, Step
 from .mechanism import Mechanism
-from .parts import Span
+from .parts import Ends, Span
+
+Joined: TypeAlias = Span | Ends  # two points of a link
 
 
 def lever(
     board: Board,
     mechanism: Mechanism,
     forces: list[tuple[str, str]],
-    couples: list[tuple[str, Span]],
+    couples: list[tuple[str, Joined]],
     turning: list[tuple[str, str]],
 ) -> list[str]:
-    """Hang `forces` (name, point) and `couples` (moment, link AB) on the turned plan; return their moments.
+    """Hang `forces` (name, point) and `couples` (moment, points A, B) on the turned plan; return their moments.
 
     A couple hangs as two equal opposite forces M / l_AB at B and A, normal to AB. Those in `turning` (moment, omega) on
-    links with one joint enter with their power.
+    links of which no two points are known enter with their power.
     """
     driver, still = mechanism.driver, mechanism.frame_points
     forces = [(force, at) for force, at in forces if at not in still]
@@ -48,3 +53,20 @@ def lever(
         board.calc(f"_{moment}_p", "couple_on_lever", moment, omega)
         moments.append(f"_{moment}_p")
     return moments
+
+
+def points_of(omega: str, steps: Iterable[Step], spans: Mapping[str, Span]) -> Joined | None:
+    """Return two points with images on the plan that turn with the angular velocity `omega`, if any are known.
+
+    They are the joints of a link that turns so, `spans` by angular velocity, or those from whose relative velocity it
+    was read: a sliding block turns with its guide, and the guide by the velocity of its point under the block's pin.
+    """
+    made = {step.name: step for step in steps}
+    while omega not in spans and omega in made and made[omega].law == "same_turning":
+        omega = made[omega].operands[0]
+    if omega in spans or omega not in made or made[omega].law != "turning":
+        return spans.get(omega)
+    vector, normal, length = made[omega].operands
+    start, end = made[made[normal].operands[0]].operands[:2]
+    point = made[vector].operands[1].rpartition(".")[2]  # the pin itself, or the point of the link under it
+    return Ends(start, point if point.startswith(end) else end, normal, length)

@@ -122,6 +122,16 @@ class Span:
         return Body(self.link, self.start, self.e, local, omega, epsilon)
 
 
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """Two points that turn together, with the names of the normal to their line and of their distance."""
+
+    start: str
+    end: str
+    n: str
+    length: str
+
+
 def size_of(board: Board, mechanism: Mechanism) -> str:
     """Calculate the largest coordinate of the mechanism: what its places are rounded by; return its name."""
     places = [place for link in mechanism.links for place in link.points.values()]
