@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import pytest
 
@@ -107,6 +108,33 @@ def test_compass_arcs_can_be_seen_beside_carried_vectors(task: str) -> None:
             ends = [((end - arrow.tail) * arrow.unit.conjugate()) for end in (arc[0], arc[-1])]
             if min(abs(at - arrow.tail) for at in arc) < 0.5:
                 assert all(abs(end.imag) > 1.2 for end in ends)
+
+
+@pytest.mark.parametrize(
+    ("task", "ends"),
+    [
+        pytest.param("scheme-09-shaper", ("A3", "C"), id="a slotted link, by its point under the block"),
+        pytest.param("scheme-03-crank-rocker", ("B", "C"), id="a rocker, by its joints"),
+    ],
+)
+def test_couples_hang_on_the_lever_as_pairs(task: str, ends: tuple[str, str]) -> None:
+    """Also the force at the pole is drawn, that at the image of a pivot: it has no moment, but it is half the pair."""
+    drawn = sheet(task, only="velocity,forces,lever", format="A1")
+    lever = next(v for n in range(1, len(drawn.pages) + 1) for v in read(drawn.svg(n)).views if v.name == "lever")
+    found = [a for a in lever.arrows if re.fullmatch(rf"F_(i3|sum)_couple_({'|'.join(ends)})", a.name)]
+
+    assert len(found) == 2
+    assert same(found[0].unit, -found[1].unit)
+    assert any(min(abs(a.tail - lever.point("lever.p")), abs(a.tip - lever.point("lever.p"))) < 0.01 for a in found)
+
+
+def test_forces_on_one_line_stay_near_their_slider() -> None:
+    drawn = sheet("scheme-13-toggle-press", only="velocity,acceleration,forces", format="A1")
+    view = next(v for n in range(1, len(drawn.pages) + 1) for v in read(drawn.svg(n)).views if v.name == "group_45")
+    pin, long = view.point("D"), STYLES["A1"].force
+    reach = [max(abs(a.tail - pin), abs(a.tip - pin)) for a in (view.arrow(name) for name in ("F_i5", "G_5", "F_5"))]
+
+    assert max(reach) < 3 * long
 
 
 def test_block_lies_in_its_link_and_turns_with_it() -> None:

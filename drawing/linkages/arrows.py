@@ -11,6 +11,8 @@ from ..view import Canvas
 from .scene import Scene
 from .skeleton import Stroke, rays_of
 
+SHORTER = 0.6  # part of its length that an arrow beyond another one has
+SPARE, ALONG = 1.2, 2.5  # mm between two arrows on a line, and beside one another where they count as on one
 FARTHEST = 2.5  # lengths of an arrow that it may stand from its point
 
 
@@ -37,7 +39,7 @@ class Arrows:
             self.zero.append(name)
             return
         ray, start = self._where(at, e, gap)
-        near, far = at + ray * start, at + ray * (start + self.scene.style.force)
+        near, far = at + ray * start, at + ray * (start + self._length(start > gap))
         self.at.setdefault(_place(at), []).append(far - at)
         self._lying.append((near, far))
         tail, tip = (near, far) if abs(ray - e) < 1.0 else (far, near)
@@ -60,17 +62,22 @@ class Arrows:
 
     def _start(self, at: complex, ray: complex, start: float) -> float:
         """Return where on a ray there is room for an arrow: beyond links and arrows that lie along it."""
-        length, taken = self.scene.style.force, []
-        lying = [*((s, self.scene.style.pair + 1.0) for s in self.strokes), *((s, 2.0) for s in self._lying)]
-        for (a, b), spare in lying:
+        first, taken = start, []
+        lying = [(s, self.scene.style.pair + 1.0, 0.5) for s in self.strokes]
+        lying += [(s, SPARE, ALONG) for s in self._lying]
+        for (a, b), spare, aside in lying:
             ends = [(end - at) / ray for end in (a, b)]
-            if all(abs(end.imag) < 0.5 for end in ends):
+            if all(abs(end.imag) < aside for end in ends):
                 low, high = sorted(end.real for end in ends)
                 taken.append((low, high, spare))
         for low, high, spare in sorted(taken):
-            if low < start + length - 0.5 and high > start + 0.5:
+            if low < start + self._length(start > first) - 0.5 and high > start + 0.5:
                 start = high + spare
         return start
+
+    def _length(self, beyond: bool) -> float:
+        """Return the length of an arrow, one `beyond` another on its line being shorter, to stay near its point."""
+        return self.scene.style.force * (SHORTER if beyond else 1.0)
 
 
 def _place(at: complex) -> complex:
