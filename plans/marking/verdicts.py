@@ -283,6 +283,8 @@ class _Marker:
 
     def _is_scale(self, answer: Answer, values: tuple[float, ...], name: str, value: Any) -> bool:
         """Whether only a unit, the convention of the scale factor or the scale itself makes a line wrong."""
+        if abs(self.key[name]) <= self.key.allowed[name]:
+            return False  # anything is nothing in some unit
         others = [x * unit for x in values for unit in UNITS] + list(measured(answer, self.mus[name]))
         true = self.true.get(self.key.questions[name].plan)
         if true is not None and answer.mm:
