@@ -17,7 +17,7 @@ from . import __version__
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import system_language
 from .scales.numbers import quote
-from .variants.options import Word, columns_out, count, example, given, of_task, outputs
+from .variants.options import Word, charts_out, columns_out, count, count_if_given, example, given, of_task, outputs
 
 INTERRUPTED, CLOSED = 130, 1
 
@@ -272,6 +272,48 @@ def sweep(
     elif swept.reason is None and not files:
         click.echo(swept.table() if chords is None else swept.chords(chords))
     return _refuse(swept.reason) if swept.reason is not None else 0
+
+
+@commands.command(
+    epilog=example(
+        "kulman chart nau-slider-crank -v 3 -o charts.pdf",
+        "kulman chart nau-slider-crank --chart stability --quantities V_B,a_B,M_bal -o stability.svg -o stability.csv",
+        "kulman chart nau-slider-crank --chart depth --tolerance 0.5",
+    )
+)
+@of_task
+@click.option(
+    "--chart", metavar="CHART,...", multiple=True, callback=given, help="Of accuracy, stability, depth; else all three."
+)
+@click.option("--quantities", metavar="NAME,...", multiple=True, callback=given, help="Only these: V_B,a_B,M_bal.")
+@click.option(
+    "--positions", metavar="N", callback=count_if_given, help="Positions of the cycle: 36 for accuracy, else 360."
+)
+@click.option("--tolerance", metavar="%", default="1", show_default=True, help="By how much a simpler model may miss.")
+@click.option("--hand", default="normal", show_default=True, help="Who draws: cad, careful, normal, lenient.")
+@click.option(
+    "-o",
+    "--output",
+    "files",
+    metavar="FILE",
+    multiple=True,
+    callback=charts_out,
+    help="Where to: pictures to .svg, .pdf, .png, rows to .csv; of several charts x-accuracy.svg, ... Repeatable.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> None:
+    """Measure TASK over its cycle: speed against accuracy, stability, and which parts of the model it needs."""
+    from .variants.charts import chart as measured
+
+    language = options.pop("lang") or system_language()
+    found = measured(task, set=settings, lang=language, **options)
+    for path in found.save(*files):
+        click.echo(str(path))
+    if as_json:
+        _print_json(found.to_json())
+    elif not files:
+        click.echo(found.table())
+    _warn(found.warnings)
 
 
 @commands.command(epilog=example("kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk"))

@@ -19,6 +19,7 @@ from ..plans.linkages.cycle import FEWEST, MOST, Cycle, cycle
 from ..scales.errors import InputError, KulmanError, PositionError
 from ..scales.names import unknown
 from ..scales.numbers import quote
+from ..scales.units import parse, unit
 from .arguments import of_kind
 from .case import Case, Settings, solve_case
 from .chart_accuracy import AccuracyChart, accuracy_chart
@@ -125,7 +126,7 @@ def chart(
     chart: str | Iterable[str] | None = None,
     positions: int | None = None,
     quantities: str | Iterable[str] | None = None,
-    tolerance: float = TOLERANCE,
+    tolerance: str | float = TOLERANCE,
     hand: str = "normal",
     notation: str | None = None,
     lang: str | None = None,
@@ -143,7 +144,7 @@ def chart(
     quantities : str or iterable of str, optional
         Names of quantities, `"V_B,a_B,M_bal"`; when left out all that can be compared, for `stability` the motion of
         the output and what balances the driver.
-    tolerance : float
+    tolerance : str or number
         Per cent by which a simpler model may miss.
     hand : str
         Preset of the hand that draws: `cad`, `careful`, `normal`, `lenient`.
@@ -172,13 +173,24 @@ def chart(
         of_kind("positions", positions, (int,), "int")
         if not FEWEST <= positions <= MOST:
             raise InputError("positions-number", n=quote(positions), least=FEWEST, most=MOST)
-    of_kind("tolerance", tolerance, (int, float), "float")
-    if not (math.isfinite(tolerance) and tolerance >= 0.0):
-        raise LocatedError("tolerance", InputError("number-bad", text=quote(tolerance)))
+    most = _per_cent(tolerance)
     words = Words.of("en" if lang is None else lang, case.task.notation if notation is None else notation)
     of_kind("hand", hand, (str,), "str")
     preset(hand)
-    return _made(case, Scene(case, words.showing(case.display), hand), names, wanted, positions, tolerance)
+    return _made(case, Scene(case, words.showing(case.display), hand), names, wanted, positions, most)
+
+
+def _per_cent(tolerance: str | float) -> float:
+    """Return a tolerance in per cent, zero or more."""
+    of_kind("tolerance", tolerance, (str, int, float), "float")
+    per_cent = unit("%")
+    try:
+        most = parse(tolerance, per_cent, per_cent) * 100.0 if isinstance(tolerance, str) else float(tolerance)
+    except InputError as error:
+        raise LocatedError("tolerance", error) from error
+    if not (math.isfinite(most) and most >= 0.0):
+        raise LocatedError("tolerance", InputError("negative", text=quote(tolerance)))
+    return most
 
 
 def _names(argument: str, value: str | Iterable[str] | None) -> tuple[str, ...]:
