@@ -1,0 +1,114 @@
+"""The plans of a student over the right ones, as SVG for a report: vectors hung together as they were answered."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from html import escape
+
+from ...drawing.linkages.reading import read
+from ...plans.board import POSITION
+from ...plans.marking.verdicts import Line, Verdict
+from .marked import Marked
+from .wording import plain, texts
+
+SIZE = 150.0  # mm, of the longer side of a plan
+MARGIN = 10.0
+LEAST = 1e-9  # part of a plan's size below which a vector is a point
+
+
+@dataclass(frozen=True, slots=True)
+class Vector:
+    """A vector of a plan: the student's, or the right one where `line` is None."""
+
+    symbol: str
+    tail: complex
+    tip: complex
+    line: Line | None
+
+
+def plan_figures(marked: Marked, language: str) -> Iterator[tuple[str, str]]:
+    """Go through heading and SVG of every plan on which something was answered."""
+    lines = {line.name: line for line in marked.lines if line.answer is not None and isinstance(line.said, complex)}
+    program = marked.keyed.solution.solved.program
+    words = marked.keyed.words
+    for plan in program.plans:
+        vectors = list(_vectors(marked, plan, lines))
+        if plan != POSITION and any(vector.line is not None for vector in vectors):
+            yield plain(_heading(marked, plan, words.texts)), _svg(vectors, texts(language)["report.figure"])
+
+
+def _heading(marked: Marked, plan: str, said: Mapping[str, str]) -> str:
+    """Return the heading of a plan."""
+    kind, _, links = plan.partition("_")
+    if kind == "forces":
+        key = "heading.group_forces" if len(links) > 1 else "heading.link_forces"
+        driver = str(marked.keyed.solution.solved.structure.driver)
+        return said["heading.driver"] if links == driver else said[key].format(links=", ".join(links), link=links)
+    if plan.startswith("V_at_"):
+        return said["heading.compound_velocity"]
+    if plan.startswith("a_at_"):
+        return said["heading.compound_acceleration"].format(point=plan.removeprefix("a_at_"))
+    return said[f"heading.{plan}"]
+
+
+def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[Vector]:
+    """Go through the right vectors of a plan, then the student's, each from where the one before it ends."""
+    solved, words = marked.keyed.solution.solved, marked.keyed.words
+    edges = read(solved.program).on(plan)
+    for edge in edges:
+        yield Vector("", solved.point(edge.tail), solved.point(edge.tip), None)
+    marks: dict[str, complex] = {}
+    for edge in edges:
+        line = lines.get(edge.name.removeprefix("_"))
+        tail = marks.get(edge.tail, solved.point(edge.tail))
+        if line is None:
+            marks.setdefault(edge.tip, tail + solved.point(edge.tip) - solved.point(edge.tail))
+            continue
+        tip = tail + complex(line.said)
+        marks.setdefault(edge.tip, tip)
+        yield Vector(plain(words.symbol(line.name)), tail, tip, line)
+
+
+def _svg(vectors: list[Vector], caption: str) -> str:
+    """Return the vectors as SVG, the right ones below."""
+    places = [place for vector in vectors for place in (vector.tail, vector.tip)]
+    left, right = min(p.real for p in places), max(p.real for p in places)
+    bottom, top = min(p.imag for p in places), max(p.imag for p in places)
+    span = max(right - left, top - bottom) or 1.0
+    scale = SIZE / span
+    width, height = (right - left) * scale + 2 * MARGIN, (top - bottom) * scale + 2 * MARGIN
+
+    def at(place: complex) -> complex:
+        return complex((place.real - left) * scale + MARGIN, (top - place.imag) * scale + MARGIN)
+
+    shapes = "".join(_shape(vector, at(vector.tail), at(vector.tip), span * scale * LEAST) for vector in vectors)
+    title = f"<title>{escape(caption)}</title>"
+    return f'<svg viewBox="0 0 {width:.2f} {height:.2f}" role="img">{title}{shapes}</svg>'
+
+
+def _shape(vector: Vector, tail: complex, tip: complex, least: float) -> str:
+    """Return one vector with its arrow and symbol."""
+    faulty = vector.line is not None and vector.line.verdict.faulty
+    kind = "right" if vector.line is None else "wrong" if faulty else "own"
+    arrow = _arrow(tail, tip, least)
+    label = ""
+    if vector.line is not None:
+        middle = (tail + tip) / 2
+        mark = " ✗" if faulty else "" if vector.line.verdict is Verdict.RIGHT else " ✓"
+        text = escape(vector.symbol) + mark
+        label = f'<text class="{kind}" x="{middle.real + 1:.2f}" y="{middle.imag - 1:.2f}">{text}</text>'
+    line = f'<path class="{kind}" d="M{tail.real:.2f} {tail.imag:.2f}L{tip.real:.2f} {tip.imag:.2f}"/>'
+    return f'{line}<path class="{kind} tip" d="{arrow}"/>{label}'
+
+
+def _arrow(tail: complex, tip: complex, least: float) -> str:
+    """Return the head of an arrow; a point for a vector of no length."""
+    length = math.hypot((tip - tail).real, (tip - tail).imag)
+    if length <= least:
+        return f"M{tip.real - 0.5:.2f} {tip.imag:.2f}h1v1h-1z"
+    along = (tip - tail) * (1.0 / length)
+    back, side = tip - 3.0 * along, 0.8 * complex(-along.imag, along.real)
+    corners = (tip, back + side, back - side)
+    return "M" + "L".join(f"{c.real:.2f} {c.imag:.2f}" for c in corners) + "z"

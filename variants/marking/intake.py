@@ -1,0 +1,75 @@
+"""Which files hold answers: single ones, folders, patterns, or what the source of a bundled task prints."""
+
+from __future__ import annotations
+
+import glob
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from importlib.resources import files
+from pathlib import Path
+
+from ...scales.errors import InputError, KulmanError
+from ...scales.numbers import quote
+from .answers import Answers, Asked
+from .grid import SUFFIXES
+from .reading import read_answers
+
+PRINTED = "printed"
+
+
+def found_files(names: Sequence[str], task: str = "") -> list[str]:
+    """Return the files that are meant: files as they are, all answers in a folder, all that a pattern fits.
+
+    The word `printed` means the answers that the source of a bundled task prints.
+
+    Raises
+    ------
+    InputError
+        A folder or a pattern without answers.
+    """
+    found: list[str] = []
+    for name in names:
+        path = Path(name)
+        if name == PRINTED and not path.exists() and (own := _printed(task)):
+            inside = [own]
+        elif path.is_dir():
+            inside = sorted(str(file) for file in path.iterdir() if _is_answers(file))
+        elif not path.exists() and glob.has_magic(name):
+            inside = sorted(file for file in glob.glob(name) if _is_answers(Path(file)))
+        else:
+            inside = [name]
+        if not inside:
+            raise InputError("answers-nowhere", file=quote(name, 200), known=", ".join(SUFFIXES))
+        found += inside
+    return list(dict.fromkeys(found))
+
+
+def _printed(task: str) -> str | None:
+    """Return the file of the answers that the source of a task prints."""
+    file = Path(str(files(__package__) / "printed" / f"{task}.csv"))
+    return str(file) if file.is_file() else None
+
+
+def _is_answers(path: Path) -> bool:
+    return path.suffix.lower() in SUFFIXES and path.is_file() and not path.name.startswith((".", "~$"))
+
+
+def read_all(names: Sequence[str], task: str, asked: Asked, warn: Callable[[KulmanError], None]) -> list[Answers]:
+    """Read all answers; a file that cannot be read is told of, and those beside it are marked.
+
+    Raises
+    ------
+    InputError
+        The only file there is cannot be read.
+    """
+    inside, found = found_files(names, task), list[Answers]()
+    for file in inside:
+        try:
+            read = read_answers(file, asked)
+        except InputError as error:
+            if len(inside) == 1:
+                raise
+            warn(error)
+            continue
+        found += [replace(one, source=PRINTED) for one in read] if file == _printed(task) else read
+    return found

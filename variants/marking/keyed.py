@@ -1,0 +1,106 @@
+"""The answer key of one variant with its data: values, tolerances, what is asked plan by plan, the sheet id."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from ...drawing.linkages.letters import lettered
+from ...drawing.words import Words
+from ...plans.linkages.accuracy import paper_of
+from ...plans.marking.key import Key, answer_key
+from ...plans.mistakes.book import Book, book
+from ..case import Settings
+from ..solution import Solution, solve
+from ..task import Task
+from .answers import Asked
+from .form import Section, sections
+from .rubric import Rubric
+from .sheet_id import sheet_id
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What is marked: a task with what the command line says of it; variants and data come with each student."""
+
+    task: Task
+    variant: str
+    settings: Mapping[str, str | float] = field(default_factory=dict)
+    only: tuple[str, ...] | None = None
+    scales: Mapping[str, str | float] = field(default_factory=dict)
+    notation: str | None = None
+    language: str = "uk"
+
+    def solution(self, variant: str, settings: Settings) -> Solution:
+        """Solve a variant with a student's own data.
+
+        Raises
+        ------
+        InputError
+            An unknown given, plan or scale factor, or a value of the wrong kind.
+        PositionError
+            The position has no plan.
+        """
+        solved = solve(
+            self.task,
+            variant,
+            set={**self.settings, **settings},
+            only=self.only,
+            scales=self.scales,
+            notation=self.notation,
+            lang=self.language,
+        )
+        if solved.reason is not None:
+            raise solved.reason
+        return solved
+
+
+@dataclass(frozen=True, eq=False)
+class Keyed:
+    """A variant ready for marking."""
+
+    solution: Solution
+    key: Key
+    asked: Asked
+    parts: tuple[Section, ...]
+    words: Words
+    sheet: str
+
+    @cached_property
+    def book(self) -> Book:
+        """What every mistake would give: costs more than the key, and is needed where an answer is wrong."""
+        return book(self.key)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All quantities that may be asked, in order of construction."""
+        return tuple(self.key.questions)
+
+
+def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> Asked:
+    """Return what can be answered in a task; the quantities of `names` alone where they are given."""
+    quantities = {
+        name: q
+        for name, q in solution.quantities.items()
+        if q.kind != "point" and not name.startswith("delta") and (names is None or name in names)
+    }
+    return Asked(quantities, {s.symbol: s.unit for s in solution.scales.values()}, solution.words.display)
+
+
+def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) -> Keyed:
+    """Make the answer key of a variant.
+
+    Raises
+    ------
+    InputError, PositionError
+        As for `Request.solution`.
+    """
+    solution = request.solution(variant, settings)
+    mus = {scale.symbol: scale.mu for scale in solution.scales.values()}
+    key = answer_key(paper_of(solution.solved, mus), rubric.tolerance, rubric.limits)
+    words = lettered(solution.words, solution.solved)
+    parts = tuple(sections(solution.solved, key.questions.values(), words))
+    asked = asked_of(solution, key.questions)
+    own = sheet_id(request.task, solution.variant, {**request.settings, **settings})
+    return Keyed(solution, key, asked, parts, words, own)

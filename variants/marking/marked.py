@@ -1,0 +1,131 @@
+"""One student's answers marked: which variant it is, verdicts, mistakes that explain them, the mark, oddities."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...plans.marking.answers import Answer
+from ...plans.marking.verdicts import Line, Marking, Verdict, mark
+from ...plans.mistakes.explaining import Candidate, explain
+from ...scales.errors import InputError, KulmanError
+from ...scales.numbers import quote
+from ..case import Settings
+from .answers import Answers
+from .keyed import Keyed, Request, keyed
+from .roster import Entry, Roster, variant_of_book
+from .rubric import Rubric
+from .sheet_id import same_id, variant_of_id
+
+
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """A student's answers, marked.
+
+    `lines` are those that count; `notes` say what was odd: cells that could not be read, another variant, another id.
+    """
+
+    answers: Answers
+    entry: Entry | None
+    keyed: Keyed
+    marking: Marking
+    candidates: tuple[Candidate, ...]
+    lines: tuple[Line, ...]
+    mark: float
+    notes: tuple[KulmanError, ...]
+
+    def count(self, verdict: Verdict) -> int:
+        """Return how many lines have a verdict."""
+        return sum(line.verdict is verdict for line in self.lines)
+
+
+class Desk:
+    """Where answers are marked: keys are made once for each variant with its data."""
+
+    def __init__(self, request: Request, rubric: Rubric, roster: Roster | None = None, digits: int = 1) -> None:
+        self.request, self.rubric, self.roster, self.digits = request, rubric, roster, digits
+        self._keys: dict[tuple[object, ...], Keyed] = {}
+
+    def keyed(self, variant: str, settings: Settings) -> Keyed:
+        """Return the key of a variant; the last few are kept."""
+        name = (variant, *sorted(settings.items()))
+        if name not in self._keys:
+            if len(self._keys) >= 32:
+                self._keys.pop(next(iter(self._keys)))
+            self._keys[name] = keyed(self.request, variant, settings, self.rubric)
+        return self._keys[name]
+
+    def mark(self, answers: Answers) -> Marked:
+        """Mark the answers of one student.
+
+        Raises
+        ------
+        InputError, PositionError
+            The student's variant or data have no answer key.
+        """
+        entry = self.roster.find(answers.who) if self.roster else None
+        variant, notes = self._variant(answers, entry)
+        key = self.keyed(variant, entry.settings if entry else {})
+        notes += self._sheet(answers, key)
+        given, undefined = _given(answers, key)
+        notes += undefined
+        marking, candidates = mark(key.key, given), tuple[Candidate, ...]()
+        if marking.first_wrong is not None:
+            explanation = explain(key.book, marking)
+            marking, candidates = explanation.marking, explanation.candidates
+        lines = self._counted(marking, answers)
+        marks = self.rubric.mark(lines)
+        all_notes = (*answers.problems, *notes)
+        return Marked(answers, entry, key, marking, candidates, lines, marks, all_notes)
+
+    def _variant(self, answers: Answers, entry: Entry | None) -> tuple[str, list[KulmanError]]:
+        """Return the variant that a student has, by roster, file or record book; and what contradicts it."""
+        task, said = self.request.task, answers.about.get("variant", "")
+        notes: list[KulmanError] = []
+        if self.roster is not None and entry is None:
+            notes.append(InputError("marked-stranger", text=quote(answers.who.student or answers.source)))
+        other = answers.about.get("task", "")
+        if other and other != task.id:
+            notes.append(InputError("marked-task", text=quote(other), task=task.id))
+        book = answers.who.book or (entry.who.book if entry else "")
+        right = entry.variant if entry else ""
+        if not right and entry and book:
+            right = variant_of_book(task, book, self.digits)
+        if said and right and said != right:
+            notes.append(InputError("marked-variant", text=quote(said), variant=right))
+        found = right or self.request.variant or (said if said in task.variants else "")
+        if said and said not in task.variants and not right:
+            notes.append(InputError("marked-variant", text=quote(said), variant=found or next(iter(task.variants))))
+        if not found and book:
+            found = variant_of_book(task, book, self.digits)
+        return found or next(iter(task.variants)), notes
+
+    def _sheet(self, answers: Answers, key: Keyed) -> list[KulmanError]:
+        """Say where the sheet id is that of another sheet."""
+        written = answers.about.get("sheet", "")
+        if not written or same_id(written, key.sheet):
+            return []
+        other = variant_of_id(self.request.task, written)
+        if other is not None:
+            return [InputError("marked-sheet-variant", text=quote(written), variant=other, own=key.solution.variant)]
+        return [InputError("marked-sheet", text=quote(written), variant=key.solution.variant)]
+
+    def _counted(self, marking: Marking, answers: Answers) -> tuple[Line, ...]:
+        """Return the lines that count: those of the rubric, else those of the class's columns, else all."""
+        names = self.rubric.asked or answers.columns
+        return tuple(line for line in marking.lines if not names or line.name in names)
+
+
+def _given(answers: Answers, key: Keyed) -> tuple[list[Answer], list[KulmanError]]:
+    """Return the answers for marking, each with the scale factor of its plan; and those that have no right value."""
+    given, notes = [], list[KulmanError]()
+    for line in answers.lines.values():
+        question = key.key.questions.get(line.name)
+        if question is None:
+            notes.append(InputError("marked-undefined", place=line.place, text=line.name))
+            continue
+        symbol = key.solution.solved.scale_of_plan.get(question.plan, "")
+        mu = line.mu or answers.scales.get(symbol)
+        given.append(
+            Answer(line.name, line.mm, None if mu is None else mu.value, line.value, line.direction, line.sense)
+        )
+    return given, notes

@@ -1,0 +1,250 @@
+"""The report on one student: what is said, in one language, before it becomes text or HTML."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from ...drawing.words import Words
+from ...plans.board import Step
+from ...plans.marking.verdicts import Line, Verdict, behind
+from ...plans.mistakes.explaining import Candidate
+from ...plans.mistakes.rules import Broken
+from ...scales.units import format_unit
+from .marked import Marked
+from .rubric import Rubric
+from .wording import mistake_texts, plain, texts
+
+DIGITS = 4
+ROUNDING = 1e-9  # part of a tolerance
+SHOWN_CANDIDATES = 3
+AGAIN = {
+    **dict.fromkeys(("meet", "tangent"), "again.meet"),
+    **dict.fromkeys(("lay", "back", "chain", "same"), "again.lay"),
+    **dict.fromkeys(("arc", "arcs", "template", "place"), "again.arc"),
+    **{"similar": "again.similar", "divide": "again.divide", "calc": "again.calc", "arm": "again.arm"},
+    **dict.fromkeys(("read", "measure", "distance", "moment", "pole"), "again.read"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One line of the report; what only a teacher sees is empty for a student."""
+
+    name: str
+    symbol: str
+    answer: str
+    right: str
+    tolerance: str
+    verdict: Verdict
+    said: str
+    weight: str
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What is said of one student's answers; `parts` are headings with their lines.
+
+    `own` tells a student's report, in which no right number stands, from a teacher's.
+    """
+
+    language: str
+    own: bool
+    title: str
+    facts: tuple[tuple[str, str], ...]
+    summary: tuple[str, ...]
+    again: tuple[str, ...]
+    candidates: tuple[str, ...]
+    parts: tuple[tuple[str, tuple[Row, ...]], ...]
+    notes: tuple[str, ...]
+    flags: tuple[str, ...]
+    marked: Marked
+
+
+def report(marked: Marked, rubric: Rubric, language: str, own: bool, flags: Sequence[str] = ()) -> Report:
+    """Put into words how a student's answers were marked.
+
+    Parameters
+    ----------
+    own : bool
+        For the student: without right numbers, and without what would tell them.
+    flags : sequence of str
+        What a teacher should check, such as answers that two students share.
+    """
+    teller = _Teller(marked, rubric, language, own)
+    return Report(
+        language,
+        own,
+        marked.keyed.solution.task.title[language],
+        tuple(teller.facts()),
+        tuple(teller.summary()),
+        tuple(teller.again()),
+        () if own else tuple(teller.candidates()),
+        tuple(teller.parts()),
+        tuple(note.text(language) for note in marked.notes),
+        () if own else tuple(flags),
+        marked,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Teller:
+    """Says it in one language."""
+
+    marked: Marked
+    rubric: Rubric
+    language: str
+    own: bool
+
+    @property
+    def said(self) -> dict[str, str]:
+        """The texts of reports."""
+        return texts(self.language)
+
+    @property
+    def words(self) -> Words:
+        """The symbols and numbers of the task."""
+        return self.marked.keyed.words
+
+    def facts(self) -> Iterator[tuple[str, str]]:
+        """Go through who it is, and what was marked."""
+        answers, solution = self.marked.answers, self.marked.keyed.solution
+        who = self.marked.entry.who if self.marked.entry else answers.who
+        yield self.said["about.task"], solution.task.id
+        yield self.said["about.variant"], solution.variant
+        for key in ("student", "group", "book", "number", "email"):
+            if getattr(who, key) or getattr(answers.who, key):
+                yield self.said[f"about.{key}"], getattr(who, key) or getattr(answers.who, key)
+        yield self.said["about.sheet"], self.marked.keyed.sheet
+        yield self.said["report.source"], answers.source
+
+    def summary(self) -> Iterator[str]:
+        """Go through mark, tolerance, verdicts by number, and the first wrong step."""
+        said, short = self.said, self.words.short
+        yield said["report.mark"].format(mark=short(self.marked.mark), full=short(self.rubric.out_of))
+        tolerance = self.rubric.tolerance
+        percent, degrees = short(tolerance.part * 100.0, DIGITS), short(tolerance.degrees, DIGITS)
+        yield said["report.tolerance"].format(mm=short(tolerance.mm, DIGITS), percent=percent, degrees=degrees)
+        counts = ((verdict, self.marked.count(verdict)) for verdict in Verdict)
+        listed = (f"{said[f'verdict.{verdict}']} {count}" for verdict, count in counts if count)
+        yield f"{said['report.counts']}: {', '.join(listed)}"
+        first = self.marked.marking.first_wrong
+        if first is None:
+            yield said["report.no_wrong"]
+        else:
+            yield said["report.first"].format(symbol=self.symbol(first), heading=self._heading(first).lower())
+
+    def again(self) -> Iterator[str]:
+        """Go through what to look at again, the first wrong step first."""
+        for line in self.marked.marking.lines:
+            if line.verdict.faulty:
+                yield self.hint(line)
+
+    def hint(self, line: Line) -> str:
+        """Return what to look at again because of a line, without saying what would be right."""
+        symbol = self.symbol(line.name)
+        if line.verdict in (Verdict.ARITHMETIC, Verdict.SCALE):
+            return self.said[f"again.{line.verdict}"].format(symbol=symbol)
+        if line.about == "direction":
+            return self.said["again.direction"].format(symbol=symbol)
+        step = behind(self.marked.keyed.key, line.name)
+        key = AGAIN[step.verb]
+        mark = self._mark(step) if "{mark}" in self.said[key] else ""
+        return f"{symbol}: {self.said[key].format(symbol=symbol, mark=mark)}"
+
+    def _mark(self, step: Step) -> str:
+        return plain(self.words.mark(step.name))
+
+    def candidates(self) -> Iterator[str]:
+        """Go through the mistakes that explain the answers, the simplest first."""
+        for number, candidate in enumerate(self.marked.candidates[:SHOWN_CANDIDATES], start=1):
+            text = self.said["report.and"].join(self.mistake(broken) for broken in candidate.mistakes)
+            names = ", ".join(self.symbol(name) for name in candidate.explained)
+            parts = [f"{number}. {text}", self.said["report.explains"].format(names=names)] if names else [text]
+            same = self._same(candidate)
+            yield "; ".join([*parts, same] if same else parts)
+
+    def _same(self, candidate: Candidate) -> str:
+        """Return other mistakes that give the same answers."""
+        own = {broken.mistake for broken in candidate.mistakes}
+        others: dict[str, str] = {}
+        for found in candidate.same:
+            new = [broken for broken in found if broken.mistake not in own]
+            if new:
+                key = "+".join(broken.mistake for broken in found)
+                others.setdefault(key, self.said["report.and"].join(self.mistake(broken) for broken in found))
+        return self.said["report.same"].format(texts=" / ".join(others.values())) if others else ""
+
+    def mistake(self, broken: Broken) -> str:
+        """Return what was done, and where."""
+        text, where = mistake_texts(self.language)[broken.mistake], self._where(broken.at)
+        told = self.said["report.candidate"].format(text=text, at=where) if where else text
+        return f"{broken.mistake}: {told}"
+
+    def _where(self, at: str) -> str:
+        """Return the symbol of a quantity or given, or the letter of a mark, at which a rule was broken."""
+        name = at.lstrip("_")
+        if name in self.marked.keyed.solution.quantities or name in self.marked.keyed.solution.task.givens:
+            return self.symbol(name)
+        return plain(self.words.mark(at)) if "." in at else ""
+
+    def parts(self) -> Iterator[tuple[str, tuple[Row, ...]]]:
+        """Go through the lines that count, plan by plan."""
+        lines = {line.name: line for line in self.marked.lines}
+        for part in self.marked.keyed.parts:
+            rows = tuple(self.row(lines[q.name]) for q in part.questions if q.name in lines)
+            if rows:
+                yield plain(part.heading), rows
+
+    def row(self, line: Line) -> Row:
+        """Put a line into words."""
+        right = tolerance = weight = ""
+        if not self.own:
+            right, weight = self._right(line), self.words.short(self.rubric.weight(line.name), DIGITS)
+            tolerance = f"± {self._number(line.name, line.allowed)}" if line.allowed else ""
+        said = self.said[f"verdict.{line.verdict}"]
+        return Row(line.name, self.symbol(line.name), self._answer(line), right, tolerance, line.verdict, said, weight)
+
+    def symbol(self, name: str) -> str:
+        """Return the symbol of a quantity as plain text."""
+        return plain(self.words.symbol(name))
+
+    def _heading(self, name: str) -> str:
+        parts = self.marked.keyed.parts
+        return next((plain(part.heading) for part in parts if name in {q.name for q in part.questions}), "")
+
+    def _number(self, name: str, value: float) -> str:
+        """Return a value in the units of the task, with its unit; what is nothing but rounding is zero."""
+        allowed = self.marked.marking.key.allowed.get(name, 0.0)
+        value = value if abs(value) > ROUNDING * allowed else 0.0
+        si = self.marked.keyed.solution.quantities[name].unit
+        shown = self.words.display.value(value, si)
+        return f"{self.words.short(shown, DIGITS)} {format_unit(self.words.display.unit(si), self.language)}"
+
+    def _answer(self, line: Line) -> str:
+        """Return what the student has written."""
+        answer = line.answer
+        if answer is None or answer.empty:
+            return "–"
+        parts = []
+        if answer.mm is not None:
+            parts.append(f"{self.words.short(answer.mm, DIGITS)} {format_unit('mm', self.language)}")
+        if answer.value is not None:
+            parts.append(self._number(line.name, answer.value))
+        if answer.direction is not None:
+            parts.append(self._degrees(answer.direction))
+        if answer.sense is not None:
+            parts.append("+" if answer.sense > 0 else "−")
+        return "; ".join(parts)
+
+    def _degrees(self, radians: float) -> str:
+        return f"{self.words.short(round(math.degrees(radians) % 360.0, 1), DIGITS)}°"
+
+    def _right(self, line: Line) -> str:
+        """Return the right value; of a vector its direction too."""
+        if not isinstance(line.right, complex):
+            return self._number(line.name, line.right)
+        size = math.hypot(line.right.real, line.right.imag)
+        text = self._number(line.name, size)
+        return f"{text}; {self._degrees(math.atan2(line.right.imag, line.right.real))}" if size else text

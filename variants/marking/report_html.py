@@ -1,0 +1,81 @@
+"""The report on one student as one HTML page that needs nothing else; it prints on A4."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+
+from ...plans.marking.verdicts import Verdict
+from .figures import plan_figures
+from .report import Report, Row
+from .wording import texts
+
+SIGNS = {Verdict.RIGHT: "✓", Verdict.CARRIED: "(✓)", Verdict.MISSING: "–"}
+STYLE = """
+body{font:11pt/1.4 "Segoe UI",Arial,sans-serif;max-width:180mm;margin:8mm auto;color:#000}
+h1{font-size:15pt}h2{font-size:12pt;margin:6mm 0 2mm}
+table{border-collapse:collapse;width:100%}th,td{border:1px solid #888;padding:1mm 2mm;text-align:left}
+th{background:#eee}td.n{white-space:nowrap}tr.wrong td,tr.arithmetic td,tr.scale td{background:#fbe3d6}
+tr.missing td{color:#666}.first{font-weight:bold}
+svg{width:100%;max-height:150mm;border:1px solid #ccc}svg path{fill:none;stroke-width:.5}
+svg path.right{stroke:#0072b2;stroke-dasharray:5 1.2 1 1.2;stroke-width:.8}svg path.own{stroke:#000}
+svg path.wrong{stroke:#d55e00;stroke-dasharray:2.5 1.2;stroke-width:.7}svg path.tip{stroke-dasharray:none}
+svg path.right.tip{fill:#0072b2}svg path.own.tip{fill:#000}svg path.wrong.tip{fill:#d55e00}
+svg text{font:3.5px Arial,sans-serif}svg text.wrong{fill:#d55e00}
+@media print{body{margin:0}section{break-inside:avoid}}
+"""
+
+
+def report_html(report: Report) -> str:
+    """Return the report as a page; every text in it is escaped, and it loads nothing."""
+    said = texts(report.language)
+    body = "".join(_body(report, said))
+    head = f'<meta charset="utf-8"><title>{escape(report.title)}</title><style>{STYLE}</style>'
+    return f'<!DOCTYPE html>\n<html lang="{report.language}"><head>{head}</head><body>{body}</body></html>\n'
+
+
+def _body(report: Report, said: dict[str, str]) -> Iterator[str]:
+    yield f"<h1>{escape(report.title)}</h1>"
+    facts = (f"{escape(key)}: <b>{escape(value)}</b>" for key, value in report.facts)
+    yield f"<p>{'; '.join(facts)}</p>"
+    *lines, last = report.summary
+    yield f"<p>{'<br>'.join(map(escape, lines))}</p><p class='first'>{escape(last)}</p>"
+    for key in ("again", "candidates", "flags", "notes"):
+        items: tuple[str, ...] = getattr(report, key)
+        if items:
+            listed = "".join(f"<li>{escape(item)}</li>" for item in items)
+            yield f"<h2>{escape(said[f'report.{key}'])}</h2><ul>{listed}</ul>"
+    for heading, rows in report.parts:
+        yield f"<section><h2>{escape(heading)}</h2>{_table(report, rows, said)}</section>"
+    if not report.own:
+        figures = list(plan_figures(report.marked, report.language))
+        if figures:
+            yield f"<p>{escape(said['report.figure'])}</p>"
+        for heading, figure in figures:
+            yield f"<section><h2>{escape(heading)}</h2>{figure}</section>"
+
+
+def _table(report: Report, rows: tuple[Row, ...], said: dict[str, str]) -> str:
+    """Return the lines of one plan."""
+    keys = (
+        "column.name",
+        "report.answer",
+        "report.right",
+        "report.tolerance_column",
+        "report.verdict",
+        "report.weight",
+    )
+    shown = tuple(key for key in keys if not (report.own and key in keys[2:4] + keys[5:]))
+    head = "".join(f"<th>{escape(said[key])}</th>" for key in shown)
+    body = "".join(_row(row, report.own) for row in rows)
+    return f"<table><tr>{head}</tr>{body}</table>"
+
+
+def _row(row: Row, own: bool) -> str:
+    verdict = f"{SIGNS.get(row.verdict, '✗')} {row.said}"
+    cells = (
+        (row.symbol, row.answer, verdict)
+        if own
+        else (row.symbol, row.answer, row.right, row.tolerance, verdict, row.weight)
+    )
+    return f'<tr class="{row.verdict}">{"".join(f"<td>{escape(cell)}</td>" for cell in cells)}</tr>'

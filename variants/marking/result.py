@@ -1,0 +1,76 @@
+"""What is kept of each marked student for the tables of a class; it goes into a file and comes back from it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from ...plans.marking.verdicts import Verdict
+from ...scales.errors import KulmanError
+from .answers import Answers, Who
+from .flags import Measured, measured, too_exact
+from .marked import Marked
+from .wording import plain
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """One student: who, which variant, the mark (None where the answers could not be marked), verdicts, mistakes."""
+
+    source: str
+    who: Who
+    variant: str = ""
+    sheet: str = ""
+    mark: float | None = None
+    counts: Mapping[str, int] = field(default_factory=dict)
+    first: str = ""
+    mistakes: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    exact: bool = False
+    segments: Mapping[str, Measured] = field(default_factory=dict)
+    reports: tuple[str, ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the result as plain data."""
+        return asdict(self)
+
+    @classmethod
+    def from_json(cls, data: Mapping[str, Any]) -> Result:
+        """Return a result from plain data.
+
+        Raises
+        ------
+        KeyError, TypeError
+            The data are none of a result.
+        """
+        segments = {name: Measured(**of) for name, of in data["segments"].items()}
+        lists = {name: tuple(data[name]) for name in ("mistakes", "notes", "reports")}
+        return cls(**{**data, "who": Who(**data["who"]), "segments": segments, **lists})
+
+
+def result_of(marked: Marked, language: str, reports: tuple[str, ...] = ()) -> Result:
+    """Return what is kept of a student who was marked."""
+    key, first = marked.keyed, marked.marking.first_wrong
+    segments = measured(marked.answers, marked.marking.key, marked.marking.key.paper.mus)
+    best = marked.candidates[0].mistakes if marked.candidates else ()
+    return Result(
+        marked.answers.source,
+        marked.entry.who if marked.entry else marked.answers.who,
+        key.solution.variant,
+        marked.answers.about.get("sheet", ""),
+        marked.mark,
+        {str(verdict): marked.count(verdict) for verdict in Verdict},
+        "" if first is None else plain(key.words.symbol(first)),
+        tuple(dict.fromkeys(broken.mistake for broken in best)),
+        tuple(note.text(language) for note in marked.notes),
+        too_exact(segments),
+        segments,
+        reports,
+    )
+
+
+def failed(answers: Answers, error: KulmanError, language: str) -> Result:
+    """Return what is kept of a student whose answers cannot be marked."""
+    notes = (*(problem.text(language) for problem in answers.problems), error.text(language))
+    return Result(answers.source, answers.who, notes=notes)
