@@ -17,7 +17,7 @@ from . import __version__
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import system_language
 from .scales.numbers import quote
-from .variants.options import Word, charts_out, columns_out, count, count_if_given, example, given, of_task, outputs
+from .variants.options import Word, charts_out, columns_out, count, count_if_given, example, given, marks_out, of_task, outputs
 
 INTERRUPTED, CLOSED = 130, 1
 
@@ -314,6 +314,58 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     elif not files:
         click.echo(found.table())
     _warn(found.warnings)
+
+
+@commands.command(
+    epilog=example(
+        "kulman check nau-slider-crank -v 3 --form answers.xlsx",
+        "kulman check nau-slider-crank printed --verdict-only",
+        "kulman check nau-slider-crank printed --preset lenient -o report.html",
+    )
+)
+@of_task
+@click.argument("answers", nargs=-1)
+@click.option("--form", metavar="FILE", help="Write an empty form, .csv or .xlsx; with --roster that of a class.")
+@click.option(
+    "--preset",
+    type=Word("cad", "careful", "normal", "lenient"),
+    default="normal",
+    show_default=True,
+    help="What may be missed by hand.",
+)
+@click.option("--verdict-only", "own", is_flag=True, help="For the student: right or wrong, and no right numbers.")
+@click.option("--rubric", metavar="FILE", help="Weights, worths, tolerances: a small TOML file.")
+@click.option("--roster", metavar="FILE", help="Students with their variants, record books, own data: .csv or .xlsx.")
+@click.option(
+    "--digits",
+    metavar="N",
+    default="1",
+    show_default=True,
+    callback=count,
+    help="How many last digits of the record book give the variant, where the roster has none.",
+)
+@click.option("--out", "folder", metavar="FOLDER", help="Reports on every student, .html and .txt.")
+@click.option("--moodle", metavar="FILE", help="Grades for Moodle, .csv.")
+@click.option("--jobs", metavar="N", default="0", callback=count, help="Processes; as many as cores when left out.")
+@click.option(
+    "-o",
+    "--output",
+    "files",
+    metavar="FILE",
+    multiple=True,
+    callback=marks_out,
+    help="Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx. Repeatable.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object (of one student).")
+def check(task: str, answers: tuple[str, ...], lang: str | None, **options: Any) -> None:
+    """Mark ANSWERS to TASK: files with one student's answers or a class's, a folder of them, or a pattern.
+
+    The variant is that of the roster, of -v, or what the file says. The word `printed` stands for the answers that the
+    source of a bundled task prints.
+    """
+    from .variants.marking.command import run
+
+    run(task, answers, language=lang or system_language(), warn=lambda error: _warn([error]), **options)
 
 
 @commands.command(epilog=example("kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk"))
