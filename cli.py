@@ -17,7 +17,18 @@ from . import __version__
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import system_language
 from .scales.numbers import quote
-from .variants.options import Word, charts_out, columns_out, count, count_if_given, example, given, marks_out, of_task, outputs
+from .variants.options import (
+    Word,
+    charts_out,
+    columns_out,
+    count,
+    count_if_given,
+    example,
+    given,
+    marks_out,
+    of_task,
+    outputs,
+)
 
 INTERRUPTED, CLOSED = 130, 1
 

@@ -142,12 +142,3 @@ def charts_out(ctx: click.Context, param: click.Parameter, values: tuple[str, ..
 def count_if_given(ctx: click.Context, param: click.Parameter, value: str | None) -> int | None:
     """Read a whole number where there is one."""
     return None if value is None else count(ctx, param, value)
-
-
-def marks_out(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
-    """Refuse, before any work, files that marks cannot be written to."""
-    from ..drawing.writers import check_outputs
-
-    paths = tuple(map(Path, values))
-    check_outputs(*paths, known=(".html", ".txt", ".csv", ".xlsx"))
-    return paths
