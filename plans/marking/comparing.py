@@ -44,9 +44,10 @@ def miss(said: Said, value: Any, allowed: float, angle: float = math.pi) -> Miss
 
 def _of_vector(said: Said, value: complex, allowed: float, angle: float) -> Miss:
     size = 0.0 if said.size is None else _ratio(abs(said.size - abs(value)), allowed)
-    if said.direction is None or not value:
+    if said.direction is None or abs(value) <= allowed:
         return Miss(size, SIZE)
-    turned = abs(math.atan2(cross(value, said.direction), dot(value, said.direction))) / angle
+    most = max(angle, math.asin(allowed / abs(value)))
+    turned = abs(math.atan2(cross(value, said.direction), dot(value, said.direction))) / most
     return Miss(turned, DIRECTION) if turned > size else Miss(size, SIZE)
 
 

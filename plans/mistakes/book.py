@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..exact import run
+from ..exact import SMALL, ExactBoard, run
 from ..marking.key import Key
+from ..marking.tolerances import tolerances
 from ..shaky import Paper
 from . import acceleration, forces, inputs, lever, reading, velocity
 from .rules import MISTAKES, Broken, Scene, breaks
@@ -19,6 +20,8 @@ CHAPTERS = {
     module.__name__.rpartition(".")[2]: module for module in (inputs, reading, velocity, acceleration, forces, lever)
 }
 NOTHING = 1e-9  # part of a tolerance that is rounding
+FLATTER = 0.7  # of the flattest angle of the right construction: lines meet more flatly than they should
+UNDRAWN = 1e-9  # scale factor of what is only calculated, SI per mm
 
 
 def broken(paper: Paper, values: Mapping[str, Any], ids: Iterable[str] = ()) -> Iterator[Broken]:
@@ -30,11 +33,16 @@ def broken(paper: Paper, values: Mapping[str, Any], ids: Iterable[str] = ()) -> 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Signature:
-    """What one broken construction gives for each question, in their order; NaN where it gives nothing."""
+    """What one broken construction gives for each question, in their order; NaN where it gives nothing.
+
+    `allowed` are the tolerances of a hand that draws it so: what is larger than it should be misses more, and so does
+    all that follows from lines that meet more flatly than they should.
+    """
 
     broken: Broken
     values: Mapping[str, Any]
     row: NDArray[np.complex128]
+    allowed: NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,8 +51,8 @@ class Book:
 
     Parameters
     ----------
-    table : complex128 array of shape (mistakes, questions)
-        Their rows; `right` of shape (questions,) is that of the right construction, `allowed` the tolerances.
+    table, most : complex128, float64 array of shape (mistakes, questions)
+        Their rows and tolerances; `right`, `allowed` of shape (questions,) are those of the right construction.
     vector : bool array of shape (questions,)
         Which of them are vectors.
     """
@@ -52,6 +60,7 @@ class Book:
     key: Key
     signatures: tuple[Signature, ...]
     table: NDArray[np.complex128]
+    most: NDArray[np.float64]
     right: NDArray[np.complex128]
     allowed: NDArray[np.float64]
     vector: NDArray[np.bool_]
@@ -83,7 +92,22 @@ def signature(key: Key, found: Broken) -> Signature | None:
     row = np.array([complex(board.values[name]) for name in key.questions])
     if board.trouble is not None and np.isnan(row).mean() > 0.5:
         return None
-    return Signature(found, board.values, row)
+    return Signature(found, board.values, row, _allowed(key, found, board, row))
+
+
+def _allowed(key: Key, found: Broken, board: ExactBoard, row: NDArray[np.complex128]) -> NDArray[np.float64]:
+    right, allowed, _ = _columns(key)
+    sizes = np.abs(right)
+    with np.errstate(all="ignore"):
+        times = np.where((sizes > 0.0) & ~np.isnan(row), np.abs(row) / sizes, 1.0)
+    most = allowed * np.maximum(1.0, times)
+    flattest = min(board.sines.values(), default=1.0)
+    if 0.0 < flattest < SMALL and flattest < FLATTER * min(key.sines.values(), default=1.0):
+        mus = {plan: key.paper.mus.get(plan, UNDRAWN) for plan in found.program.plans}
+        again = tolerances(Paper(found.program, found.givens, mus), board.values, board.sines, key.tolerance)
+        wider = np.array([again[name] for name in key.questions])
+        most = np.where(np.isnan(wider), most, np.maximum(most, wider))
+    return most
 
 
 def _signatures(key: Key, found: Iterable[Broken]) -> Iterator[Signature]:
@@ -107,15 +131,15 @@ def _columns(key: Key) -> tuple[NDArray[np.complex128], NDArray[np.float64], NDA
 def _book(key: Key, signatures: list[Signature]) -> Book:
     right, allowed, vector = _columns(key)
     ordered = sorted(signatures, key=lambda s: s.broken.mistake)
-    table = np.array([s.row for s in ordered]) if ordered else np.empty((0, len(right)), complex)
-    return Book(key, tuple(ordered), table, right, allowed, vector)
+    shape = (len(ordered), len(right))
+    table, most = np.empty(shape, complex), np.empty(shape)
+    for place, one in enumerate(ordered):
+        table[place], most[place] = one.row, one.allowed
+    return Book(key, tuple(ordered), table, most, right, allowed, vector)
 
 
 def key_of(key: Key, signature: Signature) -> Key:
     """Return the answer key as if the broken rule were the right one."""
-    values, allowed = signature.values, {}
-    for name, most in key.allowed.items():
-        size = abs(key.values[name])
-        allowed[name] = most * max(1.0, abs(values[name]) / size) if size and values[name] == values[name] else most
+    allowed = dict(zip(key.questions, signature.allowed.tolist(), strict=True))
     paper = replace(key.paper, program=signature.broken.program, givens=signature.broken.givens)
-    return replace(key, paper=paper, values={**key.values, **values}, allowed=allowed)
+    return replace(key, paper=paper, values={**key.values, **signature.values}, allowed={**key.allowed, **allowed})

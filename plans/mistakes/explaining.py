@@ -68,11 +68,10 @@ class _Answers:
     free: NDArray[np.bool_]
     angle: Floats
 
-    def misses(self, book: Book, table: NDArray[np.complex128]) -> Floats:
+    def misses(self, book: Book, table: NDArray[np.complex128], most: Floats) -> Floats:
         """Return the misses of rows of values, in tolerances, NaN where nothing is said; shape of `table`."""
         sizes = np.abs(table)
         with np.errstate(all="ignore"):
-            most = book.allowed * np.maximum(1.0, np.where(np.abs(book.right) > 0.0, sizes / np.abs(book.right), 1.0))
             off = np.abs(self.size - sizes)
             off = np.where(np.isnan(self.size), 0.0, _parts(off, most))
             turned = np.abs(np.angle(np.conj(self.way) * table))
@@ -104,20 +103,21 @@ class _Search:
         self.faulty = {line.name: line.off for line in marking.lines if line.verdict.faulty}
         self.answers = [line.answer for line in marking.lines if line.answer is not None]
         self.first = next(i for i, line in enumerate(marking.lines) if line.name == marking.first_wrong)
-        self.without = _mean(self.said.misses(book, book.right[None, :]))[0]
+        self.without = _mean(self.said.misses(book, book.right[None, :], book.allowed[None, :]))[0]
 
     def explanation(self) -> Explanation:
         """Return the candidates in order, and the marking with the first one as an earlier error."""
-        off = self.said.misses(self.book, self.book.table)
+        off = self.said.misses(self.book, self.book.table, self.book.most)
         means = _mean(off)
-        near = [int(i) for i in np.argsort(means, kind="stable")[:NEAR] if means[i] < self.without]
+        likely = (means < self.without) | (off[:, self.first] <= 1.0)
+        near = [int(i) for i in np.argsort(means, kind="stable") if likely[i]][:NEAR]
         found = [c for i in near if (c := self._candidate((self.book.signatures[i],))) is not None]
         if not any(self._complete(c) for c, _ in found):
             found += self._pairs(off)
         ranked = sorted(found, key=lambda pair: self._rank(pair[0]))
         if not ranked:
             return Explanation((), self.marking)
-        candidates = _grouped([(c, rows) for c, rows in ranked], self.book, self.said)
+        candidates = _grouped(ranked, self.said)
         return Explanation(candidates, self._carried(candidates[0]))
 
     def _complete(self, candidate: Candidate) -> bool:
@@ -138,7 +138,7 @@ class _Search:
         explained = tuple(name for name in self.faulty if name not in wrong)
         if not explained:
             return None
-        misses = float(_mean(self.said.misses(self.book, last.row[None, :]))[0])
+        misses = float(_mean(self.said.misses(self.book, last.row[None, :], last.allowed[None, :]))[0])
         return Candidate(tuple(s.broken for s in signatures), (), explained, left, misses), last
 
     def _pairs(self, off: Floats) -> list[tuple[Candidate, Signature]]:
@@ -150,7 +150,7 @@ class _Search:
         for i in firsts:
             with np.errstate(all="ignore"):
                 both = np.where(np.isfinite(ratio), book.table[i] * ratio, book.table)
-            means = _mean(self.said.misses(book, both))
+            means = _mean(self.said.misses(book, both, np.maximum(book.most[i], book.most)))
             tried += [(float(means[j]), i, int(j)) for j in np.argsort(means, kind="stable")[:PAIRS] if j != i]
         found = []
         for mean, i, j in sorted(tried)[:PAIRS]:
@@ -201,15 +201,14 @@ def _mean(off: Floats) -> Floats:
     return np.asarray(np.sqrt(np.nansum(most * most, axis=1) / count))
 
 
-def _grouped(found: Iterable[tuple[Candidate, Signature]], book: Book, said: _Answers) -> tuple[Candidate, ...]:
+def _grouped(found: Iterable[tuple[Candidate, Signature]], said: _Answers) -> tuple[Candidate, ...]:
     """Put candidates together that the answers cannot tell apart."""
     groups: list[tuple[Candidate, Any]] = []
-    asked = ~np.isnan(said.size)
+    asked, turned = ~np.isnan(said.size) | (said.way != 0.0), said.way != 0.0
     for candidate, made in found:
-        row = made.row[asked]
+        row, allowed = made.row[asked], made.allowed[asked]
         for place, (first, other) in enumerate(groups):
-            alike = _alike(row, other, book, said, asked)
-            if alike and len(first.mistakes) == len(candidate.mistakes):
+            if len(first.mistakes) == len(candidate.mistakes) and _alike(row, other, allowed, turned[asked]):
                 groups[place] = (replace(first, same=(*first.same, candidate.mistakes)), other)
                 break
         else:
@@ -217,10 +216,7 @@ def _grouped(found: Iterable[tuple[Candidate, Signature]], book: Book, said: _An
     return tuple(candidate for candidate, _ in groups)
 
 
-def _alike(row: Any, other: Any, book: Book, said: _Answers, asked: NDArray[np.bool_]) -> bool:
+def _alike(row: Any, other: Any, allowed: Floats, turned: NDArray[np.bool_]) -> bool:
     """Whether two rows differ by less than answers can tell: in size, and in direction where that is said."""
-    allowed, turned = book.allowed[asked], said.way[asked] != 0.0
     apart = np.where(turned, np.abs(row - other), np.abs(np.abs(row) - np.abs(other)))
-    sizes = np.maximum(np.abs(book.right[asked]), 1e-300)
-    most = allowed * np.maximum(1.0, np.abs(row) / sizes)
-    return bool(np.all((apart <= ALIKE * most) | np.isnan(row)))
+    return bool(np.all((apart <= ALIKE * allowed) | np.isnan(row)))
