@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import platform
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from ..drawing.linkages.sheet import draw
 from ..drawing.titleblock import Stamp
 from ..drawing.words import Words
 from ..plans.hand import preset
-from ..plans.linkages.contest import AT_ONCE, BATCHES, Contest, Entry, by_hand, contest
+from ..plans.linkages.contest import FULL, Contest, Effort, Entry, by_hand, contest
 from ..plans.linkages.cycle import Cycle
 from ..scales.errors import InputError
 from .chart_data import Cell, Scene, aligned, as_csv, finite, place_value, short
@@ -59,7 +59,7 @@ class AccuracyChart:
 
     def notes(self, words: Words) -> tuple[str, str]:
         """Return how and on what it was measured."""
-        batch = words.number(AT_ONCE, 0)
+        batch = words.number(self.contest.effort.at_once, 0)
         return words["chart.compared"].format(positions=len(self.contest.places), batch=batch), machine(words)
 
     def csv(self, words: Words) -> bytes:
@@ -106,7 +106,7 @@ class AccuracyChart:
 
 
 def accuracy_chart(
-    scene: Scene, cycle: Cycle, positions: int, names: Sequence[str], batches: Sequence[int] = BATCHES
+    scene: Scene, cycle: Cycle, positions: int, names: Sequence[str], effort: Effort = FULL
 ) -> AccuracyChart:
     """Let all methods compete.
 
@@ -115,11 +115,11 @@ def accuracy_chart(
     InputError
         With the key `chart-no-rivals`: nothing that is wanted can be compared.
     """
-    found = contest(cycle, positions, names, batches)
+    found = contest(cycle, positions, names, effort)
     if not found.groups:
         raise InputError("chart-no-rivals")
     hands = tuple(_hands(scene, cycle, found))
-    return AccuracyChart(scene, cycle, Contest(found.groups, found.places, found.entries + hands))
+    return AccuracyChart(scene, cycle, replace(found, entries=found.entries + hands))
 
 
 def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:

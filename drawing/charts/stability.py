@@ -218,7 +218,7 @@ def _digits(axes: Axes, words: Words) -> None:
             va="center",
             style="italic",
         )
-    axes.text(1.008, 1.03, words["chart.digits"], transform=axes.transAxes, fontsize=SMALL, va="bottom", style="italic")
+    axes.text(1.008, 1.09, words["chart.digits"], transform=axes.transAxes, fontsize=SMALL, va="bottom", style="italic")
 
 
 def _along(axes: Axes, along: Abscissa, x: Array) -> None:

@@ -25,17 +25,26 @@ from .rivals import Group, Newton, Rivals, Values, Way, groups
 
 Array = NDArray[Any]
 PLAN, NEWTON, DIFFERENCES, CHORDS, HAND = "plan", "newton", "differences", "chords", "hand"
-BATCHES = (1, 10, 100, 1_000, 10_000, 100_000, 1_000_000)
 TOLERANCES = (1e-1, 1e-2, 1e-4, 1e-8)
 STEPS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 SECTIONS = (12, 24, 48, 96, 192, 384)
-AT_ONCE = 10_000  # positions in the batch of a method whose batches are not compared
 ROUNDS, ENOUGH, LONG = (
     3,
     0.05,
     1.0,
 )  # runs of a piece of work, seconds of work that need no repeating, that are too many
 DRAWN, DRAWINGS, SHARE = 12, 400, 0.95  # positions that a hand draws, how many times, the part of drawings that counts
+
+
+@dataclass(frozen=True, slots=True)
+class Effort:
+    """What times are measured on: the sizes of batches of plans, and the positions at once of all other methods."""
+
+    batches: tuple[int, ...] = (1, 10, 100, 1_000, 10_000, 100_000, 1_000_000)
+    at_once: int = 10_000
+
+
+FULL = Effort()
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +88,7 @@ class Contest:
     groups: tuple[Group, ...]
     places: Array
     entries: tuple[Entry, ...]
+    effort: Effort = FULL
 
     def of(self, kind: str) -> tuple[Entry, ...]:
         """Return the entries for one kind of quantities."""
@@ -154,7 +164,7 @@ def timed(work: Callable[[], object]) -> float:
     return best
 
 
-def contest(cycle: Cycle, positions: int, names: Iterable[str] = (), batches: Sequence[int] = BATCHES) -> Contest:
+def contest(cycle: Cycle, positions: int, names: Iterable[str] = (), effort: Effort = FULL) -> Contest:
     """Let all methods but the hand compete over a cycle.
 
     Parameters
@@ -163,19 +173,19 @@ def contest(cycle: Cycle, positions: int, names: Iterable[str] = (), batches: Se
         At how many places of the driver errors are looked at.
     names : iterable of str
         Quantities wanted; all that can be compared when empty.
-    batches : sequence of int
-        Sizes of the batches in which plans are timed.
+    effort : Effort
+        On what times are measured.
     """
     rivals, places = Rivals.of(cycle), places_of(cycle, positions)
     found: list[Entry] = []
     kinds = groups(cycle, names)
     newton = Newton(rivals)
     for group in kinds:
-        race = _Race(rivals, group, places, truth(cycle, places, group.names))
-        found += race.plans(batches)
+        race = _Race(rivals, group, places, truth(cycle, places, group.names), effort)
+        found += race.plans()
         if group.kind != "forces":
             found += race.others(newton)
-    return Contest(kinds, places, tuple(found))
+    return Contest(kinds, places, tuple(found), effort)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -186,18 +196,19 @@ class _Race:
     group: Group
     places: Array
     truth: Truth
+    effort: Effort
 
-    def plans(self, batches: Sequence[int]) -> Iterator[Entry]:
+    def plans(self) -> Iterator[Entry]:
         """Go through plans: in batches of all sizes, then in other precisions."""
         names, rivals = self.group.names, self.rivals
         errors = self.truth.errors(rivals.plan(self.places, names))
         spent = 0.0
-        for size in batches:
+        for size in self.effort.batches:
             if spent * size > LONG * 10.0:  # groups of class III are followed at length
                 break
             spent = self._one_by_one() if size == 1 else self._time(rivals.plan, size)
             yield self.entry(PLAN, size, errors, spent, size)
-        size = min(AT_ONCE, max(int(LONG / spent), 100))
+        size = min(self.effort.at_once, max(int(LONG / spent), 100))
         longest = "extended" if np.finfo(np.longdouble).eps < np.finfo(float).eps else ""
         for precision in filter(None, ("single", longest)):
 
@@ -226,7 +237,7 @@ class _Race:
         """Return how many positions at once a method is timed at."""
         few = 100
         spent = timed(lambda: way(places_of(self.rivals.cycle, few), self.group.names))
-        return AT_ONCE if spent * AT_ONCE / few < LONG * 10.0 else few
+        return self.effort.at_once if spent * self.effort.at_once / few < LONG * 10.0 else few
 
     def _time(self, way: Way, size: int) -> float:
         places = places_of(self.rivals.cycle, size)
