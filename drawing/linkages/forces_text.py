@@ -81,7 +81,7 @@ FORMULAS: dict[str, Told] = {
     "inertia_moment": lambda scene, s: [factor(scene, name) for name in s.operands],
 }
 UNITS = {"mass_by_length": "kg", "inertia_by_length": "kg*m^2", "inertia_moment": "N*m"}
-RESISTING = ("resisting_force", "resisting_moment")
+RESISTING = ("resisting_force", "resisting_along", "resisting_moment")
 LOADING = (*FORMULAS, *RESISTING, "along", "signed", "sum")
 
 
@@ -106,7 +106,7 @@ def _load(scene: Scene, step: Step) -> Lines:
     notes = [words["said.diagram"]] if loads[step.name] in {d.name for d in mechanism.diagrams} else []
     size, unit = size_of(scene, step.name), scene.solved.quantities[step.name].unit
     if step.law in RESISTING and size > 0.0:
-        against = words.symbol(step.operands[1], bar=step.law == "resisting_force")
+        against = words.symbol(step.operands[1], bar=step.law != "resisting_moment")
         notes.append(words["said.against"].format(motion=against))
     elif size == 0.0:
         notes.append(words["said.idle"])

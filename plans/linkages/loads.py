@@ -12,7 +12,21 @@ from typing import Any
 from ...scales.errors import InputError
 from ..board import Board
 from ..laws import TURN
-from .mechanism import ANGLE, BOTH, STROKE, WORKING, ZERO, Couple, Diagram, Link, Load, Mechanism, Revolute
+from .mechanism import (
+    ANGLE,
+    BOTH,
+    FRAME,
+    STROKE,
+    WORKING,
+    ZERO,
+    Couple,
+    Diagram,
+    Link,
+    Load,
+    Mechanism,
+    Prismatic,
+    Revolute,
+)
 from .parts import Bodies, Couples, Forces, Span, local_mark
 from .working_stroke import PART, Moving, lay_stroke, needs_stroke
 
@@ -130,9 +144,31 @@ def _load(board: Board, moving: Moving, load: Load) -> None:
         board.calc(load.name, "along", size, f"e_{load.name}")
     elif load.point in moving.mechanism.frame_points:
         raise InputError("load-still", name=load.name, point=load.point)
+    elif line := _line(board, moving, load):
+        board.calc(load.name, "resisting_along", size, f"V_{load.point}", line, moving.speed)
     else:
         board.distance(f"_V_of_{load.name}", "velocity.p", f"velocity.{load.point}")
         board.calc(load.name, "resisting_force", size, f"V_{load.point}", f"_V_of_{load.name}", moving.speed)
+
+
+def _line(board: Board, moving: Moving, load: Load) -> str | None:
+    """Return the direction along which a load's point moves where its link is on the frame: of the guide, or round.
+
+    Near a dead position the velocity is so short that it shows no direction on paper, and hardly one in numbers.
+    """
+    pair = next((pair for pair in moving.mechanism.pairs if {*pair.links} == {FRAME, load.link}), None)
+    if pair is None:
+        return None
+    if isinstance(pair, Prismatic):
+        return moving.bodies[load.link].direction
+    span = moving.spans.get(load.link)
+    if span and (span.start, span.end) == (pair.point, load.point):
+        return span.n
+    length, along = f"_l_of_{load.name}", f"_e_of_{load.name}"
+    board.measure(length, pair.point, load.point)
+    board.direction(along, pair.point, load.point, length)
+    board.normal(f"_n_of_{load.name}", along)
+    return f"_n_of_{load.name}"
 
 
 def _couple(board: Board, moving: Moving, couple: Couple) -> None:

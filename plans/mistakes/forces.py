@@ -144,7 +144,7 @@ def load_from_pressure(scene: Scene) -> Iterator[Change]:
     for step in scene.made_by("calc"):
         size = step.operands[0] if step.operands else ""
         if (
-            step.law in ("along", "resisting_force")
+            step.law in ("along", "resisting_force", "resisting_along")
             and step.name.startswith(("F_", "P_"))
             and size.startswith(("|", "_"))
         ):
@@ -155,7 +155,7 @@ def load_from_pressure(scene: Scene) -> Iterator[Change]:
 @mistake("M65", FORCES)
 def resistance_along_motion(scene: Scene) -> Iterator[Change]:
     """A resistance acts along the motion, or in the idle stroke too."""
-    for law in ("resisting_force", "resisting_moment"):
+    for law in ("resisting_force", "resisting_along", "resisting_moment"):
         yield from map(opposed, scene.made_by("calc", law=law))
     for step in scene.made_by("calc"):
         if step.law in ("in_working", "in_idle"):
