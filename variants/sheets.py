@@ -155,6 +155,18 @@ def sheet(
     return _drawn(contents, stamp, paper, case.warnings)
 
 
+def scales_of(case: Case, words: Words, paper: Format) -> Mapping[str, Scale]:
+    """Return the scale factors that the sheet of a case takes on a format, by plan.
+
+    Raises
+    ------
+    InputError
+        The sheet does not fit on it.
+    """
+    contents = Contents(case.solved, case.plans, case.choosers, case.givens, words, "gost", _cycle(case))
+    return draw(contents, Stamp(title=case.task.title[words.language], language=words.language), paper).scales
+
+
 def cycle_sheet(case: Case, whole: Cycle, words: Words) -> Sheet:
     """Draw the plan of positions and the diagrams of a cycle on a sheet of their own.
 

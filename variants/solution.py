@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
+from ..drawing.formats import format_named
 from ..drawing.linkages.ladders import first_scales
 from ..drawing.words import Words
 from ..plans.linkages.solved import Solved, disagreement
@@ -15,11 +16,13 @@ from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
 from ..scales.scale import Scale
 from ..scales.units import format_unit
-from .case import Settings, solve_case
+from .case import Case, Settings, solve_case
 from .task import Task
 
 if TYPE_CHECKING:
     from ..plans.condition import Condition
+    from ..plans.hand import Hand
+    from .hands import Drawing
 
 ROUNDING = 1e-14  # part of the largest quantity of a unit
 LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
@@ -30,7 +33,8 @@ COMPOUND_AGREES = 1e-9  # part of the longest vector by which two routes to one 
 class Solution:
     """The answer to one variant of a task.
 
-    `solution["V_B"]` is a `Quantity`; `reason` says why a position has no plan; `conditions` are there when asked for.
+    `solution["V_B"]` is a `Quantity`; `reason` says why a position has no plan; `conditions`, and the `drawing` of a
+    hand, are there when asked for.
     """
 
     task: Task
@@ -42,6 +46,7 @@ class Solution:
     warnings: tuple[InputError, ...]
     words: Words
     conditions: Mapping[str, Condition] = field(default_factory=dict)
+    drawing: Drawing | None = None
 
     @property
     def status(self) -> str:
@@ -102,28 +107,45 @@ class Solution:
             "warnings": [warning.text(self.words.language) for warning in self.warnings],
             "checks": self.checks,
             "scales": {s.symbol: {"value": s.mu, "unit": s.per_mm_unit} for s in self.scales.values()},
+            **({} if self.drawing is None else {"hand": self.drawing.head()}),
             "quantities": {name: self._item(quantity) for name, quantity in self.quantities.items()},
         }
 
     def _item(self, quantity: Quantity) -> dict[str, Any]:
         item, condition = quantity.to_json(), self.conditions.get(quantity.name)
-        return item if condition is None else {**item, "condition": condition.value, "sine": condition.sine}
+        if condition is not None:
+            item |= {"condition": condition.value, "sine": condition.sine}
+        return item if self.drawing is None else {**item, **self.drawing.item(quantity.name)}
+
+    def drawn(self, language: str | None = None) -> str:
+        """Return what the hand that was asked for makes of every quantity, as a readable table; nothing without one."""
+        if self.drawing is None:
+            return ""
+        from .hands import table
+
+        return table(self.drawing, self._tidy(), self.solved.program, self._words(language))
+
+    def _tidy(self) -> list[Quantity]:
+        """Return the quantities without what is nothing but rounding."""
+        largest: dict[str, float] = {}
+        for quantity in self.quantities.values():
+            largest[quantity.unit] = max(largest.get(quantity.unit, 0.0), abs(quantity.value or 0.0))
+        return [_without_rounding(quantity, largest[quantity.unit]) for quantity in self.quantities.values()]
+
+    def _words(self, language: str | None) -> Words:
+        if language is None:
+            return self.words
+        return Words.of(language, self.task.notation).showing(self.words.display)
 
     def table(self, language: str | None = None) -> str:
         """Return the quantities as a readable table: name, value, unit, components, segment in mm.
 
         Where conditions were asked for, K and the sine of the worst intersection follow.
         """
-        words = self.words
-        if language is not None:
-            words = Words.of(language, self.task.notation).showing(words.display)
-        largest: dict[str, float] = {}
-        for quantity in self.quantities.values():
-            largest[quantity.unit] = max(largest.get(quantity.unit, 0.0), abs(quantity.value or 0.0))
-        tidy = (_without_rounding(quantity, largest[quantity.unit]) for quantity in self.quantities.values())
+        words = self._words(language)
         rows = [
             (*_row(words, quantity.shown(words.display)), *_accuracy(words, self.conditions.get(quantity.name)))
-            for quantity in tidy
+            for quantity in self._tidy()
         ]
         widths = [max((len(row[i]) for row in rows), default=0) for i in range(7)]
         return "\n".join(
@@ -170,6 +192,8 @@ def solve(
     notation: str | None = None,
     lang: str | None = None,
     condition: bool = False,
+    hand: str | Hand | None = None,
+    format: str | None = None,
 ) -> Solution:
     """Solve one variant of a task.
 
@@ -189,6 +213,11 @@ def solve(
         Notation profile and language of the words.
     condition : bool, optional
         Whether to find, for each quantity, how it hangs on the data, and how flatly lines meet behind it.
+    hand : str or Hand, optional
+        Who draws: `cad`, `careful`, `normal`, `lenient`, or one's own standard deviations of marks, directions and
+        readings, `"0.2 mm, 0.5 deg, 0.2 mm"`. Then `drawing` says for each quantity where 95 % of drawings lie.
+    format : str, optional
+        `A4`, `A3`, `A2`, `A1`: the scale factors are those that a sheet of this format takes.
 
     Returns
     -------
@@ -198,7 +227,8 @@ def solve(
     Raises
     ------
     InputError
-        An unknown task, variant, given, plan, scale factor, language or notation, or a value of the wrong kind.
+        An unknown task, variant, given, plan, scale factor, language, notation, hand or format, or a value of the wrong
+        kind.
 
     >>> from kulman import solve
     >>> round(solve("nau-slider-crank", "example")["V_B"].value, 4)
@@ -208,11 +238,35 @@ def solve(
     solved = case.solved
     words = Words.of("en" if lang is None else lang, case.task.notation if notation is None else notation)
     words = words.showing(case.display)
-    by_plan = first_scales(solved, case.choosers) if solved.trouble is None else {}
+    by_plan = _scales(case, words if lang else Words.of("uk", case.task.notation).showing(case.display), format)
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
     found = _conditions(solved) if condition else {}
-    return Solution(case.task, case.variant, solved, items, used, solved.error(), case.warnings, words, found)
+    drawn = None if hand is None else _drawing(solved, by_plan, hand)
+    return Solution(case.task, case.variant, solved, items, used, solved.error(), case.warnings, words, found, drawn)
+
+
+def _scales(case: Case, words: Words, format: str | None) -> Mapping[str, Scale]:
+    """Return the scale factors by plan: the wanted ones, or those of a sheet; none for a position without a plan."""
+    paper = None if format is None else format_named(format)
+    if case.solved.trouble is not None:
+        return {}
+    if paper is None:
+        return first_scales(case.solved, case.choosers)
+    from .sheets import scales_of  # draws the whole sheet, which takes a second or two
+
+    return scales_of(case, words, paper)
+
+
+def _drawing(solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:
+    from ..plans.shaky import Paper
+    from .hands import drawing, hand_of
+
+    hand_of(hand)  # a wrong one is refused in any position
+    if solved.trouble is not None:
+        return None
+    mus = {plan: scale.mu for plan, scale in scales.items()}
+    return drawing(Paper(solved.program, solved.givens, mus), hand)
 
 
 def _conditions(solved: Solved) -> dict[str, Condition]:

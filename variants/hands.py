@@ -1,0 +1,214 @@
+"""What a hand makes of a solution: its errors, read from a word or from three numbers, and a table of what they do."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from ..drawing.words import Words
+from ..plans.board import Program, Step
+from ..plans.expectations import DRAWINGS, SEED, Expectation, as_data, expectations
+from ..plans.hand import PRESETS, Hand, Tolerance, preset
+from ..plans.linkages.guides import guide_letters
+from ..plans.quantities import Quantity
+from ..plans.shaky import Paper
+from ..plans.spread import Spread
+from ..scales.errors import InputError
+from ..scales.numbers import quote
+from ..scales.units import format_unit, parse, unit
+from .arguments import of_kind
+
+OWN = "own"
+BETWEEN = re.compile(r"\s*;\s*|,\s+|(?<=[^\d\s]),")  # not a decimal comma
+DIGITS = 4
+PLANS = ("position", "velocity", "acceleration", "forces", "lever")  # those of compound motion have names of their own
+READINGS = ("read", "measure", "distance", "angle")
+LINES = ("turn", "incline", "decline", "direction", "tangent", "normal")
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """A solution drawn by a hand: the hand by its name, what is let pass, and what comes out, by quantity."""
+
+    name: str
+    hand: Hand
+    tolerance: Tolerance
+    expected: Mapping[str, Expectation]
+
+    def head(self) -> dict[str, Any]:
+        """Return as JSON whose hand draws, and how often."""
+        return {
+            "name": self.name,
+            **asdict(self.hand),
+            "tolerance": asdict(self.tolerance),
+            "drawings": DRAWINGS,
+            "seed": SEED,
+        }
+
+    def item(self, name: str) -> dict[str, Any]:
+        """Return as JSON what the hand makes of a quantity; nothing for what is given."""
+        return {"hand": dict(as_data(self.expected[name]))} if name in self.expected else {}
+
+
+def hand_of(text: str | Hand) -> tuple[str, Hand, Tolerance]:
+    """Return the name, the errors and the tolerance of a hand: a preset, or three errors of one's own.
+
+    Parameters
+    ----------
+    text : str or Hand
+        `normal`, or the errors of marks, directions and readings, `0.2 mm, 0.5 deg, 0.2 mm`. Of one's own hand that is
+        let pass which is of the first preset that errs no less.
+
+    Raises
+    ------
+    InputError
+        No such preset, not three errors, or one below zero.
+    """
+    of_kind("hand", text, (str, Hand), "str | Hand")
+    if isinstance(text, str) and not re.search(r"\d", text):
+        found = preset(text.strip())
+        return text.strip(), found.hand, found.tolerance
+    hand = _own(text) if isinstance(text, str) else text
+    return OWN, hand, _tolerance(hand)
+
+
+def _own(text: str) -> Hand:
+    parts = BETWEEN.split(text.strip())
+    if len(parts) != 3:
+        raise InputError("hand-three", text=quote(text))
+    mm, degree = unit("mm"), unit("deg")
+    point, direction, reading = (parse(part, own, own) for part, own in zip(parts, (mm, degree, mm), strict=True))
+    return Hand(mm.from_si(point), degree.from_si(direction), mm.from_si(reading))
+
+
+def _tolerance(hand: Hand) -> Tolerance:
+    """Return what is let pass of the first preset that errs no less, of the last one where none does."""
+    for found in PRESETS.values():
+        like = found.hand
+        if hand.point <= like.point and hand.direction <= like.direction and hand.reading <= like.reading:
+            return found.tolerance
+    return [*PRESETS.values()][-1].tolerance
+
+
+def drawing(paper: Paper, text: str | Hand) -> Drawing:
+    """Draw a construction with the hand that is named."""
+    name, hand, tolerance = hand_of(text)
+    return Drawing(name, hand, tolerance, expectations(paper, hand, tolerance))
+
+
+def table(drawn: Drawing, quantities: Iterable[Quantity], program: Program, words: Words) -> str:
+    """Return a table: value, interval of drawings, half of it on paper and in per cents, what to let pass, worst step.
+
+    Parameters
+    ----------
+    quantities : iterable of Quantity
+        With their millimetres, in SI; those that are only given are left out.
+    """
+    paper = format_unit(words.display.paper, words.language)
+    heads = ("name", "value", "unit", "interval", "paper", "percent", "pass", "step")
+    rows = [[words[f"hand.{key}"].format(paper=paper) for key in heads]]
+    for quantity in quantities:
+        expected = drawn.expected.get(quantity.name)
+        if expected is not None:
+            rows.append(_row(quantity, expected, program, words))
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    lines = ["  ".join(_set(cell, widths[i], i) for i, cell in enumerate(row)).rstrip() for row in rows]
+    return "\n".join((_heading(drawn, words), "", *lines, *_undrawn(drawn, words)))
+
+
+def _set(cell: str, width: int, column: int) -> str:
+    """Set a cell: words to the left, numbers to the right."""
+    return f"{cell:{width}}" if column in (0, 7) else f"{cell:>{width}}"
+
+
+def _heading(drawn: Drawing, words: Words) -> str:
+    hand, tolerance = drawn.hand, drawn.tolerance
+    numbers = {"point": hand.point, "direction": hand.direction, "reading": hand.reading}
+    numbers |= {"mm": tolerance.mm, "part": tolerance.part * 100.0, "degrees": tolerance.degrees, "n": DRAWINGS}
+    shown = {name: words.short(value, DIGITS) for name, value in numbers.items()}
+    return words["hand.heading"].format(hand=words[f"hand.{drawn.name}"], **shown)
+
+
+def _row(quantity: Quantity, expected: Expectation, program: Program, words: Words) -> list[str]:
+    def shown(value: float | None) -> str:
+        return "–" if value is None else words.short(words.display.value(value, quantity.unit) + 0.0, DIGITS)
+
+    spread, si = expected.spread, quantity.unit
+    value = _place(quantity, words) if quantity.kind == "point" else shown(quantity.value)
+    interval = "" if quantity.kind == "point" else _interval(spread, shown)
+    errs = expected.step is not None
+    paper = "" if expected.mm is None or not errs else words.number(words.display.segment(expected.mm), 2)
+    part = "" if expected.percent is None or not errs else _two(expected.percent, words)
+    degrees = "" if expected.degrees is None else f"; {_two(expected.degrees, words)}°"
+    allowed = f"{shown(expected.allowed)}{degrees}" if expected.allowed is not None and errs else ""
+    return [
+        quantity.name,
+        value,
+        format_unit(words.display.unit(si), words.language),
+        interval,
+        paper,
+        part,
+        allowed,
+        _worst(expected, program, words),
+    ]
+
+
+def _two(value: float, words: Words) -> str:
+    """Return a number with two digits, or without decimals."""
+    return words.number(value, 0) if value >= 10.0 else words.short(value, 2)
+
+
+def _interval(spread: Spread, shown: Any) -> str:
+    if spread.low is None or spread.high is None:
+        return "–"
+    return shown(spread.low) if spread.low == spread.high else f"{shown(spread.low)} … {shown(spread.high)}"
+
+
+def _place(quantity: Quantity, words: Words) -> str:
+    if quantity.x is None or quantity.y is None:
+        return "–"
+    x, y = (words.short(words.display.value(part, quantity.unit), DIGITS) for part in (quantity.x, quantity.y))
+    return f"({x}; {y})"
+
+
+def _worst(expected: Expectation, program: Program, words: Words) -> str:
+    """Say which step errs most: a mark, a line, a reading or an arm, and its part."""
+    if expected.step is None or expected.share is None:
+        return ""
+    step, share = next(step for step in program if step.name == expected.step), words.number(expected.share, 2)
+    if step.verb in READINGS:
+        said = words["hand.reading"].format(name=step.name.lstrip("_"))
+    elif step.verb == "moment":
+        force, _, about = step.operands
+        said = words["hand.arm"].format(name=f"{force}, {_plain(words.mark(about))}")
+    elif step.verb in LINES:
+        said = words["hand.line"].format(name=_line(step, program))
+    else:
+        plan = step.plan.partition("_")[0]
+        where = words[f"hand.plan.{plan if plan in PLANS else 'compound'}"]
+        said = f"{words['hand.mark'].format(name=_plain(words.mark(step.name)))}, {where}"
+    return f"{said} {share}"
+
+
+def _line(step: Step, program: Program) -> str:
+    """Return the name of a line: of a link by its ends, of a guide by its letters, or by the pins on it."""
+    letters = guide_letters(program)
+    if step.name in letters:
+        return letters[step.name]
+    return "".join(step.operands[:2]) if step.verb == "tangent" else step.name.lstrip("_").partition("_")[2]
+
+
+def _plain(markup: str) -> str:
+    """Return a letter without the signs that lower and raise its indices."""
+    return re.sub(r"[_^{}]", "", markup)
+
+
+def _undrawn(drawn: Drawing, words: Words) -> list[str]:
+    """Say how many drawings fail, where some do."""
+    worst = max((item.spread.undrawn for item in drawn.expected.values() if item.spread.exact is not None), default=0.0)
+    if not worst > 0.0 or not math.isfinite(worst):
+        return []
+    return ["", words["hand.undrawn"].format(percent=words.short(100.0 * worst, 2))]
