@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from ..laws import cross, dot
@@ -53,8 +52,3 @@ def _of_vector(said: Said, value: complex, allowed: float, angle: float) -> Miss
 
 def _ratio(missed: float, allowed: float) -> float:
     return missed / allowed if allowed else 0.0 if not missed else NEVER
-
-
-def least(misses: Iterable[Miss]) -> Miss:
-    """Return the least miss."""
-    return min(misses, key=lambda found: found.off, default=Miss(NEVER, SIZE))

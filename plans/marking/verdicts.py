@@ -16,13 +16,13 @@ from typing import Any
 from ...scales.names import unknown
 from ..board import Step
 from .answers import Answer, Said, known, measured, readings, values_of
-from .comparing import NEVER, SIZE, Miss, least, miss
-from .key import Key
+from .comparing import NEVER, SIZE, Miss, miss
+from .key import Key, Question
 from .student import follow
 
 UNITS = tuple(10.0**power for power in (-6, -3, -2, -1, 1, 2, 3, 6))  # what a unit may be wrong by
 SHOWN = 5.0  # mm from which a segment shows to which scale its plan is drawn
-CLEAR = 1.5  # tolerances from which an error is more than a slip of the hand
+CLEAR = 2.0  # tolerances from which an error is more than a slip of the hand
 SLACK = 0.5  # part of a tolerance by which mm times mu may differ from the value written
 
 
@@ -162,7 +162,9 @@ class _Marker:
     def __init__(self, key: Key, answers: Mapping[str, Answer], mus: dict[str, float | None]) -> None:
         self.key, self.answers, self.mus = key, answers, mus
         self.true: dict[str, float] = {}  # to which scale the segments of a plan seem to be drawn
-        self.verdicts: dict[str, tuple[Verdict, Said | None, Miss]] = {}
+        self.ways: dict[str, tuple[Said, ...]] = {}  # to take each answer
+        self.taken: dict[str, Said] = {}  # what the student goes on with
+        self.verdicts: dict[str, tuple[Verdict, Said, Miss]] = {}
         self.failed = False
 
     def settle_scales(self, redraw: bool = True) -> None:
@@ -194,102 +196,93 @@ class _Marker:
     def lines(self) -> Iterator[Line]:
         """Judge every line in order of construction."""
         program, givens = self.key.paper.program, self.key.paper.givens
-        self.still = follow(program, givens, lambda name, value: (self._first(name), False))
-        self.moved = follow(program, givens, lambda name, value: (self._first(name), True))
+        for name, answer in self.answers.items():
+            values = values_of(answer, self.mus[name])
+            self.ways[name] = readings(answer, values)
+            near = (_nearest_to(values, abs(self.key[name])),) if len(values) > 1 else values
+            self.taken[name] = readings(answer, near)[0]
+        self.still = follow(program, givens, lambda name, value: (self.taken.get(name), False))
+        self.moved = follow(program, givens, lambda name, value: (self.taken.get(name), True))
         follows = follow(program, givens, self._judge)
-        for name, question in self.key.questions.items():
-            verdict, said, found = self.verdicts.get(name, (Verdict.MISSING, None, Miss(NEVER, "")))
-            value = follows[name]
-            taken = None if said is None else said.taken(value if value == value else self.key[name])
-            about = found.about if verdict.faulty else ""
-            yield Line(
-                name,
-                question.plan,
-                verdict,
-                self.answers.get(name),
-                taken,
-                self.key[name],
-                value,
-                self.key.allowed[name],
-                found.off,
-                about,
-                said,
-            )
+        return (self._line(question, follows[question.name]) for question in self.key.questions.values())
 
-    def _first(self, name: str) -> Said | None:
-        """Return what the student goes on with."""
-        answer = self.answers.get(name)
-        if answer is None:
-            return None
-        values = values_of(answer, self.mus[name])
-        if len(values) > 1:
-            values = (_nearest_to(values, abs(self.key[name])),)
-        return readings(answer, values)[0]
+    def _line(self, question: Question, follows: Any) -> Line:
+        name = question.name
+        verdict, way, found = self.verdicts.get(name, (Verdict.MISSING, None, Miss(NEVER, "")))
+        right, answer = self.key[name], self.answers.get(name)
+        said = None if way is None else way.taken(follows if follows == follows else right)
+        about = found.about if verdict.faulty else ""
+        allowed = self.key.allowed[name]
+        return Line(name, question.plan, verdict, answer, said, right, follows, allowed, found.off, about, way)
 
     def _judge(self, name: str, value: Any) -> tuple[Said | None, bool]:
         """Judge a line whose value follows from what was wrong before; go on with what the student says if it differs.
 
         A slip of the pen or of the scale does not move the mark.
         """
-        if name not in self.answers or name not in self.key.questions:
+        if name not in self.answers:
             return None, False
         if name not in self.verdicts:
-            self.verdicts[name] = self._verdict(name, value)
+            self.verdicts[name] = found = self._verdict(name, value)
+            self.failed |= found[0].faulty
         verdict, said, _ = self.verdicts[name]
-        assert said is not None
-        if self._miss((said,), name, value).off <= 1.0:
+        if self._miss(said, name, value).off <= 1.0:
             return None, False
         return said, verdict is Verdict.WRONG
 
-    def _verdict(self, name: str, value: Any) -> tuple[Verdict, Said | None, Miss]:
+    def _verdict(self, name: str, value: Any) -> tuple[Verdict, Said, Miss]:
         answer = self.answers[name]
-        values = values_of(answer, self.mus[name])
-        verdict, said, found = self._held(readings(answer, values), name, value)
+        verdict, said, found = self._held(self.ways[name], name, value)
         if answer.value is not None and (instead := measured(answer, self.mus[name])):
             agrees = any(abs(x - abs(answer.value)) <= self._slack(name, x) for x in instead)
             by_mm = self._held(readings(answer, instead), name, value)[0]
             if not agrees and verdict.passed is not by_mm.passed:
                 return Verdict.ARITHMETIC, said, found
-        if not verdict.passed and found.about == SIZE and self._is_scale(answer, values, name, value):
+        if not verdict.passed and found.about == SIZE and self._is_scale(name, value):
             verdict = Verdict.SCALE
-        self.failed |= verdict.faulty
         return verdict, said, found
 
     def _slack(self, name: str, value: float) -> float:
         tolerance, mu = self.key.tolerance, self.key.paper.mus.get(self.key.questions[name].plan, 0.0)
-        return max(SLACK * tolerance.mm * mu, SLACK * tolerance.part * value)
+        return SLACK * max(tolerance.mm * float(mu), tolerance.part * value)
 
     def _held(self, ways: tuple[Said, ...], name: str, value: Any) -> tuple[Verdict, Said, Miss]:
         """Hold an answer against the right value, and against what follows."""
-        right = self._best(ways, name, self.key[name])
-        others = [self._best(ways, name, x) for x in (self.still.get(name), self.moved.get(name), value)]
-        said, found = min((right, *others), key=lambda pair: pair[1].off)
-        if right[1].off <= 1.0:
-            return Verdict.RIGHT, *right
+        said, found = right = self._best(ways, name, self.key[name])
+        if found.off <= 1.0:
+            return Verdict.RIGHT, said, found
+        follows = (self.still.get(name), self.moved.get(name), value)
+        said, found = min((right, *(self._best(ways, name, x) for x in follows)), key=_off)
         if found.off <= 1.0:
             return Verdict.CARRIED if self.failed else Verdict.RIGHT, said, found
-        return Verdict.WRONG, self._first(name) or said, found
+        return Verdict.WRONG, self.taken[name], found
 
     def _best(self, ways: tuple[Said, ...], name: str, value: Any) -> tuple[Said, Miss]:
-        return min(((way, self._miss((way,), name, value)) for way in ways), key=lambda pair: pair[1].off)
+        return min([(way, self._miss(way, name, value)) for way in ways], key=_off)
 
-    def _miss(self, ways: tuple[Said, ...], name: str, value: Any) -> Miss:
-        """Return the least miss; a value that follows from larger ones may miss in proportion."""
+    def _miss(self, way: Said, name: str, value: Any) -> Miss:
+        """Return the miss; a value that follows from larger ones may miss in proportion."""
         if value is None or value != value:
             return Miss(NEVER, SIZE)
-        size = float(abs(self.key[name]))
-        allowed = self.key.allowed[name] * max(1.0, abs(value) / size if size else 1.0)
-        return least(miss(way, value, allowed, self.key.angles.get(name, math.pi)) for way in ways)
+        size, allowed = abs(self.key[name]), self.key.allowed[name]
+        if size and abs(value) > size:
+            allowed *= abs(value) / size
+        return miss(way, value, allowed, self.key.angles.get(name, math.pi))
 
-    def _is_scale(self, answer: Answer, values: tuple[float, ...], name: str, value: Any) -> bool:
+    def _is_scale(self, name: str, value: Any) -> bool:
         """Whether only a unit, the convention of the scale factor or the scale itself makes a line wrong."""
         if abs(self.key[name]) <= self.key.allowed[name]:
             return False  # anything is nothing in some unit
-        others = [x * unit for x in values for unit in UNITS] + list(measured(answer, self.mus[name]))
+        answer, mu = self.answers[name], self.mus[name]
+        others = [x * unit for x in values_of(answer, mu) for unit in UNITS] + list(measured(answer, mu))
         true = self.true.get(self.key.questions[name].plan)
         if true is not None and answer.mm:
             others.append(answer.mm * true)
         return any(self._held(readings(answer, (x,)), name, value)[0].passed for x in others)
+
+
+def _off(found: tuple[Said, Miss]) -> float:
+    return found[1].off
 
 
 def _nearest(mu: float, ours: float) -> float:

@@ -21,6 +21,8 @@ from .rules import Broken
 MOST = 4.0  # tolerances beyond which a miss counts no more
 ALIKE = 0.5  # tolerances by which values differ that answers cannot tell apart
 NEAR = 12  # signatures that are looked at closely
+FAR, NEARLY = 1.5, 0.3  # how much worse than the nearest a signature may be to be looked at
+LEFT, SECOND = 0.15, 0.25  # by how many tolerances a line left wrong, or a second mistake, is worse
 PAIRS = 8  # pairs of them
 FIRSTS = 4  # mistakes to which a second one is added
 
@@ -111,8 +113,9 @@ class _Search:
         means = _mean(off)
         likely = (means < self.without) | (off[:, self.first] <= 1.0)
         near = [int(i) for i in np.argsort(means, kind="stable") if likely[i]][:NEAR]
+        near = [i for i in near if means[i] <= FAR * means[near[0]] + NEARLY]
         found = [c for i in near if (c := self._candidate((self.book.signatures[i],))) is not None]
-        if not any(self._complete(c) for c, _ in found):
+        if all(self._clear(c) for c, _ in found):
             found += self._pairs(off)
         ranked = sorted(found, key=lambda pair: self._rank(pair[0]))
         if not ranked:
@@ -120,12 +123,13 @@ class _Search:
         candidates = _grouped(ranked, self.said)
         return Explanation(candidates, self._carried(candidates[0]))
 
-    def _complete(self, candidate: Candidate) -> bool:
-        """Whether nothing that is clearly wrong is left."""
-        return not any(self.faulty.get(name, MOST) > CLEAR for name in candidate.left)
+    def _clear(self, candidate: Candidate) -> int:
+        """Return how many lines stay clearly wrong."""
+        return sum(self.faulty.get(name, MOST) > CLEAR for name in candidate.left)
 
-    def _rank(self, candidate: Candidate) -> tuple[bool, int, float]:
-        return not self._complete(candidate), len(candidate.mistakes), candidate.misses
+    def _rank(self, candidate: Candidate) -> float:
+        """Return the misses, worse for each line that stays clearly wrong and for a second mistake."""
+        return candidate.misses + LEFT * self._clear(candidate) + SECOND * (len(candidate.mistakes) - 1)
 
     def _candidate(self, signatures: tuple[Signature, ...]) -> tuple[Candidate, Signature] | None:
         """Mark the answers with a broken construction; None where it does not explain the first wrong line."""
