@@ -109,26 +109,12 @@ class Unit:
     @property
     def dimension(self) -> Dimension:
         """Powers of length, mass, time and angle."""
-        sums = [0, 0, 0, 0]
-        for name, power in self.powers:
-            for i, exponent in enumerate(SYMBOLS[name].dimension):
-                sums[i] += exponent * power
-        return Dimension(*sums)
+        return _dimension(self.powers)
 
     @property
     def ratio(self) -> tuple[float, float]:
         """Numerator and denominator of the factor to SI; whole numbers wherever the unit has no angle."""
-        num: float = 1
-        den: float = 1
-        for name, power in self.powers:
-            symbol = SYMBOLS[name]
-            up, down = (symbol.num, symbol.den) if power > 0 else (symbol.den, symbol.num)
-            num *= up ** abs(power)
-            den *= down ** abs(power)
-        if isinstance(num, int) and isinstance(den, int):
-            common = math.gcd(num, den)
-            return num // common, den // common
-        return num, den
+        return _ratio(self.powers)
 
     def to_si(self, value: float) -> float:
         """Return `value` of this unit in SI."""
@@ -148,6 +134,30 @@ class Unit:
     def __str__(self) -> str:
         """Return the ASCII name."""
         return self.name
+
+
+@cache
+def _dimension(powers: tuple[tuple[str, int], ...]) -> Dimension:
+    sums = [0, 0, 0, 0]
+    for name, power in powers:
+        for i, exponent in enumerate(SYMBOLS[name].dimension):
+            sums[i] += exponent * power
+    return Dimension(*sums)
+
+
+@cache
+def _ratio(powers: tuple[tuple[str, int], ...]) -> tuple[float, float]:
+    num: float = 1
+    den: float = 1
+    for name, power in powers:
+        symbol = SYMBOLS[name]
+        up, down = (symbol.num, symbol.den) if power > 0 else (symbol.den, symbol.num)
+        num *= up ** abs(power)
+        den *= down ** abs(power)
+    if isinstance(num, int) and isinstance(den, int):
+        common = math.gcd(num, den)
+        return num // common, den // common
+    return num, den
 
 
 ONE = Unit(())

@@ -119,9 +119,9 @@ def direction(text: str) -> tuple[float | None, int | None]:
     InputError
         Neither an angle in degrees nor a sense.
     """
-    word = tidy(text)
     if text in ("+", "-", "−", "–"):
         return None, 1 if text == "+" else -1
+    word = tidy(text)
     if word in CCW | CW:
         return None, 1 if word in CCW else -1
     if word in SIDES:

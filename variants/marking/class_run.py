@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ... import __version__
@@ -168,7 +168,7 @@ def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     names = tuple(f"{stem}{kind}" for kind in job.kinds)
     for kind, name in zip(job.kinds, names, strict=True):
         write_whole(Path(job.folder) / name, KINDS[kind](said).encode("utf-8"))
-    return result_of(marked, language, names)
+    return replace(result, reports=names)
 
 
 def slug(name: str) -> str:

@@ -55,7 +55,7 @@ def _heading(marked: Marked, plan: str, said: Mapping[str, str]) -> str:
 
 def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[Vector]:
     """Go through the right vectors of a plan, then the student's, each from where the one before it ends."""
-    solved, words = marked.keyed.solution.solved, marked.keyed.words
+    solved = marked.keyed.solution.solved
     edges = read(solved.program).on(plan)
     for edge in edges:
         yield Vector("", solved.point(edge.tail), solved.point(edge.tip), None)
@@ -68,7 +68,7 @@ def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[V
             continue
         tip = tail + complex(line.said)
         marks.setdefault(edge.tip, tip)
-        yield Vector(plain(words.symbol(line.name)), tail, tip, line)
+        yield Vector(marked.keyed.symbol(line.name), tail, tip, line)
 
 
 def _svg(vectors: list[Vector], caption: str) -> str:

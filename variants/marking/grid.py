@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 from ...scales.errors import InputError
@@ -33,9 +34,15 @@ class Grid:
 
     def place(self, row: int, column: int | None = None) -> str:
         """Return the address of a cell as a spreadsheet shows it, or of a row: `answers.csv: D12`."""
-        return f"{quote(self.file, SHOWN)}: {'' if column is None else letters(column)}{row + 1}"
+        return f"{_shown(self.file)}: {'' if column is None else letters(column)}{row + 1}"
 
 
+@cache
+def _shown(file: str) -> str:
+    return quote(file, SHOWN)
+
+
+@cache
 def letters(column: int) -> str:
     """Return the letters of a column, counted from 0.
 

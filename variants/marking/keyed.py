@@ -18,6 +18,7 @@ from .answers import Asked
 from .form import Section, sections
 from .rubric import Rubric
 from .sheet_id import sheet_id
+from .wording import plain
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,10 +73,14 @@ class Keyed:
         """What every mistake would give: costs more than the key, and is needed where an answer is wrong."""
         return book(self.key)
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """All quantities that may be asked, in order of construction."""
-        return tuple(self.key.questions)
+    @cached_property
+    def symbols(self) -> dict[str, str]:
+        """The symbols of all quantities as plain text."""
+        return {name: plain(self.words.symbol(name)) for name in self.solution.quantities}
+
+    def symbol(self, name: str) -> str:
+        """Return the symbol of a quantity, or of a given, as plain text."""
+        return self.symbols.get(name) or plain(self.words.symbol(name))
 
 
 def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> Asked:

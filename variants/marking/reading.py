@@ -208,6 +208,9 @@ def _of_class(header: tuple[str, ...], asked: Asked) -> dict[int, tuple[str, str
 def _class(grid: Grid, header: int, asked: Asked) -> Iterator[Answers | None]:
     """Go through the students of a class."""
     columns, about = _of_class(grid.rows[header], asked), _first(about_kind(text) for text in grid.rows[header])
+    parts: dict[str, dict[str, tuple[int, str]]] = {}
+    for column, (name, part, written) in columns.items():
+        parts.setdefault(name, {}).setdefault(_part(asked, name, part, written), (column, written))
     asked_here = tuple(dict.fromkeys(name for name, _, _ in columns.values() if name in asked.quantities))
     strangers = _strangers(grid, header, asked, {*columns, *about.values()})
     for row in range(header + 1, len(grid.rows)):
@@ -216,7 +219,7 @@ def _class(grid: Grid, header: int, asked: Asked) -> Iterator[Answers | None]:
         said = {kind: grid.text(row, column) for kind, column in about.items() if grid.text(row, column)}
         sheet = _Sheet(grid, asked, problems=list(strangers))
         strangers = []  # told once, not for each student
-        _class_row(sheet, row, columns)
+        _class_row(sheet, row, parts)
         yield sheet.answers(grid.place(row), said, asked_here)
 
 
@@ -231,11 +234,8 @@ def _strangers(grid: Grid, header: int, asked: Asked, read: set[int]) -> list[Lo
     return found
 
 
-def _class_row(sheet: _Sheet, row: int, columns: Mapping[int, tuple[str, str, str]]) -> None:
+def _class_row(sheet: _Sheet, row: int, parts: Mapping[str, Mapping[str, tuple[int, str]]]) -> None:
     """Read the answers of one student, all parts of each quantity together."""
-    parts: dict[str, dict[str, tuple[int, str]]] = {}
-    for column, (name, part, written) in columns.items():
-        parts.setdefault(name, {}).setdefault(_part(sheet.asked, name, part, written), (column, written))
     for name, at in parts.items():
         nothing: tuple[int | None, str] = (None, "")
         if name in sheet.asked.scales:

@@ -208,7 +208,7 @@ class _Teller:
 
     def symbol(self, name: str) -> str:
         """Return the symbol of a quantity as plain text."""
-        return plain(self.words.symbol(name))
+        return self.marked.keyed.symbol(name)
 
     def _heading(self, name: str) -> str:
         parts = self.marked.keyed.parts

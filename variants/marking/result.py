@@ -11,7 +11,6 @@ from ...scales.errors import KulmanError
 from .answers import Answers, Who
 from .flags import Measured, measured, too_exact
 from .marked import Marked
-from .wording import plain
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +60,7 @@ def result_of(marked: Marked, language: str, reports: tuple[str, ...] = ()) -> R
         marked.answers.about.get("sheet", ""),
         marked.mark,
         {str(verdict): marked.count(verdict) for verdict in Verdict},
-        "" if first is None else plain(key.words.symbol(first)),
+        "" if first is None else key.symbol(first),
         tuple(dict.fromkeys(broken.mistake for broken in best)),
         tuple(note.text(language) for note in marked.notes),
         too_exact(segments),
