@@ -18,7 +18,8 @@ Operation = Callable[..., Any]
 class Entry(NamedTuple):
     """One line of a tape: an operation on earlier lines, or a given array or a constant, which have none.
 
-    A check looks at its operands as whole arrays and returns the first of them, or a changed copy of it.
+    A check looks at its operands as whole arrays and returns the first of them, or a changed copy of it. An operation
+    that `fills` puts its result into its last operand, as those of numpy do.
     """
 
     operation: Operation | None
@@ -26,6 +27,7 @@ class Entry(NamedTuple):
     check: bool = False
     given: str = ""
     constant: float | None = None
+    fills: bool = False
 
 
 class Tape:
@@ -66,6 +68,17 @@ class Tape:
     def apply(self, operation: Operation, *operands: Real | float) -> Real:
         """Return the result of an operation on numbers with their signs, such as a root."""
         return Real(self, self.note(Entry(operation, tuple(map(self.place, operands)))))
+
+    def fill(self, operation: Operation, *operands: Real | float) -> Real:
+        """Return what an operation puts into its last operand."""
+        return Real(self, self.note(Entry(operation, tuple(map(self.place, operands)), fills=True)))
+
+    def difference(self, more: int, less: int) -> Real:
+        """Return the difference of what stands at two places, or the negative of one that is noted the other way."""
+        turned = self._places.get(Entry(np.subtract, (less, more)))
+        if turned is not None:
+            return Real(self, turned, True)
+        return Real(self, self.note(Entry(np.subtract, (more, less))))
 
     def both(self, operation: Operation, *operands: Real | float) -> tuple[Real, Real]:
         """Return the two results of an operation."""
@@ -135,11 +148,10 @@ class Real:
         if isinstance(other, float) and other == 0.0:
             return self
         other = self.tape.real(other)
+        if self.negative != other.negative:
+            return self.tape.difference(*((other.place, self.place) if self.negative else (self.place, other.place)))
         first, second = sorted((self.place, other.place))
-        if self.negative == other.negative:
-            return Real(self.tape, self.tape.note(Entry(np.add, (first, second))), self.negative)
-        less = self.place if self.negative else other.place  # the one that is subtracted
-        return Real(self.tape, self.tape.note(Entry(np.subtract, (first, second))), less == first)
+        return Real(self.tape, self.tape.note(Entry(np.add, (first, second))), self.negative)
 
     def __radd__(self, other: float) -> Real:
         return self + other

@@ -52,14 +52,18 @@ class ArrayBoard(ExactBoard):
             return angle
         return np.where(np.abs(angle) < FARTHEST, angle, np.fmod(angle, TURN))
 
-    def _graduation(self, marks: Any) -> tuple[Any, Any]:
-        mark = np.asarray(marks).astype(np.intp)
-        mark &= MARKS - 1
-        cosines, sines = _graduation_arrays()
-        return cosines[mark], sines[mark]
+    def _graduation(self, rounded: Any) -> tuple[Any, Any]:
+        rounded = np.asarray(rounded)
+        mark, cosine, sine = (np.empty_like(rounded) for _ in range(3))
+        mark_of(rounded, mark)
+        cosine_of(mark, cosine)
+        sine_of(mark, sine)
+        return cosine[()], sine[()]
 
     def _upright(self, component: Any) -> Any:
-        size = np.abs(component)
+        return self._straight(component, np.abs(component))
+
+    def _straight(self, component: Any, size: Any) -> Any:
         return component if _least(size) > RIGHT else np.where(size <= RIGHT, 0.0, component)
 
     def _mark(self, where: Any, status: Status) -> None:
@@ -140,6 +144,21 @@ def _most(value: Any) -> Any:
 def _graduation_arrays() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     cosines, sines = graduation()
     return np.array(cosines), np.array(sines)
+
+
+def mark_of(rounded: Any, mark: Any) -> None:
+    """Put the number of the protractor's mark, which the last bits of a rounded number are, into the bits of `mark`."""
+    np.bitwise_and(rounded.view(np.int64), MARKS - 1, mark.view(np.int64))
+
+
+def cosine_of(mark: Any, cosine: Any) -> None:
+    """Put the cosines of marks into `cosine`; marks are none but those of the protractor, so that none is clipped."""
+    _graduation_arrays()[0].take(mark.view(np.int64), out=cosine, mode="clip")
+
+
+def sine_of(mark: Any, sine: Any) -> None:
+    """Put the sines of marks into `sine`."""
+    _graduation_arrays()[1].take(mark.view(np.int64), out=sine, mode="clip")
 
 
 def batch(

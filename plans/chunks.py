@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,17 +16,6 @@ PADDING = 72  # numbers between two buffers, lest all of them begin at the same 
 Array = NDArray[np.float64]
 Call = tuple[Callable[..., Any], tuple[Any, ...]]
 LATER: Call = (tuple, ())  # the place of a call that depends on the chunk
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Load:
-    """Where a given comes from: an array of all positions."""
-
-    array: Array
-
-    def call(self, row: Array, part: slice) -> Call:
-        """Return what loads a chunk."""
-        return np.copyto, (row, self.array[part])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,7 +56,7 @@ class Chunks:
             place: np.array(entry.constant) for place, entry in enumerate(entries) if entry.constant is not None
         }
         self._calls: list[Call] = []
-        self._moving: list[tuple[int, Load | Store, Array]] = []
+        self._moving: list[tuple[int, Callable[[slice], Call]]] = []
         self._size = 0
 
     def do(self, part: slice) -> None:
@@ -74,8 +64,8 @@ class Chunks:
         if part.stop - part.start != self._size:
             self._bind(part.stop - part.start)
         calls = self._calls
-        for index, traffic, row in self._moving:
-            calls[index] = traffic.call(row, part)
+        for index, call in self._moving:
+            calls[index] = call(part)
         for function, operands in calls:
             function(*operands)
 
@@ -85,16 +75,31 @@ class Chunks:
         buffers = [buffer[:size] for buffer in self._block]  # the very arrays: a check returns the one it was given
         rows = self._constants | {place: buffers[number] for place, number in self._buffer_of.items()}
         for place in self._order:
-            entry = self._entries[place]
-            operands = tuple([rows[operand] for operand in entry.operands])
-            if isinstance(entry.operation, np.ufunc):
-                self._calls.append((entry.operation, (*operands, rows[place])))
-            elif entry.operation:
-                self._calls.append((_keep, (rows[place], entry.operation, operands)))
-            traffic: list[Load | Store] = [Load(self._arrays[entry.given])] if entry.given else []
-            for each in traffic + self._stores.get(place, []):
-                self._moving.append((len(self._calls), each, rows[place]))
-                self._calls.append(LATER)
+            self._add(partial(self._operation, place, rows), any(o not in rows for o in self._entries[place].operands))
+            for store in self._stores.get(place, []):
+                self._add(partial(self._storing, place, store, rows), True)
+
+    def _add(self, call: Callable[[slice], Call], moves: bool) -> None:
+        """Settle a call, now or for each chunk."""
+        if moves:
+            self._moving.append((len(self._calls), call))
+        self._calls.append(LATER if moves else call(slice(0)))
+
+    def _operation(self, place: int, rows: Mapping[int, Array], part: slice) -> Call:
+        """Return what does an entry; arrays that are given are read where they lie."""
+        entry = self._entries[place]
+        if entry.operation is None:
+            return LATER
+        operands = tuple([rows[o] if o in rows else self._given(o, part) for o in entry.operands])
+        if isinstance(entry.operation, np.ufunc) or entry.fills:
+            return entry.operation, (*operands, rows[place])
+        return _keep, (rows[place], entry.operation, operands)
+
+    def _storing(self, place: int, store: Store, rows: Mapping[int, Array], part: slice) -> Call:
+        return store.call(rows[place] if place in rows else self._given(place, part), part)
+
+    def _given(self, place: int, part: slice) -> Array:
+        return self._arrays[self._entries[place].given][part]
 
 
 def room(value: Any, size: int) -> tuple[NDArray[Any], list[Store]]:
@@ -146,6 +151,8 @@ def _buffers(entries: Sequence[Entry], order: Sequence[int]) -> dict[int, int]:
     free: list[int] = []
     count = 0
     for place in order:
+        if entries[place].given:  # it is read where it lies
+            continue
         for operand in dict.fromkeys(reversed(entries[place].operands)):
             if operand in buffer_of and last[operand] == place:
                 free.append(buffer_of[operand])

@@ -94,12 +94,12 @@ class ExactBoard(TemplateBoard):
             return angle
         return math.fmod(angle, TURN) if math.isfinite(angle) else NAN
 
-    def _graduation(self, marks: Any) -> tuple[Any, Any]:
-        """Return cosine and sine of a whole number of the protractor's marks."""
-        if marks != marks:
+    def _graduation(self, rounded: Any) -> tuple[Any, Any]:
+        """Return cosine and sine of a whole number of the protractor's marks, to which `ROUND` is added."""
+        if rounded != rounded:
             return NAN, NAN
         cosines, sines = graduation()
-        mark = int(marks) % MARKS
+        mark = int(rounded - ROUND) % MARKS
         return cosines[mark], sines[mark]
 
     def _upright(self, component: Any) -> Any:
@@ -202,9 +202,10 @@ class ExactBoard(TemplateBoard):
 
     def _turn(self, angle: Any) -> Any:
         angle = self._near(angle)
-        marks = (angle * PER_RADIAN + ROUND) - ROUND
+        rounded = angle * PER_RADIAN + ROUND
+        marks = rounded - ROUND
         rest = (angle - marks * COARSE) - marks * FINE
-        cosine, sine = self._graduation(marks)
+        cosine, sine = self._graduation(rounded)
         square = rest * rest
         less = square * (square * (1.0 / 24.0) - 0.5)  # cosine of the rest, less one
         more = rest + (rest * square) * (square * (1.0 / 120.0) - (1.0 / 6.0))  # its sine

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .arithmetic import Real, Tape, Vector
 from .exact import ExactBoard
+from .protractor import FARTHEST
 
 if TYPE_CHECKING:
     from .batch import ArrayBoard
@@ -24,12 +26,12 @@ class NotingBoard(ExactBoard):
     def __init__(
         self,
         givens: Mapping[str, Any],
-        arrays: Iterable[str],
+        arrays: Mapping[str, NDArray[np.float64]],
         checks: ArrayBoard,
         sample: Callable[[], Mapping[str, Any]],
     ) -> None:
         super().__init__(givens)
-        self.tape, self._checks, self._sample = Tape(), checks, sample
+        self.tape, self._arrays, self._checks, self._sample = Tape(), arrays, checks, sample
         self.values |= {name: self.tape.given(name) for name in arrays}
 
     def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
@@ -78,10 +80,13 @@ class NotingBoard(ExactBoard):
     def _complex(real: Any, imag: Any) -> Any:
         return Vector(real, imag) if isinstance(real, Real) or isinstance(imag, Real) else complex(real, imag)
 
-    def _graduation(self, marks: Any) -> tuple[Any, Any]:
-        if not isinstance(marks, Real):
-            return super()._graduation(marks)
-        return self.tape.both(self._checks._graduation, marks)
+    def _graduation(self, rounded: Any) -> tuple[Any, Any]:
+        if not isinstance(rounded, Real):
+            return super()._graduation(rounded)
+        from .batch import cosine_of, mark_of, sine_of
+
+        mark = self.tape.fill(mark_of, rounded)
+        return self.tape.fill(cosine_of, mark), self.tape.fill(sine_of, mark)
 
     def _lines_sine(self, sine: Any) -> Any:
         if not isinstance(sine, Real):
@@ -90,10 +95,16 @@ class NotingBoard(ExactBoard):
         return -size if sine.negative else size
 
     def _near(self, angle: Any) -> Any:
+        if isinstance(angle, Real):
+            array = self._arrays.get(self.tape.entries[angle.place].given)
+            if array is not None and array.min() > -FARTHEST and array.max() < FARTHEST:
+                return angle
         return self._checked("_near", angle)
 
     def _upright(self, component: Any) -> Any:
-        return self._checked("_upright", component)
+        if not isinstance(component, Real):
+            return super()._upright(component)
+        return self.tape.check(self._checks._straight, component, abs(component))
 
     def _reaches(self, *operands: Any) -> Any:
         return self._checked("_reaches", *operands)

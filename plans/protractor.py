@@ -15,7 +15,7 @@ STEP = TURN / MARKS
 COARSE = math.ldexp(round(math.ldexp(STEP, 40)), -40)  # so few bits that its product with a number of marks is exact
 FINE = STEP - COARSE + 2.4492935982947064e-16 / MARKS  # with what 2 pi is more than TURN
 PER_RADIAN = 1.0 / STEP
-ROUND = 1.5 * 2.0**52  # added and taken away again, it rounds to a whole number
+ROUND = 1.5 * 2.0**52  # added and taken away again, it rounds to a whole number; added, it puts it into the last bits
 FARTHEST = 1e6  # radians; full turns are taken off a larger angle, which is not known any better
 
 
