@@ -21,7 +21,7 @@ from .mechanism import ZERO
 
 Array = NDArray[Any]
 FORCES, MOMENTS, WEIGHTS, INERTIA, ALL = "inertia_forces", "inertia_moments", "weights", "inertia", "all"
-BALANCES = ("M_bal", "F_bal", "M_bal_lever", "F_bal_lever")
+BALANCES = ("M_bal", "M_bal_lever", "F_bal", "F_bal_lever")
 LAWS = {"inertia_force": FORCES, "inertia_moment": MOMENTS, "weight": WEIGHTS}
 
 

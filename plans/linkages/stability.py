@@ -116,10 +116,8 @@ def stability(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand
 
 
 def _within(cycle: Cycle, places: Array) -> Array:
-    """Return angles of a crank between -180 and 180 degrees: of an angle its radians count as a given."""
-    if not cycle.drive.turns:
-        return places
-    found: Array = places - TURN * np.rint(places / TURN)
+    """Return angles of a crank within a turn: of an angle its radians count as a given."""
+    found: Array = places % TURN if cycle.drive.turns else places
     return found
 
 

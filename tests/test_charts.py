@@ -1,0 +1,235 @@
+"""The command `chart` and the same from Python: tables, pictures, CSV, JSON, wrong arguments."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+import time
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from kulman import KulmanError, cli
+from kulman.plans.linkages import contest as contests
+from kulman.plans.linkages.contest import Effort
+from kulman.scales.errors import LANGUAGES
+from kulman.variants import charts
+from kulman.variants.charts import chart
+
+TASK = "nau-slider-crank"
+BOTH = ("stability", "depth")
+
+
+@pytest.fixture(autouse=True)
+def english(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Measure times on little work, draw by hand on one format only."""
+    little = partial(charts.accuracy_chart, effort=Effort((1, 10), 20))
+    monkeypatch.setattr(charts, "accuracy_chart", little)
+    monkeypatch.setattr(contests, "ROUNDS", 1)
+    monkeypatch.setattr("kulman.variants.chart_accuracy.FORMATS", ("A4",))
+
+
+def run(arguments: list[str], capsys: pytest.CaptureFixture[str], task: str = TASK) -> tuple[int, str, str]:
+    with pytest.raises(SystemExit) as stopped:
+        cli.main(["chart", task, *arguments])
+    assert isinstance(stopped.value.code, int)
+    return stopped.value.code, *capsys.readouterr()
+
+
+@pytest.mark.usefixtures("quick")
+def test_without_files_all_three_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = run(["--positions", "6"], capsys)
+
+    assert (status, err) == (0, "")
+    assert [
+        head for head in ("Speed against accuracy", "Stability over the cycle", "Depth of the model") if head in out
+    ]
+    assert re.search(r"plans, float32 +20", out)
+    assert re.search(r"^hand +A4 ", out, re.MULTILINE)
+    assert re.search(r"without F_i2 +\d", out)
+    assert re.search(r"needed at 1 %: F_i2, M_i2, F_i3", out)
+    assert "Python 3" in out
+
+
+@pytest.mark.usefixtures("quick")
+def test_every_picture_has_a_file_of_its_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(["--positions", "6", "-o", str(tmp_path / "x.svg"), "-o", str(tmp_path / "y.pdf")], capsys)
+
+    assert status == 0
+    names = ["x-accuracy.svg", "x-stability.svg", "x-depth.svg", "y.pdf"]
+    assert out.split() == [str(tmp_path / name) for name in names]
+    accuracy = (tmp_path / "x-accuracy.svg").read_text(encoding="utf-8")
+    assert all(label in accuracy for label in ("Velocities", "Forces", "float32", "hand: A4", "Python 3"))
+    assert (tmp_path / "y.pdf").read_bytes().count(b"/Type /Page\n") + (tmp_path / "y.pdf").read_bytes().count(
+        b"/Type /Page "
+    ) == 3
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_pictures_speak_every_language_and_are_the_same_twice(language: str, tmp_path: Path) -> None:
+    words = {
+        "en": ("condition K", "without $F", "tolerance 1 %", "dead: 3", "0.01"),
+        "uk": ("обумовленість K", "без $F", "допуск 1 %", "мертве: 3", "0,01"),
+        "ru": ("обусловленность K", "без $F", "допуск 1 %", "мёртвое: 3", "0,01"),
+    }[language]
+    found = chart(TASK, chart=BOTH, positions=24, lang=language)
+
+    first = {path.name: path.read_bytes() for path in found.save(*(tmp_path / f"a.{s}" for s in ("svg", "pdf", "png")))}
+    time.sleep(1.1)
+    again = {path.name: path.read_bytes() for path in found.save(*(tmp_path / f"a.{s}" for s in ("svg", "pdf", "png")))}
+
+    assert first == again
+    text = "".join(data.decode("utf-8") for name, data in first.items() if name.endswith("svg"))
+    assert [word for word in words if word not in text] == []
+    assert sorted(first) == ["a-depth.png", "a-depth.svg", "a-stability.png", "a-stability.svg", "a.pdf"]
+
+
+def test_a_picture_has_no_colour(tmp_path: Path) -> None:
+    found = chart(TASK, chart=BOTH, positions=24)
+    for path in found.save(tmp_path / "a.svg"):
+        for red, green, blue in re.findall(r"#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})\b", path.read_text("utf-8")):
+            assert red == green == blue
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_csv_is_read_back(language: str, tmp_path: Path) -> None:
+    found = chart(TASK, chart="stability", positions=12, quantities="V_B,M_bal", lang=language)
+    (path,) = found.save(tmp_path / "a.csv")
+    with path.open(encoding="utf-8-sig", newline="") as stream:
+        head, *rows = csv.reader(stream, delimiter="," if language == "en" else ";")
+
+    expected = found["stability"].found.conditions["V_B"]  # type: ignore[union-attr]
+    column = head.index("K_V_B")
+    assert len(rows) == 12
+    assert [float(row[column].replace(",", ".")) for row in rows] == expected.tolist()
+
+
+@pytest.mark.usefixtures("quick")
+def test_all_rows_of_accuracy_are_in_the_csv(tmp_path: Path) -> None:
+    found = chart(TASK, chart="accuracy", positions=6)
+    (path,) = found.save(tmp_path / "a.csv")
+    with path.open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+
+    entries = found["accuracy"].contest.entries  # type: ignore[union-attr]
+    assert [(row["method"], row["kind"], float(row["error"])) for row in rows] == [
+        (e.method, e.kind, e.error) for e in entries
+    ]
+    assert {row["method"] for row in rows} >= {"plan", "plan-single", "newton", "differences", "chords", "hand"}
+    assert all(row["seconds"] == "" for row in rows if row["method"] == "hand")
+
+
+def test_json_holds_the_charts_in_si(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(["-v", "3", "--chart", "stability,depth", "--positions", "8", "--json"], capsys)
+
+    data = json.loads(out)
+    assert status == 0
+    assert (data["task"], data["variant"]) == (TASK, "3")
+    assert set(data) == {"task", "variant", "stability", "depth"}
+    assert len(data["stability"]["quantities"]["V_B"]["condition"]) == 8
+    assert data["stability"]["quantities"]["V_B"]["unit"] == "mm"
+    assert data["depth"]["needed"] == ["F_i2", "M_i2", "F_i3"]
+    assert {cost["without"] for cost in data["depth"]["costs"]} >= {"F_i2", "inertia"}
+
+
+def test_a_chart_that_the_task_cannot_have_is_left_out_with_a_word(capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["--only", "velocity", "--positions", "6"]
+
+    status, out, err = run([*arguments, "--chart", "depth"], capsys)
+    assert (status, out) == (2, "")
+    assert err == "the chart of the model's depth needs the plan of forces or the lever\n"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        pytest.param(["--chart", "speed"], id="chart"),
+        pytest.param(["--quantities", "V_X"], id="quantity"),
+        pytest.param(["--quantities", "B"], id="point"),
+        pytest.param(["--chart", "accuracy", "--quantities", "V_BA", "--positions", "4"], id="no rivals"),
+        pytest.param(["--positions", "2"], id="two positions"),
+        pytest.param(["--positions", "many"], id="no number"),
+        pytest.param(["--tolerance", "little"], id="tolerance"),
+        pytest.param(["--tolerance", "-1"], id="negative"),
+        pytest.param(["--hand", "shaky"], id="hand"),
+        pytest.param(["-o", "chart.doc"], id="suffix"),
+        pytest.param(["-o", "missing/chart.svg"], id="folder"),
+        pytest.param(["--set", "l_XY=5"], id="given"),
+        pytest.param(["--lang", "de"], id="language"),
+    ],
+)
+def test_wrong_arguments_are_answered_in_one_line(
+    arguments: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+
+    status, out, err = run(arguments, capsys)
+
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "key"),
+    [
+        ({"chart": 3}, "argument-type"),
+        ({"positions": "9"}, "argument-type"),
+        ({"positions": 100_001}, "positions-number"),
+        ({"tolerance": None}, "argument-type"),
+        ({"tolerance": float("nan")}, "negative"),
+        ({"hand": 1}, "argument-type"),
+        ({"quantities": [1]}, "argument-type"),
+    ],
+)
+def test_wrong_arguments_from_python_are_answered_in_one_line(arguments: dict[str, object], key: str) -> None:
+    with pytest.raises(KulmanError) as problem:
+        chart(TASK, **arguments)  # type: ignore[arg-type]
+
+    assert problem.value.key == key
+
+
+def test_a_mechanism_that_never_assembles_has_status_3(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = run(["--set", "l_AB=9000"], capsys, "scheme-03-crank-rocker")
+
+    assert (status, out, err.count("\n")) == (3, "", 1)
+    assert "any position of the crank" in err
+
+
+def test_a_crank_that_cannot_turn_round_has_its_charts(tmp_path: Path) -> None:
+    found = chart(TASK, set={"l_AB": "20 mm"}, chart=BOTH, positions=24)
+
+    assert "limit" in found.table()
+    assert "cannot be assembled" in found.table()
+    (svg, _) = found.save(tmp_path / "a.svg")
+    assert "limit" in svg.read_text(encoding="utf-8")
+
+
+def test_a_slider_that_drives_has_its_charts(tmp_path: Path) -> None:
+    found = chart("scheme-18-hydraulic-drive", chart=BOTH, positions=24)
+
+    assert all(path.stat().st_size > 10_000 for path in found.save(tmp_path / "a.svg"))
+    assert "mm" in found.table().split("\n")[2]
+
+
+def test_charts_show_themselves_in_a_notebook() -> None:
+    found = chart(TASK, chart="depth", positions=12)
+
+    assert found._repr_html_().startswith("<pre>Depth of the model")
+    assert repr(found) == "<Charts nau-slider-crank 0: depth>"
+
+
+def test_no_file_is_written_when_one_cannot_be(tmp_path: Path) -> None:
+    found = chart(TASK, chart=BOTH, positions=12)
+    (tmp_path / "b-depth.csv").mkdir()
+
+    with pytest.raises(KulmanError):
+        found.save(tmp_path / "a.csv", tmp_path / "b.csv")
+
+    assert [path.name for path in tmp_path.iterdir()] == ["b-depth.csv"]
