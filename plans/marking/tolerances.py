@@ -93,9 +93,9 @@ class _Rule:
         exact, law, total = self.values[step.name], LAWS[step.law], 0.0
         for i, name in enumerate(step.operands):
             if miss := self.allowed.get(name, 0.0):
-                longer = [*operands[:i], _longer(operands[i], miss), *operands[i + 1 :]]
-                change = abs(law(*longer) - exact)
-                total += change if change == change else 0.0
+                changed = ([*operands[:i], _longer(operands[i], x), *operands[i + 1 :]] for x in (miss, -miss))
+                changes = [abs(law(*others) - exact) for others in changed]  # a load diagram may be steep on one side
+                total += max((change for change in changes if change == change), default=0.0)
         return total
 
 
