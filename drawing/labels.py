@@ -56,7 +56,7 @@ def place(requests: Sequence[Request], obstacles: Obstacles, gap: float = 0.6, b
     gap : float
         The empty distance around every label, mm.
     bounds : box, optional
-        The labels stay inside of it.
+        The labels stay inside of it, if there is a place for all.
 
     Returns
     -------
@@ -125,7 +125,7 @@ class _Board:
         self.down[i] = True
         self.leaders[i] = leader
         line = Bodies.strokes(*np.array([leader]).T)
-        on = line.distance(self.x, self.y, w.hw[:, None], w.hh[:, None], 0) < w.gap
+        on = line.distance(self.x, self.y, w.hw[:, None], w.hh[:, None], slice(None)) < w.gap
         self.cost = self.cost + COVER * on
         rows = np.flatnonzero(~self.down)
         pick = self.cost[rows].argmin(axis=1)
@@ -232,7 +232,8 @@ class _Scene:
         return any(self._led(i, end, board, steps, limit) for end, steps in ways)
 
     def _led(self, i: int, one: Wanted, board: _Board, steps: Sequence[float], limit: float) -> bool:
-        grid = Grid.around(one, self.bodies, steps, self.bounds, led=True)
+        # what goes far afield may even leave the bounds
+        grid = Grid.around(one, self.bodies, steps, self.bounds if len(steps) else None, led=True)
         x, y, cost = grid.x[0], grid.y[0], grid.cost[0]
         cost = cost + COVER * np.count_nonzero(board.clashes(i, x, y), axis=1)
         foot = one.feet(x + 1j * y)

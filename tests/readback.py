@@ -126,6 +126,7 @@ class View:
     vectors: list[Vec] = field(default_factory=list)
     arrows: list[Arrow] = field(default_factory=list)
     texts: list[Text] = field(default_factory=list)
+    insets: list[View] = field(default_factory=list)
 
     def of(self, role: str) -> list[Text]:
         return [text for text in self.texts if text.role == role]
@@ -179,6 +180,9 @@ class View:
         for text in self.texts:
             x0, y0, x1, y1 = text.box
             points += [complex(x0, y0), complex(x1, y1)]
+        for inset in self.insets:
+            x0, y0, x1, y1 = inset.box
+            points += [complex(x0, y0), complex(x1, y1)]
         xs, ys = [p.real for p in points], [p.imag for p in points]
         return min(xs), min(ys), max(xs), max(ys)
 
@@ -193,7 +197,7 @@ class Page:
 
     @property
     def all(self) -> list[View]:
-        return [*self.views, self.rest]
+        return [*self.views, *(inset for view in self.views for inset in view.insets), self.rest]
 
 
 @dataclass
@@ -214,7 +218,7 @@ class Sheet:
 
     @property
     def vectors(self) -> list[Vec]:
-        return [v for view in self.views for v in view.vectors]
+        return [v for page in self.pages for view in page.all for v in view.vectors]
 
     @property
     def texts(self) -> list[Text]:
@@ -251,6 +255,10 @@ def _element(e: etree._Element, view: View, path: tuple[tuple[str, str], ...], h
     role, name = e.get("class", ""), e.get("data-name", "")
     if kind == "g":
         inner = (*path, (role, name or e.get("data-quantity", "")))
+        if role == "enlarged":
+            view.insets.append(View(name, view.page))
+            _walk(e, view.insets[-1], (), height)
+            return
         texts = e.findall(f"{SVG}text")
         if texts and all(etree.QName(c).localname in ("text", "line") for c in e) and role not in ("table", "text"):
             rules = tuple(_ends(c, height) for c in e.findall(f"{SVG}line"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...plans.linkages.compound import ACCELERATION, VELOCITY, Coupler
@@ -50,7 +50,7 @@ class At:
             yield shifted_vector(self.scene.vector(plain, tail, tip), self.scene.mm(self.point))
 
     def lines(self) -> Iterator[tuple[complex, complex, complex, str]]:
-        """Go through the construction lines: whence, the point that they find, their end past it, their direction."""
+        """Go through the construction lines: whence, the point that they find, their end, their direction in words."""
         for step in self.scene.solved.program.on(self.plan):
             if step.verb == "meet":
                 p, u, q, w = step.operands
@@ -58,7 +58,15 @@ class At:
                 for start, direction in ((p, u), (q, w)):
                     e, tail = self.scene.solved.point(direction), self.mm(start)
                     sense = 1.0 if ((end - tail) / e).real >= 0 else -1.0
-                    yield tail, end, end + e * sense * PAST, direction
+                    yield tail, end, end + e * sense * PAST, direction_words(self.scene, direction)
+
+    def marks(self) -> Mapping[str, complex]:
+        """Return where the point itself stands."""
+        return {self.point: self.scene.mm(self.point)}
+
+    def poles(self) -> Sequence[str]:
+        """Return the point: its vectors begin there."""
+        return (self.point,)
 
 
 def shifted_vector(vector: Vector, by: complex) -> Vector:

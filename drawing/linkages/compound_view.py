@@ -22,8 +22,8 @@ from ...plans.linkages.compound import Coupler
 from ..shapes import Arrow, Circle, Group, Line, Pen, Shape, Vector
 from ..symbols import turning_arrow
 from ..view import Canvas, View
-from .at_point import At, direction_words, shifted_vector
-from .inset import shows, windows, with_insets
+from .at_point import At, shifted_vector
+from .inset import shown_of, shows, windows, with_insets
 from .links import draw_frame, draw_links, foot_of
 from .scene import Scene
 from .skeleton import Skeleton, Stroke, pins_of
@@ -52,7 +52,7 @@ def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
         _turn(canvas, scene, f"omega_r_{c.number}", c.hinge, busy)
     vectors = [vector for at in points for vector in at.vectors()]
     heading = scene.heading("heading.compound_velocity", POSITION, points[0].plan)
-    return with_insets(canvas, "compound_velocity", heading, (*beyond, *_said(scene, vectors)), points)
+    return with_insets(canvas, "compound_velocity", heading, (*beyond, *_said(scene, vectors)), shown_of(points))
 
 
 def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
@@ -73,7 +73,7 @@ def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
         _turn(canvas, scene, rate, centre, busy)
     heading = scene.heading("heading.compound_acceleration", POSITION, at.plan, point=scene.words.mark(point))
     vectors = list(at.vectors())
-    return with_insets(canvas, f"compound_a_{at.letter}", heading, tuple(_said(scene, vectors)), [at])
+    return with_insets(canvas, f"compound_a_{at.letter}", heading, tuple(_said(scene, vectors)), shown_of([at]))
 
 
 def _basic(scene: Scene, coupler: Coupler) -> list[int]:
@@ -126,10 +126,10 @@ def _at_points(canvas: Canvas, scene: Scene, points: Sequence[At]) -> None:
     """Draw the construction lines and the vectors at the points; what an inset shows has its letters there."""
     for at in points:
         shown = windows(at)
-        for tail, found, end, direction in at.lines():
-            canvas.add(Line(tail, end, Pen.DASHED, role="construction", name=f"{at.plan}_{direction}"))
+        for i, (tail, found, end, said) in enumerate(at.lines()):
+            canvas.add(Line(tail, end, Pen.DASHED, role="construction", name=f"{at.plan}_{i + 1}"))
             if not any(shows(window, (found,)) for window in shown):
-                canvas.label(direction_words(scene, direction), (found, end), clear=0.8)
+                canvas.label(said, (found, end), clear=0.8)
     for at in points:
         shown = windows(at)
         for vector in at.vectors():

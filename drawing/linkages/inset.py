@@ -2,23 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from ...scales.scale import Scale
 from ..page import extent
-from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
+from ..shapes import Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
 from ..style import Style
 from ..text import Box
 from ..view import Canvas, View, heading_shapes
-from .at_point import At, direction_words
+from .marks import letter_marks
 from .scene import Scene
 
 SHORT, READABLE = 1.25, 1.7  # arrowheads: a shorter vector cannot be read; the least length in an inset
 TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
 WIDEST, NARROWEST = 85.0, 60.0  # mm, the largest side of what an inset shows, the least side of the inset
 MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
+LEAST_FRAME = 5.0  # mm, the least side of the frame around what an inset shows
 NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
+
+
+class Plan(Protocol):
+    """A plan whose short vectors insets show."""
+
+    @property
+    def scene(self) -> Scene:
+        """The mechanism, its scale factors and words."""
+
+    @property
+    def plan(self) -> str:
+        """The name of the plan."""
+
+    def vectors(self) -> Iterator[Vector]:
+        """Go through the vectors as they are drawn."""
+
+    def lines(self) -> Iterator[tuple[complex, complex, complex, str]]:
+        """Go through the construction lines: whence, the point that they find, their end, what is said of it."""
+
+    def marks(self) -> Mapping[str, complex]:
+        """Return the places of lettered points, mm."""
+
+    def poles(self) -> Sequence[str]:
+        """Return those of the marks that are small circles."""
 
 
 def is_short(vector: Vector, style: Style) -> bool:
@@ -26,19 +52,47 @@ def is_short(vector: Vector, style: Style) -> bool:
     return abs(vector.tip - vector.tail) < SHORT * style.arrow
 
 
+Shown = tuple[Plan, "Window"]
+
+
+def shown_of(plans: Sequence[Plan]) -> list[Shown]:
+    """Return what the insets of several plans of one figure show."""
+    return [(plan, window) for plan in plans for window in windows(plan)]
+
+
 def with_insets(
-    canvas: Canvas, name: str, heading: tuple[str, ...], notes: tuple[str, ...], points: Sequence[At]
+    canvas: Canvas, name: str, heading: tuple[str, ...], notes: tuple[str, ...], shown: Sequence[Shown]
 ) -> View:
     """Finish a figure: frame the surroundings of short vectors in it, and put each enlarged beside it."""
-    insets: list[View] = []
-    for at in points:
-        for window in windows(at):
-            numeral = NUMERALS[len(insets) % len(NUMERALS)]
-            canvas.add(_frame(window.box, "window", f"{name}_{numeral}"))
-            canvas.label(numeral, _corners(window.box)[2:], prefer=1j, clear=0.8)
-            insets.append(_inset(at, window, f"{name}_{numeral}", numeral))
-    figure = canvas.finish(name) if insets else canvas.finish(name, heading, notes)
-    return _together(figure, insets, heading, notes, canvas.style) if insets else figure
+    if not shown:
+        return canvas.finish(name, heading, notes)
+    numerals = [NUMERALS[i % len(NUMERALS)] for i in range(len(shown))]
+    hosts = [_host(i, [window for _, window in shown]) for i in range(len(shown))]
+    insets = []
+    for i, (plan, window) in enumerate(shown):
+        framed = [(shown[k][1].box, numerals[k]) for k, host in enumerate(hosts) if host == i]
+        insets.append(_inset(plan, window, f"{name}_{numerals[i]}", numerals[i], framed))
+    for k, host in enumerate(hosts):
+        if host is None:
+            _framed(canvas, shown[k][1].box, 1.0, f"{name}_{numerals[k]}", numerals[k])
+    return _together(canvas.finish(name), insets, heading, notes, canvas.style)
+
+
+def _host(i: int, shown: Sequence[Window]) -> int | None:
+    """Return the inset in which the frame of inset `i` stands: the finest of the coarser ones that show its middle."""
+    x0, y0, x1, y1 = shown[i].box
+    middle = complex(x0 + x1, y0 + y1) / 2
+    coarser = [k for k, window in enumerate(shown) if window.times < shown[i].times and shows(window, (middle,))]
+    return max(coarser, key=lambda k: shown[k].times, default=None)
+
+
+def _framed(canvas: Canvas, box: Box, times: float, name: str, numeral: str) -> None:
+    """Frame the surroundings that an inset shows, where they are seen `times` as large, under its numeral."""
+    x0, y0, x1, y1 = (side * times for side in box)
+    wide, high = (max(0.0, LEAST_FRAME - size) / 2 for size in (x1 - x0, y1 - y0))
+    frame = x0 - wide, y0 - high, x1 + wide, y1 + high
+    canvas.add(_frame(frame, "window", name))
+    canvas.label(numeral, _corners(frame)[2:], prefer=1j, clear=0.8)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,14 +103,14 @@ class Window:
     times: float
 
 
-def windows(at: At) -> list[Window]:
-    """Return what the insets of a point show: short vectors, each with those beside it that find room."""
-    vectors = [vector for vector in at.vectors() if abs(vector.tip - vector.tail) > 1e-6]
-    left = [vector for vector in vectors if is_short(vector, at.scene.style)]
+def windows(plan: Plan) -> list[Window]:
+    """Return what the insets of a plan show: short vectors, each with those beside it that find room."""
+    vectors = [vector for vector in plan.vectors() if abs(vector.tip - vector.tail) > 1e-6]
+    left = [vector for vector in vectors if is_short(vector, plan.scene.style)]
     found = []
     while left:
         first = min(left, key=lambda vector: abs(vector.tip - vector.tail))
-        window = _window(at.scene, first, vectors)
+        window = _window(plan.scene, first, vectors)
         left = [vector for vector in left if vector is not first and not shows(window, (vector.tail, vector.tip))]
         found.append(window)
     return found
@@ -69,10 +123,15 @@ def _window(scene: Scene, short: Vector, vectors: Sequence[Vector]) -> Window:
     ends = {short.tail, short.tip}
     for vector in sorted(vectors, key=lambda vector: abs(vector.tip - vector.tail)):
         wider = ends | {vector.tail, vector.tip}
-        if (_near(vector.tail, ends) or _near(vector.tip, ends)) and max(_size(wider)) * times <= WIDEST:
+        if (_near(vector.tail, ends) or _near(vector.tip, ends)) and max(size_of(wider)) * times <= WIDEST:
             ends = wider
+    return window_about(ends, times, NARROWEST)
+
+
+def window_about(ends: set[complex], times: float, narrowest: float) -> Window:
+    """Return a window around points, whose inset has at least the sides `narrowest`, mm."""
     x0, y0, x1, y1 = _box(ends)
-    wide, high = (max(MARGIN, (NARROWEST - size * times) / 2) / times for size in _size(ends))
+    wide, high = (max(MARGIN, (narrowest - size * times) / 2) / times for size in size_of(ends))
     return Window((x0 - wide, y0 - high, x1 + wide, y1 + high), times)
 
 
@@ -91,7 +150,8 @@ def _box(ends: set[complex]) -> Box:
     return min(xs), min(ys), max(xs), max(ys)
 
 
-def _size(ends: set[complex]) -> tuple[float, float]:
+def size_of(ends: set[complex]) -> tuple[float, float]:
+    """Return width and height of the box of points."""
     x0, y0, x1, y1 = _box(ends)
     return x1 - x0, y1 - y0
 
@@ -106,33 +166,40 @@ def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
     return complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1)
 
 
-def _inset(at: At, window: Window, name: str, numeral: str) -> View:
+def _inset(plan: Plan, window: Window, name: str, numeral: str, framed: Sequence[tuple[Box, str]]) -> View:
     """Draw what stands in the window, enlarged: vectors to a scale factor of their own, those that leave it cut off."""
-    scene, times, (x0, y0, x1, y1) = at.scene, window.times, window.box
+    scene, times, (x0, y0, x1, y1) = plan.scene, window.times, window.box
     bounds: Box = (x0 * times, y0 * times, x1 * times, y1 * times)
     canvas = Canvas(scene.style, bounds=bounds)
-    for tail, found, end, direction in at.lines():
+    for i, (tail, found, end, said) in enumerate(plan.lines()):
         cut, past = (clipped(start * times, end * times, bounds) for start in (tail, found))
         if cut is not None:
-            canvas.add(Line(*cut, Pen.DASHED, role="construction", name=f"{name}_{direction}"))
-        if past is not None:
-            canvas.label(direction_words(scene, direction), past, clear=0.8)
-    for vector in at.vectors():
-        _enlarged(canvas, scene, vector, times, bounds)
-    place = scene.mm(at.point) * times
-    if clipped(place, place, bounds) is not None:
-        canvas.add(Group((Circle(place, scene.style.node, Pen.MAIN, fill="white"),), "point", at.point))
-        canvas.label(scene.words.mark(at.point), place, clear=1.0, priority=1)
+            canvas.add(Line(*cut, Pen.DASHED, role="construction", name=f"{name}_{i + 1}"))
+        if past is not None and said:
+            canvas.label(said, past, clear=0.8)
+    named: dict[tuple[complex, complex], list[str]] = {}
+    for vector in plan.vectors():
+        symbol = scene.words.symbol(vector.quantity.removeprefix("_"), bar=True)
+        named.setdefault((vector.tail, vector.tip), []).append(symbol)
+    for vector in plan.vectors():
+        symbols = " = ".join(dict.fromkeys(named.pop((vector.tail, vector.tip), ())))
+        _enlarged(canvas, scene, vector, times, bounds, symbols)
+    for box, other in framed:
+        _framed(canvas, box, times, f"{name.rpartition('_')[0]}_{other}", other)
+    places = {mark: place * times for mark, place in plan.marks().items()}
+    seen = {mark: place for mark, place in places.items() if clipped(place, place, bounds) is not None}
+    letters = {mark: scene.words.mark(mark) for mark in seen}
+    poles = [pole for pole in plan.poles() if pole in seen]
+    letter_marks(canvas, scene, letters, poles, lambda _, mark: seen[mark])
     canvas.add(_frame(bounds, "inset", name))
-    scale = scene.scales[at.plan]
+    scale = scene.scales[plan.plan]
     own = Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit)
     return canvas.finish(name, (f"{numeral}:  {scene.words.scale(own)}",))
 
 
-def _enlarged(canvas: Canvas, scene: Scene, vector: Vector, times: float, bounds: Box) -> None:
+def _enlarged(canvas: Canvas, scene: Scene, vector: Vector, times: float, bounds: Box, symbol: str) -> None:
     tail, tip = vector.tail * times, vector.tip * times
     cut = clipped(tail, tip, bounds)
-    symbol = scene.words.symbol(vector.quantity, bar=True)
     if cut is None or abs(cut[1] - cut[0]) < 1e-6:
         return
     whole = abs(cut[0] - tail) + abs(cut[1] - tip) < 1e-6
@@ -145,7 +212,8 @@ def _enlarged(canvas: Canvas, scene: Scene, vector: Vector, times: float, bounds
         if abs(cut[1] - tip) < 1e-6:
             parts.append(Head(tip, tip - tail))
         canvas.add(Group(tuple(parts), "cut", vector.quantity))
-    canvas.label(symbol, cut, clear=0.9, strict=True)
+    if symbol:
+        canvas.label(symbol, cut, clear=0.9, strict=True)
 
 
 def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:
@@ -183,7 +251,7 @@ def _shapes(figure: View, insets: Sequence[View], right: bool) -> Iterator[Shape
     for inset in insets:
         width, height = inset.size
         corner = complex(x - inset.box[0], y - inset.box[1] - (0.0 if right else height))
-        yield from (shifted(shape, corner) for shape in inset.shapes)
+        yield Group(tuple(shifted(shape, corner) for shape in inset.shapes), "enlarged", inset.name)
         x, y = (x, y + height + GAP) if right else (x + width + GAP, y)
 
 

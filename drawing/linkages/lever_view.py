@@ -8,7 +8,8 @@ from ..shapes import Line, Pen
 from ..view import Canvas, View
 from .arrows import Arrows
 from .group_view import force_arm, zeros
-from .plan_view import letter_marks
+from .marks import letter_marks
+from .plan_view import vectors_of
 from .scene import Scene
 from .skeleton import rays_of
 
@@ -20,9 +21,9 @@ def lever_view(scene: Scene) -> View:
     canvas = Canvas(scene.style)
     words, point = scene.words, scene.solved.mechanism.driver.point
     marks = dict.fromkeys(("lever.p", *_images(scene)))
-    lines, hung = _lines(scene, list(marks)), hung_on_lever(scene)
-    canvas.add(*(Line(a, b, pen, role="lever", name=name) for a, b, name, pen in lines))
-    arrows = Arrows(canvas, scene, [(a, b) for a, b, _, pen in lines if pen is Pen.MAIN])
+    lines, hung = _lines(scene), hung_on_lever(scene)
+    canvas.add(*(Line(a, b, Pen.MAIN, role="lever", name=name) for a, b, name in lines))
+    arrows = Arrows(canvas, scene, [(a, b) for a, b, _ in lines])
     for name, mark in hung:
         at = image(scene, mark)
         arrows.bar(at, rays_of(at, [(a, b) for a, b, *_ in lines]))
@@ -75,22 +76,19 @@ def _joints(scene: Scene) -> list[list[str]]:
     return found
 
 
-def _lines(scene: Scene, marks: list[str]) -> list[tuple[complex, complex, str, Pen]]:
-    """Return the lines of the turned velocity plan: from the pole, and between the images of each link's joints.
-
-    Those from the pole to other images than that of the driver's pin are thin.
-    """
-    p, pin = image(scene, "lever.p"), f"lever.{scene.solved.mechanism.driver.point}"
-    lines = [(p, image(scene, pin), pin, Pen.MAIN)]
+def _lines(scene: Scene) -> list[tuple[complex, complex, str]]:
+    """Return the lines of the turned velocity plan: all its vectors, and those between images of each link's joints."""
+    steps = scene.solved.program.on("velocity")
+    ends = [(tail, tip, name) for name, tail, tip in vectors_of(steps)]
     for points in _joints(scene):
         ways = combinations(points, 2) if len(points) < 4 else pairwise([*points, points[0]])
-        lines += [(image(scene, f"lever.{a}"), image(scene, f"lever.{b}"), a + b, Pen.MAIN) for a, b in ways]
-    lines += [(p, image(scene, mark), mark, Pen.THIN) for mark in marks[1:]]
-    kept: dict[frozenset[complex], tuple[complex, complex, str, Pen]] = {}
-    for line in lines:
-        ends = frozenset(complex(round(end.real, 4), round(end.imag, 4)) for end in line[:2])
-        if len(ends) == 2:
-            kept.setdefault(ends, line)
+        ends += [(f"lever.{a}", f"lever.{b}", a + b) for a, b in ways]
+    kept: dict[frozenset[complex], tuple[complex, complex, str]] = {}
+    for start, end, name in ends:
+        a, b = (image(scene, f"lever.{mark.rpartition('.')[2]}") for mark in (start, end))
+        places = frozenset(complex(round(at.real, 4), round(at.imag, 4)) for at in (a, b))
+        if len(places) == 2:
+            kept.setdefault(places, (a, b, name))
     return list(kept.values())
 
 

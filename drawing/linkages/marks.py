@@ -1,0 +1,36 @@
+"""Marks of a plan: poles, points, and their letters outside of the figure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from ..shapes import Circle, Group, Pen
+from ..view import Canvas
+from .scene import Scene
+
+TOGETHER = 0.7  # mm within which marks share their letters: side by side they would cover one another
+
+
+def letter_marks(
+    canvas: Canvas,
+    scene: Scene,
+    letters: Mapping[str, str],
+    poles: Sequence[str],
+    place_of: Callable[[Scene, str], complex] = Scene.mm,
+) -> None:
+    """Draw poles and points with their letters outside of the figure; marks that coincide share one letter."""
+    places = {mark: place_of(scene, mark) for mark in letters}
+    if not places:
+        return
+    middle = sum(places.values()) / len(places)
+    at: dict[complex, list[str]] = {}
+    for mark, letter in letters.items():
+        near = next((place for place in at if abs(place - places[mark]) < TOGETHER), places[mark])
+        at.setdefault(near, []).append(letter)
+    for mark in poles:
+        canvas.add(Group((Circle(places[mark], scene.style.node, Pen.MAIN, fill="white"),), "point", mark))
+    for place, names in at.items():
+        canvas.label(", ".join(names), place, prefer=place - middle, clear=1.0, priority=1)
+    for mark in letters:
+        if mark not in poles:
+            canvas.add(Group((Circle(places[mark], 0.3, Pen.THIN, fill="black"),), "point", mark))
