@@ -83,8 +83,12 @@ def read_grid(file: str | Path) -> Grid:
 def _bytes(path: Path, shown: str) -> bytes:
     """Return what a file holds, as long as it is a file and not too large."""
     try:
-        if path.exists() and not path.is_file():
-            raise InputError("answers-not-file", file=shown)
+        other = path.exists() and not path.is_file()
+    except (OSError, ValueError):
+        other = False
+    if other:
+        raise InputError("answers-not-file", file=shown)
+    try:
         with path.open("rb") as stream:
             data = stream.read(LARGEST + 1)
     except FileNotFoundError:

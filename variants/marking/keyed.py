@@ -85,10 +85,11 @@ class Keyed:
 
 def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> Asked:
     """Return what can be answered in a task; the quantities of `names` alone where they are given."""
+    made = frozenset(solution.solved.program.names if names is None else names)
     quantities = {
         name: q
         for name, q in solution.quantities.items()
-        if q.kind != "point" and not name.startswith("delta") and (names is None or name in names)
+        if name in made and q.kind != "point" and not name.startswith("delta")
     }
     return Asked(quantities, {s.symbol: s.unit for s in solution.scales.values()}, solution.words.display)
 

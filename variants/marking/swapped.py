@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
@@ -10,6 +11,7 @@ from .answers import Asked, Line, Mu
 
 NEAR = 0.05  # part by which a product may differ from what it should be
 FEWEST = 3  # lines that must tell
+CLEAR = math.log(3.0)  # by how much nearer to the task's size a value must be
 
 
 def put_back(lines: Mapping[str, Line], asked: Asked) -> dict[str, Line] | None:
@@ -21,13 +23,22 @@ def put_back(lines: Mapping[str, Line], asked: Asked) -> dict[str, Line] | None:
 
 
 def _told(line: Line, asked: Asked) -> Iterator[bool]:
-    """Say of a line with segment, scale and value whether it agrees only when exchanged; nothing where none agrees."""
-    mu = line.mu
-    if mu is None or not line.mm or not line.value:
+    """Say of a line with segment, scale and value whether it is right only when exchanged; nothing where none agrees.
+
+    A scale factor without a unit agrees either way, as value per millimetre and as millimetres per unit: then that
+    value is meant which is of the size of the task's.
+    """
+    mu, size = line.mu, abs(asked.quantities[line.name].value or 0.0)
+    if mu is None or not line.mm or not line.value or not size:
         return
-    as_it_is, other = _agrees(line, mu), _agrees(_exchanged(line, asked), mu)
-    if as_it_is != other:
-        yield other
+    other = _exchanged(line, asked)
+    agrees, instead = _agrees(line, mu), _agrees(other, mu)
+    if agrees != instead:
+        yield instead
+    elif agrees:
+        off, then = (abs(math.log(abs(one.value or size) / size)) for one in (line, other))
+        if abs(off - then) > CLEAR:
+            yield then < off
 
 
 def _agrees(line: Line, mu: Mu) -> bool:

@@ -1,0 +1,412 @@
+"""Answer forms: what is asked, how it is written, and how it comes back from any spreadsheet."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+import zipfile
+from contextlib import suppress
+from pathlib import Path
+
+import openpyxl
+import pytest
+import xlsxwriter
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kulman.scales.errors import LANGUAGES, InputError
+from kulman.scales.packaged import packaged
+from kulman.variants.marking.answers import Answers, Asked
+from kulman.variants.marking.cells_out import csv_bytes, harmless, xlsx_bytes
+from kulman.variants.marking.command import prepare, write_form
+from kulman.variants.marking.grid import letters, read_grid
+from kulman.variants.marking.keyed import asked_of
+from kulman.variants.marking.reading import read_answers
+from kulman.variants.solution import solve
+
+PACKAGE = "kulman.variants.marking"
+SOLUTION = solve("nau-slider-crank", "example")
+ASKED = asked_of(SOLUTION)
+ROW = "V_B;55,2;0,05;2,76;м/с;180\n"
+HEAD = "величина;відрізок, мм;масштаб;значення;одиниця;напрям\n"
+
+
+def read(tmp_path: Path, text: str | bytes, name: str = "answers.csv", asked: Asked = ASKED) -> list[Answers]:
+    """Return the answers of a file with this content."""
+    file = tmp_path / name
+    file.write_bytes(text.encode("utf-8") if isinstance(text, str) else text)
+    return read_answers(file, asked)
+
+
+def one(tmp_path: Path, text: str | bytes, name: str = "answers.csv") -> Answers:
+    found = read(tmp_path, text, name)
+    assert len(found) == 1
+    return found[0]
+
+
+def messages(answers: Answers) -> list[str]:
+    return [problem.text("en") for problem in answers.problems]
+
+
+def form(tmp_path: Path, name: str, language: str, task: str = "nau-slider-crank") -> Path:
+    """Write an empty form."""
+    check = prepare(
+        task,
+        None,
+        settings={},
+        only=None,
+        scales={},
+        notation=None,
+        language=language,
+        preset="normal",
+        rubric=None,
+        roster=None,
+        digits=1,
+        own=False,
+    )
+    write_form(check, tmp_path / name)
+    return tmp_path / name
+
+
+@pytest.mark.parametrize("kind", ["", "mistakes."])
+def test_every_language_has_the_same_texts_with_the_same_placeholders(kind: str) -> None:
+    tables = {language: packaged(PACKAGE, "texts", f"{kind}{language}") for language in LANGUAGES}
+
+    assert tables["uk"].keys() == tables["ru"].keys() == tables["en"].keys()
+    for key in tables["en"]:
+        assert len({tuple(sorted(re.findall(r"{\w+}", tables[lang][key]))) for lang in LANGUAGES}) == 1, key
+
+
+def test_every_mistake_has_words() -> None:
+    from kulman.plans.mistakes.book import MISTAKES
+
+    texts = packaged(PACKAGE, "texts", "mistakes.en")
+
+    assert set(MISTAKES) <= texts.keys()
+    assert list(texts) == [f"M{number:02d}" for number in range(1, 88)]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", ["form.csv", "form.xlsx"])
+def test_a_form_can_be_read_in_the_language_it_is_written_in(tmp_path: Path, name: str, language: str) -> None:
+    grid = read_grid(form(tmp_path, name, language))
+    header = next(row for row in grid.rows if len(row) == 8 and row[0] in ("quantity", "величина"))
+    asked = [row[0] for row in grid.rows if row[0] in ASKED.names]
+
+    assert len(header) == 8
+    assert asked.index("V_A") < asked.index("V_B") < asked.index("omega_2") < asked.index("a_B") < asked.index("R_12")
+    assert set(ASKED.names) == {*asked}
+
+
+def test_an_empty_form_is_told_to_be_empty(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="the form is empty"):
+        read_answers(form(tmp_path, "form.xlsx", "uk"), ASKED)
+
+
+def test_a_filled_workbook_comes_back(tmp_path: Path) -> None:
+    file = form(tmp_path, "form.xlsx", "ru")
+    book = openpyxl.load_workbook(file)
+    sheet = book.active
+    assert sheet is not None
+    for row in sheet.iter_rows():
+        if row[0].value == "V_B":
+            row[3].value, row[5].value, row[7].value = 55.2, 2.76, 180
+        if row[0].value == "mu_V":
+            row[4].value = "0,05"
+        if row[0].value == "студент":
+            row[1].value = "Петренко"
+    book.save(file)
+
+    found = read_answers(file, ASKED)[0]
+
+    assert found.problems == ()
+    assert found.who.student == "Петренко"
+    assert found.scales["mu_V"].value == pytest.approx(0.05)
+    line = found.lines["V_B"]
+    assert (line.mm, line.value) == (pytest.approx(55.2), pytest.approx(2.76))
+    assert line.direction == pytest.approx(3.14159, abs=1e-4)
+
+
+@pytest.mark.parametrize("separator", [";", ",", "\t"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1251", "utf-16"])
+def test_csv_comes_in_any_encoding_with_any_separator(tmp_path: Path, encoding: str, separator: str) -> None:
+    rows = [["студент", "Ґалаґан"], HEAD.strip().split(";"), ROW.strip().split(";")]
+    stream = io.StringIO()
+    csv.writer(stream, delimiter=separator).writerows(rows)
+
+    found = one(tmp_path, stream.getvalue().encode(encoding))
+
+    assert found.who.student == "Ґалаґан"
+    assert found.problems == ()
+    assert found.lines["V_B"].value == pytest.approx(2.76)
+    assert found.lines["V_B"].mm == pytest.approx(55.2)
+
+
+def test_columns_may_stand_in_any_order_in_any_language(tmp_path: Path) -> None:
+    found = one(tmp_path, "direction,unit,value,Quantity,мм,масштаб\n180,m/s,2.76,V_B,55.2,0.05\n")
+
+    line = found.lines["V_B"]
+    assert (line.value, line.mm) == (pytest.approx(2.76), pytest.approx(55.2))
+
+
+@pytest.mark.parametrize(
+    ("cell", "mm"), [("12,5 мм", 12.5), ("12.5mm", 12.5), ("1,25 см", 12.5), (" 12,5 ", 12.5), ("0", 0.0)]
+)
+def test_units_stand_in_cells(tmp_path: Path, cell: str, mm: float) -> None:
+    found = one(tmp_path, f"{HEAD}V_B;{cell};;2,76;;\n")
+
+    assert found.problems == ()
+    assert found.lines["V_B"].mm == pytest.approx(mm)
+
+
+@pytest.mark.parametrize(
+    ("cell", "mu", "sure"),
+    [
+        ("0,05", 0.05, False),
+        ("20", 20.0, False),
+        ("0,05 (м/с)/мм", 0.05, True),
+        ("20 мм/(м/с)", 0.05, True),
+        ("20 mm/(m/s)", 0.05, True),
+    ],
+)
+def test_a_scale_factor_is_meant_either_way(tmp_path: Path, cell: str, mu: float, sure: bool) -> None:
+    found = one(tmp_path, f"{HEAD}V_B;55;{cell};2,76;;\n")
+
+    assert found.problems == ()
+    line = found.lines["V_B"].mu
+    assert line is not None
+    assert (line.value, line.sure) == (pytest.approx(mu), sure)
+
+
+@pytest.mark.parametrize(
+    ("cell", "sense"),
+    [("+", 1), ("-", -1), ("−", -1), ("cw", -1), ("за годинниковою стрілкою", -1), ("против ч.с.", 1), ("проти", 1)],
+)
+def test_senses_are_words_or_signs(tmp_path: Path, cell: str, sense: int) -> None:
+    assert one(tmp_path, f"{HEAD}omega_2;;;16,3;;{cell}\n").lines["omega_2"].sense == sense
+
+
+@pytest.mark.parametrize(
+    ("row", "where", "what"),
+    [
+        ("V_B;багато;;2,76;;", "B2, V_B", "is not a number"),
+        ("V_B;55;0;2,76;;", "C2, V_B", "greater than zero"),
+        ("V_B;-55;;2,76;;", "B2, V_B", "cannot be negative"),
+        ("V_B;=5*11;;2,76;;", "B2, V_B", "formulas are not worked out"),
+        ("V_B;55;;2,76 кг;;", "D2, V_B", "unit kg does not fit"),
+        ("V_B;55;;2,76;;кудись", "F2, V_B", "is no direction"),
+        ("V_BB;55;;2,76;;", "A2, V_BB", "did you mean 'V_B'"),
+        ("V_B;55 м/с;;2,76;;", "B2, V_B", "unit m/s does not fit"),
+        ("V_B;1e400;;2,76;;", "B2, V_B", "too large or too small"),
+    ],
+)
+def test_a_bad_cell_is_told_of_with_its_place_and_the_rest_is_read(
+    tmp_path: Path, row: str, where: str, what: str
+) -> None:
+    found = one(tmp_path, f"{HEAD}{row}\na_B;49;4;196;;\n")
+
+    assert len(found.problems) == 1
+    assert where in messages(found)[0]
+    assert what in messages(found)[0]
+    assert found.lines["a_B"].value == pytest.approx(196.0)
+
+
+def test_a_value_with_a_wrong_unit_is_taken_in_that_of_the_form(tmp_path: Path) -> None:
+    assert one(tmp_path, f"{HEAD}V_B;;;2,76;кг;\n").lines["V_B"].value == pytest.approx(2.76)
+
+
+def test_a_quantity_answered_twice_counts_once(tmp_path: Path) -> None:
+    found = one(tmp_path, f"{HEAD}{ROW}V_B;1;;2;;\n")
+
+    assert found.lines["V_B"].value == pytest.approx(2.76)
+    assert "answered a second time" in messages(found)[0]
+
+
+def test_names_with_cyrillic_letters_that_look_alike_are_known(tmp_path: Path) -> None:
+    assert "V_B" in one(tmp_path, f"{HEAD}V_В;55;;2,76;;\n").lines
+
+
+def test_columns_that_changed_places_are_put_back(tmp_path: Path) -> None:
+    rows = "V_B;2,76;0,05;55,2;;\nV_A;4;0,05;80;;\nV_BA;2,1;0,05;42;;\na_B;220;4;55;;\n"
+
+    found = one(tmp_path, HEAD + rows)
+
+    assert found.lines["V_B"].mm == pytest.approx(55.2)
+    assert found.lines["V_B"].value == pytest.approx(2.76)
+    assert "each other's place" in messages(found)[0]
+
+
+def test_columns_in_their_places_stay_there(tmp_path: Path) -> None:
+    rows = "V_B;55,2;0,05;2,76;;\nV_A;80;0,05;4;;\nV_BA;42;0,05;2,1;;\na_B;55;4;220;;\n"
+
+    assert one(tmp_path, HEAD + rows).problems == ()
+
+
+def test_a_class_is_a_row_for_each_student(tmp_path: Path) -> None:
+    head = "ПІБ;варіант;mu_V;V_B.mm;V_B;V_B.dir;omega_2 [рад/с];a_B, м/с²;V_C\n"
+    found = read(tmp_path, f"{head}Один;3;0,05;55;2,75;180;-16,3;220;1\nДва;4;;;;;;;\nТри;5;;шість;2,8;;;;\n")
+
+    assert [answers.who.student for answers in found] == ["Один", "Два", "Три"]
+    assert found[0].lines["V_B"].mm == pytest.approx(55.0)
+    assert found[0].lines["omega_2"].value == pytest.approx(-16.3)
+    assert found[0].scales["mu_V"].value == pytest.approx(0.05)
+    assert "'V_C'" in messages(found[0])[0]
+    assert found[1].empty
+    assert found[2].lines["V_B"].value == pytest.approx(2.8)
+    assert "D4, V_B" in messages(found[2])[0]
+    assert found[0].columns == ("V_B", "omega_2", "a_B")
+
+
+def workbook(tmp_path: Path, cells: dict[str, object], formats: dict[str, str] | None = None) -> Path:
+    """Write a workbook by another program."""
+    file = tmp_path / "answers.xlsx"
+    book = xlsxwriter.Workbook(str(file))
+    sheet = book.add_worksheet()
+    for column, text in enumerate(HEAD.strip().split(";")):
+        sheet.write(0, column, text)
+    for address, value in cells.items():
+        look = book.add_format({"num_format": (formats or {})[address]}) if address in (formats or {}) else None
+        sheet.write(address, value, look)
+    book.close()
+    return file
+
+
+def test_a_formula_is_read_by_its_stored_result_and_never_worked_out(tmp_path: Path) -> None:
+    file = tmp_path / "answers.xlsx"
+    book = xlsxwriter.Workbook(str(file))
+    sheet = book.add_worksheet()
+    sheet.write_row(0, 0, HEAD.strip().split(";"))
+    sheet.write_row(1, 0, ["V_B", 55.2, 0.05])
+    sheet.write_formula("D2", "=B2*C2", None, 2.76)
+    sheet.write_row(2, 0, ["V_A", 80])
+    sheet.write_formula("D3", '=HYPERLINK("http://x","4")', None, "")
+    book.close()
+
+    found = read_answers(file, ASKED)[0]
+
+    assert found.lines["V_B"].value == pytest.approx(2.76)
+    assert found.lines["V_A"].value is None
+    assert "D3, V_A" in messages(found)[0]
+    assert "formula" in messages(found)[0]
+
+
+def test_a_date_that_was_a_number_is_told_of(tmp_path: Path) -> None:
+    found = read_answers(workbook(tmp_path, {"A2": "V_B", "B2": 45789, "D2": 2.76}, {"B2": "dd.mm"}), ASKED)[0]
+
+    assert "holds a date" in messages(found)[0]
+    assert found.lines["V_B"].value == pytest.approx(2.76)
+
+
+def bomb(tmp_path: Path, size: int) -> Path:
+    """Write a small workbook that unpacks into `size` bytes."""
+    file = workbook(tmp_path, {"A2": "V_B"})
+    with zipfile.ZipFile(file) as old:
+        parts = {name: old.read(name) for name in old.namelist()}
+    parts["xl/worksheets/sheet1.xml"] += b" " * size
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as new:
+        for name, data in parts.items():
+            new.writestr(name, data)
+    return file
+
+
+def test_a_zip_bomb_is_refused(tmp_path: Path) -> None:
+    file = bomb(tmp_path, 22_000_000)
+    assert file.stat().st_size < 200_000
+
+    with pytest.raises(InputError, match="unpacked, the file is larger than 20 MB"):
+        read_answers(file, ASKED)
+
+
+def test_entities_are_not_unfolded(tmp_path: Path) -> None:
+    file = workbook(tmp_path, {"A2": "V_B"})
+    with zipfile.ZipFile(file) as old:
+        parts = {name: old.read(name) for name in old.namelist()}
+    evil = b'<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa">]>'
+    parts["xl/worksheets/sheet1.xml"] = parts["xl/worksheets/sheet1.xml"].replace(b"?>\n", b"?>\n" + evil, 1)
+    with zipfile.ZipFile(file, "w") as new:
+        for name, data in parts.items():
+            new.writestr(name, data)
+
+    with pytest.raises(InputError, match="not an XLSX file"):
+        read_answers(file, ASKED)
+
+
+def test_a_huge_file_is_refused_without_being_read(tmp_path: Path) -> None:
+    file = tmp_path / "answers.csv"
+    with file.open("wb") as stream:
+        stream.truncate(100_000_000)
+
+    with pytest.raises(InputError, match="larger than 20 MB"):
+        read_answers(file, ASKED)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "what"),
+    [
+        ("a.csv", b"", "the file is empty"),
+        ("a.csv", b"\0\1\2" * 100, "not a text"),
+        ("a.csv", b"PK\x03\x04abc", "its name end in .xlsx"),
+        ("a.xlsx", b"PK\x03\x04abc", "not an XLSX file"),
+        ("a.xlsx", b"\xd0\xcf\x11\xe0" * 100, "not an XLSX file"),
+        ("a.csv", "щось;інше\n1;2\n".encode(), "no row says what the columns hold"),
+        ("a.ods", b"x", "ends in one of: .csv, .xlsx"),
+        ("a.csv", b'"V_B;' + b"x" * 200_000, "a quotation mark is not closed"),
+    ],
+)
+def test_what_is_no_file_of_answers_is_refused_in_one_line(
+    tmp_path: Path, name: str, content: bytes, what: str
+) -> None:
+    with pytest.raises(InputError) as caught:
+        read(tmp_path, content, name)
+
+    assert what in caught.value.text("en")
+    assert "\n" not in caught.value.text("en")
+
+
+def test_a_folder_or_nothing_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "x.csv").mkdir()
+
+    with pytest.raises(InputError, match="not a folder"):
+        read_answers(tmp_path / "x.csv", ASKED)
+    with pytest.raises(InputError, match="there is no such file"):
+        read_answers(tmp_path / "y.csv", ASKED)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.binary(max_size=400))
+def test_whatever_bytes_come_they_are_read_or_refused(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
+    folder = tmp_path_factory.mktemp("any")
+    for name in ("a.csv", "a.xlsx"):
+        with suppress(InputError):  # anything else would be our bug
+            read(folder, HEAD.encode() + data if name == "a.csv" else b"PK\x03\x04" + data, name)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.lists(st.text(max_size=12), min_size=1, max_size=5), min_size=1, max_size=5))
+def test_nothing_written_starts_a_formula(rows: list[list[str]]) -> None:
+    for row in csv.reader(io.StringIO(csv_bytes(rows, "uk").decode("utf-8-sig"), newline=""), delimiter=";"):
+        assert not any(cell.lstrip(" ").startswith(("=", "+", "-", "@", "\t", "\r")) for cell in row)
+    book = openpyxl.load_workbook(io.BytesIO(xlsx_bytes(rows, "=x")))
+    assert book.active is not None
+    assert all(cell.data_type != "f" for row in book.active.iter_rows() for cell in row)
+
+
+def test_a_text_that_looks_like_a_formula_comes_back(tmp_path: Path) -> None:
+    file = tmp_path / "a.csv"
+    file.write_bytes(csv_bytes([["x", "=1+1", "-5 mm", 1.5], ["V_B", "V_A", "V_BA", 2]], "uk"))
+
+    assert read_grid(file).rows[0] == ("x", "=1+1", "-5 mm", "1,5")
+
+
+def test_the_same_form_is_the_same_bytes(tmp_path: Path) -> None:
+    assert form(tmp_path, "a.xlsx", "uk").read_bytes() == form(tmp_path, "b.xlsx", "uk").read_bytes()
+
+
+@pytest.mark.parametrize(("number", "name"), [(0, "A"), (25, "Z"), (26, "AA"), (701, "ZZ"), (702, "AAA")])
+def test_columns_have_the_letters_of_spreadsheets(number: int, name: str) -> None:
+    assert letters(number) == name
+
+
+def test_an_apostrophe_keeps_a_text_a_text() -> None:
+    assert [harmless(text) for text in ("=A1", "@x", "+1", "V_B", "")] == ["'=A1", "'@x", "'+1", "V_B", ""]
