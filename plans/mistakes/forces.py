@@ -157,6 +157,8 @@ def resistance_along_motion(scene: Scene) -> Iterator[Change]:
     """A resistance acts along the motion, or in the idle stroke too."""
     for law in ("resisting_force", "resisting_along", "resisting_moment"):
         yield from map(opposed, scene.made_by("calc", law=law))
+    outer = (step for step in scene.made_by("calc", law="along") if scene.is_given(f"|{step.name}|"))
+    yield from map(opposed, outer)
     for step in scene.made_by("calc"):
         if step.law in ("in_working", "in_idle"):
             yield instead(step, "other stroke", law="in_idle" if step.law == "in_working" else "in_working")
