@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
-from ...plans.linkages.contest import CHORDS, DIFFERENCES, HAND, NEWTON, PLAN, Contest, Entry
+from ...plans.linkages.contest import CHORDS, DIFFERENCES, EXTENDED, HAND, NEWTON, PLAN, SINGLE, Contest, Entry
 from ..words import Words
 from .lettering import Box, Label, put
 from .paper import BLACK, GREY, SMALL, TEXT, box, page
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-SINGLE, EXTENDED = f"{PLAN}-single", f"{PLAN}-extended"
 FIELDS = ((24.0, 116.0), (164.0, 116.0), (24.0, 25.0), (164.0, 25.0))  # left and bottom of four fields, mm
 SIZE = (126.0, 74.0)
 LARGEST = 3.0  # error beyond which a method means nothing
@@ -198,7 +197,7 @@ def _key(axes: Axes, words: Words, hand: str, contest: Contest, turns: bool) -> 
     rows = [(look, look.words) for method, look in LOOKS.items() if method in present and method != EXTENDED]
     y = 6.0
     for look, key in rows:
-        text = f"{key}-slide" if key == DIFFERENCES and not turns else key
+        text = "differences-slide" if key == DIFFERENCES and not turns else key
         axes.plot([0.0, 5.0, 10.0], [y] * 3, linestyle=look.line or "none", color=GREY, lw=1.0)
         face = BLACK if look.filled else "white"
         axes.plot(5.0, y, look.marker, ms=4.2, mfc=face, mec=BLACK, mew=0.9)

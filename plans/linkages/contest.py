@@ -24,6 +24,7 @@ from .cycle import Cycle
 from .rivals import Group, Newton, Rivals, Values, Way, groups
 
 Array = NDArray[Any]
+SINGLE, EXTENDED = "plan-single", "plan-extended"
 PLAN, NEWTON, DIFFERENCES, CHORDS, HAND = "plan", "newton", "differences", "chords", "hand"
 TOLERANCES = (1e-1, 1e-2, 1e-4, 1e-8)
 STEPS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
@@ -209,14 +210,16 @@ class _Race:
             spent = self._one_by_one() if size == 1 else self._time(rivals.plan, size)
             yield self.entry(PLAN, size, errors, spent, size)
         size = min(self.effort.at_once, max(int(LONG / spent), 100))
-        longest = "extended" if np.finfo(np.longdouble).eps < np.finfo(float).eps else ""
-        for precision in filter(None, ("single", longest)):
+        precisions = {SINGLE: "single"}
+        if np.finfo(np.longdouble).eps < np.finfo(float).eps:  # not so on every machine
+            precisions[EXTENDED] = "extended"
+        for method, precision in precisions.items():
 
             def way(places: Array, wanted: Sequence[str], precision: str = precision) -> Values:
                 return rivals.plan(places, wanted, precision)
 
             errors = self.truth.errors(way(self.places, names))
-            yield self.entry(f"{PLAN}-{precision}", size, errors, self._time(way, size), size)
+            yield self.entry(method, size, errors, self._time(way, size), size)
 
     def others(self, newton: Newton) -> Iterator[Entry]:
         """Go through the methods that are no plans."""
