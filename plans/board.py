@@ -10,9 +10,11 @@ marks of the mechanism itself are bare letters.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from operator import itemgetter
+from typing import Any
 
 from ..scales.errors import InputError
 
@@ -190,6 +192,11 @@ class Program:
     @cached_property
     def _hash(self) -> int:
         return hash(self.steps)
+
+    @cached_property
+    def prepared(self) -> tuple[tuple[Step, Callable[[Mapping[str, Any]], Any] | None], ...]:
+        """The steps, each with what takes its operands, when they are more than one, out of the values by name."""
+        return tuple((step, itemgetter(*step.operands) if len(step.operands) > 1 else None) for step in self.steps)
 
     @cached_property
     def names(self) -> tuple[str, ...]:

@@ -78,6 +78,23 @@ class ExactBoard(TemplateBoard):
             value += POLE
         values[name] = value
 
+    def follow(self, program: Program) -> None:
+        """Do all steps of a program: what `step` does with each, without looking operations up again and again."""
+        values = self.values
+        operations: dict[tuple[str, str], Callable[..., Any]] = {}
+        for step, taken in program.prepared:
+            key = step.verb, step.law
+            operate = operations.get(key)
+            if operate is None:
+                operate = operations[key] = self.operation(*key)
+            self._name, self._operands = step.name, step.operands
+            value = operate(*(taken(values) if taken else [values[operand] for operand in step.operands]))
+            if type(value) is not complex:
+                value += 0.0
+            elif value is not POLE:
+                value += POLE
+            values[step.name] = value
+
     # What differs between one position and many.
 
     @staticmethod
@@ -320,5 +337,5 @@ def _is_zero(value: Any) -> bool:
 def run(program: Program, givens: Mapping[str, Any]) -> ExactBoard:
     """Run `program` for one position; `givens` are floats in SI."""
     board = ExactBoard(givens)
-    program.run(board)
+    board.follow(program)
     return board

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import cache
 from importlib import import_module
 from types import ModuleType
 
@@ -39,6 +40,7 @@ def driver_of(mechanism: Mechanism) -> ModuleType:
     return _module(DRIVERS[type(mechanism.driver)])
 
 
+@cache
 def _module(name: str) -> ModuleType:
     return import_module(f".{name}", __package__)
 
