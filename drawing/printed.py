@@ -4,13 +4,38 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from .words import Words
 
 DIGITS = 4  # significant digits of a printed value
 MOST = 10  # more digits than that would be rounding noise
+FEWEST = 2  # significant digits of what small segments show
+HUNDREDTHS = 2  # decimals of a segment, mm: a ruler reads no more
+# digits of a result, most digits of what goes into it, whether segments may have more than hundredths of a millimetre
+TRIES = ((DIGITS, 6, False), (3, 6, False), (FEWEST, 6, False), (DIGITS, DIGITS + MOST, True))
 FINEST = 12  # decimals; what is smaller still is 0
 POINT = 1e-6  # mm; a shorter segment is a point, and its quantity 0
+
+
+@dataclass(frozen=True, slots=True)
+class Input:
+    """A number that goes into a printed calculation.
+
+    One that is `exact` (a given, a scale factor) is printed as it is; one measured on the sheet has at most `places`
+    decimals, as many as its ruler shows.
+    """
+
+    value: float
+    exact: bool = False
+    places: int | None = None
+
+    def decimals(self, digits: int, free: bool) -> int | None:
+        """Return how many decimals show it with so many digits; `free` lets a segment have more than its ruler."""
+        if self.exact:
+            return None
+        wanted = decimals_for(self.value, digits)
+        return wanted if free or self.places is None else min(wanted, self.places)
 
 
 def decimals_for(value: float, digits: int = DIGITS) -> int:
@@ -29,35 +54,39 @@ def value_text(words: Words, value: float) -> str:
 def segment_decimals(value: float, mu: float) -> tuple[int, int]:
     """Return decimals for a segment in mm and for its value so that mm * mu is the value to its last printed digit.
 
-    Hundredths of a millimetre and the usual digits of the value where that will do, else one digit more of either.
+    Hundredths of a millimetre, for no ruler reads more, and as many digits of the value as they show; only of a segment
+    that shows less than `FEWEST` digits so, there are more.
     """
     size, usual = abs(value), decimals_for(value)
     if size < POINT * mu:
-        return 2, 0
-    for extra in range(MOST):
-        for places, decimals in ((2 + extra, usual), (2 + extra, usual + 1)):
+        return HUNDREDTHS, 0
+    for places in range(HUNDREDTHS, HUNDREDTHS + MOST):
+        for digits in range(DIGITS, FEWEST - 1, -1):
+            decimals = decimals_for(value, digits)
             if round(round(size / mu, places) * mu, decimals) == round(size, decimals):
                 return places, decimals
-    return 2 + MOST, usual
+    return HUNDREDTHS + MOST, usual
 
 
-def calculation(words: Words, law: Callable[..., float], inputs: Sequence[tuple[float, bool]]) -> tuple[list[str], str]:
+def calculation(words: Words, law: Callable[..., float], inputs: Sequence[Input]) -> tuple[list[str], str]:
     """Return the printed inputs and the printed result of a calculation, such that it recomputes.
 
-    Parameters
-    ----------
-    inputs : sequence of (value, exact)
-        A value that is exact (a given, a scale factor) is printed as it is; others get as many digits as it takes for
-        the result to come out to its last printed digit.
+    Inputs get as many digits as it takes for the result to come out to its last printed digit; where segments of the
+    sheet do not allow that, the result has fewer digits.
     """
-    values = [value for value, _ in inputs]
+    values = [one.value for one in inputs]
     result = law(*values)
-    decimals = decimals_for(result)
-    for digits in range(DIGITS, MOST + DIGITS):
-        shown = [value if exact else round(value, decimals_for(value, digits)) for value, exact in inputs]
-        if round(law(*shown), decimals) == round(result, decimals):
-            break
-    texts = [
-        words.short(value) if exact else words.number(value, decimals_for(value, digits)) for value, exact in inputs
-    ]
-    return texts, words.number(result, decimals)
+    measured = any(one.places is not None for one in inputs)
+    for last, most, free in TRIES if measured else TRIES[-1:]:
+        decimals = decimals_for(result, last)
+        for digits in range(DIGITS, most + 1):
+            places = [one.decimals(digits, free) for one in inputs]
+            shown = [x if cut is None else round(x, cut) for x, cut in zip(values, places, strict=True)]
+            if round(law(*shown), decimals) == round(result, decimals):
+                return _texts(words, values, places), words.number(result, decimals)
+    return _texts(words, values, places), words.number(result, decimals)
+
+
+def _texts(words: Words, values: Sequence[float], places: Sequence[int | None]) -> list[str]:
+    pairs = zip(values, places, strict=True)
+    return [words.short(value) if cut is None else words.number(value, cut) for value, cut in pairs]

@@ -65,6 +65,9 @@ def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[
             symbol, mm, mu, printed = row[:4]
             if mm != "–" and abs(value(mm) * value(mu) - value(printed)) > half_digit(printed):
                 yield f"{symbol}: {mm}·{mu} is not {printed}"
+            # of hundreds and thousands the units are printed, which a hundredth of a millimetre may not show
+            if mm != "–" and value(mm) > 2.0 and len(re.split("[.,]", mm)[-1]) > 2 and abs(value(printed)) < 100.0:
+                yield f"{symbol}: no ruler reads {mm} mm"
             if symbol in values and abs(abs(value(printed)) - abs(values[symbol])) > half_digit(printed) + 1e-9:
                 yield f"{symbol}: {printed} is not {values[symbol]}"
             numbers_of(" ".join(row), lang)

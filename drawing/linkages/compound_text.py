@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from ...plans.board import POSITION
 from ...plans.linkages.compound import ACCELERATION, PARTS, VELOCITY, Closing, Coupler
 from ...plans.linkages.mechanism import ZERO
-from ..printed import calculation, segment_decimals
+from ..printed import Input, calculation, segment_decimals
 from ..table import text_block
 from ..view import View
 from .at_point import direction_words
@@ -171,7 +171,7 @@ def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float)
     terms = [(other, turn) for other, turn in ((first, 1.0), (second, sign)) if other != ZERO]
     signs = ["" if i == 0 and turn > 0 else "+ " if turn > 0 else "− " for i, (_, turn) in enumerate(terms)]
     formula = " ".join(f"{sign}{words.symbol(other)}" for sign, (other, _) in zip(signs, terms, strict=True))
-    inputs = [(float(values[other]) * turn, False) for other, turn in terms]
+    inputs = [Input(float(values[other]) * turn) for other, turn in terms]
     texts, result = calculation(words, lambda *x: sum(x), inputs)
     numbers = " ".join([texts[0], *(f"− {t[1:]}" if t.startswith("−") else f"+ {t}" for t in texts[1:])])
     last = f"{result} {words.unit(UNITS[name.partition('_')[0]])}"

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
-from ..printed import POINT, calculation, value_text
+from ..printed import HUNDREDTHS, POINT, Input, calculation, value_text
 from ..words import Words
 from .reading import read
 from .scene import Scene
@@ -28,12 +28,16 @@ def by_direction(text: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Factor:
-    """A factor of a product: its symbol, its size as it is printed, whether that is exact, its power 1, 2 or -1."""
+    """A factor of a product: its symbol, its size as it is printed, whether that is exact, its power 1, 2 or -1.
+
+    A segment of the sheet has at most `places` decimals.
+    """
 
     symbol: str
     value: float
     exact: bool = False
     power: int = 1
+    places: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +103,7 @@ def worked(
         found = sum(product.of(x[a:b]) for product, a, b in zip(products, cuts, cuts[1:], strict=False))
         return found / math.prod(product.of(x[cuts[-1] :]) for product in over)
 
-    texts, result = calculation(words, law, [(factor.value, factor.exact) for factor in factors])
+    texts, result = calculation(words, law, [Input(factor.value, factor.exact, factor.places) for factor in factors])
     symbols = signs(products, [product.symbols for product in products])
     numbers = [p.written(texts[a:b]) for p, a, b in zip(products, cuts, cuts[1:], strict=False)]
     formula = _over(symbols, divisor.symbols if divisor else "")
@@ -146,7 +150,9 @@ def factor(scene: Scene, name: str, power: int = 1, symbol: str | None = None) -
 
 def segment(scene: Scene, symbol: str, plan: str, size: float) -> Factor:
     """Return what a plan shows as a factor in the paper's unit, without its scale factor."""
-    return Factor(symbol, scene.words.display.segment(size / scene.scales[plan].mu))
+    display = scene.words.display
+    places = HUNDREDTHS if display.paper == "mm" else HUNDREDTHS + 1  # of a centimetre
+    return Factor(symbol, display.segment(size / scene.scales[plan].mu), places=places)
 
 
 def is_given(scene: Scene, name: str) -> bool:

@@ -11,7 +11,7 @@ from ...plans.linkages.compound import found_here
 from ...plans.linkages.mechanism import ZERO
 from ...plans.linkages.solved import Solved
 from ...plans.quantities import unit_of
-from ..printed import calculation
+from ..printed import Input, calculation
 from ..table import text_block
 from ..view import View
 from .equations import Factor, Lines, Product, factor, noted, paper, rate_of, segment, sensed, size_of, stated, worked
@@ -200,7 +200,7 @@ def _turning_alike(scene: Scene, step: Step) -> Lines:
         symbol = f"{symbol} = {words.symbol(step.operands[0])}"
     given, line = scene.givens.get(step.operands[0]), [stated(words, symbol, abs(value), unit)]
     if given is not None and given.unit == "rpm" and not isinstance(given.value, str):
-        texts, result = calculation(words, lambda n: math.pi * n / 30.0, [(given.value, True)])
+        texts, result = calculation(words, lambda n: math.pi * n / 30.0, [Input(given.value, exact=True)])
         line = [f"{symbol} = π{words.symbol(step.operands[0])}/30 =", f"π·{texts[0]}/30 ="]
         line.append(f"{result} {words.unit(unit)}")
     return [noted(line, sense)]
