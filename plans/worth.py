@@ -65,6 +65,12 @@ def intersections(program: Program, sines: Mapping[str, float]) -> dict[str, flo
     return found
 
 
+def point_of(program: Program, mark: str) -> str:
+    """Return the mark at which a meeting is seen: a tangent finds the direction of a line through its second point."""
+    step = next(step for step in program if step.name == mark)
+    return step.operands[1] if step.verb == "tangent" else mark
+
+
 def worst_behind(
     program: Program, sines: Mapping[str, float], counts: Callable[[Step, str], bool] = lambda step, operand: True
 ) -> dict[str, float]:

@@ -11,6 +11,7 @@ from ..drawing.linkages.scene import Given
 from ..plans.exact import SMALL
 from ..plans.linkages.chain import require_couplers
 from ..plans.linkages.solved import Solved, scale_symbols, solve_linkage
+from ..plans.worth import point_of
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
 from ..scales.display import Display
 from ..scales.errors import InputError
@@ -59,9 +60,19 @@ class Case:
         mark, sine = self.solved.worst_sine()
         if sine >= SMALL:
             return ()
-        point = mark.rpartition(".")[2]
-        angle = math.degrees(math.asin(sine))
-        return (InputError("small-angle", point=point, angle=f"{angle:.3g}", loss=f"{1.0 / sine:.3g}"),)
+        point = point_of(self.solved.program, mark).rpartition(".")[2]
+        said = {"point": point, "angle": f"{math.degrees(math.asin(sine)):.3g}", "loss": _short(1.0 / sine)}
+        if self.solved.status != "ill-conditioned":
+            return (InputError("small-angle", **said),)
+        from ..plans.linkages.accuracy import worst_condition  # needs numpy, and few positions need it
+
+        quantity, condition = worst_condition(self.solved)
+        return (InputError("ill-conditioned", quantity=quantity, condition=_short(condition), **said),)
+
+
+def _short(value: float) -> str:
+    """Return a number with three digits, a large one with a power of ten."""
+    return f"{float(f'{value:.3g}'):g}" if value < 1e6 else f"{value:.1e}".replace("e+0", "e").replace("e+", "e")
 
 
 def solve_case(

@@ -13,6 +13,7 @@ from ..symbols import angle_dimension, turning_arrow
 from ..view import Canvas, View
 from .arc_places import free_arc, obstacles
 from .construction import axes, found_by, moving_guides, special_points
+from .flat import said_flat
 from .guides import guide_up
 from .links import draw_frame, draw_links, foot_of, letter_links
 from .scene import Scene
@@ -46,7 +47,7 @@ def scheme(scene: Scene) -> View:
     _frame_number(canvas, scene, figures)
     moving_guides(canvas, scene, figures)
     letter_links(canvas, scene, numbers, figures)
-    return canvas.finish("position", scene.heading("heading.position", "position"))
+    return canvas.finish("position", scene.heading("heading.position", "position"), tuple(said_flat(scene, POSITION)))
 
 
 def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:

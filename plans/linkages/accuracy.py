@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from ..condition import Condition, conditions
 from ..shaky import Paper
-from ..worth import extent
+from ..worth import extent, plans_of
 from .mechanism import Mechanism, Prismatic, Revolute
 from .solved import Solved
 
@@ -33,6 +33,15 @@ def conditions_of(solved: Solved) -> dict[str, Condition]:
         if name not in found:
             found[name] = Condition(abs(quantity.value or 0.0) / size if size else None, 1.0)
     return {name: found[name] for name in solved.quantities}
+
+
+def worst_condition(solved: Solved, plan: str | None = None) -> tuple[str, float]:
+    """Return the quantity of the largest condition, of those that `plan` shows or of all, and that condition."""
+    shown = plans_of(solved.program)
+    found = conditions_of(solved).items()
+    here = ((item.value or 0.0, name) for name, item in found if plan is None or shown.get(name) == plan)
+    value, name = max(here, default=(0.0, ""))
+    return name, value
 
 
 def paper_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
