@@ -201,8 +201,7 @@ class _Marker:
             self.ways[name] = readings(answer, values)
             near = (_nearest_to(values, abs(self.key[name])),) if len(values) > 1 else values
             self.taken[name] = readings(answer, near)[0]
-        self.still = follow(program, givens, lambda name, value: (self.taken.get(name), False))
-        self.moved = follow(program, givens, lambda name, value: (self.taken.get(name), True))
+        self.drawn = follow(program, givens, lambda name, value: (self.taken.get(name), True))
         follows = follow(program, givens, self._judge)
         return (self._line(question, follows[question.name]) for question in self.key.questions.values())
 
@@ -251,7 +250,7 @@ class _Marker:
         said, found = right = self._best(ways, name, self.key[name])
         if found.off <= 1.0:
             return Verdict.RIGHT, said, found
-        follows = (self.still.get(name), self.moved.get(name), value)
+        follows = (self.drawn.get(name), value)
         said, found = min((right, *(self._best(ways, name, x) for x in follows)), key=_off)
         if found.off <= 1.0:
             return Verdict.CARRIED if self.failed else Verdict.RIGHT, said, found
