@@ -224,7 +224,7 @@ def test_a_rubric_weighs_and_asks(tmp_path: Path, capsys: pytest.CaptureFixture[
 
 
 def test_a_rubric_sets_tolerances(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    close = rubric(tmp_path, "[tolerance]\nmm = 0.1\npercent = 0.1\n")
+    close = rubric(tmp_path, "[tolerance]\nmm = 0.1\npercent = 0.1\ndegrees = 0.05\n")
     file = answers(tmp_path, {"V_B": 2.80})
 
     assert marked(capsys, file)["verdicts"]["V_B"] == "right"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -48,10 +49,28 @@ class Result:
         return cls(**{**data, "who": Who(**data["who"]), "segments": segments, **lists})
 
 
+def scales_of(marked: Marked) -> dict[str, float]:
+    """Return the student's scale factors by plan, value in SI per mm; ours where none is written.
+
+    A factor may be meant as value per mm or as mm per unit: whichever is nearer to ours.
+    """
+    key, answers = marked.marking.key, marked.answers
+    found = dict(key.paper.mus)
+    for name, line in answers.lines.items():
+        question = key.questions.get(name)
+        symbol = "" if question is None else marked.keyed.solution.solved.scale_of_plan.get(question.plan, "")
+        mu = line.mu or answers.scales.get(symbol)
+        if question is not None and mu is not None and question.plan in found:
+            ours = key.paper.mus[question.plan]
+            ways = (mu.value,) if mu.sure else (mu.value, 1.0 / mu.value)
+            found[question.plan] = min(ways, key=lambda way: abs(math.log(way / ours)))
+    return found
+
+
 def result_of(marked: Marked, language: str, reports: tuple[str, ...] = ()) -> Result:
     """Return what is kept of a student who was marked."""
     key, first = marked.keyed, marked.marking.first_wrong
-    segments = measured(marked.answers, marked.marking.key, marked.marking.key.paper.mus)
+    segments = measured(marked.answers, marked.marking.key, scales_of(marked))
     best = marked.candidates[0].mistakes if marked.candidates else ()
     return Result(
         marked.answers.source,
