@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...plans.marking.key import Key
-from .answers import Answers, Line
+from .answers import Answers
 
 FOUND = ("meet", "arc", "arcs", "tangent", "similar", "divide", "template")  # verbs that find a mark by drawing
 LEAST_MM = 5.0  # shorter segments say little
@@ -38,7 +38,7 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float]) -> dict[str, 
     mus : mapping of str to float
         The student's scale factors by plan, value in SI per mm.
     """
-    made = {step.name: step for step in key.paper.program}
+    made, step = {one.name: one for one in key.paper.program}, _resolution(answers)
     found = {}
     for name, line in answers.lines.items():
         question = key.questions.get(name)
@@ -49,14 +49,16 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float]) -> dict[str, 
         drawn = question.step.verb == "arm" or any(made[end].verb in FOUND for end in ends if end in made)
         if mu and drawn and abs(key[name]) / mu >= LEAST_MM:
             spread = max(HAND, key.allowed[name] / mu / 3.0)
-            found[name] = Measured(line.mm, abs(key[name]) / mu, _resolution(line), spread)
+            found[name] = Measured(line.mm, abs(key[name]) / mu, step, spread)
     return found
 
 
-def _resolution(line: Line) -> float:
-    """Return to what the segment is read: halves of a millimetre are written with one decimal."""
-    step = 10.0 ** -min(line.decimals, 3)
-    return 0.5 if line.decimals == 1 and line.mm is not None and (2.0 * line.mm).is_integer() else step
+def _resolution(answers: Answers) -> float:
+    """Return to what a student reads segments: halves of a millimetre are written with one decimal, too."""
+    lines = [line for line in answers.lines.values() if line.mm is not None]
+    decimals = min(max((line.decimals for line in lines), default=0), 3)
+    halves = all((2.0 * (line.mm or 0.0)).is_integer() for line in lines)
+    return 0.5 if decimals == 1 and halves else 10.0**-decimals
 
 
 def too_exact(segments: Mapping[str, Measured]) -> bool:
