@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-FREE = re.compile(r"R_\w+_t$|M_bal$|F_bal$|M_bal_lever$|F_bal_lever$")  # whose sense is assumed, and found by the sign
+FREE = re.compile(r"R_\w+$|M_\d\d$|[MF]_bal(_lever)?$")  # whose sense is assumed, and found by the sign
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from statistics import median
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...scales.names import unknown
 from ..board import Step
@@ -156,6 +156,15 @@ def _by_name(key: Key, answers: Iterable[Answer]) -> dict[str, Answer]:
     return found
 
 
+class _Held(NamedTuple):
+    """An answer held against a value: the verdict, how it was taken, by how much it misses."""
+
+    verdict: Verdict
+    said: Said
+    miss: Miss
+    against: Any
+
+
 class _Marker:
     """Marks the lines of one student, one after the other."""
 
@@ -164,7 +173,7 @@ class _Marker:
         self.true: dict[str, float] = {}  # to which scale the segments of a plan seem to be drawn
         self.ways: dict[str, tuple[Said, ...]] = {}  # to take each answer
         self.taken: dict[str, Said] = {}  # what the student goes on with
-        self.verdicts: dict[str, tuple[Verdict, Said, Miss]] = {}
+        self.held: dict[str, _Held] = {}
         self.failed = False
 
     def settle_scales(self, redraw: bool = True) -> None:
@@ -206,12 +215,16 @@ class _Marker:
         return (self._line(question, follows[question.name]) for question in self.key.questions.values())
 
     def _line(self, question: Question, follows: Any) -> Line:
-        name = question.name
-        verdict, way, found = self.verdicts.get(name, (Verdict.MISSING, None, Miss(NEVER, "")))
-        right, answer = self.key[name], self.answers.get(name)
-        said = None if way is None else way.taken(follows if follows == follows else right)
+        name, held = question.name, self.held.get(question.name)
+        right, allowed = self.key[name], self.key.allowed[name]
+        if held is None:
+            return Line(name, question.plan, Verdict.MISSING, None, None, right, follows, allowed, NEVER)
+        verdict, way, found, against = held
+        if verdict is Verdict.CARRIED:
+            follows = against
+        said = way.taken(follows if follows == follows else right)
         about = found.about if verdict.faulty else ""
-        allowed = self.key.allowed[name]
+        answer = self.answers[name]
         return Line(name, question.plan, verdict, answer, said, right, follows, allowed, found.off, about, way)
 
     def _judge(self, name: str, value: Any) -> tuple[Said | None, bool]:
@@ -221,43 +234,44 @@ class _Marker:
         """
         if name not in self.answers:
             return None, False
-        if name not in self.verdicts:
-            self.verdicts[name] = found = self._verdict(name, value)
-            self.failed |= found[0].faulty
-        verdict, said, _ = self.verdicts[name]
-        if self._miss(said, name, value).off <= 1.0:
+        if name not in self.held:
+            self.held[name] = self._verdict(name, value)
+            self.failed |= self.held[name].verdict.faulty
+        held = self.held[name]
+        if self._miss(held.said, name, value).off <= 1.0:
             return None, False
-        return said, verdict is Verdict.WRONG
+        return held.said, held.verdict is Verdict.WRONG
 
-    def _verdict(self, name: str, value: Any) -> tuple[Verdict, Said, Miss]:
+    def _verdict(self, name: str, value: Any) -> _Held:
         answer = self.answers[name]
-        verdict, said, found = self._held(self.ways[name], name, value)
+        held = self._held(self.ways[name], name, value)
         if answer.value is not None and (instead := measured(answer, self.mus[name])):
             agrees = any(abs(x - abs(answer.value)) <= self._slack(name, x) for x in instead)
-            by_mm = self._held(readings(answer, instead), name, value)[0]
-            if not agrees and verdict.passed is not by_mm.passed:
-                return Verdict.ARITHMETIC, said, found
-        if not verdict.passed and found.about == SIZE and self._is_scale(name, value):
-            verdict = Verdict.SCALE
-        return verdict, said, found
+            by_mm = self._held(readings(answer, instead), name, value).verdict
+            if not agrees and held.verdict.passed is not by_mm.passed:
+                return held._replace(verdict=Verdict.ARITHMETIC)
+        if not held.verdict.passed and held.miss.about == SIZE and self._is_scale(name, value):
+            return held._replace(verdict=Verdict.SCALE)
+        return held
 
     def _slack(self, name: str, value: float) -> float:
         tolerance, mu = self.key.tolerance, self.key.paper.mus.get(self.key.questions[name].plan, 0.0)
         return SLACK * max(tolerance.mm * float(mu), tolerance.part * value)
 
-    def _held(self, ways: tuple[Said, ...], name: str, value: Any) -> tuple[Verdict, Said, Miss]:
+    def _held(self, ways: tuple[Said, ...], name: str, value: Any) -> _Held:
         """Hold an answer against the right value, and against what follows."""
-        said, found = right = self._best(ways, name, self.key[name])
-        if found.off <= 1.0:
-            return Verdict.RIGHT, said, found
-        follows = (self.drawn.get(name), value)
-        said, found = min((right, *(self._best(ways, name, x) for x in follows)), key=_off)
-        if found.off <= 1.0:
-            return Verdict.CARRIED if self.failed else Verdict.RIGHT, said, found
-        return Verdict.WRONG, self.taken[name], found
+        right = self._best(ways, name, self.key[name])
+        if right.miss.off <= 1.0:
+            return right
+        follows = [self._best(ways, name, x) for x in (value, self.drawn.get(name))]
+        found = min((right, *follows), key=_off)
+        if found.miss.off <= 1.0:
+            return found._replace(verdict=Verdict.CARRIED if self.failed else Verdict.RIGHT)
+        return _Held(Verdict.WRONG, self.taken[name], found.miss, value)
 
-    def _best(self, ways: tuple[Said, ...], name: str, value: Any) -> tuple[Said, Miss]:
-        return min([(way, self._miss(way, name, value)) for way in ways], key=_off)
+    def _best(self, ways: tuple[Said, ...], name: str, value: Any) -> _Held:
+        """Return the way to take an answer that misses a value least."""
+        return min([_Held(Verdict.RIGHT, way, self._miss(way, name, value), value) for way in ways], key=_off)
 
     def _miss(self, way: Said, name: str, value: Any) -> Miss:
         """Return the miss; a value that follows from larger ones may miss in proportion."""
@@ -277,11 +291,11 @@ class _Marker:
         true = self.true.get(self.key.questions[name].plan)
         if true is not None and answer.mm:
             others.append(answer.mm * true)
-        return any(self._held(readings(answer, (x,)), name, value)[0].passed for x in others)
+        return any(self._held(readings(answer, (x,)), name, value).verdict.passed for x in others)
 
 
-def _off(found: tuple[Said, Miss]) -> float:
-    return found[1].off
+def _off(held: _Held) -> float:
+    return held.miss.off
 
 
 def _nearest(mu: float, ours: float) -> float:
