@@ -50,7 +50,7 @@ def _heads(found: Depth, words: Words) -> Sequence[str]:
 
     def of(key: str, name: str, value: float) -> str:
         unit = words.display.unit(unit_of(name))
-        size = words.short(words.display.value(value, unit_of(name)), 4)
+        size = words.short(float(f"{words.display.value(value, unit_of(name)):.4g}"))
         symbol = mathtext(words.symbol(name))
         return words[key].format(name=symbol, value=size, unit=format_unit(unit, words.language, raised=True))
 
@@ -91,16 +91,16 @@ def _rows(
     axes.grid(True, axis="x")
     axes.set_axisbelow(True)
     axes.axvline(tolerance, color=BLACK, lw=0.9, ls=(0, (6, 2)))
-    axes.text(
-        tolerance,
-        -0.02,
+    axes.annotate(
         words["chart.tolerance"].format(value=words.short(tolerance)),
-        transform=axes.get_xaxis_transform(),
+        (tolerance, 0.0),
+        (0.0, -17.0),
+        xycoords=axes.get_xaxis_transform(),
+        textcoords="offset points",
         ha="center",
         va="top",
         fontsize=SMALL,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
-        zorder=4,
+        arrowprops={"arrowstyle": "-", "lw": 0.5, "shrinkB": 0.0},
     )
     for row, (most, mean) in enumerate(pairs):
         at, half = (min(max(value, LEAST), MOST) for value in (most, mean))

@@ -71,7 +71,7 @@ def page(title: str, note: str, draw: Callable[[Figure], None]) -> Figure:
         figure = Figure(figsize=(WIDTH * MM, HEIGHT * MM), dpi=DPI)
         FigureCanvasAgg(figure)
         figure.text(LEFT / WIDTH, 1.0 - (TOP - 4.0) / HEIGHT, title, fontsize=TEXT + 2.5, va="center")
-        lines = "\n".join(line for part in note.split("\n") for line in textwrap.wrap(part, 190) or [""])
+        lines = "\n".join(line for part in note.split("\n") for line in textwrap.wrap(part, 175) or [""])
         figure.text(LEFT / WIDTH, BOTTOM / HEIGHT, lines, fontsize=SMALL, va="center", linespacing=1.35)
         draw(figure)
     return figure

@@ -33,6 +33,7 @@ LOOKS: tuple[tuple[Any, str], ...] = (
     ((0, (10, 3)), "v"),
     ((0, (3, 1, 1, 1, 1, 1)), "x"),
 )
+FARTHEST = 1e3  # mm or per cent beyond which nothing is drawn
 MARKED = 12  # markers along a curve
 SPOTS = {CHANGE: "chart.change", POLE: "chart.parallel", LIMIT: "chart.limit"}
 
@@ -81,6 +82,7 @@ def stability_page(
             strict=True,
         ):
             _curves(axes, x[order], {n: found.misses[n][order] for n in names}, looks, words)
+            axes.set_ylim(top=min(axes.get_ylim()[1], FARTHEST))
             _log(axes, words[f"chart.{key}"], words)
         for axes in fields:
             _along(axes, along, x)

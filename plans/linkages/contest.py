@@ -1,7 +1,7 @@
 """Speed against accuracy: the rivals over the cycle of one mechanism, their errors beside fifty digits, their times.
 
-The error of a quantity counts in parts of the largest vector of its plan; of a method the worst one counts, over all
-quantities of a kind and all positions.
+The error of a quantity counts in parts of the largest vector of its plan, of a number that no plan shows in parts of
+its unit's largest over the cycle; of a method the worst one counts, over all quantities of a kind and all positions.
 """
 
 from __future__ import annotations
@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from ..exact import run
 from ..hand import Hand
+from ..laws import TURN
 from ..precision import run_in
 from ..shaky import Paper, draw
-from ..worth import references
+from ..worth import plans_of, references
 from .cycle import Cycle
 from .rivals import Group, Newton, Rivals, Values, Way, groups
 
@@ -34,6 +35,7 @@ ROUNDS, ENOUGH, LONG = (
     0.05,
     1.0,
 )  # runs of a piece of work, seconds of work that need no repeating, that are too many
+NEAR_DEAD = 0.01  # part of the cycle
 DRAWN, DRAWINGS, SHARE = 12, 400, 0.95  # positions that a hand draws, how many times, the part of drawings that counts
 
 
@@ -143,8 +145,26 @@ def truth(cycle: Cycle, places: Array, names: Sequence[str]) -> Truth:
         for name in names:
             high[name][i] = complex(exact[name])
             low[name][i] = complex(exact[name] - high[name][i])
-            sizes[name][i] = size[name] or np.nan
-    return Truth(high, low, sizes)
+            sizes[name][i] = size[name]
+    return Truth(high, low, {name: _beside(cycle, name, sizes[name]) for name in names})
+
+
+def _not_dead(cycle: Cycle, places: Array) -> Array:
+    """Return the places that are off dead positions: a hand that errs there takes one stroke for the other."""
+    near = NEAR_DEAD * abs(cycle.range.high - cycle.range.low)
+    off = np.ones(len(places), bool)
+    for dead in (dead for motion in cycle.motions for dead in motion.dead):
+        away = places - dead.angle
+        off &= np.abs(away - TURN * np.rint(away / TURN) if cycle.drive.turns else away) > near
+    return places[off]
+
+
+def _beside(cycle: Cycle, name: str, sizes: Array) -> Array:
+    """Return the sizes beside which errors count: of a number that no plan shows the largest over the cycle."""
+    if name not in plans_of(cycle.program):
+        sizes = np.where(np.isnan(sizes), np.nan, np.nanmax(sizes, initial=0.0))
+    found: Array = np.where(sizes > 0.0, sizes, np.nan)
+    return found
 
 
 def one_of(givens: Mapping[str, Any], position: int) -> dict[str, float]:
@@ -273,7 +293,7 @@ def by_hand(
     paper : str
         What the hand draws on, the setting of the entries.
     """
-    places, kinds = places_of(cycle, DRAWN), tuple(kinds)
+    places, kinds = _not_dead(cycle, places_of(cycle, DRAWN)), tuple(kinds)
     names = tuple(name for group in kinds for name in group.names)
     program, givens = cycle.program.needed_for(names), cycle.drive.givens(cycle.givens, places, cycle.program)
     column = {name: value[:, None] if np.ndim(value) else value for name, value in givens.items()}
@@ -285,7 +305,7 @@ def by_hand(
         exact = np.array([one.values[name] for one in runs])[:, None]
         off = np.broadcast_to(np.abs(board.values[name] - exact), (len(places), DRAWINGS))
         misses = np.sort(off, axis=1)  # what cannot be drawn comes last
-        size = np.array([size[name] or np.nan for size in sizes])
+        size = _beside(cycle, name, np.array([size[name] for size in sizes]))
         errors[name] = misses[:, int(np.ceil(SHARE * DRAWINGS)) - 1] * (1.0 / size)
     for group in kinds:
         yield summed(HAND, paper, group, places, errors, None, 1)

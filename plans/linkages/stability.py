@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..board import Program
 from ..condition import conditions
-from ..exact import run
+from ..exact import SMALL, run
 from ..hand import Hand
 from ..laws import TURN
 from ..shaky import Paper, Shape, draw
@@ -51,7 +51,7 @@ class Stability:
         K of every quantity.
     misses : mapping of str to float64 array
         What most drawings of a hand keep, in millimetres where a plan shows the quantity, otherwise in per cent of its
-        largest value over the cycle; `in_mm` tells which.
+        largest value over the cycle, where lines do not meet flatly; `in_mm` tells which.
     """
 
     places: Array
@@ -87,32 +87,40 @@ def stability(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand
     mus : mapping of str to float
         Scale factors by plan, SI per mm.
     """
-    places = cycle.angles
-    statuses = list(cycle.statuses)
-    sines, worst = np.full(len(places), np.nan), [""] * len(places)
-    found = {name: np.full(len(places), np.nan) for name in names}
-    lost = undetermined_at(cycle.drive, cycle.reach, places)
-    givens = cycle.drive.givens(cycle.givens, _within(cycle, places), cycle.program)
-    for i in range(len(places)):
+    lost = undetermined_at(cycle.drive, cycle.reach, cycle.angles)
+    sines, worst, found = _conditions(cycle, names, lost)
+    plans = plans_of(cycle.program)
+    in_mm = {name: plans.get(name, "") in mus for name in names}
+    misses = _misses(cycle, names, mus, hand, seed)
+    steep = sines >= SMALL if (sines >= SMALL).any() else np.ones(len(sines), bool)
+    for name in names:
+        sizes = np.abs(np.broadcast_to(cycle.values[name], len(sines)))[steep]
+        size = mus[plans[name]] if in_mm[name] else np.nanmax(sizes, initial=0.0) / 100.0
+        misses[name] = np.where(lost, np.nan, misses[name]) * (1.0 / size if size else np.nan)
+    return Stability(cycle.angles, cycle.statuses, sines, worst, found, misses, in_mm, spots(cycle))
+
+
+def _conditions(
+    cycle: Cycle, names: Sequence[str], lost: NDArray[np.bool_]
+) -> tuple[Array, tuple[str, ...], dict[str, Array]]:
+    """Return the worst sine of every position, the mark where it is, and K of every quantity."""
+    count, fixed = len(cycle.angles), signs(cycle.mechanism)
+    sines, worst = np.full(count, np.nan), [""] * count
+    found = {name: np.full(count, np.nan) for name in names}
+    givens = cycle.drive.givens(cycle.givens, _within(cycle, cycle.angles), cycle.program)
+    for i in range(count):
         values = one_of(givens, i)
         board = run(cycle.program, values)
         if board.trouble is not None or lost[i]:
             sines[i] = 0.0 if board.status == "singular" or lost[i] else np.nan
             continue
         sines[i], worst[i] = _worst(cycle.program, board.sines, names)
-        fixed = signs(cycle.mechanism)
         varied = [name for name, value in values.items() if name not in fixed and value]
         known = conditions(cycle.program, values, varied, board.values, board.sines)
         for name in names:
             value = known[name].value
             found[name][i] = np.nan if value is None else value
-    plans = plans_of(cycle.program)
-    in_mm = {name: plans.get(name, "") in mus for name in names}
-    misses = _misses(cycle, names, mus, hand, seed)
-    for name in names:
-        size = mus[plans[name]] if in_mm[name] else np.nanmax(np.abs(cycle.values[name]), initial=0.0) / 100.0
-        misses[name] = np.where(lost, np.nan, misses[name]) * (1.0 / size if size else np.nan)
-    return Stability(places, tuple(statuses), sines, tuple(worst), found, misses, in_mm, spots(cycle))
+    return sines, tuple(worst), found
 
 
 def _within(cycle: Cycle, places: Array) -> Array:
@@ -123,7 +131,8 @@ def _within(cycle: Cycle, places: Array) -> Array:
 
 def _worst(program: Program, sines: Mapping[str, float], names: Sequence[str]) -> tuple[float, str]:
     """Return the least sine on which any of the names hangs, and the mark where the lines meet so."""
-    least = min((worst_behind(program, sines)[name] for name in names), default=1.0)
+    behind = worst_behind(program, sines)
+    least = min((behind[name] for name in names), default=1.0)
     needed = {step.name for step in program.needed_for(names)}
     marks = [mark for mark, sine in sines.items() if mark in needed and abs(sine) == least]
     return least, marks[0] if marks else ""
