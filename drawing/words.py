@@ -26,7 +26,7 @@ GREEK = {
 # (e) and relative rotation (r).
 PARTS = {
     **dict.fromkeys(("V", "a"), ("n", "t", "k", "r", "e", "en", "et", "rn", "rt")),
-    **dict.fromkeys(("R",), ("n", "t")),
+    **dict.fromkeys(("R",), ("n", "t", "m", "p")),
 }
 OF_LINKS = ("R", "M", "h")  # quantities whose two digits are the links of a pair
 OF_LINK = ("omega", "epsilon", "P")  # quantities of one link: rates, instant centre
@@ -148,8 +148,8 @@ class Words:
         if head == "mu":  # forces of a group or of the driver alike
             of = rest[0]
             index = letters.get(f"mu_{of}", letters.get(of, GREEK.get(of, of)))
-            # on a diagram of angles over an angle two scale factors differ by the link
-            return f"{letters['mu']}_{{{index}{rest[1] if of == 'phi' and len(rest) > 1 else ''}}}"
+            # on a diagram of angles over an angle two scale factors differ by the link; a link apart may have its own
+            return f"{letters['mu']}_{{{index}{rest[1] if of in ('phi', 'l') and len(rest) > 1 else ''}}}"
         if head == "H":  # a pole distance, by what its diagram shows
             return f"H_{{{letters.get(rest[0], GREEK.get(rest[0], rest[0]))}}}"
         above = ""

@@ -13,6 +13,7 @@ from kulman.drawing.style import STYLES
 from kulman.drawing.view import Canvas
 from kulman.tests.linkage_cases import Linkage
 from kulman.tests.linkage_points import l1_plan, l5_similarity, l7_senses
+from kulman.tests.printed_numbers import lines_of
 from kulman.tests.readback import View, read
 from kulman.tests.sheet_geometry import same
 
@@ -135,6 +136,20 @@ def test_forces_on_one_line_stay_near_their_slider() -> None:
     reach = [max(abs(a.tail - pin), abs(a.tip - pin)) for a in (view.arrow(name) for name in ("F_i5", "G_5", "F_5"))]
 
     assert max(reach) < 3 * long
+
+
+def test_driver_with_a_short_crank_is_drawn_larger() -> None:
+    """Its arms are measured on that figure: the equation of M_bal has its scale factor."""
+    drawn = sheet("scheme-17-sewing-machine", only="velocity,acceleration,forces", format="A1", lang="en")
+    read_back = read(*(drawn.svg(number) for number in range(1, len(drawn.pages) + 1)))
+    view, found = read_back["driver"], solve("scheme-17-sewing-machine").solved
+    mu = drawn.scales["driver"].mu
+
+    assert abs(view.point("A") - view.point("O")) > 40.0
+    assert abs(abs(view.point("A") - view.point("O")) * mu - found.values["l_OA"]) < 1e-5 * mu
+    assert any(t.string == f"μ_{{l1}} = {mu:g} m/mm" for t in view.of("heading"))
+    (equation,) = [line for line in lines_of(read_back["equations_forces_1"]) if "M_{bal} = " in line]
+    assert "·μ_{l1}" in equation
 
 
 def test_block_lies_in_its_link_and_turns_with_it() -> None:

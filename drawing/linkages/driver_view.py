@@ -4,21 +4,44 @@ from __future__ import annotations
 
 import math
 from cmath import phase, rect
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from ...plans.board import POSITION
 from ...plans.linkages.mechanism import FRAME, Driver, Prismatic
+from ...scales.scale import Scale
 from ..shapes import Arrow, Group, Line, Shape
 from ..symbols import turning_arrow
 from ..view import Canvas, View
 from .acting import Contact, couples, handed, loads, moments_of
 from .group_view import Sketch
 from .links import draw_frame, draw_links, foot_of, letter_links
-from .scene import Scene
+from .scene import DRIVER, Scene
 from .skeleton import guide_of
+
+
+class Apart(Mapping[str, Scale]):
+    """Scale factors by plan, that of the driver's own figure in the place of that of the mechanism."""
+
+    def __init__(self, scales: Mapping[str, Scale]) -> None:
+        self._scales = scales
+
+    def __getitem__(self, plan: str) -> Scale:
+        """Return the scale factor of a plan."""
+        return self._scales[DRIVER if plan == POSITION and DRIVER in self._scales else plan]
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the plans."""
+        return iter(self._scales)
+
+    def __len__(self) -> int:
+        """Return the number of plans."""
+        return len(self._scales)
 
 
 def driver_view(scene: Scene) -> View:
     """Draw the driver with all reactions on it, its own loads, R_01, what balances it, and the arms of the forces."""
+    scene = replace(scene, scales=Apart(scene.scales))
     canvas, number = Canvas(scene.style), scene.solved.structure.driver
     figures = draw_links(canvas, scene, (number,))
     draw_frame(canvas, scene, (number,), figures)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from ...plans.board import POSITION, Step
+from ...plans.board import Step
 from ...plans.linkages.solved import Solved
 from ...scales.display import AS_INSIDE
 from ..table import text_block
@@ -183,7 +183,7 @@ def _reach(scene: Scene, name: str, length: str) -> Product:
     if made is None or made.verb == "measure":
         return Product((factor(scene, length),))
     arm = next(s for s in reading.program if s.verb == "arm" and s.operands[1] == name)
-    return Product(on_arm(scene, arm.name, POSITION))
+    return Product(on_arm(scene, arm.name))
 
 
 def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> Lines:

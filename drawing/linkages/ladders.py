@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ...plans.board import POSITION
+from ...plans.linkages.mechanism import Driver
 from ...plans.linkages.solved import Solved
 from ...scales.choose import UNITS, Choosers, CrankScale, Round
 from ...scales.errors import InputError
 from ...scales.scale import Scale, steps
+from .scene import DRIVER
 
 Ladders = Mapping[str, tuple[float, ...]]
 LONGEST = 130.0  # mm, the longest segment of a plan whose scale factor nobody has chosen
 LARGEST = 200.0  # mm, the same for the mechanism from joint to joint, and for plans of many vectors
 CROWD, HUNG = 14, 8  # vectors on one plan; forces on the lever
 DRAWN = ("read", "chain")
+CRANK = 45.0  # mm, the least length of a crank drawn apart
 FINER = 2.05  # times that a plan may be enlarged whose pages have room to spare
 
 
@@ -90,4 +93,17 @@ def _plan_of(quantity: str, shown: Mapping[str, str]) -> str:
 def by_plan(solved: Solved, mus: Mapping[str, float]) -> dict[str, Scale]:
     """Return the scale factors of the plans from their values by symbol."""
     plans = solved.scale_of_plan.items()
-    return {plan: Scale(symbol, mus[symbol], UNITS[symbol.split("_")[1]]) for plan, symbol in plans}
+    scales = {plan: Scale(symbol, mus[symbol], UNITS[symbol.split("_")[1]]) for plan, symbol in plans}
+    return {**scales, DRIVER: _of_driver(solved, scales[POSITION])}
+
+
+def _of_driver(solved: Solved, scale: Scale) -> Scale:
+    """Return the scale factor of the driver drawn apart: its own, larger one where the crank is short on the plan."""
+    driver = solved.mechanism.driver
+    if not isinstance(driver, Driver):
+        return scale
+    crank = abs(solved.point(driver.point) - solved.point(driver.pivot))
+    if not 0.0 < crank < CRANK * scale.mu:
+        return scale
+    finer = [mu for mu in steps(crank / CRANK / 10.0) if mu <= crank / CRANK]
+    return Scale(f"{scale.symbol}_{driver.link}", finer[-1], scale.unit)

@@ -6,12 +6,12 @@ import math
 import re
 from collections.abc import Iterable
 
-from ...plans.board import POSITION, Step
+from ...plans.board import Step
 from ...plans.linkages.mechanism import ZERO, Driver, Revolute
 from ...plans.linkages.structure import Group
 from ..printed import POINT
 from .equations import Factor, Product, factor, paper, segment, size_of
-from .reading import plan_of, read
+from .reading import read
 from .scene import Scene
 
 
@@ -33,7 +33,7 @@ def _factors(scene: Scene, name: str) -> tuple[Factor, ...]:
     step = reading.step(name)
     if step is not None and step.verb == "moment":
         arm = next(s for s in reading.users(name) if s.verb == "arm")
-        return factor(scene, step.operands[0]), *on_arm(scene, arm.name, plan_of(step.operands[1]) or POSITION)
+        return factor(scene, step.operands[0]), *on_arm(scene, arm.name)
     if step is not None and step.law == "couple_on_lever":
         scale = paper(scene.words, scene.scales["lever"])
         over = Factor(scale.symbol, scale.value, scale.exact, -scale.power)
@@ -41,8 +41,9 @@ def _factors(scene: Scene, name: str) -> tuple[Factor, ...]:
     return (factor(scene, name),)
 
 
-def on_arm(scene: Scene, arm: str, plan: str) -> tuple[Factor, ...]:
+def on_arm(scene: Scene, arm: str) -> tuple[Factor, ...]:
     """Return an arm in mm, and the scale factor unless the plan's own cancels, as on the lever."""
+    plan = scene.figure_of(arm)
     own = segment(scene, scene.words.symbol(arm), plan, size_of(scene, arm))
     return (own,) if plan == "lever" else (own, paper(scene.words, scene.scales[plan]))
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ...plans.board import POSITION
+from ...plans.linkages.mechanism import Driver
 from ...plans.linkages.solved import Solved
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
@@ -18,6 +19,7 @@ from ..words import Words
 if TYPE_CHECKING:  # runs are found with numpy, which a solution does without
     from ...plans.linkages.slider_runs import Runs
 
+DRIVER = "driver"  # the figure of the driver apart, among the plans that have scale factors
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 
 
@@ -75,11 +77,30 @@ class Scene:
         """Return the printed millimetres of a quantity that a plan shows."""
         item = self.solved.quantities[name]
         value = item.value or 0.0
-        plan = self.solved.shown_on[name]
+        plan = self.figure_of(name)
         places, _ = segment_decimals(value, self.scales[plan].mu)
         return self.words.number(abs(value) / self.scales[plan].mu, places)
+
+    def figure_of(self, name: str) -> str:
+        """Return the plan, or the figure with a scale factor of its own, on which a quantity is a segment."""
+        plan = self.solved.shown_on[name]
+        own = plan == POSITION and DRIVER in self.scales and name in arms_of_driver(self.solved)
+        return DRIVER if own else plan
 
     def heading(self, key: str, *plans: str, **fill: str) -> tuple[str, ...]:
         """Return the heading lines of a view: its name and the scale factors of `plans`."""
         scales = dict.fromkeys(self.words.scale(self.scales[plan]) for plan in plans)
         return (self.words[key].format(**fill), *scales)
+
+
+def arms_of_driver(solved: Solved) -> frozenset[str]:
+    """Return the arms about the driver's pivot of the forces on the driver, which its own figure shows."""
+    driver = solved.mechanism.driver
+    if not isinstance(driver, Driver):
+        return frozenset()
+    loads = {load.name for load in solved.mechanism.loads_on(driver.link)}
+    forces = {f"F_i{driver.link}", f"G_{driver.link}", *loads}
+    forces |= {f"R_{link.number}{driver.link}" for link in solved.mechanism.links}
+    taken = {s.name for s in solved.program if s.verb == "moment" and s.operands[0] in forces}
+    taken &= {s.name for s in solved.program if s.verb == "moment" and s.operands[2] == driver.pivot}
+    return frozenset(s.name for s in solved.program if s.verb == "arm" and s.operands[0] in taken)
