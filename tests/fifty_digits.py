@@ -10,7 +10,7 @@ from mpmath import mp, mpf
 from kulman.plans.board import Program
 from kulman.plans.fifty_digits import DIGITS, fifty_digits
 
-STEP = mpf(10) ** -16  # part of a given; the error of a central difference is its square
+STEP = mpf(10) ** -13  # part of a given, more than a right angle is rounded by; the error of a difference is its square
 
 
 def differences(

@@ -24,9 +24,10 @@ from kulman.plans.worth import references, results
 from kulman.tests.fifty_digits import differences
 from kulman.tests.mechanisms import SEED, general_slider_crank, nau_slider_crank, nau_values, one_of
 from kulman.tests.mechanisms import random_slider_cranks as random_cranks
+from kulman.variants.shelf import bundled
 
 TASKS = ("nau-slider-crank", "madi-four-bar", "scheme-10-shaper-two-blocks", "scheme-11-slotter")
-MORE = ("bertyaev-six-bar", "scheme-09-shaper", "scheme-17-sewing-machine", "scheme-18-hydraulic-drive")
+MORE = [task for task in bundled() if task not in TASKS]
 
 
 def worst_difference(program: Any, givens: Mapping[str, Any], names: tuple[str, ...]) -> tuple[float, str]:
@@ -152,6 +153,18 @@ def test_solve_shows_conditions_when_asked() -> None:
     assert "condition" not in solve("nau-slider-crank", "example").to_json()["quantities"]["V_B"]
     row = next(line for line in solution.table("en").splitlines() if line.startswith("V_B "))
     assert row.split()[-4:] == ["K", f"{item['condition']:.3g}", "sin", f"{item['sine']:.3g}"]
+
+
+@pytest.mark.parametrize("task", bundled())
+def test_every_quantity_of_every_task_has_a_condition_and_a_sine(task: str) -> None:
+    quantities = solve(task, condition=True).to_json()["quantities"]
+
+    for name, item in quantities.items():
+        assert 0.0 < item["sine"] <= 1.0, name
+        undefined = item.get("value", item.get("x")) is None
+        assert (item["condition"] is None) == undefined, name
+        assert undefined or item["condition"] >= 0.0, name
+    assert json.loads(json.dumps(quantities, allow_nan=False)) == quantities
 
 
 def test_json_of_the_command_line_carries_conditions() -> None:
