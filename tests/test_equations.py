@@ -175,7 +175,7 @@ def test_slotted_link_has_coincident_points_and_coriolis() -> None:
     assert told(scene, "VP5 =") == "VP5 = [[VQ]] + [VP5Q] = [[VP]] + [VP5P4], VP5Q ⊥ QP, VP5P4 ∥ x–x"
     acceleration = "aP5 = [[aQ]] + [[anP5Q]] + [atP5Q] = [[aP]] + [[akP5P4]] + [arP5P4], atP5Q ⊥ QP, arP5P4 ∥ x–x"
     assert told(scene, "aP5 =") == acceleration
-    assert told(scene, "akP5P4 = 2·ω5·VP5P4 =").endswith("akP5P4: VP5P4 turned by 90° with ω5")
+    assert told(scene, "akP5P4 = 2·ω5·VP5P4 =").endswith("akP5P4: VP5P4 turned by 90° in the sense of ω5")
     assert told(scene, "ω4 = ω5 =")
 
 
