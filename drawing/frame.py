@@ -28,11 +28,12 @@ def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm = "gost", first: bool =
     edge = _rectangle((0.0, 0.0, sheet.width, sheet.height), t, "edge")
     frame = _rectangle(drawing_area(sheet, norm), T, "frame")
     x0, y0, _, _ = block_box(sheet, norm, first)
+    identity = (_identity(sheet, stamp),) if stamp.identity else ()
     if norm == "iso":
-        return edge, frame, centring_marks(sheet), _at_corner(iso_block(stamp), "iso-7200", x0, y0)
+        return edge, frame, centring_marks(sheet), _at_corner(iso_block(stamp), "iso-7200", x0, y0), *identity
     parts, name = (form_1(stamp), "form-1") if first else (form_2a(stamp), "form-2a")
     around = [_below(sheet, stamp), _turned(sheet, stamp)] if first else [_below(sheet, stamp)]
-    return edge, frame, _at_corner(parts, name, x0, y0), *around
+    return edge, frame, _at_corner(parts, name, x0, y0), *around, *identity
 
 
 def _rectangle(box: Box, pen: Pen, role: str) -> Polyline:
@@ -57,6 +58,13 @@ def _below(sheet: Format, stamp: Stamp) -> Group:
     copied = Text(complex(right - 120, 1.3), caption["copied"], 2.5, role="stamp", name="copied")
     size = Text(complex(right - 50, 1.3), caption["format"].format(sheet.letters), 2.5, role="stamp", name="format")
     return Group((copied, size), "margin")
+
+
+def _identity(sheet: Format, stamp: Stamp) -> Group:
+    """Return the id of the sheet under the frame, at its left end, to be copied into a form of answers."""
+    at = complex(drawing_area(sheet)[0] + 2.0, 1.3)
+    text = words(stamp.language)["identity"].format(stamp.identity)
+    return Group((Text(at, text, 2.5, role="stamp", name="identity"),), "margin", "identity")
 
 
 def _turned(sheet: Format, stamp: Stamp) -> Group:

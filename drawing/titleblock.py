@@ -15,7 +15,10 @@ CAPTION = (2.5,)
 
 @dataclass(frozen=True, slots=True)
 class Stamp:
-    """What the title block says; an empty field stays blank on the sheet."""
+    """What the title block says; an empty field stays blank on the sheet.
+
+    `identity` stands under the frame: what tells sheets of one task from one another.
+    """
 
     title: str = ""
     designation: str = ""
@@ -29,6 +32,7 @@ class Stamp:
     sheets: int = 1
     scale: str = ""
     language: str = "uk"
+    identity: str = ""
 
 
 # From the bottom left corner of the block: level and ends of horizontal lines, place and ends of vertical ones, mm.

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from kulman import cli, load_task, solve
+from kulman import cli, load_task, sheet, solve
 from kulman.plans.hand import PRESETS
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.marking.keyed import asked_of
@@ -305,3 +305,10 @@ def test_the_command_knows_all_presets() -> None:
     option = next(param for param in cli.check.params if param.name == "preset")
 
     assert option.type.words == tuple(PRESETS)
+
+
+@pytest.mark.parametrize("norm", ["gost", "iso"])
+def test_a_sheet_bears_the_id_that_its_form_asks_for(tmp_path: Path, norm: str) -> None:
+    sheet(TASK, "3", only="velocity", norm=norm, lang="en").save(tmp_path / "sheet.svg")
+
+    assert f"Sheet id: {sheet_id(load_task(TASK), '3')}" in (tmp_path / "sheet.svg").read_text(encoding="utf-8")

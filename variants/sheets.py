@@ -23,6 +23,7 @@ from ..scales.names import unknown
 from ..scales.scale import Scale
 from .arguments import of_kind
 from .case import Case, Settings, solve_case
+from .marking.sheet_id import sheet_id
 from .task import Task
 
 if TYPE_CHECKING:
@@ -150,6 +151,7 @@ def sheet(
         date=date,
         document_type=words["sheet.document"],
         language=lang,
+        identity=sheet_id(case.task, case.variant, case.settings),
     )
     contents = Contents(case.solved, case.plans, case.choosers, case.givens, words, norm, _cycle(case))
     return _drawn(contents, stamp, paper, case.warnings)
