@@ -250,9 +250,10 @@ class ExactBoard(TemplateBoard):
         sine = self._sine_of.get(key)
         if sine is None:
             sine = self._sine_of[key] = self._lines_sine(cross(u, w))
-        if q is POLE:  # on its line to the last bit, however far the way along the other
-            return w * (cross(u, p) / sine)
-        return self._chain(p, u * (cross(self._read(p, q), w) / sine))
+        found = self._chain(p, u * (cross(self._read(p, q), w) / sine))
+        if q is POLE:  # however far the way was, the point lies on the line through the pole to its own last digit
+            return found - (w * 1j) * cross(w, found)
+        return found
 
     def _arc(self, centre: Any, radius: Any, q: Any, w: Any, side: Any) -> Any:
         to_centre = self._read(q, centre)
