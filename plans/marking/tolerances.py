@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,7 @@ from ..worth import results, worst_behind
 
 READ = ("read", "measure", "distance")
 ROUNDING = 1e-9  # part of a tolerance
+MARKS = 0.35  # part of the tolerance in mm by which two marks miss each other: twice their standard deviation
 
 
 def tolerances(
@@ -28,9 +29,10 @@ def tolerances(
 
     Of a segment that is read |difference| <= max(mm, part of it, tilt) / |sin gamma|, gamma being the angle of the
     lines whose meeting is read, the worst of those behind the segment's ends on its own plan. The tilt is what the
-    longest segment of the plan misses at its end when its direction misses by the degrees of the preset: a short side
-    closes a plan of long vectors no better. Of an arm it is that of the way to the point of the force. A calculated
-    quantity inherits what the segments in it may miss; data have none.
+    longest segment of the plan misses at its end when its direction misses, by the degrees of the preset and by what
+    the marks at the ends of a short link do to its direction: a short side closes a plan of long vectors no better. Of
+    an arm it is that of the way to the point of the force. A calculated quantity inherits what the segments in it may
+    miss; data have none.
 
     Parameters
     ----------
@@ -41,6 +43,7 @@ def tolerances(
     """
     rule = _Rule(paper, values, worst_behind(paper.program, sines, same_plan), most, {}, _longest(paper, values))
     for step in paper.program:
+        rule.slants[step.name] = rule.slant(step)
         rule.allowed[step.name] = float(rule.of(step))
     return {step.name: rule.allowed[step.name] for step in results(paper.program)}
 
@@ -55,13 +58,15 @@ class _Rule:
     most: Tolerance
     allowed: dict[str, float]
     longest: Mapping[str, float]
+    slants: dict[str, float] = field(default_factory=dict)
 
     def of(self, step: Step) -> Any:
         """Return by how much the result of a step may differ, SI."""
         values = self.values
         if step.verb in READ:
             mu, sine = self._mu(step.operands[0]), min(self.flat.get(mark, 1.0) for mark in step.operands)
-            least = self._tilt(self.longest.get(step.plan, 0.0)) / sine
+            slant = max(self.slants.get(mark, 0.0) for mark in step.operands)
+            least = self._tilt(self.longest.get(step.plan, 0.0), slant) / sine
             return max(self.most.of_segment(abs(values[step.name]) / mu, sine) * mu, least)
         if step.verb == "moment":
             force, at, about = step.operands
@@ -76,9 +81,18 @@ class _Rule:
         is_point = step.verb in POINTS and "." not in step.name
         return self.most.mm * self._mu(step.name) / self.flat[step.name] if is_point else 0.0
 
-    def _tilt(self, length: float) -> float:
+    def slant(self, step: Step) -> float:
+        """Return by how much directions behind a mark miss because links are short on paper, radians."""
+        if step.verb in (*READ, "calc", "moment", "arm"):
+            return 0.0
+        if step.verb == "direction" and not step.name.startswith("_"):
+            length = abs(self.values[step.operands[2]])
+            return MARKS * self.most.mm * self._mu(step.operands[0]) / length if length > 0.0 else 0.0
+        return max((self.slants.get(name, 0.0) for name in step.operands), default=0.0)
+
+    def _tilt(self, length: float, slant: float = 0.0) -> float:
         """Return what a line of this length misses at its end when its direction does."""
-        return math.radians(self.most.degrees) * length if length == length else 0.0
+        return math.hypot(math.radians(self.most.degrees), slant) * length if length == length else 0.0
 
     def _mu(self, mark: str) -> float:
         return float(self.paper.mus[mark.rpartition(".")[0] or POSITION])

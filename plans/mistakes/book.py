@@ -90,8 +90,8 @@ def signature(key: Key, found: Broken) -> Signature | None:
     except (ZeroDivisionError, OverflowError):
         return None
     row = np.array([complex(board.values[name]) for name in key.questions])
-    if board.trouble is not None and np.isnan(row).mean() > 0.5:
-        return None
+    if board.trouble is not None:
+        return None  # lines that are parallel, or arcs that do not reach: nobody goes on from there
     return Signature(found, board.values, row, _allowed(key, found, board, row))
 
 
