@@ -136,8 +136,14 @@ def _pole(canvas: Canvas, scene: Scene, field: Field, bands: Sequence[Band], let
     reach = pole_distance(above.scale.mu, field.x.scale.mu, band.scale.mu)
     pole = field.origin - reach
     assert band.chords is not None
-    cuts = {round(field.y.mm(y), 4) for y in band.chords[1].tolist() if math.isfinite(y)}
-    canvas.add(*(Line(pole, field.origin + 1j * cut, Pen.THIN, role="ray") for cut in sorted(cuts)))
+    cuts: dict[float, list[str]] = {}
+    for number, y in enumerate(band.chords[1].tolist(), 1):
+        if math.isfinite(y):
+            cuts.setdefault(round(field.y.mm(y), 4), []).append(str(number))
+    for cut, numbers in sorted(cuts.items()):
+        end = field.origin + 1j * cut
+        canvas.add(Line(pole, end, Pen.THIN, role="ray", name=" ".join(numbers)))
+        canvas.label(", ".join(numbers), end, prefer=end - pole, clear=0.8, height=max(2.5, 0.7 * scene.style.text))
     canvas.add(Line(pole - 3.0, field.origin, Pen.THIN, role="axis"))
     canvas.add(Circle(pole, scene.style.node, Pen.MAIN, fill="white", role="pole"))
     canvas.label(letter, pole, prefer=-1.0 + 1j, clear=1.0, height=scene.style.text)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...plans.board import POSITION
 from ...plans.linkages.mechanism import Prismatic
 from ..symbols import slider_up
 from .scene import Scene
@@ -22,18 +23,23 @@ def guide_up(scene: Scene, pair: Prismatic) -> complex:
     return -usual if crossed(-usual) < crossed(usual) else usual
 
 
-def guide_pieces(scene: Scene, pair: Prismatic, up: complex) -> tuple[Stroke, ...]:
-    """Return the lines of a guide, mm: one, or several with room between them for the links that pass."""
+def guide_pieces(scene: Scene, pair: Prismatic, up: complex, whole: bool = False) -> tuple[Stroke, ...]:
+    """Return the lines of a guide, mm: one, or several with room between them for the links that pass.
+
+    It is a little longer than the slider; a `whole` one is so all along the slider's way.
+    """
     at, u, (length, height) = scene.mm(pair.point), guide_of(scene, pair), block_size(scene, pair)
     stroke, pitch = scene.style.hatch
-    ends, foot = (-LONG * length, LONG * length), at - up * (height / 2)
+    per_mm = 1.0 / scene.scales[POSITION].mu
+    low, high = scene.runs.get(scene.solved.guide_name(pair), (0.0, 0.0)) if whole else (0.0, 0.0)
+    ends, foot = (low * per_mm - LONG * length, high * per_mm + LONG * length), at - up * (height / 2)
     stops = [ends[0]]
-    for low, high in sorted(_crossings(scene, pair, up, ends)):
+    for first, last in sorted(_crossings(scene, pair, up, ends)):
         # strokes of the hatching lean out by less than their length
-        stops += [low - stroke, max(high + stroke, stops[-1])]
+        stops += [first - stroke, max(last + stroke, stops[-1])]
     stops.append(ends[1])
     parts = zip(stops[::2], stops[1::2], strict=True)
-    return tuple((foot + u * low, foot + u * high) for low, high in parts if high - low > 2 * pitch)
+    return tuple((foot + u * start, foot + u * end) for start, end in parts if end - start > 2 * pitch)
 
 
 def _crossings(scene: Scene, pair: Prismatic, up: complex, ends: tuple[float, float]) -> list[tuple[float, float]]:

@@ -38,15 +38,18 @@ DOWN = (-1j, -1 + 0j, 1 + 0j, 1j)  # where the foot of a pivot may stand, the us
 ROOM = math.radians(35.0)  # between the foot of a pivot and a link
 
 
-def draw_links(canvas: Canvas, scene: Scene, numbers: Sequence[int], framed: bool = True) -> list[Skeleton]:
+def draw_links(
+    canvas: Canvas, scene: Scene, numbers: Sequence[int], framed: bool = True, whole: bool = False
+) -> list[Skeleton]:
     """Draw moving links: guides under blocks, all other lines over them, pins on top; return their figures.
 
-    `framed` says whether the guides of the frame are drawn under the sliders that run on them.
+    `framed` says whether the guides of the frame are drawn under the sliders that run on them, `whole` whether as long
+    as the way of the sliders.
     """
     figures = [skeleton(scene, number) for number in numbers]
     for figure in figures:
         _strokes(canvas, scene, figure, figure.guides)
-    blocks = [drawn for figure in figures for drawn in _blocks(scene, figure, framed)]
+    blocks = [drawn for figure in figures for drawn in _blocks(scene, figure, framed, whole)]
     for _, shapes in sorted(blocks, key=lambda drawn: -drawn[0]):
         canvas.add(*shapes)
     for figure in figures:
@@ -94,14 +97,14 @@ def _is_in(at: complex, places: Iterable[complex]) -> bool:
     return any(abs(at - place) < NEAR for place in places)
 
 
-def _blocks(scene: Scene, figure: Skeleton, framed: bool) -> Iterator[tuple[float, tuple[Group, ...]]]:
+def _blocks(scene: Scene, figure: Skeleton, framed: bool, whole: bool) -> Iterator[tuple[float, tuple[Group, ...]]]:
     """Go through the blocks of a link by size: sliders with the frame's guide under them, blocks on links that move."""
     name = str(figure.number)
     own = [p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] == figure.number]
     for pair, (at, u), size in zip(own, figure.blocks, figure.sizes, strict=True):
         if pair.links[1] == FRAME and framed:
             up = guide_up(scene, pair)
-            on_frame = guide(guide_pieces(scene, pair, up), up, name, scene.style)
+            on_frame = guide(guide_pieces(scene, pair, up, whole), up, name, scene.style)
             yield size[0], (on_frame, block(at, u, name, size))
         else:
             yield size[0], (block(at, u, name, size),)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...plans.linkages.cycle import Cycle
+from ...plans.linkages.mechanism import Driver
 from ...plans.linkages.solved import solve_linkage
 from ...plans.linkages.strokes import Dead, OutputMotion
 from ..shapes import Circle, Line, Pen, Polyline
@@ -16,10 +17,12 @@ from ..symbols import slider_up
 from ..view import Canvas, View
 from .links import draw_frame, draw_links, letter_links
 from .scene import Scene
+from .scheme import turning_of_driver
 from .skeleton import skeleton
 
 DENSE = 240  # places through which a path is drawn
 STRAIGHT = 0.05  # mm within which a path is a straight line, or a point
+ARC, START = 30.0, math.pi / 4  # mm, length of the arc of omega_1, and the direction near which it stands
 CLOSE = 2.0  # mm within which two positions share the place of their numbers
 
 
@@ -55,8 +58,9 @@ def positions_view(scene: Scene, cycle: Cycle) -> View:
             _lay_down(canvas, at, numbers, Pen.EXTREME, "dead-position")
     _number(canvas, scene, stands, cycle.mechanism.driver.point)
     _number(canvas, scene, stands, _output_point(cycle))
-    figures = draw_links(canvas, scene, numbers)
+    figures = draw_links(canvas, scene, numbers, whole=True)
     draw_frame(canvas, scene, numbers, figures)
+    _driving(canvas, scene)
     letter_links(canvas, scene, numbers, figures)
     heading = scene.heading("heading.positions", "position", n=str(len(stands)))
     return canvas.finish("positions", heading, _notes(scene, cycle, dead))
@@ -155,7 +159,18 @@ def _number(canvas: Canvas, scene: Scene, stands: list[Stand], point: str) -> No
     for place, numbers in at.items():
         # beside a straight path all on one side, outside of a curved one
         away = -slider_up(far / abs(far)) if straight else place - middle
-        canvas.label(", ".join(numbers), place, prefer=away, clear=scene.style.node + 0.6, height=scene.style.text)
+        # as of a point, for bare numbers are those of links
+        text = f"{scene.words.mark(point)}_{{{','.join(numbers)}}}"
+        canvas.label(text, place, prefer=away, clear=scene.style.node + 0.6, height=scene.style.text)
+
+
+def _driving(canvas: Canvas, scene: Scene) -> None:
+    """Draw the sense in which the crank turns, outside of its circle."""
+    driver = scene.solved.mechanism.driver
+    if isinstance(driver, Driver):
+        crank = abs(scene.mm(driver.point) - scene.mm(driver.pivot))
+        radius = crank + 2.0 * scene.style.label
+        turning_of_driver(canvas, scene, driver, (radius, radius * 1.15, radius * 1.3), ARC / radius, START)
 
 
 def _notes(scene: Scene, cycle: Cycle, dead: list[float]) -> tuple[str, ...]:

@@ -65,18 +65,27 @@ def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
         canvas.label(text, middle, prefer=rect(1.0, phi / 2), clear=1.2)
     else:
         canvas.label(text, o + radius, prefer=1j, clear=1.2)
-    omega = scene.solved.values.get(f"omega_{driver.link}")
-    sense = math.copysign(1.0, omega) if omega else scene.solved.values[driver.sense]
     radius = min(crank_mm * 0.78, FARTHEST) if crank_mm > 24.0 else radius + 5.0
     wanted = phi + math.pi * 0.78 if phi < math.pi else phi / 2 + math.pi * 0.86
+    radii = tuple(radius * part for part in (1.0, 0.75, 1.3, 1.6))
+    turning_of_driver(canvas, scene, driver, radii, 1.0, wanted)
+
+
+def turning_of_driver(
+    canvas: Canvas, scene: Scene, driver: Driver, radii: Sequence[float], spread: float, wanted: float
+) -> None:
+    """Draw the arrows of omega_1 and epsilon_1 about the pivot where there is room, near the direction `wanted`."""
+    o, words = scene.mm(driver.pivot), scene.words
+    omega = scene.solved.values.get(f"omega_{driver.link}")
+    sense = math.copysign(1.0, omega) if omega else scene.solved.values[driver.sense]
     arrows = [(f"omega_{driver.link}", sense)]
     epsilon = scene.solved.values.get(f"epsilon_{driver.link}")
     if epsilon:
         arrows.append((f"epsilon_{driver.link}", math.copysign(1.0, epsilon)))
     for name, turn in arrows:
         busy = list(obstacles(canvas.shapes))
-        at, middle = free_arc(o, [radius * part for part in (1.0, 0.75, 1.3, 1.6)], 1.0, wanted, busy)
-        canvas.add(turning_arrow(o, at, middle, 1.0, turn, name))
+        at, middle = free_arc(o, radii, spread, wanted, busy)
+        canvas.add(turning_arrow(o, at, middle, spread, turn, name))
         canvas.label(words.symbol(name), o + rect(at, middle), prefer=rect(1.0, middle))
 
 
