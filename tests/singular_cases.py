@@ -66,7 +66,7 @@ def crank(name: str, status: str, changed: Mapping[str, float], **more: Any) -> 
 def bars(name: str, status: str, changed: Mapping[str, float], **more: Any) -> Case:
     """A four-bar linkage, OA = 0.1, AB = 0.25, CB = 0.2, OC = 0.3 m."""
     # across a link in line there is a reaction all the same: it follows from the moments of that link alone
-    return Case(name, FOUR_BAR, {**VALUES, **changed}, status, hidden=("R_03_t", "R_12_t"), **more)
+    return Case(name, FOUR_BAR, {**VALUES, **changed}, status, hidden=("R_03_t", "R_12_t", "R_03_m", "R_12_m"), **more)
 
 
 def slot(name: str, status: str, changed: Mapping[str, float], **more: Any) -> Case:

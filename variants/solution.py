@@ -255,7 +255,8 @@ def _scales(case: Case, words: Words, format: str | None) -> Mapping[str, Scale]
         return first_scales(case.solved, case.choosers)
     from .sheets import scales_of  # draws the whole sheet, which takes a second or two
 
-    return scales_of(case, words, paper)
+    scales = scales_of(case, words, paper)
+    return {plan: scales[plan] for plan in case.solved.scale_of_plan}  # some views are drawn larger
 
 
 def _drawing(solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:
