@@ -5,7 +5,7 @@ VARIANT ?= 3
 READY := .venv/ready
 WORKERS ?= auto
 
-.PHONY: sheet test soak lint types bench clean
+.PHONY: sheet test soak lint types bench speed clean
 
 sheet: $(READY)
 	mkdir -p out
@@ -26,11 +26,14 @@ types: $(READY)
 	ln -sfn .. .typing/kulman
 	$(PY) -m mypy
 
-# make bench PEERS=/tmp/peers/bin/python: with the peers of benchmarks/peers.py
+# Kulman beside others; make bench PEERS=/tmp/peers/bin/python: with the peers that benchmarks/peers.py names
 PEERS ?= $(PY)
 bench: $(READY)
-	$(PY) benchmarks/run.py
 	$(PEERS) benchmarks/peers.py
+
+# Kulman's own speed against its goals
+speed: $(READY)
+	$(PY) benchmarks/run.py
 
 $(READY): pyproject.toml
 	$(PYTHON) -m venv .venv

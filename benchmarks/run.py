@@ -1,4 +1,4 @@
-"""Measure what the README promises: `make bench`. Every row is a ratio to a yardstick of the same run, too."""
+"""Measure what the README promises: `make speed`. Every row is a ratio to a yardstick of the same run, too."""
 
 from __future__ import annotations
 
@@ -33,59 +33,23 @@ def shell(*arguments: str) -> float:
     return min(times)
 
 
-def shortest(work: Callable[[], object], runs: int = RUNS) -> float:
-    """Return the shortest time of a call on the processor, seconds: others on the machine make it longer only."""
-    times = []
-    for _ in range(runs + 1):
-        start = time.process_time()
-        work()
-        times.append(time.process_time() - start)
-    return min(times)
+def in_turn(*works: Callable[[], object]) -> list[float]:
+    """Return the shortest time of each of several calls on the processor, seconds: others on the machine add to it.
+
+    They take turns, so that what slows the machine down for a while slows all of them.
+    """
+    times: list[list[float]] = [[] for _ in works]
+    for _ in range(RUNS + 1):
+        for work, taken in zip(works, times, strict=True):
+            start = time.process_time()
+            work()
+            taken.append(time.process_time() - start)
+    return [min(taken) for taken in times]
 
 
-def closed_form(phi, values):
-    """Return M_bal of the slider-crank by virtual power, written by hand for this one mechanism."""
-    import numpy as np
-
-    r, length, part = values["l_OA"], values["l_AB"], values["l_AS2"] / values["l_AB"]
-    omega = values["n_1"] * values["sense_1"]
-    crank = r * np.exp(1j * phi)
-    height = crank.imag
-    reach = -np.sqrt(length**2 - height**2)
-    rod = reach - 1j * height
-    rate = -omega * crank.real / reach
-    v_b = (1j * omega * crank + 1j * rate * rod).real
-    epsilon = (omega**2 * crank.imag + rate**2 * rod.imag) / rod.real
-    a_a = -(omega**2) * crank
-    a_ba = (1j * epsilon - rate**2) * rod
-    v_s, a_s, a_b = 1j * omega * crank + 1j * rate * rod * part, a_a + a_ba * part, (a_a + a_ba).real
-    power = (np.conj(v_s) * (-values["m_2"] * a_s)).real + v_b * (values["F_3"] - values["m_3"] * a_b)
-    return -(power - values["J_S2"] * epsilon * rate) / omega
-
-
-def four_bar_motion(phi, values):
-    """Return velocities and accelerations of the four-bar, written by hand for this one mechanism."""
-    import numpy as np
-
-    omega = values["n_1"] * values["sense_1"]
-    B = values["l_AB"] * np.exp(1j * phi)
-    way = values["l_AD"] - B
-    square = (way * way.conj()).real
-    part = 0.5 * (square + values["l_BC"] ** 2 - values["l_DC"] ** 2) / square
-    rod = way * (part + 1j * np.sqrt(values["l_BC"] ** 2 / square - part * part))
-    rocker = B + rod - values["l_AD"]
-    sine = (rod.conj() * rocker).imag
-    V_B, a_B = 1j * omega * B, -(omega**2) * B
-    omega_2, omega_3 = -(V_B.conj() * rocker).real / sine, -(V_B.conj() * rod).real / sine
-    rest = a_B - omega_2**2 * rod + omega_3**2 * rocker
-    epsilon_2, epsilon_3 = -(rest.conj() * rocker).real / sine, -(rest.conj() * rod).real / sine
-    a_C = (1j * epsilon_3 - omega_3**2) * rocker
-    parts = (
-        values[f"l_{name}"] / values[f"l_{whole}"] for name, whole in (("AS1", "AB"), ("BS2", "BC"), ("DS3", "DC"))
-    )
-    first, second, third = parts
-    centres = a_B * first, a_B + (a_C - a_B) * second, a_C * third
-    return V_B, 1j * omega_3 * rocker, a_B, a_C, *centres, omega_2, omega_3, epsilon_2, epsilon_3
+def shortest(work: Callable[[], object]) -> float:
+    """Return the shortest time of a call on the processor, seconds."""
+    return in_turn(work)[0]
 
 
 KINEMATICS = ("V_B", "V_C", "a_B", "a_C", "a_S1", "a_S2", "a_S3", "omega_2", "omega_3", "epsilon_2", "epsilon_3")
@@ -103,6 +67,7 @@ def million() -> None:
     import resource
 
     import numpy as np
+    from by_hand import four_bar_motion, slider_crank_moment
 
     from kulman.plans.batch import batch, settle_heap
     from kulman.plans.linkages.chain import construct
@@ -117,13 +82,15 @@ def million() -> None:
         _, program = construct(task.mechanism)
         values = task.values(next(iter(task.variants)))
         givens = board_givens(task.mechanism, {**values, "phi": phi})
-        by_hand = closed_form if "M_bal" in wanted else four_bar_motion
-        ours = shortest(lambda: batch(program, givens, wanted))  # noqa: B023
+        by_hand = slider_crank_moment if "M_bal" in wanted else four_bar_motion
+        results, codes = batch(program, givens, wanted)
         if "M_bal" in wanted:
             memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-        hand = shortest(lambda: [by_hand(part, values) for part in chunks])  # noqa: B023
-        results, codes = batch(program, givens, wanted)
-        exact = by_hand(phi, values) if "V_B" in wanted else [closed_form(phi, values)] if "M_bal" in wanted else []
+        ours, hand = in_turn(
+            lambda: batch(program, givens, wanted),  # noqa: B023
+            lambda: [by_hand(part, values) for part in chunks],  # noqa: B023
+        )
+        exact = [by_hand(phi, values)] if "M_bal" in wanted else by_hand(phi, values) if "V_B" in wanted else []
         assert not codes.any()
         for name, true in zip(wanted, exact, strict=False):
             assert np.abs(results[name] - true).max() < 1e-12 * np.abs(true).max(), name
@@ -138,6 +105,7 @@ def row(name: str, value: float, unit: str, goal: float, ratio: str) -> None:
 def main() -> None:
     """Print the table."""
     import numpy as np
+    from by_hand import slider_crank_moment
 
     import kulman
     from kulman.plans.exact import run
@@ -164,10 +132,14 @@ def main() -> None:
     task = kulman.load_task("nau-slider-crank")
     _, program = construct(task.mechanism)
     givens = board_givens(task.mechanism, task.values("example"))
-    one = shortest(lambda: [run(program, givens) for _ in range(200)]) / 200
     values = task.values("example")
-    hand = shortest(lambda: [closed_form(values["phi"], values) for _ in range(200)]) / 200
-    row("one position, the full chain", one * 1e6, "us", 100, f"{one / hand:.1f} times a hand-written closed form")
+    one, hand = in_turn(
+        lambda: [run(program, givens) for _ in range(200)],
+        lambda: [slider_crank_moment(values["phi"], values) for _ in range(200)],
+    )
+    row(
+        "one position, the full chain", one / 200 * 1e6, "us", 100, f"{one / hand:.1f} times a hand-written closed form"
+    )
     row("recording the construction", shortest(lambda: construct(task.mechanism)) * 1e3, "ms", 1, "")
     output = subprocess.run([sys.executable, __file__, "million"], check=True, capture_output=True, text=True).stdout
     for (name, (_, _, goal)), line in zip(BATCHES.items(), output.splitlines(), strict=True):
