@@ -120,14 +120,39 @@ def closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
     lines = ((reading.between(p, meet.name), u), (reading.between(meet.name, q), w))
     found = [edge for edge, _ in lines if edge is not None]
     notes = [line_note(scene, edge.name, along) for edge, along in lines if edge is not None]
+    by_moments = next((e for e in edges if {e.tail, e.tip} & {p, q} and e.name.endswith("_m")), None)
+    if by_moments is not None:
+        whole, along = by_moments.name.removesuffix("_m"), next(line for edge, line in lines if edge is None)
+        yield _two_ways(scene, whole, found[0].name, notes[0], along)
+        edges = tuple(sorted((e for e in edges if e is not by_moments), key=lambda e: e.name != whole))
+        yield from _chords(scene, edges, [*firm, *found], ())
+        return
     yield noted(_zero(scene, path(firm, q, p), [edge.name for edge in found], ""), *notes)
-    for chord in (e for e in edges if e not in found and e not in firm):
-        parts = path([*firm, *found], chord.tail, chord.tip)
+    yield from _chords(scene, edges, [*firm, *found], edges)
+
+
+def _chords(
+    scene: Scene, edges: Sequence[Edge], ready: list[Edge], others: Sequence[Edge]
+) -> Iterable[tuple[str, ...]]:
+    """Go through the sums of forces that the chords of a plan show, by what is ready before each, or by all others."""
+    for chord in (e for e in edges if e not in ready):
+        parts = path(ready, chord.tail, chord.tip)
         if _same_force(chord.name, parts):
             yield summed(scene, chord.name, parts)
         else:
-            around = path([e for e in edges if e is not chord], chord.tip, chord.tail)
+            around = path([e for e in others or ready if e is not chord], chord.tip, chord.tail)
             yield _zero(scene, around, (), chord.name)
+        if not others:
+            ready = [*ready, chord]
+
+
+def _two_ways(scene: Scene, whole: str, normal: str, note: str, along: str) -> tuple[str, ...]:
+    """Return the equation of a reaction by its parts along and across its link, and along and across another line."""
+    parts = [f"{whole}_t", f"{whole}_m"]
+    unknowns = [normal, f"{whole}_p"]
+    texts = [f"{known(_bar(scene, x))} + {by_direction(_bar(scene, y))}" for x, y in zip(parts, unknowns, strict=True)]
+    equation = (f"{_bar(scene, whole)} = {texts[0]}", f"= {texts[1]}")
+    return noted(equation, note, line_note(scene, unknowns[1], along))
 
 
 def path(edges: Iterable[Edge], start: str, end: str) -> list[str]:

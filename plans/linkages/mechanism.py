@@ -217,7 +217,10 @@ Pair = Revolute | Prismatic
 
 @dataclass(frozen=True, slots=True)
 class Mechanism:
-    """Links (without the frame, number 0), pairs, the driver and the loads."""
+    """Links (without the frame, number 0), pairs, the driver and the loads.
+
+    `centres` are joints about which the moments of whole RRR dyads are taken, by name of the dyad: `moment_centres`.
+    """
 
     links: tuple[Link, ...]
     pairs: tuple[Pair, ...]
@@ -228,6 +231,7 @@ class Mechanism:
     stroke: Stroke | None = None
     gravity: str | None = None  # acceleration of free fall, downwards
     starts: tuple[Start, ...] = field(default=())
+    centres: tuple[tuple[str, str], ...] = field(default=())
 
     def start(self, number: int) -> Start | None:
         """Return where link `number` starts."""

@@ -129,7 +129,8 @@ def acceleration(board: Board, d: Dyad) -> None:
 def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     """Force plan of the group: R_12^t, loads of both links, R_43^t; the normal parts along AB and CB close it.
 
-    The tangential parts follow from the moments of each link about B; the inner reaction is a chord of the plan.
+    The tangential parts follow from the moments of each link about B; the inner reaction is a chord of the plan. Where
+    AB and CB are nearly parallel, moments of the whole group give a line that meets one of them better.
     """
     plan = f"forces_{d.name}"
     (i, m), (j, k) = d.before, (link.number for link in d.links)
@@ -140,6 +141,7 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
         board.calc(f"_R_{before}{number}_t", "moment_equation", span.length, *moments, *couples[number])
 
     AB, CB = d.spans
+    part = _across(board, d, loads, couples)
     board.pole(f"{plan}.0")
     board.lay(f"{plan}.1", f"{plan}.0", AB.n, f"_R_{i}{j}_t")
     board.read(f"R_{i}{j}_t", f"{plan}.0", f"{plan}.1")
@@ -149,10 +151,51 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     last, closing = f"{plan}.{count + 1}", f"{plan}.{count + 2}"
     board.lay(last, chained, CB.n, f"_R_{m}{k}_t")
     board.read(f"R_{m}{k}_t", chained, last)
-    board.meet(closing, last, CB.e, f"{plan}.0", AB.e)
+    _close(board, d, (chained, last, closing), part)
     board.read(f"R_{i}{j}_n", closing, f"{plan}.0")
     board.read(f"R_{i}{j}", closing, f"{plan}.1")
     board.read(f"R_{m}{k}_n", last, closing)
     board.read(f"R_{m}{k}", chained, closing)
     board.read(f"R_{k}{j}", parted, closing)
     answer(board, "R", (i, j), (k, j), (m, k))
+
+
+def _across(board: Board, d: Dyad, loads: Forces, couples: Couples) -> str | None:
+    """Find the part of an outer reaction normal to CA from moments of the whole group about the other outer pair.
+
+    Returns the name of the part, None where no such moments are wanted.
+    """
+    centre = dict(d.mechanism.centres).get(d.name)
+    if centre is None:
+        return None
+    joint, span, before = (d.A, d.spans[0], d.before[0]) if centre == d.C else (d.C, d.spans[1], d.before[1])
+    length = f"_l_{centre}{joint}"
+    board.measure(length, centre, joint)
+    board.direction(f"e_{d.name}", centre, joint, length)
+    board.normal(f"n_{d.name}", f"e_{d.name}")
+    numbers = [link.number for link in d.links]
+    moments = [m for n in numbers for m in moments_about(board, loads[n], n, centre, f"h_{{0}}_{centre}")]
+    part = f"R_{before}{span.link.number}_m"
+    board.calc(f"_{part}", "moment_equation", length, *moments, *(c for n in numbers for c in couples[n]))
+    return part
+
+
+def _close(board: Board, d: Dyad, marks: tuple[str, str, str], part: str | None) -> None:
+    """Mark where two lines close the chain: the parallels to AB and CB, or one of them and that to CA.
+
+    `marks` are the ends of the chained loads, of the whole chain, and the closing point.
+    """
+    (AB, CB), (chained, last, closing), plan = d.spans, marks, f"forces_{d.name}"
+    if part is None:
+        board.meet(closing, last, CB.e, f"{plan}.0", AB.e)
+        return
+    beside = f"{plan}.{int(closing.rpartition('.')[2]) + 1}"
+    # the part turns about the centre in the sense in which it points along the normal; it is laid off at the loads
+    if dict(d.mechanism.centres)[d.name] == d.C:
+        board.lay(beside, f"{plan}.1", f"n_{d.name}", f"_{part}")
+        board.read(part, beside, f"{plan}.1")
+        board.meet(closing, beside, f"e_{d.name}", f"{plan}.0", AB.e)
+    else:
+        board.back(beside, chained, f"n_{d.name}", f"_{part}")
+        board.read(part, chained, beside)
+        board.meet(closing, last, CB.e, beside, f"e_{d.name}")

@@ -16,6 +16,7 @@ from .chain import USUAL, construct, hinged
 from .givens import board_givens
 from .guides import guide_letters
 from .mechanism import ZERO, Mechanism, Prismatic, SlidingDriver
+from .moment_centres import with_moment_centres
 from .structure import TRIAD, Structure
 
 # which operands of a step are pins that must not coincide
@@ -166,7 +167,7 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     Solved
         With status `singular` or `no-assembly` when the position has no plan; what is undefined is None.
     """
-    near: dict[str, Any] = {}
+    near, plans = dict[str, Any](), tuple(plans)
     if mechanism.starts:  # groups of class III need arrays, and so numpy, on the way from their start
         from .triad_following import followed
         from .triad_special_points import with_special_points
@@ -176,6 +177,11 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     structure, program = construct(mechanism, plans)
     givens = board_givens(mechanism, {**values, **near}, program, follow=False)
     board = run(program, givens)
+    better = with_moment_centres(mechanism, structure, board.values) if "forces" in plans else mechanism
+    if better is not mechanism:
+        mechanism = better
+        program = construct(mechanism, plans)[1]
+        board = run(program, givens)
     lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if _is_given(x)}
     items = quantities(program, board.values, lengths)
     return Solved(
