@@ -12,7 +12,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
-DOCUMENTS = (README, ROOT / "docs" / "cycle.md", ROOT / "docs" / "own-mechanism.md")
+DOCUMENTS = (README, *(ROOT / "docs" / f"{name}.md" for name in ("accuracy", "cycle", "own-mechanism")))
+PICTURES = ROOT / "docs" / "pictures"
+CHARTS = {
+    "accuracy": "madi-four-bar",
+    "stability": "nau-slider-crank -v example --set l_AB=52 --quantities V_B,a_B",
+    "depth": "scheme-09-shaper",
+}
 BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
 
 
@@ -55,7 +61,20 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         people = "--student 'І. Петренко' --group АТ-301 --designation ТММ.РГР.03.01"
         run(f"kulman sheet nau-slider-crank -v 3 -o sheet.pdf {people}", folder)
-        picture(Path(folder) / "sheet.pdf", ROOT / "docs" / "pictures" / "nau-slider-crank-3.png")
+        picture(Path(folder) / "sheet.pdf", PICTURES / "nau-slider-crank-3.png")
+    charts()
+
+
+def charts() -> None:
+    """Draw the charts of docs/accuracy.md."""
+    from PIL import Image
+
+    for name, task in CHARTS.items():
+        with tempfile.TemporaryDirectory() as folder:
+            run(f"kulman chart {task} --chart {name} --lang en -o chart.png", folder)
+            with Image.open(Path(folder) / "chart.png") as drawn:
+                grey = drawn.convert("L").resize((1400, 990), Image.Resampling.LANCZOS)
+                grey.quantize(16).save(PICTURES / f"chart-{name}.png", optimize=True)
 
 
 def picture(pdf: Path, png: Path) -> None:

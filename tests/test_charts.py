@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import importlib.util
 import json
 import re
 import time
@@ -11,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+import kulman
 from kulman import KulmanError, cli
 from kulman.plans.linkages import contest as contests
 from kulman.plans.linkages.contest import Effort
@@ -230,6 +232,20 @@ def test_a_slider_that_drives_has_its_charts(tmp_path: Path) -> None:
 
     assert all(path.stat().st_size > 10_000 for path in found.save(tmp_path / "a.svg"))
     assert "mm" in found.table().split("\n")[2]
+
+
+def test_what_the_document_shows_is_what_is_printed(tmp_path: Path) -> None:
+    folder = Path(kulman.__file__).parent / "docs"
+    spec = importlib.util.spec_from_file_location("refresh", folder / "refresh.py")
+    assert spec is not None
+    assert spec.loader is not None
+    refresh = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(refresh)
+    blocks = refresh.BLOCK.findall((folder / "accuracy.md").read_text(encoding="utf-8"))
+
+    assert len(blocks) == 2
+    for block in blocks:
+        assert refresh.filled(block, str(tmp_path)) == block
 
 
 def test_charts_show_themselves_in_a_notebook() -> None:

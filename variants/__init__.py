@@ -3,14 +3,15 @@
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .charts import chart as chart
     from .reader import load_task as load_task
     from .sheets import sheet as sheet
     from .solution import solve as solve
     from .sweeps import sweep as sweep
 
-__all__ = ["load_task", "sheet", "solve", "sweep"]
+__all__ = ["chart", "load_task", "sheet", "solve", "sweep"]
 
-_HOMES = {"load_task": "reader", "sheet": "sheets", "solve": "solution", "sweep": "sweeps"}
+_HOMES = {"chart": "charts", "load_task": "reader", "sheet": "sheets", "solve": "solution", "sweep": "sweeps"}
 
 
 def __getattr__(name: str) -> Any:

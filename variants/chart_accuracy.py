@@ -20,7 +20,7 @@ from ..plans.hand import preset
 from ..plans.linkages.contest import FULL, Contest, Effort, Entry, by_hand, contest
 from ..plans.linkages.cycle import Cycle
 from ..scales.errors import InputError
-from .chart_data import Cell, Scene, aligned, as_csv, finite, place_value, short
+from .chart_data import Cell, Scene, aligned, as_csv, finite, place_value, short, wrapped
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -55,7 +55,7 @@ class AccuracyChart:
             cells = [cell for kind in kinds for cell in row.get(kind, ["", "", ""])]
             lines.append([words[f"chart.{method}"], shown, *cells])
         said = words["chart.front_mark"].format(text=words["chart.key.front"])
-        return "\n".join((aligned(lines), "", said, *self.notes(words)))
+        return "\n".join((aligned(lines), "", said, *map(wrapped, self.notes(words))))
 
     def notes(self, words: Words) -> tuple[str, str]:
         """Return how and on what it was measured."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -17,6 +18,7 @@ from .columns import driver_name
 
 Cell = str | float | int | None
 DIGITS = 3
+LINE = 110  # characters
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +74,11 @@ def aligned(rows: Sequence[Sequence[str]], left: int = 1) -> str:
         return f"{text:{widths[i]}}" if i < left else f"{text:>{widths[i]}}"
 
     return "\n".join("  ".join(cell(text, i) for i, text in enumerate(row)).rstrip() for row in rows)
+
+
+def wrapped(text: str) -> str:
+    """Return a note as lines of a table's width."""
+    return textwrap.fill(text, LINE)
 
 
 def as_csv(head: Sequence[str], rows: Iterable[Sequence[Cell]], words: Words) -> bytes:

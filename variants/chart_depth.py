@@ -10,7 +10,7 @@ from ..drawing.words import Words
 from ..plans.linkages.cycle import Cycle
 from ..plans.linkages.depth import Cost, Depth, depth
 from ..plans.quantities import unit_of
-from .chart_data import Cell, Scene, aligned, as_csv, finite, place, place_value, short
+from .chart_data import Cell, Scene, aligned, as_csv, finite, place, place_head, place_value, short
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,7 +30,8 @@ class DepthChart:
         """Return a row for every simplification, then what the scene needs."""
         found = self.found
         names = [found.balance, words["chart.reactions"]][: 2 if found.reaction else 1]
-        head = ["", *(f"{name}, {words[f'chart.{key}']}, %" for name in names for key in ("max", "rms")), ""]
+        head = ["", *(f"{name}, {words[f'chart.{key}']}, %" for name in names for key in ("max", "rms"))]
+        head.append(place_head(self.cycle, words))
         rows = [[self._named(cost, words), *self._cells(cost, words)] for cost in found.costs]
         return "\n".join((aligned([head, *rows]), "", verdict(found, words, plain=True)))
 

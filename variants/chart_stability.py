@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..drawing.charts.stability import SPOTS
 from ..drawing.linkages.ladders import first_scales
 from ..drawing.words import GREEK, Words
 from ..plans.exact import SMALL
@@ -16,7 +17,7 @@ from ..plans.linkages.cycle import Cycle
 from ..plans.linkages.solved import solve_linkage
 from ..plans.linkages.stability import DEAD, Stability, stability
 from ..scales.errors import InputError
-from .chart_data import Cell, Scene, aligned, as_csv, finite, place, place_head, place_value, short
+from .chart_data import Cell, Scene, aligned, as_csv, finite, place, place_head, place_value, short, wrapped
 from .columns import BALANCE, driver_name
 
 if TYPE_CHECKING:
@@ -44,7 +45,9 @@ class StabilityChart:
         step = max(len(found.places) // LINES, 1)
         rows = [[*self._row(i, words), self._status(i, words)] for i in range(0, len(found.places), step)]
         worst = [self._worst(name, words) for name in names]
-        return "\n".join((aligned([head, *rows], 0), "", *filter(None, worst), *self._spots(words), self.note(words)))
+        return "\n".join(
+            (aligned([head, *rows], 0), "", *filter(None, worst), *self._spots(words), wrapped(self.note(words)))
+        )
 
     def _row(self, i: int, words: Words) -> list[str]:
         found = self.found
@@ -65,13 +68,18 @@ class StabilityChart:
         return words["chart.worst"].format(name=name, condition=short(words, values[i]), digits=digits, place=at)
 
     def _spots(self, words: Words) -> list[str]:
-        from ..drawing.charts.stability import SPOTS
-
-        return [
-            f"{place(self.cycle, words, spot.place)}: "
-            + (words["chart.dead"].format(links=spot.link) if spot.kind == DEAD else words[SPOTS[spot.kind]])
-            for spot in self.found.spots
-        ]
+        """Say where special places are, all that is there on one line."""
+        texts: dict[str, list[str]] = {}
+        dead: dict[str, list[str]] = {}
+        for spot in self.found.spots:
+            at = place(self.cycle, words, spot.place)
+            if spot.kind == DEAD:
+                dead.setdefault(at, []).append(str(spot.link))
+            else:
+                texts.setdefault(at, []).append(words[SPOTS[spot.kind]])
+        for at, links in dead.items():
+            texts.setdefault(at, []).append(words["chart.dead"].format(links=", ".join(links)))
+        return [f"{at}: {'; '.join(dict.fromkeys(said))}" for at, said in texts.items()]
 
     def note(self, words: Words) -> str:
         """Return what the columns are."""
