@@ -21,6 +21,7 @@ from .key import Key, Question
 from .student import follow
 
 UNITS = tuple(10.0**power for power in (-6, -3, -2, -1, 1, 2, 3, 6))  # what a unit may be wrong by
+AGREE = 0.05  # part by which segments of one plan may differ in the scale that they show
 SHOWN = 5.0  # mm from which a segment shows to which scale its plan is drawn
 CLEAR = 2.0  # tolerances from which an error is more than a slip of the hand
 SLACK = 0.5  # part of a tolerance by which mm times mu may differ from the value written
@@ -186,7 +187,7 @@ class _Marker:
         for plan, names in by_plan.items():
             written = next((mu for name in names if (mu := self.mus[name])), None) or self._from_pairs(names)
             shown = [self._drawn_to(name) for name in names if abs(self.answers[name].mm or 0.0) >= SHOWN]
-            if len(shown) > 1:
+            if _agree(shown):
                 self.true[plan] = median(shown)
             mu = written or self.true.get(plan) or self._drawn_to(names[0])
             self.mus.update({name: mu for name in names if not self.mus[name]})
@@ -296,6 +297,12 @@ class _Marker:
 
 def _off(held: _Held) -> float:
     return held.miss.off
+
+
+def _agree(shown: list[float]) -> bool:
+    """Whether most segments of a plan show the same scale; one alone shows none."""
+    near = [mu for mu in shown if abs(mu / median(shown) - 1.0) < AGREE]
+    return len(shown) > 1 and len(near) > len(shown) / 2
 
 
 def _nearest(mu: float, ours: float) -> float:
