@@ -37,11 +37,15 @@ __all__ = ["Labels", "Obstacles", "Request", "place"]
 
 @dataclass(frozen=True, slots=True)
 class Labels:
-    """Lower left corners by name, leaders (from label to anchor) of those set apart, and who covers something."""
+    """Lower left corners by name, leaders (from label to anchor) of those set apart, and who covers something.
+
+    `crossed` are those through which a thin line runs, or which stand nearer to another thing than they should.
+    """
 
     corners: dict[str, complex] = field(default_factory=dict)
     leaders: dict[str, Segment] = field(default_factory=dict)
     failed: tuple[str, ...] = ()
+    crossed: tuple[str, ...] = ()
 
 
 def place(requests: Sequence[Request], obstacles: Obstacles, gap: float = 0.6, bounds: Box | None = None) -> Labels:
@@ -208,6 +212,7 @@ class _Scene:
             },
             {self.requests[i].name: leader for i, leader in sorted(board.leaders.items())},
             tuple(self.requests[i].name for i in board.in_trouble()),
+            tuple(self.requests[i].name for i in np.flatnonzero((board.now >= THIN) & (board.now < COVER)).tolist()),
         )
 
     def _set_apart(self, board: _Board, first: Sequence[int]) -> None:

@@ -102,15 +102,19 @@ class Canvas:
         """Place the letters; leave out spare ones that cover something, or that stand in the way of others."""
         obstacles, left = _obstacles(self.shapes, self._boxes, self.style), self._requests
         placed = place(left, obstacles, bounds=self.bounds)
-        while placed.failed:
-            out = {name for name in placed.failed if name in self._spare}
-            if not out:
+        while placed.failed or placed.crossed:
+            out = {name for name in placed.failed if name in self._spare} or self._as_well(placed.crossed)
+            if not out and placed.failed:
                 out = self._in_the_way(placed, {request.name for request in left})
             if not out:
                 break
             left = [request for request in left if request.name not in out]
             placed = place(left, obstacles, bounds=self.bounds)
         return left, placed
+
+    def _as_well(self, crossed: tuple[str, ...]) -> set[str]:
+        """Return those of letters crossed by lines that say the same under the heading: numbers of arms."""
+        return {name for name in crossed if self._spare.get(name) == self._markup[int(name)][0]}
 
     def _in_the_way(self, placed: Labels, left: set[str]) -> set[str]:
         """Return for each letter that found no place the nearest spare one."""

@@ -7,7 +7,8 @@ from itertools import combinations, pairwise
 from ..shapes import Line, Pen
 from ..view import Canvas, View
 from .arrows import Arrows
-from .group_view import force_arm, zeros
+from .group_view import zeros
+from .lever_arms import LeverArm, draw_arms
 from .marks import letter_marks
 from .plan_view import vectors_of
 from .scene import Scene
@@ -28,7 +29,8 @@ def lever_view(scene: Scene) -> View:
         at = image(scene, mark)
         arrows.bar(at, rays_of(at, [(a, b) for a, b, *_ in lines]))
         arrows.hang(name, at)
-    _arms(canvas, scene, hung)
+    places = [image(scene, mark) for mark in marks]
+    _arms(canvas, scene, hung, sum(places) / len(places))
     text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{point}')} = {scene.segment(f'V_{point}')}"
     ends = image(scene, "lever.p"), image(scene, f"lever.{point}")
     canvas.label(text, ends, clear=0.9, height=scene.style.text, spare=text)
@@ -39,16 +41,21 @@ def lever_view(scene: Scene) -> View:
     return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"], *zero))
 
 
-def _arms(canvas: Canvas, scene: Scene, hung: list[tuple[str, str]]) -> None:
+def _arms(canvas: Canvas, scene: Scene, hung: list[tuple[str, str]], middle: complex) -> None:
     """Draw the arms from the pole; forces on one line share theirs."""
     p, feet = image(scene, "lever.p"), dict[complex, list[tuple[str, complex]]]()
     for name, mark in hung:
         e, at = scene.direction(name), image(scene, mark)
         if e != 0 and name not in BALANCE and scene.defined(arm_of(name)):
             foot = at + e * (((p - at) / e).real)
-            feet.setdefault(complex(round(foot.real, 4), round(foot.imag, 4)), []).append((name, at))
-    for sharing in feet.values():
-        force_arm(canvas, scene, [name for name, _ in sharing], [arm_of(name) for name, _ in sharing], sharing[0][1], p)
+            same = next((other for other in feet if abs(other - foot) < 1e-4), foot)
+            feet.setdefault(same, []).append((name, at))
+    arms = [
+        LeverArm(tuple(n for n, _ in sharing), tuple(arm_of(n) for n, _ in sharing), sharing[0][1], along, foot)
+        for foot, sharing in feet.items()
+        for along in [scene.direction(sharing[0][0])]
+    ]
+    draw_arms(canvas, scene, p, arms, middle)
 
 
 def image(scene: Scene, mark: str) -> complex:
