@@ -12,7 +12,8 @@ from ..rows import Size
 from ..view import View
 from .fitting import Fitted, Fitting
 
-FORCES = ("equations_forces_loads", "group_", "driver", "lever")  # views with which the part of the forces begins
+# views with which the part of the forces begins
+FORCES = ("load_", "equations_forces_loads", "group_", "driver", "lever")
 WORDS = 40.0  # mm of a figure that do not grow with its scale factor: its letters and its heading
 
 Several = tuple[Fitted, list[Placement]]

@@ -56,7 +56,18 @@ def givens_table(scene: Scene) -> View:
             )
         else:
             rows.append([words.symbol(name), words.short(given.value), words.unit(given.unit)])
+    rows += ([symbols, number, ""] for symbols, number in _factors(scene))
     return table("givens", words["heading.givens"], rows, scene.style)
+
+
+def _factors(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Go through the factors j of J_S = j m l^2 that the task fixes for all variants; links with one value share it."""
+    shared: dict[float, list[str]] = {}
+    for name in dict.fromkeys(link.inertia_factor for link in scene.solved.mechanism.links):
+        if name and name not in scene.givens and scene.defined(name):
+            shared.setdefault(float(scene.solved.values[name]), []).append(scene.words.symbol(name))
+    for value, symbols in shared.items():
+        yield " = ".join(symbols), scene.words.short(value)
 
 
 def results_parts(solved: Solved) -> tuple[Part, ...]:

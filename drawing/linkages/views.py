@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import ACCELERATION, Coupler, scale_symbol
-from ...plans.linkages.mechanism import Prismatic
+from ...plans.linkages.mechanism import Diagram, Prismatic
 from ...plans.linkages.solved import Solved
 from ...plans.linkages.structure import Group
 from ..view import View
@@ -18,6 +18,7 @@ from .group_view import group_view, link_view
 from .kinematics_text import KinematicsPart, kinematics_block, kinematics_parts
 from .lever_text import lever_block
 from .lever_view import lever_view
+from .load_diagram import load_diagram
 from .plan_view import plan_view
 from .scene import Scene
 from .scheme import scheme
@@ -100,6 +101,7 @@ def _forces(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Fi
     if "forces" in plans:
         symbols, link = solved.scale_of_plan, str(solved.structure.driver)
         parts = force_parts(solved)  # one text after all figures, or one for each group after its own
+        yield from (_load_diagram(diagram) for diagram in solved.mechanism.diagrams)
         yield from (_forces_text(part, width) for part in parts if part == LOADS)
         for group in reversed(solved.structure.groups):
             yield from _group(solved, group)
@@ -107,6 +109,11 @@ def _forces(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Fi
         yield Figure(driver_view, "mu_l")
         yield _plan(f"forces_{link}", "heading.link_forces", symbols[f"forces_{link}"], link=link)
         yield from (_forces_text(part, width) for part in parts if part in (WHOLE, link))
+
+
+def _load_diagram(diagram: Diagram) -> Figure:
+    """Return the figure of a load diagram that the task gives."""
+    return Figure(lambda scene: load_diagram(scene, diagram))
 
 
 def _group(solved: Solved, group: Group) -> Iterator[Figure]:
