@@ -17,7 +17,7 @@ from .rubric import Rubric
 from .wording import mistake_texts, plain, texts
 
 DIGITS = 4
-ROUNDING = 1e-9  # part of a tolerance
+ROUNDING, TOLD = 1e-9, 0.2  # parts of a tolerance: what is nothing, and what is worth telling
 SHOWN_CANDIDATES = 3
 AGAIN = {
     **dict.fromkeys(("meet", "tangent"), "again.meet"),
@@ -242,9 +242,17 @@ class _Teller:
         return f"{self.words.short(round(math.degrees(radians) % 360.0, 1), DIGITS)}°"
 
     def _right(self, line: Line) -> str:
-        """Return the right value; of a vector its direction too."""
-        if not isinstance(line.right, complex):
-            return self._number(line.name, line.right)
-        size = math.hypot(line.right.real, line.right.imag)
-        text = self._number(line.name, size)
-        return f"{text}; {self._degrees(math.atan2(line.right.imag, line.right.real))}" if size else text
+        """Return the right value, and what follows from the answers before it where that is another one."""
+        right = self._value(line.name, line.right)
+        other = line.answer is not None and line.follows == line.follows
+        if other and abs(line.follows - line.right) > TOLD * line.allowed:
+            return f"{right} → {self._value(line.name, line.follows)}"
+        return right
+
+    def _value(self, name: str, value: float | complex) -> str:
+        """Return a value; of a vector its magnitude and direction."""
+        if not isinstance(value, complex):
+            return self._number(name, value)
+        size = math.hypot(value.real, value.imag)
+        text = self._number(name, size)
+        return f"{text}; {self._degrees(math.atan2(value.imag, value.real))}" if size else text
