@@ -58,11 +58,11 @@ def place_arcs(
             radii, reach = np.array([place.radius for place in places]), abs(ray[1] - ray[0])
             cost = costs + AWAY * np.abs(radii - share * reach) / reach + OTHER * (number != first)
             for other in chosen:
-                arc = _points(other)
+                (arc,) = _points([other])
                 cost += 10.0 * (
                     (np.abs(radii - other.radius) < APART)
                     if other.centre == ray[0]
-                    else np.array([np.abs(_points(place)[:, None] - arc).min() < APART for place in places])
+                    else np.abs(_points(places)[:, :, None] - arc).min(axis=(1, 2)) < APART
                 )
             best = int(cost.argmin())
             found.append((round(float(cost[best]), 6), number, places[best]))
@@ -103,14 +103,24 @@ def crowd(points: np.ndarray, busy: Sequence[Obstacle]) -> np.ndarray:
         return np.zeros(len(points))
     a, b = (np.array([one[i] for one in busy]) for i in (0, 1))
     size, weight = (np.array([one[i] for one in busy], dtype=float) for i in (2, 3))
-    way = b - a
-    length = np.maximum(np.abs(way), NEAR)
-    along = np.clip(((points[..., None] - a) * way.conj()).real / length**2, 0.0, 1.0)
-    gap = np.abs(points[..., None] - a - along * way) - size
+    # most obstacles are far from most arcs: only near ones are looked at point by point
+    middle = points[:, points.shape[1] // 2, None]
+    half = np.abs(points - middle).max(axis=1)[:, None]
+    i, j = (_gaps(middle, a, b) - size < CLEAR + half).nonzero()
+    gap = _gaps(points[i], a[j, None], b[j, None]) - size[j, None]
     # to each obstacle the nearest point counts, and twice where the arc crosses it
-    close = (np.clip(1.0 - gap / CLEAR, 0.0, 1.0) + (gap < CROSSED)).max(axis=1)
+    close = np.zeros((len(points), len(busy)))
+    close[i, j] = (np.clip(1.0 - gap / CLEAR, 0.0, 1.0) + (gap < CROSSED)).max(axis=1)
     result: np.ndarray = close @ weight
     return result
+
+
+def _gaps(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return how far points are from the lines from `a` to `b`."""
+    way = b - a
+    along = np.clip(((points - a) * way.conj()).real / np.maximum(np.abs(way), NEAR) ** 2, 0.0, 1.0)
+    gaps: np.ndarray = np.abs(points - a - along * way)
+    return gaps
 
 
 def _tries(ray: Stroke, busy: Sequence[Obstacle], force: float) -> tuple[list[Place], np.ndarray]:
@@ -119,15 +129,16 @@ def _tries(ray: Stroke, busy: Sequence[Obstacle], force: float) -> tuple[list[Pl
     every = np.arange(NEAREST, max(reach - CLEAR, NEAREST + 3 * APART), STEP).tolist()
     # long enough to be seen as arcs
     places = [Place(ray[0], along, r, part * min(0.9, 1.1 * force / r)) for r in every for part in LENGTHS]
-    costs = crowd(np.array([_points(place) for place in places]), busy)
+    costs = crowd(_points(places), busy)
     costs += np.array([SHORTER * (k % len(LENGTHS)) + 10.0 * (place.radius > reach) for k, place in enumerate(places)])
     return places, costs
 
 
-def _points(place: Place) -> np.ndarray:
-    """Return points along an arc."""
-    turns: np.ndarray = np.exp(1j * (place.along + place.spread * np.linspace(-0.5, 0.5, SAMPLES)))
-    return place.centre + place.radius * turns
+def _points(places: Sequence[Place]) -> np.ndarray:
+    """Return points along arcs, a row for each."""
+    along, spread, radius = np.array([(p.along, p.spread, p.radius) for p in places]).T[:, :, None]
+    turns: np.ndarray = np.exp(1j * (along + spread * np.linspace(-0.5, 0.5, SAMPLES)))
+    return np.array([p.centre for p in places])[:, None] + radius * turns
 
 
 def obstacles(shapes: Iterable[Shape]) -> Iterator[Obstacle]:
