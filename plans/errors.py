@@ -49,10 +49,16 @@ class Sensitivities:
     exact: Mapping[str, Any]
 
     def parts(self, name: str) -> dict[str, float]:
-        """Return the steps at which a quantity's error is made, with their parts of its variance, largest first."""
+        """Return the steps at which a quantity's error is made, with their parts of its variance, largest first.
+
+        Where the least error of a step already breaks the construction, only such steps, and NaN for their parts.
+        """
         squares: dict[str, float] = {}
         for step, miss in zip(self.steps, self.misses[name], strict=True):
             squares[step] = squares.get(step, 0.0) + abs(miss) ** 2
+        broken = [step for step, square in squares.items() if square != square]
+        if broken:
+            return dict.fromkeys(broken, float("nan"))
         total = sum(squares.values())
         ranked = sorted(squares.items(), key=lambda item: -item[1])
         return {step: float(square / total) for step, square in ranked if square > 0.0}

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .errors import sensitivities
+from .errors import Sensitivities, sensitivities
 from .hand import Hand, Tolerance
 from .marking.key import Key, answer_key
 from .marking.tolerances import failing
@@ -31,7 +31,8 @@ class Expectation:
     spread : Spread
         Where the part `SHARE` of its drawings lie.
     step, share : str and float, or None
-        The step whose errors come through most, and its part of the variance; None for what does not err.
+        The step whose errors come through most, and its part of the variance; None for what does not err. Of a step
+        whose least error breaks the construction the part is None.
     allowed, allowed_mm : float, or None
         What to let pass, SI and on paper, where a plan shows the quantity.
     degrees : float or None
@@ -40,6 +41,8 @@ class Expectation:
         Part of this hand's drawings that would be marked wrong all the same.
     mu : float or None
         Value of a millimetre, where a plan shows the quantity.
+    errs : bool
+        Whether the quantity hangs on any error at all.
     """
 
     spread: Spread
@@ -50,6 +53,7 @@ class Expectation:
     degrees: float | None
     failed: float
     mu: float | None
+    errs: bool
 
     @property
     def half(self) -> float | None:
@@ -95,10 +99,15 @@ def expectations(
     failed, plans = failing(found, key.allowed), plans_of(paper.program)
     made = {}
     for name, spread in spreads.items():
-        step, share = next(iter(parts.parts(name).items()), (None, None)) if name in missed else (None, None)
+        step, share = _worst(parts, name) if name in missed else (None, None)
         mu = paper.mus.get(plans.get(name, ""))
-        made[name] = Expectation(spread, step, share, *_allowed(key, name, mu), failed[name], mu)
+        made[name] = Expectation(spread, step, share, *_allowed(key, name, mu), failed[name], mu, name in missed)
     return made
+
+
+def _worst(parts: Sensitivities, name: str) -> tuple[str | None, float | None]:
+    step, share = next(iter(parts.parts(name).items()), (None, math.nan))
+    return step, share if math.isfinite(share) else None
 
 
 def _allowed(key: Key, name: str, mu: float | None) -> tuple[float | None, float | None, float | None]:

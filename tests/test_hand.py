@@ -163,6 +163,27 @@ def test_the_table_says_it_in_every_language(language: str) -> None:
     assert all(decimal in row for row in rows if row and row.split()[0] in ("V_E", "R_05"))
 
 
+def test_a_zero_segment_lets_what_is_calculated_from_it_pass() -> None:
+    """In the dead position a_BA_t is zero: epsilon_2 misses by what that point may miss, whichever way."""
+    found = items(set={"phi": 0})
+    solution = solve("nau-slider-crank", "example", set={"phi": 0})
+
+    assert found["a_BA_t"]["tolerance_mm"] >= 2.0
+    assert found["epsilon_2"]["tolerance"] == pytest.approx(
+        found["a_BA_t"]["tolerance"] / solution.solved.values["l_AB"], rel=1e-9
+    )
+    assert found["epsilon_2"]["failed"] < 0.2  # as of the segment itself
+    assert found["M_i2"]["failed"] == found["epsilon_2"]["failed"]
+
+
+def test_a_step_whose_least_error_breaks_the_construction_is_named_without_a_part() -> None:
+    found = items(set={"phi": 90, "l_AB": "50.00001"}, only="velocity")
+
+    assert found["B"]["step"] is not None
+    assert found["B"]["share"] is None
+    assert found["B"]["undrawn"] == pytest.approx(0.5, abs=0.05)
+
+
 def test_a_position_without_a_plan_has_no_drawing(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = run("solve|nau-slider-crank|--set|l_AB=5|--hand|normal|--json", capsys)
 

@@ -139,7 +139,7 @@ def _row(quantity: Quantity, expected: Expectation, program: Program, words: Wor
     spread, si = expected.spread, quantity.unit
     value = _place(quantity, words) if quantity.kind == "point" else shown(quantity.value)
     interval = "" if quantity.kind == "point" else _interval(spread, shown)
-    errs = expected.step is not None
+    errs = expected.errs
     paper = "" if expected.mm is None or not errs else words.number(words.display.segment(expected.mm), 2)
     part = "" if expected.percent is None or not errs else _two(expected.percent, words)
     degrees = "" if expected.degrees is None else f"; {_two(expected.degrees, words)}°"
@@ -176,9 +176,10 @@ def _place(quantity: Quantity, words: Words) -> str:
 
 def _worst(expected: Expectation, program: Program, words: Words) -> str:
     """Say which step errs most: a mark, a line, a reading or an arm, and its part."""
-    if expected.step is None or expected.share is None:
+    if expected.step is None:
         return ""
-    step, share = next(step for step in program if step.name == expected.step), words.number(expected.share, 2)
+    step = next(step for step in program if step.name == expected.step)
+    share = "" if expected.share is None else words.number(expected.share, 2)
     if step.verb in READINGS:
         said = words["hand.reading"].format(name=step.name.lstrip("_"))
     elif step.verb == "moment":
@@ -190,7 +191,7 @@ def _worst(expected: Expectation, program: Program, words: Words) -> str:
         plan = step.plan.partition("_")[0]
         where = words[f"hand.plan.{plan if plan in PLANS else 'compound'}"]
         said = f"{words['hand.mark'].format(name=_plain(words.mark(step.name)))}, {where}"
-    return f"{said} {share}"
+    return f"{said} {share}".rstrip()
 
 
 def _line(step: Step, program: Program) -> str:

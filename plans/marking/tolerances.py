@@ -107,7 +107,7 @@ class _Rule:
         exact, law, total = self.values[step.name], LAWS[step.law], 0.0
         for i, name in enumerate(step.operands):
             if miss := self.allowed.get(name, 0.0):
-                changed = ([*operands[:i], _longer(operands[i], x), *operands[i + 1 :]] for x in (miss, -miss))
+                changed = ([*operands[:i], longer, *operands[i + 1 :]] for longer in _longer(operands[i], miss))
                 changes = [abs(law(*others) - exact) for others in changed]  # a load diagram may be steep on one side
                 total += max((change for change in changes if change == change), default=0.0)
         return total
@@ -124,12 +124,14 @@ def _longest(paper: Paper, values: Mapping[str, Any]) -> dict[str, float]:
     return found
 
 
-def _longer(value: Any, miss: float) -> Any:
-    """Return a value that misses, a vector along itself."""
+def _longer(value: Any, miss: float) -> tuple[Any, ...]:
+    """Return values that miss, more and less: a vector along itself, one that is zero along both axes."""
     if not isinstance(value, complex):
-        return value + miss
+        return value + miss, value - miss
     size = abs(value)
-    return value * (1.0 + miss / size) if size else complex(miss)
+    if not size:
+        return complex(miss), complex(-miss), 1j * miss, -1j * miss
+    return value * (1.0 + miss / size), value * (1.0 - miss / size)
 
 
 def same_plan(step: Step, operand: str) -> bool:
