@@ -13,7 +13,7 @@ from kulman.drawing.style import STYLES
 from kulman.drawing.view import Canvas
 from kulman.tests.linkage_cases import Linkage
 from kulman.tests.linkage_points import l1_plan, l5_similarity, l7_senses
-from kulman.tests.printed_numbers import lines_of
+from kulman.tests.printed_numbers import lines_of, table
 from kulman.tests.readback import View, read
 from kulman.tests.sheet_geometry import same
 
@@ -150,6 +150,11 @@ def test_driver_with_a_short_crank_is_drawn_larger() -> None:
     assert any(t.string == f"μ_{{l1}} = {mu:g} m/mm" for t in view.of("heading"))
     (equation,) = [line for line in lines_of(read_back["equations_forces_1"]) if "M_{bal} = " in line]
     assert "·μ_{l1}" in equation
+    (row,) = [
+        row for name in read_back.names if "results" in name for row in table(read_back[name]) if row[0] == "h_{21}"
+    ]
+    assert f"h_{{21}} = {row[1]}" in [t.string for t in view.of("label")]
+    assert row[2] == f"{mu:g}"
 
 
 def test_block_lies_in_its_link_and_turns_with_it() -> None:

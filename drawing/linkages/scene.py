@@ -82,8 +82,8 @@ class Scene:
         return self.words.number(abs(value) / self.scales[plan].mu, places)
 
     def figure_of(self, name: str) -> str:
-        """Return the plan, or the figure with a scale factor of its own, on which a quantity is a segment."""
-        plan = self.solved.shown_on[name]
+        """Return the plan, or the figure with a scale factor of its own, on which a quantity is a segment, or ""."""
+        plan = self.solved.shown_on.get(name, "")
         own = plan == POSITION and DRIVER in self.scales and name in arms_of_driver(self.solved)
         return DRIVER if own else plan
 

@@ -193,7 +193,7 @@ def _row(scene: Scene, q: Quantity) -> list[str]:
     words, turning = scene.words, q.name.startswith(("omega", "epsilon"))
     value = rate_of(scene, q.name) if turning else words.display.value(q.value or 0.0, q.unit)
     symbol, unit = words.symbol(q.name), words.unit(words.display.unit(q.unit))
-    plan = POSITION if q.name.startswith("l_") else scene.solved.shown_on.get(q.name, "")
+    plan = POSITION if q.name.startswith("l_") else scene.figure_of(q.name)
     if plan not in scene.scales:
         return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, tidy(q, value)), unit]
     number = words.factor(scene.scales[plan])
