@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 
 from kulman.tests.printed_numbers import lines_of, numbers_of, table
-from kulman.tests.readback import Arrow, Sheet, Vec, View, angle, cross, parallel
+from kulman.tests.readback import Arrow, Sheet, Stroke, Vec, View, angle, cross, parallel
 from kulman.tests.sheet_cases import Case
 from kulman.tests.sheet_geometry import NEAR, along, closed_chain, on, past, same, unless
 
@@ -263,7 +263,8 @@ def l11_driver(case: Case, sheet: Sheet) -> Faults:
     yield from unless(closed_chain([r21, plan.vector("R_01")]) is not None, "R_01 does not close the plan")
     yield from _arm(case, view, "h_21", "R_21", "O", "h_{21}")
     arrow, o = view.arrow("R_21"), view.point("O")
-    (mu,) = numbers_of(_heading(view, "μ_{l}"), case.lang)
+    # the driver may be drawn larger than the mechanism, to a scale factor of its own
+    (mu,) = numbers_of(_heading(view, "μ_{l}") or _heading(view, "μ_{l1}"), case.lang)
     moment = cross(arrow.tail - o, arrow.unit) * mu * abs(r21.span) * r21.mu
     yield from unless(same(view.point("A"), arrow.tail) or same(view.point("A"), arrow.tip), "R_21 is not at A")
     reaction = view.arrow("R_01")
@@ -316,14 +317,25 @@ def l12_lever(case: Case, sheet: Sheet) -> Faults:
 
 
 def _lever_arm(case: Case, view: View, arrow: Arrow, p: complex) -> Faults:
+    """An arm runs from p, or, as a dimension, from a line that extends p along the force."""
     foot = arrow.tail + arrow.unit * ((p - arrow.tail) / arrow.unit).real
     if abs(foot - p) < 0.05:
         return
     arms = [s for s in view.strokes if any(k == "arm" for k, _ in s.path) and s.role == "thin"]
-    drawn = [s for s in arms if same(s.points[0], p) and same(s.points[1], foot)]
+    starts = [p, *(a for s in view.lines("extension") for a in _on(s.points, p, arrow.unit, arms))]
+    drawn = [s for s in arms for a in starts if same(s.points[0], a) and same(s.points[1], foot + a - p)]
     yield from unless(bool(drawn), f"{arrow.name} has no arm")
-    printed = [numbers_of(t.string.rpartition("=")[2], case.lang)[0] for t in view.of("label") if "=" in t.string]
+    written = [part for place in ("label", "heading") for t in view.of(place) for part in t.string.split(";")]
+    printed = [h for part in written if "=" in part for h in numbers_of(part.rpartition("=")[2], case.lang)[:1]]
     yield from unless(any(abs(h - abs(foot - p)) < NEAR for h in printed), f"the mm of {arrow.name} are not printed")
+
+
+def _on(extension: tuple[complex, ...], p: complex, along: complex, arms: list[Stroke]) -> Iterator[complex]:
+    """Beginnings of arms on a line that extends p along a force."""
+    start, end = extension
+    if same(start, p) and abs(cross(along, end - start)) < NEAR:
+        begun = (s.points[0] for s in arms)
+        yield from (a for a in begun if abs(cross(along, a - p)) < NEAR and 0 < abs(a - p) < abs(end - start))
 
 
 def _lever_sum(case: Case, sheet: Sheet, view: View, p: complex) -> Faults:
