@@ -3,100 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container, Mapping
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import replace
 
 from mpmath import mp, mpf
 
-from kulman.plans.linkages.mechanism import Load, Mechanism
-from kulman.tests.mechanisms import general_slider_crank, nau_slider_crank, nau_values, twin, twin_values
-from kulman.tests.presses import VALUES as PRESS_VALUES
-from kulman.tests.test_dyads_special import FOUR_BAR, SCOTCH_YOKE, SLOTTED_LEVER, TANGENT, VALUES
-from kulman.tests.test_triad_following import BENT, DEAD, PARALLELOGRAM
-from kulman.variants.reader import load_task
+from kulman.plans.linkages.mechanism import Link, Load
+from kulman.tests.mechanisms import general_slider_crank, nau_values, twin, twin_values
+from kulman.tests.special_position import (
+    EVERYTHING,
+    NOWHERE,
+    PI,
+    RIGHT,
+    STRAIGHT,
+    Case,
+    bars,
+    concurrent,
+    crank,
+    hydraulic,
+    slot,
+    tangent,
+    triad,
+    yoke,
+)
+from kulman.tests.test_dyads_special import FOUR_BAR, SCOTCH_YOKE, VALUES
+from kulman.tests.test_triad_following import BENT, DEAD
 
-PI = math.pi
-
-
-class Everything(Container[str]):
-    """All names."""
-
-    def __contains__(self, name: object) -> bool:
-        return True
-
-
-EVERYTHING = Everything()
-NOWHERE = math.nan  # a quantity that has no limit here, or not the same from both sides
-Number = Callable[[], Any]
-RIGHT: Mapping[str, Number] = {"phi": lambda: mp.pi / 2}
-STRAIGHT: Mapping[str, Number] = {"phi": lambda: mp.pi}
-
-
-@dataclass(frozen=True, eq=False)
-class Case:
-    """One position.
-
-    `says` is the key of the reason and what it names; `lost` and `kept` are some of the quantities that are undefined
-    and defined; `limits` what some tend to from both sides, magnitudes of vectors; `hidden` the lost ones that tend to
-    something all the same. `exact` are givens with all digits; `along` what is moved to come near.
-    """
-
-    name: str
-    of: Mechanism
-    values: Mapping[str, float]
-    status: str
-    says: tuple[str, dict[str, Any]] | None = None
-    lost: tuple[str, ...] = ()
-    kept: tuple[str, ...] = ()
-    limits: Mapping[str, float] = field(default_factory=dict)
-    hidden: Container[str] = ()
-    exact: Mapping[str, Number] = field(default_factory=dict)
-    along: str = "phi"
-
-    def __str__(self) -> str:
-        return self.name
-
-
-def crank(name: str, status: str, changed: Mapping[str, float], **more: Any) -> Case:
-    """A central slider-crank, l_OA = 50 mm, l_AB = 130 mm."""
-    return Case(name, nau_slider_crank(), nau_values(**changed), status, **more)
-
-
-def bars(name: str, status: str, changed: Mapping[str, float], **more: Any) -> Case:
-    """A four-bar linkage, OA = 0.1, AB = 0.25, CB = 0.2, OC = 0.3 m."""
-    # across a link in line there is a reaction all the same: it follows from the moments of that link alone
-    return Case(name, FOUR_BAR, {**VALUES, **changed}, status, hidden=("R_03_t", "R_12_t", "R_03_m", "R_12_m"), **more)
-
-
-def slot(name: str, status: str, changed: Mapping[str, float], **more: Any) -> Case:
-    """A slotted lever, OA = 0.1, OC = 0.3 m."""
-    return Case(name, SLOTTED_LEVER, {**VALUES, **changed}, status, **more)
-
-
-def yoke(name: str, status: str, changed: Mapping[str, float], **more: Any) -> Case:
-    """A Scotch yoke, OA = 0.1 m."""
-    exact = {} if "up" in changed else {"up": lambda: mp.pi / 2}
-    return Case(name, SCOTCH_YOKE, {**VALUES, **changed}, status, exact={**exact, **more.pop("exact", {})}, **more)
-
-
-def tangent(name: str, status: str, changed: Mapping[str, float], **more: Any) -> Case:
-    """A slider on the crank, a slider on the frame, with a common pin."""
-    return Case(name, TANGENT, {**VALUES, **changed}, status, **more)
-
-
-def triad(name: str, status: str, of: Mechanism, changed: Mapping[str, float], **more: Any) -> Case:
-    """A central link on three legs of equal length and direction."""
-    return Case(name, of, {**PRESS_VALUES, **PARALLELOGRAM, **changed}, status, **more)
-
-
-def hydraulic(name: str, status: str, travel: float, **more: Any) -> Case:
-    """A tipper whose cylinder drives A along x; AB and CB, together 500 mm, lie in line at 100 mm."""
-    task = load_task("scheme-18-hydraulic-drive")
-    changed = {"s": travel, "l_AB": 270, "l_CB": 230, "x_C": 500, "y_C": -300}
-    return Case(name, task.mechanism, task.values("0", changed), status, along="s", **more)
-
-
+WEIGHTLESS = replace(FOUR_BAR, links=(*FOUR_BAR.links[:2], Link(3, FOUR_BAR.links[2].points)))
 ROD_UPRIGHT = ("singular-velocity", {"point": "B", "first": "⊥AB", "second": "∥x–x"})
 IN_LINE = ("singular-velocity", {"point": "B", "first": "⊥AB", "second": "⊥CB"})
 PLAIN_ZEROS = ("x_O", "y_O", "x_g", "y_g", "e", "m_1", "F_1", "F_C", "F_B", "alpha_F1", "alpha_FC", "alpha_FB")
@@ -123,6 +55,13 @@ CASES: tuple[Case, ...] = (
         {**OBLIQUE, "phi": 0.7, "F_C": 10.0, "alpha_FC": 0.7},
         "ok",
         limits={"h_F_C": 0.0, "R_12_t": 0.0},
+    ),
+    Case(
+        "offset of the guide that is next to nothing",
+        general_slider_crank(),
+        {**OBLIQUE, "phi": 0.7, "e": 1e-18},
+        "ok",
+        limits={"V_B": 0.0},
     ),
     # the rod normal to the guide
     crank(
@@ -248,6 +187,18 @@ CASES: tuple[Case, ...] = (
     ),
     bars("both pivots in one point", "ok", {"l_OC": 0.0, "branch": -1.0}, limits={"omega_3": 10.0}),
     bars("both pivots in one point, links in line", "singular", {"l_OC": 0.0, "l_CB": 0.35}, says=IN_LINE),
+    Case(
+        "force plan whose unknowns are parallel",
+        WEIGHTLESS,
+        {**VALUES, "phi": PI, "l_AB": 0.2},
+        "singular",
+        exact=STRAIGHT,
+        says=IN_LINE,
+        lost=("R_12_n", "R_12", "R_32", "R_03", "M_bal"),
+        kept=("F", "h_F", "R_03_t", "R_12_t", "B"),
+        limits={"R_12_n": NOWHERE, "R_12_t": 0.0},
+        hidden=("R_03_m", "R_12_m"),
+    ),
     # slotted links
     slot(
         "slider at the pivot of its lever",
@@ -332,6 +283,15 @@ CASES: tuple[Case, ...] = (
         lost=("D", "V_D", "M_bal"),
         kept=("A", "V_A"),
         hidden=("B", "C", "D", "S3"),
+    ),
+    Case(
+        "legs of a triad meet in one point",
+        *concurrent(0.4 + 0.2j),
+        "singular",
+        says=("singular-triad", {"link": 3, "legs": "2, 4, 5"}),
+        lost=("D", "V_D", "R_12", "M_bal"),
+        kept=("A", "V_A", "a_A"),
+        hidden=EVERYTHING,
     ),
     triad("triad a billionth of a radian before", "ill-conditioned", BENT, {"phi": DEAD - 1e-9}),
     triad(

@@ -21,7 +21,8 @@ from kulman.plans.linkages.solved import Solved, solve_linkage
 from kulman.plans.worth import references
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.both_sides import Limit, limits
-from kulman.tests.singular_cases import CASES, Case
+from kulman.tests.singular_cases import CASES
+from kulman.tests.special_position import Case
 
 EPS = 2.0**-52
 BESIDE = (0.0, 0.1, -0.1, 0.0)  # radians or metres from the position to others of the same batch
