@@ -33,13 +33,14 @@ who read forms and write reports build on the functions here.
 `verdicts.Verdict`
     `right`, `carried` (right given the earlier error), `wrong`, `arithmetic` (mm times mu is not the value),
     `scale` (scale factor or unit), `missing`; `.passed` for the first two.
-`verdicts.Line(name, plan, verdict, answer, said, right, follows, allowed, off, about)`
+`verdicts.Line(name, plan, verdict, answer, said, right, follows, allowed, off, about, way)`
     `said` is what the answer says, in SI; `right` the right value; `follows` what follows from the earlier answers;
-    `allowed` the tolerance, SI; `off` by how many tolerances it misses the better of the two; `about` is what is wrong
-    with a line that is not right: "size", "direction" or "" .
-`verdicts.Marking(lines, first_wrong, step)`
-    `first_wrong` is the name of the first line that is wrong by itself, or None; `step` the `board.Step` that it
-    reads or calculates, whose plan and letters say what to look at again. `marking["V_B"]` is a line.
+    `allowed` the tolerance, SI; `off` by how many tolerances it misses the best of what it is held against; `about` is
+    what is wrong with a line that does not pass: "size", "direction" or ""; `way` how the answer was taken.
+`verdicts.Marking(key, lines, first_wrong, step)`
+    `key` is drawn to the student's scales; `first_wrong` is the name of the first line that is wrong by itself, or
+    None; `step` the `board.Step` that it reads or calculates, whose plan and letters say what to look at again.
+    `marking["V_B"]` is a line, `marking.answered` those that are not missing.
 `verdicts.mark(key, answers) -> Marking`
     Mark the answers of one student, of two to one question the first. Raises `InputError` (`quantity-unknown`) for a
     name that is not in the key.

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
-from enum import StrEnum
 from statistics import median
 from typing import Any, NamedTuple
 
@@ -18,86 +16,16 @@ from ..board import Step
 from .answers import Answer, Said, known, measured, readings, values_of
 from .comparing import NEVER, SIZE, Miss, miss
 from .key import Key, Question
+from .lines import Line, Marking, Verdict
 from .student import follow
+
+__all__ = ["CLEAR", "Line", "Marking", "Verdict", "behind", "first_wrong", "judge", "mark"]
 
 UNITS = tuple(10.0**power for power in (-6, -3, -2, -1, 1, 2, 3, 6))  # what a unit may be wrong by
 AGREE = 0.05  # part by which segments of one plan may differ in the scale that they show
 SHOWN = 5.0  # mm from which a segment shows to which scale its plan is drawn
 CLEAR = 2.0  # tolerances from which an error is more than a slip of the hand
 SLACK = 0.5  # part of a tolerance by which mm times mu may differ from the value written
-
-
-class Verdict(StrEnum):
-    """What a line is."""
-
-    RIGHT = "right"
-    CARRIED = "carried"
-    WRONG = "wrong"
-    ARITHMETIC = "arithmetic"
-    SCALE = "scale"
-    MISSING = "missing"
-
-    @property
-    def passed(self) -> bool:
-        """Whether the line counts as right."""
-        return self in (Verdict.RIGHT, Verdict.CARRIED)
-
-    @property
-    def faulty(self) -> bool:
-        """Whether there is an error in this very line."""
-        return self in (Verdict.WRONG, Verdict.ARITHMETIC, Verdict.SCALE)
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """One line marked; sizes in SI, vectors complex.
-
-    Parameters
-    ----------
-    said : float or complex, optional
-        What the answer says; what it leaves out (a direction, a sense) is that of what follows.
-    right, follows : float or complex
-        The right value, and what follows from the answers before it.
-    allowed : float
-        The tolerance of the size.
-    off : float
-        By how many tolerances it misses the better of the two.
-    about : str
-        Of a line that does not pass: "size" or "direction", that of a scalar being its sense.
-    way : Said, optional
-        How the answer was taken.
-    """
-
-    name: str
-    plan: str
-    verdict: Verdict
-    answer: Answer | None
-    said: Any
-    right: Any
-    follows: Any
-    allowed: float
-    off: float
-    about: str = ""
-    way: Said | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Marking:
-    """All lines in order of construction, the first one with an error of its own, and the step that it shows."""
-
-    key: Key
-    lines: tuple[Line, ...]
-    first_wrong: str | None
-    step: Step | None
-
-    def __getitem__(self, name: str) -> Line:
-        """Return the line of a quantity."""
-        return next(line for line in self.lines if line.name == name)
-
-    @property
-    def answered(self) -> tuple[Line, ...]:
-        """The lines that are not missing."""
-        return tuple(line for line in self.lines if line.verdict is not Verdict.MISSING)
 
 
 def mark(key: Key, answers: Iterable[Answer]) -> Marking:

@@ -1,19 +1,36 @@
 """Mistakes: constructions with one rule broken, and which of them explain a student's answers.
 
+    >>> from kulman import solve
+    >>> from kulman.plans.hand import preset
+    >>> from kulman.plans.linkages.accuracy import paper_of
+    >>> from kulman.plans.marking.answers import Answer
+    >>> from kulman.plans.marking.key import answer_key
+    >>> from kulman.plans.marking.verdicts import mark
+    >>> from kulman.plans.mistakes.book import book
+    >>> from kulman.plans.mistakes.explaining import explain
+    >>> solution = solve("nau-slider-crank", "example")
+    >>> paper = paper_of(solution.solved, {symbol: scale.mu for symbol, scale in solution.scales.items()})
+    >>> key = answer_key(paper, preset("normal").tolerance)
+    >>> marking = mark(key, [Answer("V_B", value=2.76), Answer("a_BA_n", value=34.7), Answer("a_B", value=295.0)])
+    >>> explanation = explain(book(key), marking)
+    >>> sorted(explanation.candidates[0].ids)  # in sizes, a_A outward and a_BA_n away from A are one
+    ['M37', 'M38']
+
 `rules.MISTAKES`
-    All `Mistake(id, chapter, breaks)` by id, `M01` ...; `chapter` is `inputs`, `reading`, `velocity`, `acceleration`,
-    `forces` or `lever`. Whether one concerns a task follows from the steps of its program alone.
-`rules.Broken(mistake, at, program, givens)`
-    One rule broken at one place: `at` names the step or the given.
-`rules.broken(paper, values) -> tuple[Broken, ...]`
+    All `Mistake(id, chapter, breaks, by_scale)` by id, `M01` ...; `chapter` is `inputs`, `reading`, `velocity`,
+    `acceleration`, `forces` or `lever` (import `book` first, which knows all chapters). Whether one concerns a task
+    follows from the steps of its program alone.
+`rules.Broken(mistake, at, how, program, givens)`
+    One rule broken at one place: `at` names the step, the quantity or the given, `how` which of several ways.
+`book.broken(paper, values, ids=()) -> iterator of Broken`
     Every way in which a construction can go wrong.
-`explaining.Book`
-    The signatures of all of them for one answer key, to be kept with it: `book(key)`.
+`book.book(key) -> Book`
+    The signatures of all of them for one answer key, to be kept with it.
+`explaining.explain(book, marking) -> Explanation(candidates, marking)`
+    Candidates, the simplest first; none for answers without an error. The marking is the one given, but for lines that
+    the first candidate explains: all but the first wrong one are `carried`.
 `explaining.Candidate(mistakes, same, explained, left, misses)`
-    An explanation: one or two `Broken`; `same` are others that give the same values in all lines that were answered,
-    to be reported with it; `explained` names the lines that are wrong without it and right with it, `left` those that
-    stay wrong; `misses` is the mean miss in tolerances of the lines it changes.
-`explaining.explain(book, marking) -> Explanation`
-    `Explanation(candidates, marking)`: candidates, the simplest first; none for answers without an error. The marking
-    is the one given, but for lines that the first candidate explains: all but the first wrong one are `carried`.
+    An explanation by one or two `Broken`; `same` are others that these answers cannot tell from it, to be reported with
+    it; `explained` names the lines that are wrong without it and right with it, `left` those that stay wrong; `misses`
+    is the root mean square of the misses of all answers, in tolerances; `ids` are the numbers of all.
 """

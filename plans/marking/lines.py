@@ -1,0 +1,84 @@
+"""What marking says: the verdict of every line, and the first one with an error of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+from ..board import Step
+from .answers import Answer, Said
+from .key import Key
+
+
+class Verdict(StrEnum):
+    """What a line is."""
+
+    RIGHT = "right"
+    CARRIED = "carried"
+    WRONG = "wrong"
+    ARITHMETIC = "arithmetic"
+    SCALE = "scale"
+    MISSING = "missing"
+
+    @property
+    def passed(self) -> bool:
+        """Whether the line counts as right."""
+        return self in (Verdict.RIGHT, Verdict.CARRIED)
+
+    @property
+    def faulty(self) -> bool:
+        """Whether there is an error in this very line."""
+        return self in (Verdict.WRONG, Verdict.ARITHMETIC, Verdict.SCALE)
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line marked; sizes in SI, vectors complex.
+
+    Parameters
+    ----------
+    said : float or complex, optional
+        What the answer says; what it leaves out (a direction, a sense) is that of what follows.
+    right, follows : float or complex
+        The right value, and what follows from the answers before it.
+    allowed : float
+        The tolerance of the size.
+    off : float
+        By how many tolerances it misses the better of the two.
+    about : str
+        Of a line that does not pass: "size" or "direction", that of a scalar being its sense.
+    way : Said, optional
+        How the answer was taken.
+    """
+
+    name: str
+    plan: str
+    verdict: Verdict
+    answer: Answer | None
+    said: Any
+    right: Any
+    follows: Any
+    allowed: float
+    off: float
+    about: str = ""
+    way: Said | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Marking:
+    """All lines in order of construction, the first one with an error of its own, and the step that it shows."""
+
+    key: Key
+    lines: tuple[Line, ...]
+    first_wrong: str | None
+    step: Step | None
+
+    def __getitem__(self, name: str) -> Line:
+        """Return the line of a quantity."""
+        return next(line for line in self.lines if line.name == name)
+
+    @property
+    def answered(self) -> tuple[Line, ...]:
+        """The lines that are not missing."""
+        return tuple(line for line in self.lines if line.verdict is not Verdict.MISSING)
