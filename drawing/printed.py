@@ -51,21 +51,26 @@ def value_text(words: Words, value: float) -> str:
     return words.number(value, decimals_for(value))
 
 
-def segment_decimals(value: float, mu: float) -> tuple[int, int]:
-    """Return decimals for a segment in mm and for its value so that mm * mu is the value to its last printed digit.
+def ruler_decimals(words: Words) -> int:
+    """Return the decimals of a segment that show hundredths of a millimetre in the unit of segments."""
+    return HUNDREDTHS if words.display.paper == "mm" else HUNDREDTHS + 1  # of a centimetre
 
-    Hundredths of a millimetre, for no ruler reads more, and as many digits of the value as they show; only of a segment
-    that shows less than `FEWEST` digits so, there are more.
+
+def segment_decimals(value: float, mu: float, least: int = HUNDREDTHS) -> tuple[int, int]:
+    """Return decimals for a segment and for its value so that segment * mu is the value to its last printed digit.
+
+    `least` decimals, hundredths of a millimetre, for no ruler reads more, and as many digits of the value as they show;
+    only of a segment that shows less than `FEWEST` digits so, there are more.
     """
     size, usual = abs(value), decimals_for(value)
     if size < POINT * mu:
         return HUNDREDTHS, 0
-    for places in range(HUNDREDTHS, HUNDREDTHS + MOST):
+    for places in range(least, least + MOST):
         for digits in range(DIGITS, FEWEST - 1, -1):
             decimals = decimals_for(value, digits)
             if round(round(size / mu, places) * mu, decimals) == round(size, decimals):
                 return places, decimals
-    return HUNDREDTHS + MOST, usual
+    return least + MOST, usual
 
 
 def calculation(words: Words, law: Callable[..., float], inputs: Sequence[Input]) -> tuple[list[str], str]:

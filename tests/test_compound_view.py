@@ -202,7 +202,7 @@ def test_equations_have_their_numbers_in_centimetres() -> None:
     lines = [t.string for page in drawn("bertyaev-six-bar").pages for v in page.all for t in v.texts]
 
     assert any("15·0,17453/0,056027 = 46,73 см" in line for line in lines)
-    assert any(line.startswith("OB = 20,36·5 = 101,8 см") for line in lines)
+    assert any(line.startswith("OB = 20,362·5 = 101,8 см") for line in lines)
     assert any("0,17453 − 0,23056 = −0,05603 рад/с" in line for line in lines)
 
 

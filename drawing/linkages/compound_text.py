@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from ...plans.board import POSITION
 from ...plans.linkages.compound import ACCELERATION, PARTS, VELOCITY, Closing, Coupler
 from ...plans.linkages.mechanism import ZERO
-from ..printed import Input, calculation, segment_decimals
+from ..printed import Input, calculation, ruler_decimals, segment_decimals
 from ..table import text_block
 from ..view import View
 from .at_point import direction_words
@@ -185,7 +185,7 @@ def _measured(scene: Scene, name: str, plan: str) -> Line:
     words, item = scene.words, scene.solved.quantities[name]
     value, number = words.display.value(item.value or 0.0, item.unit), words.factor(scene.scales[plan])
     mu = 1.0 / number if words.per_unit else number
-    places, decimals = segment_decimals(value, mu)
+    places, decimals = segment_decimals(value, mu, ruler_decimals(words))
     segment, unit = words.number(abs(value) / mu, places), words.unit(words.display.unit(item.unit))
     times = "/" if words.per_unit else "·"
     head = f"{words.symbol(name)} = {segment}{times}{words.short(number)} ="

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
-from ..printed import HUNDREDTHS, POINT, Input, calculation, value_text
+from ..printed import POINT, Input, calculation, ruler_decimals, value_text
 from ..words import Words
 from .reading import read
 from .scene import Scene
@@ -150,9 +150,8 @@ def factor(scene: Scene, name: str, power: int = 1, symbol: str | None = None) -
 
 def segment(scene: Scene, symbol: str, plan: str, size: float) -> Factor:
     """Return what a plan shows as a factor in the paper's unit, without its scale factor."""
-    display = scene.words.display
-    places = HUNDREDTHS if display.paper == "mm" else HUNDREDTHS + 1  # of a centimetre
-    return Factor(symbol, display.segment(size / scene.scales[plan].mu), places=places)
+    measured = scene.words.display.segment(size / scene.scales[plan].mu)
+    return Factor(symbol, measured, places=ruler_decimals(scene.words))
 
 
 def is_given(scene: Scene, name: str) -> bool:

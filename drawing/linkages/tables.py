@@ -13,7 +13,7 @@ from ...plans.board import POSITION
 from ...plans.linkages.compound import found_here
 from ...plans.linkages.solved import Solved
 from ...plans.quantities import Quantity
-from ..printed import segment_decimals, value_text
+from ..printed import ruler_decimals, segment_decimals, value_text
 from ..table import table
 from ..view import View
 from .equations import rate_of
@@ -198,7 +198,7 @@ def _row(scene: Scene, q: Quantity) -> list[str]:
         return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, tidy(q, value)), unit]
     number = words.factor(scene.scales[plan])
     mu = 1.0 / number if words.per_unit else number
-    places, decimals = segment_decimals(value, mu)
+    places, decimals = segment_decimals(value, mu, ruler_decimals(words))
     return [
         symbol,
         words.number(abs(value) / mu, places),
