@@ -97,24 +97,28 @@ class _Board:
         self.down = np.zeros(len(self.x), dtype=bool)
         self.leaders: dict[int, Segment] = {}
 
-    def clashes(self, i: int, x: Reals, y: Reals, apart: float = 0.0) -> Flags:
-        """Tell, shape (K, L), which labels on the board label i would touch at x, y, or stand less than `apart` beside.
+    def clashes(self, i: int, x: Reals, y: Reals) -> Flags:
+        """Tell, shape (K, L), which labels on the board label i would touch at x, y."""
+        return self._beside(i, x, y, 0.0)[0]
+
+    def _beside(self, i: int, x: Reals, y: Reals, apart: float) -> tuple[Flags, Flags]:
+        """Tell which labels label i would touch, and which it would touch or stand less than `apart` beside.
 
         Two letters side by side read as one word.
         """
         w = self.wanted
         wide, high = w.hw + (w.hw[i] + w.gap - SLACK), w.hh + (w.hh[i] + w.gap - SLACK)
-        touch = (abs(x[:, None] - self.now_x) < wide + apart) & (abs(y[:, None] - self.now_y) < high)
-        touch &= self.down
-        touch[:, i] = False
-        result: Flags = touch
-        return result
+        level = abs(y[:, None] - self.now_y) < high
+        level &= self.down
+        level[:, i] = False
+        across = abs(x[:, None] - self.now_x)
+        return level & (across < wide), level & (across < wide + apart)
 
     def best(self, i: int) -> tuple[float, int]:
         """Return the cost and the number of the best place of label i among the others."""
-        x, y = self.x[i], self.y[i]
-        cost = self.cost[i] + COVER * np.count_nonzero(self.clashes(i, x, y), axis=1)
-        cost += CLOSE * np.count_nonzero(self.clashes(i, x, y, APART), axis=1)
+        touched, close = self._beside(i, self.x[i], self.y[i], APART)
+        cost = self.cost[i] + COVER * touched.sum(axis=1)
+        cost += CLOSE * close.sum(axis=1)
         k = int(cost.argmin())
         return float(cost[k]), k
 
@@ -131,7 +135,7 @@ class _Board:
         line = Bodies.strokes(*np.array([leader]).T)
         on = line.distance(self.x, self.y, w.hw[:, None], w.hh[:, None], slice(None)) < w.gap
         self.cost = self.cost + COVER * on
-        rows = np.flatnonzero(~self.down)
+        rows = (~self.down).nonzero()[0]
         pick = self.cost[rows].argmin(axis=1)
         self.now_x[rows], self.now_y[rows] = self.x[rows, pick], self.y[rows, pick]
         self.now[rows] = self.cost[rows, pick]
@@ -141,9 +145,9 @@ class _Board:
         w = self.wanted
         touch = abs(self.now_x[:, None] - self.now_x) < w.hw[:, None] + w.hw + w.gap + APART
         touch &= abs(self.now_y[:, None] - self.now_y) < w.hh[:, None] + w.hh + w.gap
-        self.down |= np.count_nonzero(touch, axis=1) == 1
-        free = np.count_nonzero(self.cost < COVER, axis=1)
-        rest = np.flatnonzero(~self.down)
+        self.down |= touch.sum(axis=1) == 1
+        free = (self.cost < COVER).sum(axis=1)
+        rest = (~self.down).nonzero()[0]
         for i in rest[np.lexsort((rest, free[rest], -w.priority[rest]))].tolist():
             self.put(i, self.best(i)[1])
 
@@ -153,8 +157,9 @@ class _Board:
         touch = abs(self.now_x[:, None] - self.now_x) < w.hw[:, None] + w.hw + w.gap - SLACK
         touch &= abs(self.now_y[:, None] - self.now_y) < w.hh[:, None] + w.hh + w.gap - SLACK
         touch &= self.down & self.down[:, None]
-        bad = (self.now >= COVER) | (np.count_nonzero(touch, axis=1) > 1)
-        return [int(i) for i in np.flatnonzero(bad & self.down)]
+        bad = (self.now >= COVER) | (touch.sum(axis=1) > 1)
+        found: list[int] = (bad & self.down).nonzero()[0].tolist()
+        return found
 
     def repair(self, rounds: int = 3) -> None:
         """Give each label in trouble a place by moving those that block it."""
@@ -170,7 +175,7 @@ class _Board:
             return True
         blocked = self.clashes(i, self.x[i], self.y[i])
         order = np.argsort(self.cost[i], kind="stable")[:24].tolist()
-        return any(self.cost[i, k] < COVER and self._push(i, k, np.flatnonzero(blocked[k]).tolist()) for k in order)
+        return any(self.cost[i, k] < COVER and self._push(i, k, blocked[k].nonzero()[0].tolist()) for k in order)
 
     def _push(self, i: int, k: int, blockers: list[int]) -> bool:
         if len(blockers) > 3 or not self.leaders.keys().isdisjoint(blockers):
@@ -212,7 +217,7 @@ class _Scene:
             },
             {self.requests[i].name: leader for i, leader in sorted(board.leaders.items())},
             tuple(self.requests[i].name for i in board.in_trouble()),
-            tuple(self.requests[i].name for i in np.flatnonzero((board.now >= THIN) & (board.now < COVER)).tolist()),
+            tuple(self.requests[i].name for i in ((board.now >= THIN) & (board.now < COVER)).nonzero()[0].tolist()),
         )
 
     def _set_apart(self, board: _Board, first: Sequence[int]) -> None:
@@ -223,7 +228,7 @@ class _Scene:
         bad = board.in_trouble()
         # Of two labels that touch, one may stay: take them up one by one, the less important first.
         bad.sort(key=lambda i: (self.requests[i].priority, board.now[i] < COVER, i))
-        crossed = np.flatnonzero((board.now >= THIN) & (board.now < COVER)).tolist()
+        crossed = ((board.now >= THIN) & (board.now < COVER)).nonzero()[0].tolist()
         for i, limit in [*((i, COVER) for i in bad), *((i, THIN) for i in crossed if i not in bad)]:
             if limit == THIN or i in board.in_trouble():
                 self._lead(i, board, limit, afield=bool(first) and limit == COVER and self.requests[i].afield)
@@ -240,7 +245,7 @@ class _Scene:
         # what goes far afield may even leave the bounds
         grid = Grid.around(one, self.bodies, steps, self.bounds if len(steps) else None, led=True)
         x, y, cost = grid.x[0], grid.y[0], grid.cost[0]
-        cost = cost + COVER * np.count_nonzero(board.clashes(i, x, y), axis=1)
+        cost = cost + COVER * board.clashes(i, x, y).sum(axis=1)
         foot = one.feet(x + 1j * y)
         head = np.clip(foot.real, x - one.hw, x + one.hw) + 1j * np.clip(foot.imag, y - one.hh, y + one.hh)
         far = abs(head - foot)
@@ -252,7 +257,7 @@ class _Scene:
         if board.leaders:
             old = Bodies.strokes(*np.array(list(board.leaders.values())).T)
             on = old.distance(x[:, None], y[:, None], one.hw, one.hh, slice(None)) < one.gap
-            cost += COVER * np.count_nonzero(on, axis=1) + CROSSING * crossings(lines, old)
+            cost += COVER * on.sum(axis=1) + CROSSING * crossings(lines, old)
         cost += CROSSING * crossings(lines, self.bodies)
         k = int(cost.argmin())
         if cost[k] >= limit:
@@ -268,5 +273,5 @@ class _Scene:
         touched = lines.distance(*others, slice(None)) < w.gap / 2
         touched &= board.down[:, None]
         touched[i] = False
-        result: Reals = COVER * np.count_nonzero(touched, axis=0)
+        result: Reals = COVER * touched.sum(axis=0)
         return result

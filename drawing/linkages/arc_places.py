@@ -137,8 +137,9 @@ def _tries(ray: Stroke, busy: Sequence[Obstacle], force: float) -> tuple[list[Pl
 def _points(places: Sequence[Place]) -> np.ndarray:
     """Return points along arcs, a row for each."""
     along, spread, radius = np.array([(p.along, p.spread, p.radius) for p in places]).T[:, :, None]
-    turns: np.ndarray = np.exp(1j * (along + spread * np.linspace(-0.5, 0.5, SAMPLES)))
-    return np.array([p.centre for p in places])[:, None] + radius * turns
+    turns = np.exp(1j * (along + spread * np.linspace(-0.5, 0.5, SAMPLES)))
+    points: np.ndarray = np.array([p.centre for p in places])[:, None] + radius * turns
+    return points
 
 
 def obstacles(shapes: Iterable[Shape]) -> Iterator[Obstacle]:
