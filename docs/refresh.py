@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
-DOCUMENTS = (README, *(ROOT / "docs" / f"{name}.md" for name in ("accuracy", "cycle", "own-mechanism")))
+DOCUMENTS = (README, *(ROOT / "docs" / f"{name}.md" for name in ("accuracy", "cycle", "marking", "own-mechanism")))
 PICTURES = ROOT / "docs" / "pictures"
 CHARTS = {
     "accuracy": "madi-four-bar",

@@ -116,7 +116,7 @@ def test_json_for_a_student_has_verdicts_alone(tmp_path: Path, capsys: pytest.Ca
     found = marked(capsys, answers(tmp_path, {"V_BA": 1.3}), "--verdict-only")
 
     assert "mistakes" not in found
-    assert {key for line in found["lines"] for key in line} == {"quantity", "verdict", "about"}
+    assert {key for line in found["lines"] for key in line} == {"quantity", "verdict", "about", "answer"}
 
 
 def test_a_page_escapes_what_students_write_and_loads_nothing(

@@ -86,11 +86,15 @@ class Answers:
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What can be answered in a task: its quantities, its scale factors, and the units in which it shows results."""
+    """What can be answered in a task: its quantities, its scale factors, and the units in which it shows results.
+
+    `others` are names of plans that are not marked now; answers to them are passed over.
+    """
 
     quantities: Mapping[str, Quantity]
     scales: Mapping[str, str]  # SI unit of what a scale factor draws, by symbol
     display: Display = field(default_factory=Display)
+    others: frozenset[str] = frozenset()
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,7 @@ from .form import class_header, form_rows
 from .grid import SUFFIXES
 from .intake import read_all
 from .keyed import Request, asked_of
-from .marked import Desk, Marked
+from .marked import Desk
 from .report import Report, report
 from .report_html import report_html
 from .report_json import to_json
@@ -80,16 +80,9 @@ def _is_table(file: Path) -> bool:
 
 def _one(check: Check, answers: Answers, files: Sequence[Path], as_json: bool) -> None:
     """Mark one student: the report to files, else to the console."""
-    marked, told = mark_alone(check, answers)
+    told = mark_alone(check, answers)
     if as_json:
-        click.echo(
-            json.dumps(
-                to_json(marked, check.rubric, check.request.language, check.own),
-                ensure_ascii=True,
-                allow_nan=False,
-                indent=2,
-            )
-        )
+        click.echo(json.dumps(to_json(told, check.rubric), ensure_ascii=True, allow_nan=False, indent=2))
     elif not files:
         click.echo(report_text(told), nl=False)
     write_reports(told, files)
@@ -152,6 +145,9 @@ def prepare(
     plans = None if only is None else tuple(only)
     request = Request(found, variant or "", settings, plans, scales, notation, language)
     asked = asked_of(request.solution(variant or next(iter(found.variants)), {}))
+    if plans is not None:
+        whole = asked_of(replace(request, only=None).solution(variant or next(iter(found.variants)), {}))
+        asked = replace(asked, others=frozenset(whole.names).difference(asked.names))
     marking = read_rubric(rubric, preset, asked)
     return Check(request, marking, asked, read_roster(roster, found) if roster else None, digits, own)
 
@@ -191,7 +187,7 @@ def _students(check: Check, roster: Roster) -> Iterator[tuple[str, ...]]:
         yield entry.who.student, entry.who.group, entry.who.book, entry.who.number, variant, ""
 
 
-def mark_alone(check: Check, answers: Answers) -> tuple[Marked, Report]:
+def mark_alone(check: Check, answers: Answers) -> Report:
     """Mark one student.
 
     Raises
@@ -203,7 +199,7 @@ def mark_alone(check: Check, answers: Answers) -> tuple[Marked, Report]:
     language = check.request.language
     exact = too_exact(result_of(marked, language).segments)
     flags = [texts(language)["flag.exact"]] if exact else []
-    return marked, report(marked, check.rubric, language, check.own, flags)
+    return report(marked, check.rubric, language, check.own, flags)
 
 
 def _desk(check: Check) -> Desk:

@@ -74,6 +74,8 @@ class _Sheet:
         """Whether a name is one that can be answered; note where it is not."""
         if name in self.asked.names:
             return True
+        if name in self.asked.others:
+            return False
         self.refuse(row, column, name, unknown("quantity-unknown", name, self.asked.names))
         return False
 
@@ -228,7 +230,8 @@ def _strangers(grid: Grid, header: int, asked: Asked, read: set[int]) -> list[Lo
     found = []
     for column, text in enumerate(grid.rows[header]):
         part = quantity_part(text)
-        if column not in read and part is not None and ("_" in text or part[1]):
+        own = part is not None and part[0] in asked.others
+        if column not in read and not own and part is not None and ("_" in text or part[1]):
             error = unknown("quantity-unknown", part[0], asked.names)
             found.append(LocatedError(f"{grid.place(header, column)}, {quote(text)}", error))
     return found

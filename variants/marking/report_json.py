@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from ...plans.marking.verdicts import Line, Verdict
-from .marked import Marked
+from .report import Report, Row
 from .rubric import Rubric
 
 
-def to_json(marked: Marked, rubric: Rubric, language: str, own: bool) -> dict[str, Any]:
+def to_json(report: Report, rubric: Rubric) -> dict[str, Any]:
     """Return what `kulman check --json` prints of one student; a student's own has no right numbers."""
-    lines = [_line(line, own) for line in marked.lines]
+    marked, own, language = report.marked, report.own, report.language
+    rows = {row.name: row for _, rows in report.parts for row in rows}
+    lines = [_line(line, rows[line.name], own) for line in marked.lines]
     key = marked.keyed
     found: dict[str, Any] = {
         "task": key.solution.task.id,
@@ -36,11 +39,12 @@ def to_json(marked: Marked, rubric: Rubric, language: str, own: bool) -> dict[st
     return found
 
 
-def _line(line: Line, own: bool) -> dict[str, Any]:
-    """Return one line as plain data."""
-    found = {"quantity": line.name, "verdict": str(line.verdict), "about": line.about}
+def _line(line: Line, row: Row, own: bool) -> dict[str, Any]:
+    """Return one line as plain data, answer and right value also as they are shown."""
+    found = {"quantity": line.name, "verdict": str(line.verdict), "about": line.about, "answer": row.answer}
     if own:
         return found
     right = line.right
     parts = {"x": right.real, "y": right.imag} if isinstance(right, complex) else {}
-    return {**found, "right": {"value": abs(right) if parts else right, **parts}, "allowed": line.allowed}
+    size = math.hypot(right.real, right.imag) if parts else right
+    return {**found, "right": {"value": size, **parts}, "allowed": line.allowed, "shown": row.right}
