@@ -9,7 +9,8 @@ from cmath import rect
 from .shapes import Arc, Circle, Group, Head, Line, Pen, Polyline, Shape
 from .style import Style
 
-SHARPEST = 2.6  # radii of a revolute pair that the filled corner between two sides reaches at most
+# radii of a revolute pair: what a filled corner reaches at most, and how far apart sides at a sharper angle must be
+SHARPEST, PARTED = 2.6, 0.7
 
 
 def revolute(at: complex, name: str, style: Style) -> Group:
@@ -44,16 +45,20 @@ def fixed_pivot(at: complex, name: str, style: Style, down: complex = -1j) -> Gr
 def rigid_corner(at: complex, u: complex, w: complex, style: Style, pin: bool) -> Polyline:
     """Return the filled corner between two sides of one link, along `u` and `w`; around the circle of a `pin`.
 
-    The sharper the angle, the farther it reaches, for the sides must leave each other before it can be seen; but no
-    farther than `SHARPEST`, lest it look like a wedge between them.
+    Sides at a sharp angle run one on the other near their corner: between them only a strip is filled, where they have
+    left each other, lest the whole corner look like a wedge.
     """
     sweep = cmath.phase(w / u)
     apart = math.sin(min(abs(sweep), math.pi / 2))
     inner = style.pair if pin else 0.0
-    outer = max(inner + 0.65 * style.pair, min(1.1 * style.pair / max(apart, 1e-3), SHARPEST * style.pair))
-    arc = tuple(at + u * rect(outer, sweep * k / 12) for k in range(13))
-    rim = arc if pin else (at + u * outer, at + w * outer)
-    return Polyline((at + u * inner, *rim, at + w * inner), Pen.THIN, closed=True, fill="black", role="rigid")
+    outer = max(inner + 0.65 * style.pair, 1.1 * style.pair / max(apart, 1e-3))
+    if outer > SHARPEST * style.pair:
+        inner = max(inner, min(PARTED * style.pair / (2.0 * math.tan(abs(sweep) / 2.0)), 8.0 * style.pair))
+        outer = inner + 0.8 * style.pair
+    near, far = (tuple(at + u * rect(radius, sweep * k / 12) for k in range(13)) for radius in (inner, outer))
+    rim = far if pin else (at + u * outer, at + w * outer)
+    foot = tuple(reversed(near)) if inner > 0.0 else (at,)
+    return Polyline((*foot, *rim), Pen.THIN, closed=True, fill="black", role="rigid")
 
 
 def bridge(at: complex, u: complex, style: Style) -> Arc:
