@@ -179,7 +179,7 @@ class _Marker:
             by_mm = self._held(readings(answer, instead), name, value).verdict
             if not agrees and held.verdict.passed is not by_mm.passed:
                 return held._replace(verdict=Verdict.ARITHMETIC)
-        if not held.verdict.passed and held.miss.about == SIZE and self._is_scale(name, value):
+        if held.miss.off > CLEAR and held.miss.about == SIZE and self._is_scale(name, value):
             return held._replace(verdict=Verdict.SCALE)
         return held
 
