@@ -6,14 +6,13 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from importlib.resources import files
 from string import ascii_lowercase
 from typing import Any
 
 from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import LANGUAGES, InputError
 from ..scales.names import unknown
-from ..scales.packaged import packaged
+from ..scales.packaged import home, packaged
 from ..scales.scale import Scale
 from ..scales.units import format_unit
 
@@ -35,7 +34,7 @@ PER_UNIT_DIGITS = 6
 
 def notations() -> tuple[str, ...]:
     """Return the names of the notation profiles."""
-    return tuple(sorted(p.name.removesuffix(".toml") for p in files(__package__).joinpath("notations").iterdir()))
+    return tuple(sorted(path.stem for path in (home(__package__) / "notations").iterdir()))
 
 
 @dataclass(frozen=True, slots=True)

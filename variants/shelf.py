@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 import tomllib
-from importlib.resources import files
 from typing import Any
 
-_TASKS = files(__package__) / "tasks"
+from ..scales.packaged import home
+
+_TASKS = home(__package__) / "tasks"
 # what the files of the bundled tasks look like: a row of variants begins with its id, a given with unit or choices
 _ID = re.compile(r'^(?:  \{ )?id = "([^"]+)"', re.MULTILINE)
 _TABLE = re.compile(r"^variant = \[\n.*?^\]\n", re.MULTILINE | re.DOTALL)

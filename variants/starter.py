@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import re
-from importlib.resources import files
 from pathlib import Path
 
 from ..scales.errors import InputError
 from ..scales.numbers import quote
+from ..scales.packaged import home
 
 SUFFIX = ".toml"
 _NAME = "my-mechanism"  # what the templates call themselves
@@ -17,7 +17,7 @@ _SHOWN = 200
 
 def template(language: str) -> str:
     """Return the task file that `start` writes, with its comments in `language`."""
-    return (files(__package__) / "templates" / f"{language}.toml").read_text(encoding="utf-8")
+    return (home(__package__) / "templates" / f"{language}.toml").read_text(encoding="utf-8")
 
 
 def start(file: str | os.PathLike[str], language: str) -> Path:
