@@ -6,6 +6,9 @@ import csv
 import io
 import math
 import random
+import subprocess
+import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -295,3 +298,27 @@ def test_the_form_of_a_class_has_its_students(tmp_path: Path, capsys: pytest.Cap
     assert rows[1][0] == "'=HYPERLINK(1)"
     assert [row[4] for row in rows[1:]] == ["7", "5"]
     assert {"mu_V", "V_B.mm", "V_B", "V_B.dir", "omega_2"} <= {*rows[0]}
+
+
+@pytest.mark.soak
+def test_a_killed_run_leaves_no_process_and_goes_on(tmp_path: Path) -> None:
+    file, folder, journal = class_file(tmp_path, 200), tmp_path / "out", tmp_path / "out" / ".kulman-check.jsonl"
+    command = [sys.executable, "-m", "kulman", "check", TASK, str(file), "--out", str(folder), "--jobs", "2"]
+    run_of = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    while not (journal.exists() and journal.read_bytes().count(b"\n") > 20):
+        assert run_of.poll() is None
+        time.sleep(0.02)
+    run_of.kill()
+    assert run_of.stdout is not None
+    run_of.stdout.read()  # ends when no process holds the other end any more
+    run_of.wait()
+    before = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.html")}
+    kept = journal.read_bytes().count(b"\n")
+
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=True)
+
+    after = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.html")}
+    assert len(after) == 200
+    assert sum(after[name] == at for name, at in before.items()) >= min(kept, len(before)) - 16
+    assert not journal.exists()
+    assert "200" in done.stdout

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import multiprocessing
 import os
 import re
 from collections.abc import Callable, Iterator, Sequence
@@ -11,7 +12,9 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from multiprocessing.process import BaseProcess
 from pathlib import Path
+from threading import Thread
 
 from ... import __version__
 from ...drawing.writers import write_whole
@@ -136,8 +139,16 @@ _OWN: list[tuple[Job, Desk]] = []  # of a process
 
 
 def _begin(job: Job) -> None:
-    """Set up a process."""
+    """Set up a process, which ends with the one that has started it, even if that is killed."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        Thread(target=_end_with, args=(parent,), daemon=True).start()
     _OWN.append((job, _desk(job)))
+
+
+def _end_with(parent: BaseProcess) -> None:
+    parent.join()
+    os._exit(1)
 
 
 def _piece(students: list[tuple[int, Answers]]) -> list[Result]:
