@@ -132,6 +132,7 @@ def as_data(expected: Expectation) -> Mapping[str, Any]:
         "percent": expected.percent,
         "miss": spread.miss,
         "miss_mm": spread.mm_miss,
+        "degrees": spread.degrees,
         "step": expected.step,
         "share": expected.share,
         "tolerance": expected.allowed,

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from .exact import run
 from .hand import Hand
+from .laws import cross, dot
 from .quantities import POINTS
 from .shaky import Paper, ShakyBoard, draw
 from .worth import plans_of, references, results
@@ -39,6 +40,8 @@ class Spread:
         Deviation in per cent of the value, and of the largest vector of its plan.
     undrawn : float
         Part of the drawings in which it cannot be drawn.
+    degrees : float or None
+        What a vector turns by at most, in the part `share` of all drawings; None for one that is zero.
     """
 
     exact: float | None
@@ -51,6 +54,7 @@ class Spread:
     percent: float | None
     of_largest: float | None
     undrawn: float
+    degrees: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +106,16 @@ class Drawn:
             _per_cent(deviation, value, size),
             _per_cent(deviation, size, size),
             undrawn,
+            None if point else _turning(values, exact, size, share),
         )
+
+
+def _turning(values: Array, exact: Any, size: float, share: float) -> float | None:
+    """Return the degrees by which most drawn vectors turn from the exact one."""
+    if not isinstance(exact, complex) or abs(exact) <= NOTHING * size:
+        return None
+    angles = np.arctan2(cross(exact, values), dot(exact, values))
+    return float(np.degrees(np.quantile(np.abs(angles), share)))
 
 
 def _per_cent(part: float, whole: float | None, size: float) -> float | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from itertools import pairwise
 from typing import Any
 
@@ -18,7 +19,7 @@ from kulman.variants.hands import hand_of
 from kulman.variants.shelf import bundled
 
 KEYS = {"low", "high", "mm", "percent", "miss", "miss_mm", "step", "share", "tolerance", "tolerance_mm"}
-KEYS |= {"tolerance_deg", "failed", "undrawn"}
+KEYS |= {"degrees", "tolerance_deg", "failed", "undrawn"}
 
 
 def run(command: str, capsys: pytest.CaptureFixture[str]) -> tuple[int, str, str]:
@@ -74,6 +75,22 @@ def test_intervals_hold_95_of_100_drawings_of_this_generator() -> None:
             sizes = board.values[name]
             sizes = np.abs(sizes) if np.iscomplexobj(sizes) else sizes
             assert np.mean((sizes >= item["low"]) & (sizes <= item["high"])) == pytest.approx(0.95, abs=1e-3), name
+
+
+def test_directions_keep_within_their_degrees() -> None:
+    solution = solve("nau-slider-crank", "example", hand="normal")
+    mus = {plan: solution.scales[symbol].mu for plan, symbol in solution.solved.scale_of_plan.items()}
+    paper = Paper(solution.solved.program, solution.solved.givens, mus)
+    board = draw(paper, PRESETS["normal"].hand, np.random.default_rng(SEED), DRAWINGS)
+
+    for name, item in items().items():
+        if item["degrees"] is not None and item["step"] is not None:
+            turned = np.degrees(np.abs(np.angle(board.values[name] * np.conj(solution.solved.values[name]))))
+            assert np.mean(turned <= item["degrees"]) == pytest.approx(0.95, abs=1e-3), name
+    # the crank is laid off, then the vector; a mark and a reading turn 80 mm by less
+    turned = math.hypot(0.5, 0.5, *[math.degrees(0.25 / 80.0)] * 2)
+    assert items()["V_A"]["degrees"] == pytest.approx(1.96 * turned, rel=0.05)
+    assert items()["omega_2"]["degrees"] is None
 
 
 def test_a_steadier_hand_draws_narrower_intervals() -> None:
