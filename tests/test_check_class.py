@@ -304,14 +304,13 @@ def test_the_form_of_a_class_has_its_students(tmp_path: Path, capsys: pytest.Cap
 def test_a_killed_run_leaves_no_process_and_goes_on(tmp_path: Path) -> None:
     file, folder, journal = class_file(tmp_path, 200), tmp_path / "out", tmp_path / "out" / ".kulman-check.jsonl"
     command = [sys.executable, "-m", "kulman", "check", TASK, str(file), "--out", str(folder), "--jobs", "2"]
-    run_of = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-    while not (journal.exists() and journal.read_bytes().count(b"\n") > 20):
-        assert run_of.poll() is None
-        time.sleep(0.02)
-    run_of.kill()
-    assert run_of.stdout is not None
-    run_of.stdout.read()  # ends when no process holds the other end any more
-    run_of.wait()
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as run_of:
+        while not (journal.exists() and journal.read_bytes().count(b"\n") > 20):
+            assert run_of.poll() is None
+            time.sleep(0.02)
+        run_of.kill()
+        assert run_of.stdout is not None
+        run_of.stdout.read()  # ends when no process holds the other end any more
     before = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.html")}
     kept = journal.read_bytes().count(b"\n")
 
