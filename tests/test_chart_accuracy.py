@@ -10,9 +10,12 @@ import pytest
 
 from kulman.plans.hand import preset
 from kulman.plans.linkages import contest as contests
-from kulman.plans.linkages.contest import Contest, Effort, Entry, by_hand, contest, places_of, truth
+from kulman.plans.linkages.contest import Contest, Effort, Entry, contest, places_of, truth
 from kulman.plans.linkages.cycle import Cycle, cycle
+from kulman.plans.linkages.hand_drawn import by_hand
 from kulman.plans.linkages.rivals import Rivals, groups
+from kulman.plans.linkages.solved import solve_linkage
+from kulman.plans.worth import references
 from kulman.variants.reader import load_task
 
 LITTLE = Effort((1, 10), 20)
@@ -99,19 +102,39 @@ def test_the_front_of_a_made_up_contest() -> None:
     assert [e.method for e in Contest((), np.zeros(1), entries).front("velocity")] == ["best", "good", "fast"]
 
 
+MUS = {"position": 0.0025, "velocity": 0.2, "acceleration": 20.0, "lever": 0.2, "forces_1": 50.0, "forces_23": 50.0}
+
+
+def drawn(hand: str, factor: float = 1.0, name: str = "madi-four-bar") -> list[Entry]:
+    """Return what a hand misses, with scale factors `factor` times as coarse."""
+    task, whole = load_task(name), of_task(name)
+    solved = solve_linkage(task.mechanism, task.values(None, {}), task.plans)
+    scales = {plan: MUS.get(plan, 50.0) * factor for plan in solved.scale_of_plan}
+    return list(by_hand(whole, solved, scales, preset(hand).hand, groups(whole), "A1"))
+
+
 def test_a_hand_errs_in_per_cents_and_a_computer_less() -> None:
-    whole = of_task("madi-four-bar")
-    mus = {"position": 0.0025, "velocity": 0.2, "acceleration": 20.0, "lever": 0.2, "forces_1": 50.0, "forces_23": 50.0}
+    ways = (("normal", 1.0), ("cad", 1.0), ("normal", 2.0))
+    normal, cad, small = ([entry.error or math.inf for entry in drawn(*way)] for way in ways)
 
-    def worst(hand: str, factor: float = 1.0) -> list[float]:
-        scales = {plan: mu * factor for plan, mu in mus.items()}
-        drawn = by_hand(whole, scales, preset(hand).hand, groups(whole), np.random.default_rng(1), "A1")
-        return [entry.error or math.inf for entry in drawn]
-
-    normal, cad, small = worst("normal"), worst("cad"), worst("normal", 2.0)
     assert all(1e-3 < error < 1.0 for error in normal)
     assert all(fine < coarse / 5.0 for fine, coarse in zip(cad, normal, strict=True))
     assert all(large < half for large, half in zip(normal, small, strict=True))
+
+
+def test_a_hand_draws_the_plans_of_every_position_as_long() -> None:
+    task, whole = load_task("scheme-09-shaper"), of_task("scheme-09-shaper")
+    places = places_of(whole, 12)
+    elsewhere = {**task.values(None, {}), "phi": float(places[7] % math.tau)}
+    mus: list[list[Entry]] = []
+    for values in (task.values(None, {}), elsewhere):
+        solved = solve_linkage(task.mechanism, values, task.plans)
+        sizes = references(solved.program, solved.values)
+        paper = dict.fromkeys(solved.scale_of_plan, 0.005)
+        paper |= {"acceleration": sizes["a_A"] / 100.0, "velocity": sizes["V_A"] / 100.0}  # longest vectors 100 mm long
+        mus.append(list(by_hand(whole, solved, paper, preset("normal").hand, groups(whole, ["a_E"]), "A1")))
+
+    assert [e.error for e in mus[0]] == pytest.approx([e.error for e in mus[1]], rel=1e-6)
 
 
 def test_places_of_a_cycle_are_off_its_ends() -> None:

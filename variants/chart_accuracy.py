@@ -17,8 +17,9 @@ from ..drawing.linkages.sheet import draw
 from ..drawing.titleblock import Stamp
 from ..drawing.words import Words
 from ..plans.hand import preset
-from ..plans.linkages.contest import FULL, Contest, Effort, Entry, by_hand, contest
+from ..plans.linkages.contest import FULL, Contest, Effort, Entry, contest
 from ..plans.linkages.cycle import Cycle
+from ..plans.linkages.hand_drawn import by_hand
 from ..scales.errors import InputError
 from .chart_data import Cell, Scene, aligned, as_csv, finite, place_value, short, wrapped
 
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FORMATS = ("A4", "A3", "A2", "A1")
-SEED = 1
 HEAD = ("method", "setting", "kind", "error", "typical", "quantity", "place", "seconds", "at_once", "failed", "front")
 
 
@@ -127,8 +127,7 @@ def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
     for name in FORMATS:
         mus = _scales(scene, name)
         if mus is not None:
-            random = np.random.default_rng(SEED)  # the same hand on every format
-            yield from by_hand(cycle, mus, preset(scene.hand).hand, found.groups, random, name)
+            yield from by_hand(cycle, scene.case.solved, mus, preset(scene.hand).hand, found.groups, name)
 
 
 def _scales(scene: Scene, name: str) -> Mapping[str, float] | None:

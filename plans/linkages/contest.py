@@ -16,10 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..exact import run
-from ..hand import Hand
-from ..laws import TURN
 from ..precision import run_in
-from ..shaky import Paper, draw
 from ..worth import plans_of, references
 from .cycle import Cycle
 from .rivals import Group, Newton, Rivals, Values, Way, groups
@@ -35,8 +32,6 @@ ROUNDS, ENOUGH, LONG = (
     0.05,
     1.0,
 )  # runs of a piece of work, seconds of work that need no repeating, that are too many
-NEAR_DEAD = 0.01  # part of the cycle
-DRAWN, DRAWINGS, SHARE = 12, 400, 0.95  # positions that a hand draws, how many times, the part of drawings that counts
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,20 +141,10 @@ def truth(cycle: Cycle, places: Array, names: Sequence[str]) -> Truth:
             high[name][i] = complex(exact[name])
             low[name][i] = complex(exact[name] - high[name][i])
             sizes[name][i] = size[name]
-    return Truth(high, low, {name: _beside(cycle, name, sizes[name]) for name in names})
+    return Truth(high, low, {name: beside(cycle, name, sizes[name]) for name in names})
 
 
-def _not_dead(cycle: Cycle, places: Array) -> Array:
-    """Return the places that are off dead positions: a hand that errs there takes one stroke for the other."""
-    near = NEAR_DEAD * abs(cycle.range.high - cycle.range.low)
-    off = np.ones(len(places), bool)
-    for dead in (dead for motion in cycle.motions for dead in motion.dead):
-        away = places - dead.angle
-        off &= np.abs(away - TURN * np.rint(away / TURN) if cycle.drive.turns else away) > near
-    return places[off]
-
-
-def _beside(cycle: Cycle, name: str, sizes: Array) -> Array:
+def beside(cycle: Cycle, name: str, sizes: Array) -> Array:
     """Return the sizes beside which errors count: of a number that no plan shows the largest over the cycle."""
     if name not in plans_of(cycle.program):
         sizes = np.where(np.isnan(sizes), np.nan, np.nanmax(sizes, initial=0.0))
@@ -186,7 +171,7 @@ def timed(work: Callable[[], object]) -> float:
 
 
 def contest(cycle: Cycle, positions: int, names: Iterable[str] = (), effort: Effort = FULL) -> Contest:
-    """Let all methods but the hand compete over a cycle.
+    """Let all methods but the hand, which `hand_drawn` adds, compete over a cycle.
 
     Parameters
     ----------
@@ -279,36 +264,6 @@ class _Race:
     ) -> Entry:
         """Sum up the errors of a method."""
         return summed(method, setting, self.group, self.places, errors, seconds, at_once)
-
-
-def by_hand(
-    cycle: Cycle, mus: Mapping[str, float], hand: Hand, kinds: Iterable[Group], random: np.random.Generator, paper: str
-) -> Iterator[Entry]:
-    """Go through the errors that most drawings of a hand keep, kind by kind.
-
-    Parameters
-    ----------
-    mus : mapping of str to float
-        Scale factors by plan, SI per mm.
-    paper : str
-        What the hand draws on, the setting of the entries.
-    """
-    places, kinds = _not_dead(cycle, places_of(cycle, DRAWN)), tuple(kinds)
-    names = tuple(name for group in kinds for name in group.names)
-    program, givens = cycle.program.needed_for(names), cycle.drive.givens(cycle.givens, places, cycle.program)
-    column = {name: value[:, None] if np.ndim(value) else value for name, value in givens.items()}
-    board = draw(Paper(program, column, mus), hand, random, (len(places), DRAWINGS))
-    runs = [run(cycle.program, one_of(givens, i)) for i in range(len(places))]
-    sizes = [references(cycle.program, one.values) for one in runs]
-    errors = {}
-    for name in names:
-        exact = np.array([one.values[name] for one in runs])[:, None]
-        off = np.broadcast_to(np.abs(board.values[name] - exact), (len(places), DRAWINGS))
-        misses = np.sort(off, axis=1)  # what cannot be drawn comes last
-        size = _beside(cycle, name, np.array([size[name] for size in sizes]))
-        errors[name] = misses[:, int(np.ceil(SHARE * DRAWINGS)) - 1] * (1.0 / size)
-    for group in kinds:
-        yield summed(HAND, paper, group, places, errors, None, 1)
 
 
 def summed(

@@ -1,0 +1,102 @@
+"""What a hand misses over the cycle of a mechanism, to stand beside the methods of a computer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..board import POSITION, Program
+from ..exact import ExactBoard, run
+from ..hand import Hand
+from ..laws import TURN
+from ..shaky import Paper, draw
+from ..worth import plans_of, references
+from .contest import HAND, Entry, beside, one_of, places_of, summed
+from .cycle import Cycle
+from .rivals import Group
+from .solved import Solved
+
+Array = NDArray[Any]
+SEED = 1  # the same hand on every paper
+NEAR_DEAD = 0.01  # part of the cycle
+DRAWN, DRAWINGS, SHARE = 12, 400, 0.95  # positions that are drawn, how many times, the part of drawings that counts
+
+
+def by_hand(
+    cycle: Cycle,
+    solved: Solved,
+    mus: Mapping[str, float],
+    hand: Hand,
+    kinds: Iterable[Group],
+    paper: str,
+    seed: int = 1,
+) -> Iterator[Entry]:
+    """Go through the errors that most drawings of a hand keep, kind by kind.
+
+    The plans of every position are drawn as long as a sheet draws those of one.
+
+    Parameters
+    ----------
+    solved : Solved
+        The position that the sheet shows.
+    mus : mapping of str to float
+        Scale factors of the sheet by plan, SI per mm.
+    paper : str
+        What the hand draws on, the setting of the entries.
+    """
+    places, kinds = _not_dead(cycle, places_of(cycle, DRAWN)), tuple(kinds)
+    names = tuple(name for group in kinds for name in group.names)
+    program, givens = cycle.program.needed_for(names), cycle.drive.givens(cycle.givens, places, cycle.program)
+    runs = [run(cycle.program, one_of(givens, i)) for i in range(len(places))]
+    column = {name: value[:, None] if np.ndim(value) else value for name, value in givens.items()}
+    on_paper = Paper(program, column, _as_long(cycle.program, runs, solved, mus))
+    board = draw(on_paper, hand, np.random.default_rng(SEED), (len(places), DRAWINGS))
+    sizes = [references(cycle.program, one.values) for one in runs]
+    errors = {}
+    for name in names:
+        exact = np.array([one.values[name] for one in runs])[:, None]
+        off = np.broadcast_to(np.abs(board.values[name] - exact), (len(places), DRAWINGS))
+        misses = np.sort(off, axis=1)  # what cannot be drawn comes last
+        size = beside(cycle, name, np.array([size[name] for size in sizes]))
+        errors[name] = misses[:, int(np.ceil(SHARE * DRAWINGS)) - 1] * (1.0 / size)
+    for group in kinds:
+        yield summed(HAND, paper, group, places, errors)
+
+
+def _as_long(
+    program: Program, runs: Iterable[ExactBoard], solved: Solved, mus: Mapping[str, float]
+) -> dict[str, float | Array]:
+    """Return scale factors by plan at which the longest vectors are as long as those of the solved position."""
+    symbols = solved.scale_of_plan
+    own = _largest(solved.program, solved.values, symbols)
+    each = [_largest(program, one.values, symbols) for one in runs]
+    found: dict[str, float | Array] = {}
+    for plan, mu in mus.items():
+        symbol = symbols.get(plan, "")
+        sizes = np.array([size.get(symbol, 0.0) for size in each])[:, None]
+        drawn = own.get(symbol, 0.0) if plan != POSITION else 0.0
+        found[plan] = np.where(sizes > 0.0, sizes * (mu / drawn), mu) if drawn > 0.0 else mu
+    return found
+
+
+def _largest(program: Program, values: Mapping[str, Any], symbols: Mapping[str, str]) -> dict[str, float]:
+    """Return the largest vector that is drawn with each scale factor."""
+    plans, largest = plans_of(program), dict[str, float]()
+    for name, size in references(program, values).items():
+        symbol = symbols.get(plans.get(name, ""))
+        if symbol is not None:
+            largest[symbol] = max(largest.get(symbol, 0.0), size)
+    return largest
+
+
+def _not_dead(cycle: Cycle, places: Array) -> Array:
+    """Return the places that are off dead positions: a hand that errs there takes one stroke for the other."""
+    near = NEAR_DEAD * abs(cycle.range.high - cycle.range.low)
+    off = np.ones(len(places), bool)
+    for dead in (dead for motion in cycle.motions for dead in motion.dead):
+        away = places - dead.angle
+        off &= np.abs(away - TURN * np.rint(away / TURN) if cycle.drive.turns else away) > near
+    return places[off]
