@@ -19,6 +19,7 @@ from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Mechanism, Prism
 from kulman.plans.mistakes.book import broken
 from kulman.plans.mistakes.rules import MISTAKES, Broken, Scene, breaks
 from kulman.plans.shaky import Paper
+from kulman.tests.marking_cases import mistakes
 from kulman.tests.mechanisms import ORIGIN
 
 CRANK, PHI, OMEGA = 0.08, math.radians(60.0), 20.0
@@ -415,3 +416,13 @@ def test_every_mistake_of_the_list_concerns_a_bundled_task_or_a_crank_that_speed
         found |= {b.mistake for b in broken(Paper(solved.program, solved.givens, mus), solved.values)}
 
     assert set(MISTAKES) - found == {"M32", "M46"}  # a bent link, a crank that speeds up
+
+
+def test_what_is_run_again_gives_the_whole_run_to_the_last_bit() -> None:
+    of_task = mistakes("scheme-10-shaper-two-blocks")
+
+    for found in of_task.signatures[::7]:
+        whole = run(found.broken.program, found.broken.givens).values
+        assert {name: whole[name] for name in of_task.key.questions} == {
+            name: found.values[name] for name in of_task.key.questions
+        }

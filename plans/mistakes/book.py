@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..exact import SMALL, ExactBoard, run
+from ..exact import SMALL, ExactBoard
 from ..marking.key import Key
 from ..marking.tolerances import tolerances
 from ..shaky import Paper
@@ -83,24 +83,58 @@ def book(key: Key) -> Book:
     return _book(key, list(_signatures(key, broken(key.paper, key.values))))
 
 
-def signature(key: Key, found: Broken) -> Signature | None:
-    """Run a broken construction; None where it cannot be drawn, or changes nothing that is asked."""
+def signature(key: Key, found: Broken, columns: Columns | None = None) -> Signature | None:
+    """Run a broken construction; None where it cannot be drawn. `columns` are those of the key, if they are there."""
+    columns = columns or Columns.of(key)
     try:
-        board = run(found.program, found.givens)
+        board = _run_again(key, found, columns.steps)
     except (ZeroDivisionError, OverflowError):
         return None
-    row = np.array([complex(board.values[name]) for name in key.questions])
     if board.trouble is not None:
         return None  # lines that are parallel, or arcs that do not reach: nobody goes on from there
-    return Signature(found, board.values, row, _allowed(key, found, board, row))
+    row = np.array([board.values[name] for name in key.questions], complex)
+    return Signature(found, board.values, row, _allowed(key, found, board, row, columns))
 
 
-def _allowed(key: Key, found: Broken, board: ExactBoard, row: NDArray[np.complex128]) -> NDArray[np.float64]:
-    right, allowed, _ = _columns(key)
-    sizes = np.abs(right)
+@dataclass(frozen=True, slots=True, eq=False)
+class Columns:
+    """The right values and tolerances of a key in the order of its questions, and the identities of its steps."""
+
+    right: NDArray[np.complex128]
+    allowed: NDArray[np.float64]
+    vector: NDArray[np.bool_]
+    steps: frozenset[int]
+
+    @classmethod
+    def of(cls, key: Key) -> Columns:
+        """Return the columns of a key."""
+        names = list(key.questions)
+        right = np.array([key.values[name] for name in names], complex)
+        allowed = np.array([key.allowed[name] for name in names])
+        vector = np.array([key.questions[name].vector for name in names])
+        return cls(right, allowed, vector, frozenset(map(id, key.paper.program)))
+
+
+def _run_again(key: Key, found: Broken, same: frozenset[int]) -> ExactBoard:
+    """Run what is different in a broken construction, and all that hangs on it; the rest is as in the right one."""
+    givens = key.paper.givens
+    changed = {name for name, value in found.givens.items() if name not in givens or givens[name] is not value}
+    board = ExactBoard({**key.values, **{name: found.givens[name] for name in changed}})
+    board.sines |= key.sines
+    for step in found.program:
+        if id(step) not in same or not changed.isdisjoint(step.operands):
+            board.step(step.verb, step.name, *step.operands, law=step.law)
+            changed.add(step.name)
+    return board
+
+
+def _allowed(
+    key: Key, found: Broken, board: ExactBoard, row: NDArray[np.complex128], columns: Columns
+) -> NDArray[np.float64]:
+    sizes = np.abs(columns.right)
     with np.errstate(all="ignore"):
         times = np.where((sizes > 0.0) & ~np.isnan(row), np.abs(row) / sizes, 1.0)
-    most = allowed * np.maximum(1.0, times)
+    most = columns.allowed * np.maximum(1.0, times)
     flattest = min(board.sines.values(), default=1.0)
     if 0.0 < flattest < SMALL and flattest < FLATTER * min(key.sines.values(), default=1.0):
         mus = {plan: key.paper.mus.get(plan, UNDRAWN) for plan in found.program.plans}
@@ -111,31 +145,22 @@ def _allowed(key: Key, found: Broken, board: ExactBoard, row: NDArray[np.complex
 
 
 def _signatures(key: Key, found: Iterable[Broken]) -> Iterator[Signature]:
-    right, allowed, _ = _columns(key)
+    columns = Columns.of(key)
+    rounding = NOTHING * columns.allowed + 1e-12 * np.abs(columns.right)
     for one in found:
-        made = signature(key, one)
-        if made is None:
-            continue
-        changed = ~(np.abs(made.row - right) <= NOTHING * allowed + 1e-12 * np.abs(right))
-        if changed.any():
+        made = signature(key, one, columns)
+        if made is not None and not (np.abs(made.row - columns.right) <= rounding).all():
             yield made
 
 
-def _columns(key: Key) -> tuple[NDArray[np.complex128], NDArray[np.float64], NDArray[np.bool_]]:
-    names = list(key.questions)
-    right = np.array([complex(key.values[name]) for name in names])
-    allowed = np.array([key.allowed[name] for name in names])
-    return right, allowed, np.array([key.questions[name].vector for name in names])
-
-
 def _book(key: Key, signatures: list[Signature]) -> Book:
-    right, allowed, vector = _columns(key)
+    columns = Columns.of(key)
     ordered = sorted(signatures, key=lambda s: s.broken.mistake)
-    shape = (len(ordered), len(right))
+    shape = (len(ordered), len(columns.right))
     table, most = np.empty(shape, complex), np.empty(shape)
     for place, one in enumerate(ordered):
         table[place], most[place] = one.row, one.allowed
-    return Book(key, tuple(ordered), table, most, right, allowed, vector)
+    return Book(key, tuple(ordered), table, most, columns.right, columns.allowed, columns.vector)
 
 
 def key_of(key: Key, signature: Signature) -> Key:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from ..board import POSITION, Program, Step
+from ..board import Program, Step
 from ..shaky import Paper
 
 
@@ -199,8 +199,3 @@ def length_of(vector: str) -> tuple[Step, ...]:
         Step("chain", tip, (pole, vector)),
         Step("distance", f"_size_{vector}", (pole, tip)),
     )
-
-
-def on_mechanism(step: Step) -> bool:
-    """Whether a step draws on the plan of the mechanism."""
-    return step.plan == POSITION
