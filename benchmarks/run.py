@@ -109,8 +109,10 @@ def main() -> None:
 
     import kulman
     from kulman.plans.exact import run
+    from kulman.plans.hand import preset
     from kulman.plans.linkages.chain import construct
     from kulman.plans.linkages.givens import board_givens
+    from kulman.plans.shaky import Paper, draw
 
     versions = f"Python {sys.version.split()[0]}, numpy {np.__version__}, {os.cpu_count()} cores"
     print(f"{versions}; processor time, the shortest of {RUNS} runs\n")
@@ -141,6 +143,9 @@ def main() -> None:
         "one position, the full chain", one / 200 * 1e6, "us", 100, f"{one / hand:.1f} times a hand-written closed form"
     )
     row("recording the construction", shortest(lambda: construct(task.mechanism)) * 1e3, "ms", 1, "")
+    paper, shaky = Paper(program, givens, dict.fromkeys(program.plans, 1.0)), preset("normal").hand
+    drawn = shortest(lambda: draw(paper, shaky, np.random.default_rng(1), 1000))
+    row("a thousand drawings by hand to the lever", drawn * 1e3, "ms", 100, "")
     output = subprocess.run([sys.executable, __file__, "million"], check=True, capture_output=True, text=True).stdout
     for (name, (_, _, goal)), line in zip(BATCHES.items(), output.splitlines(), strict=True):
         ours, hand, memory = map(float, line.split())
