@@ -112,6 +112,6 @@ def _questions(paper: Paper, values: Mapping[str, Any], wanted: Collection[str] 
             last = step.plan
         value = values[step.name]
         if step.name in asked and value == value and (wanted is None or step.name in wanted):
-            plan = shown.get(step.name, last)
+            plan = shown.get(step.name, POSITION if step.verb in ("distance", "measure") else last)
             found[step.name] = Question(step.name, plan, isinstance(value, complex), unit_of(step.name), step)
     return found

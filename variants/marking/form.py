@@ -13,11 +13,12 @@ from ...plans.linkages.solved import Solved
 from ...plans.marking.key import Question
 from ...scales.units import format_unit
 from .answers import Asked
-from .wording import plain, texts
+from .wording import letter, plain, texts
 
 ASKED_ABOUT = ("task", "variant", "sheet", "student", "group", "book")
 COLUMNS = ("name", "symbol", "vector", "mm", "mu", "value", "unit", "direction")
-KINEMATIC = {"l": "velocity", "V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
+OPEN = ("", "position", "velocity", "acceleration", "loads")  # sections before the first group is dealt with
+KINEMATIC = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,11 +59,13 @@ def _section(solved: Solved, question: Question, current: str) -> str:
         return "lever"
     if plan.startswith(("V_at_", "a_at_")):
         return plan
+    if head == "l" and plan == POSITION:
+        return "position"
     if head in KINEMATIC and plan in (POSITION, "velocity", "acceleration") and "forces" not in current:
         return KINEMATIC[head]
     if head in ("R", "M") and plan.startswith("forces"):
         return f"forces:{solved.scale_of_plan[plan].removeprefix('mu_F_')}"
-    return "loads" if head not in ("h", "M", "F") or current in ("", "acceleration", "loads") else current
+    return "loads" if head not in ("h", "M", "F") or current in OPEN else current
 
 
 def _heading(key: str, words: Words) -> str:
@@ -104,10 +107,11 @@ def form_rows(
 def vector_letters(solved: Solved, words: Words) -> dict[str, str]:
     """Return the letters of the vector that shows a quantity on its plan: pb, ab, n_BA b."""
     reading = read(solved.program)
-    edges = (edge for plan in solved.program.plans for edge in reading.on(plan))
+    plans = (plan for plan in solved.program.plans if not plan.startswith(("V_at_", "a_at_")))
+    edges = (edge for plan in plans for edge in reading.on(plan))
     found: dict[str, str] = {}
     for edge in edges:
-        tail, tip = (plain(words.mark(mark)) for mark in (edge.tail, edge.tip))
+        tail, tip = (letter(words, mark) for mark in (edge.tail, edge.tip))
         found.setdefault(edge.name.removeprefix("_"), f"{tail}{tip}")
     return found
 

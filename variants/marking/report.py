@@ -14,7 +14,7 @@ from ...plans.mistakes.rules import Broken
 from ...scales.units import format_unit
 from .marked import Marked
 from .rubric import Rubric
-from .wording import mistake_texts, plain, texts
+from .wording import letter, mistake_texts, plain, texts
 
 DIGITS = 4
 ROUNDING, TOLD = 1e-9, 0.2  # parts of a tolerance: what is nothing, and what is worth telling
@@ -154,7 +154,7 @@ class _Teller:
         return f"{symbol}: {self.said[key].format(symbol=symbol, mark=mark)}"
 
     def _mark(self, step: Step) -> str:
-        return plain(self.words.mark(step.name))
+        return letter(self.words, step.name)
 
     def candidates(self) -> Iterator[str]:
         """Go through the mistakes that explain the answers, the simplest first."""
@@ -187,7 +187,7 @@ class _Teller:
         name = at.lstrip("_")
         if name in self.marked.keyed.solution.quantities or name in self.marked.keyed.solution.task.givens:
             return self.symbol(name)
-        return plain(self.words.mark(at)) if "." in at else ""
+        return letter(self.words, at) if "." in at else ""
 
     def parts(self) -> Iterator[tuple[str, tuple[Row, ...]]]:
         """Go through the lines that count, plan by plan."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from ...drawing.words import Words
 from ...scales.packaged import packaged
 
 
@@ -26,3 +27,9 @@ def plain(markup: str) -> str:
 def mistake_texts(language: str) -> dict[str, str]:
     """Return what was done by whoever made a mistake, by its id."""
     return packaged(__package__, "texts", f"mistakes.{language}")
+
+
+def letter(words: Words, mark: str) -> str:
+    """Return the letter of a mark on a plan; at a point whose motion is split marks have none of their own."""
+    plan, _, name = mark.rpartition(".")
+    return name if plan.startswith(("V_at_", "a_at_")) else plain(words.mark(mark))
