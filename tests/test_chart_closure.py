@@ -7,10 +7,16 @@ from typing import Any
 import numpy as np
 import pytest
 
+from kulman.plans.exact import run
+from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.closure import Closure
 from kulman.plans.linkages.contest import places_of
+from kulman.plans.linkages.contours import Pose
 from kulman.plans.linkages.cycle import Cycle, cycle
+from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.rivals import Newton, Rivals, groups
+from kulman.tests.dyads import random_dyads
 from kulman.tests.linkages import (
     four_bar,
     piston_engine,
@@ -47,7 +53,15 @@ def both(whole: Cycle, tolerance: float) -> tuple[Any, Any]:
     return Newton(rivals).way(tolerance)(places, names), rivals.plan(places, names)
 
 
-@pytest.mark.parametrize("name", bundled())
+FEW = (  # every kind of dyad, and a slide that drives
+    *("madi-four-bar", "nau-slider-crank", "scheme-09-shaper", "scheme-10-shaper-two-blocks"),
+    *("scheme-18-hydraulic-drive", "scheme-19-scotch-yoke"),
+)
+
+
+@pytest.mark.parametrize(
+    "name", [name if name in FEW else pytest.param(name, marks=[pytest.mark.soak]) for name in bundled()]
+)
 def test_newton_agrees_with_plans(name: str) -> None:
     found, exact = both(of_task(name), 1e-9)
 
@@ -66,6 +80,38 @@ def test_newton_agrees_with_plans_of_random_mechanisms(mechanism: Mechanism, val
     found, exact = both(cycle(mechanism, values, PLANS), 1e-9)
 
     assert differences(found, exact) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("kind", "carries"),
+    [
+        *(("RRR", ()), ("RRP", (False,)), ("RRP", (True,)), ("RPR", (False,)), ("RPR", (True,))),
+        *(("PRP", (False, True)), ("PRP", (True, True)), ("RPP", (True, False)), ("RPP", (True, True))),
+    ],
+)
+def test_newton_agrees_with_plans_of_dyads_on_links_that_move(kind: str, carries: tuple[bool, ...]) -> None:
+    mechanism, values, places = random_dyads(kind, (2, 3), carries, seed=5, count=4)
+    _, program = construct(mechanism, PLANS)
+    for i in range(len(places)):
+        own = {name: float(np.broadcast_to(value, len(places))[i]) for name, value in values.items()}
+        exact = run(program, board_givens(mechanism, own)).values
+        closure = Closure(mechanism, own)
+        at = np.array([own[mechanism.driver.coordinate]])
+        points = {point: np.array([exact[point]]) for link in mechanism.links for point in link.points}
+        turns = {link.number: np.exp(1j * places[i, k, 2:]) for k, link in enumerate(mechanism.links)}
+        start = closure.contours.pose(turns, points)
+        pose = closure.solve(Pose(start.angles + 1e-3, start.ways), at, 1e-6).pose
+        speed = exact[f"omega_{mechanism.driver.link}"]
+        rates = closure.rates(pose, speed)
+        epsilon = exact.get(f"epsilon_{mechanism.driver.link}", 0.0)
+        changes = closure.changes(pose, rates, epsilon)
+
+        moving = [point for point in points if f"a_{point}" in exact]
+        most = max(abs(exact[f"a_{point}"]) for point in moving)
+        for point in moving:
+            form = closure.contours.point(point)
+            assert abs(closure.contours.value(form, pose)[0] - exact[point]) < 1e-8
+            assert abs(closure.contours.change(form, pose, rates, changes)[0] - exact[f"a_{point}"]) < 1e-6 * most
 
 
 def test_newton_takes_a_driver_that_slides_and_speeds_up() -> None:

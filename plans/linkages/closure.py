@@ -46,8 +46,9 @@ class Closure:
         self._ways = [j for j in range(len(self.contours.guides)) if j != self._way]
 
     def driven(self, pose: Pose, places: Array) -> Pose:
-        """Return poses with the driver at its places."""
+        """Return poses with the driver at its places and the frame where it is."""
         angles, ways = pose.angles.copy(), pose.ways.copy()
+        angles[0] = 0.0
         if self._angle is not None:
             angles[self._angle] = places - self._zero
         else:
