@@ -53,7 +53,7 @@ def drawn(question: Question) -> bool:
 
 
 def _section(solved: Solved, question: Question, current: str) -> str:
-    """Return the section of a question; an arm stands with the forces dealt with before it."""
+    """Return the section of a question."""
     head, plan = question.name.partition("_")[0], question.plan
     if plan == "lever" or current == "lever":
         return "lever"
@@ -63,7 +63,9 @@ def _section(solved: Solved, question: Question, current: str) -> str:
         return "position"
     if head in KINEMATIC and plan in (POSITION, "velocity", "acceleration") and "forces" not in current:
         return KINEMATIC[head]
-    if head in ("R", "M") and plan.startswith("forces"):
+    if question.step.verb == "arm":  # with the force plan of the force that it is the arm of
+        plan = solved.shown_on.get(question.step.operands[1].removeprefix("_"), plan)
+    if head in ("R", "M", "h") and plan.startswith("forces"):
         return f"forces:{solved.scale_of_plan[plan].removeprefix('mu_F_')}"
     return "loads" if head not in ("h", "M", "F") or current in OPEN else current
 
