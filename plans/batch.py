@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from .board import Program
 from .exact import ILL, NAN, RIGHT, STATUSES, ExactBoard, Status, run
 from .protractor import FARTHEST, MARKS, TURN, graduation
+
+if TYPE_CHECKING:
+    from .noting import NotingBoard
 
 CHUNK = 8192
 _CODE = {status: code for code, status in enumerate(STATUSES)}
@@ -182,26 +185,47 @@ def batch(
     codes : int8 array of shape (N,)
         Index into `STATUSES`.
     """
-    from .chunks import Chunks, Store, room  # a board of arrays alone does without a tape
-    from .noting import NotingBoard
+    from .noting import NotingBoard  # a board of arrays alone does without a tape
 
-    arrays = {name: np.asarray(value, float) for name, value in givens.items() if np.ndim(value)}
+    return noted(program, givens, wanted, (NotingBoard, ArrayBoard({}, 0)), chunk)
+
+
+def noted(
+    program: Program,
+    givens: Mapping[str, Any],
+    wanted: Sequence[str],
+    boards: tuple[type[NotingBoard], ArrayBoard],
+    chunk: int = CHUNK,
+    number: DTypeLike = float,
+) -> tuple[dict[str, NDArray[Any]], NDArray[np.int8]]:
+    """Run `program` as `batch` does, on numbers of another type and with boards that go with them.
+
+    Parameters
+    ----------
+    boards : type of NotingBoard and ArrayBoard
+        The one that notes the arithmetic, and the one that looks at its numbers.
+    number : dtype
+        Of the numbers, real ones.
+    """
+    from .chunks import Chunks, Store, room
+
+    noting, checks = boards
+    arrays = {name: np.asarray(value, number) for name, value in givens.items() if np.ndim(value)}
     size = len(next(iter(arrays.values())))
     if size > chunk:
         settle_heap()
     values = {name: float(value) for name, value in givens.items() if name not in arrays}
-    checks = ArrayBoard({}, 0)
     needed = program.needed_for(wanted)
     first = cache(lambda: run(needed, {**values, **{name: float(array[0]) for name, array in arrays.items()}}).values)
-    board = NotingBoard(values, arrays, checks, first)
+    board = noting(values, arrays, checks, first)
     needed.run(board)
     results: dict[str, NDArray[Any]] = {}
     stores: list[Store] = []
     for name in wanted:
-        results[name], into = room(board.values[name], size)
+        results[name], into = room(board.values[name], size, number)
         stores += into
     codes = np.full(size, _CODE[board.status], np.int8)
-    chunks = Chunks(board.tape.entries, stores, arrays, min(size, chunk))
+    chunks = Chunks(board.tape.entries, stores, arrays, min(size, chunk), number)
     with np.errstate(invalid="ignore", divide="ignore"):
         for start in range(0, size, chunk):
             part = slice(start, min(start + chunk, size))

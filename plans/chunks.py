@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from .arithmetic import Entry, Real, Vector
 
@@ -40,10 +40,17 @@ class Chunks:
         What the givens of the tape stand for.
     chunk : int
         Positions at a time, at most.
+    number : dtype
+        Of all numbers.
     """
 
     def __init__(
-        self, entries: Sequence[Entry], stores: Iterable[Store], arrays: Mapping[str, Array], chunk: int
+        self,
+        entries: Sequence[Entry],
+        stores: Iterable[Store],
+        arrays: Mapping[str, Array],
+        chunk: int,
+        number: DTypeLike = float,
     ) -> None:
         self._entries, self._arrays = entries, arrays
         self._stores: dict[int, list[Store]] = {}
@@ -51,9 +58,9 @@ class Chunks:
             self._stores.setdefault(store.place, []).append(store)
         self._order = _in_order(entries, self._stores)
         self._buffer_of = _buffers(entries, self._order)
-        self._block = np.empty((1 + max(self._buffer_of.values(), default=0), chunk + PADDING))
+        self._block = np.empty((1 + max(self._buffer_of.values(), default=0), chunk + PADDING), number)
         self._constants = {
-            place: np.array(entry.constant) for place, entry in enumerate(entries) if entry.constant is not None
+            place: np.array(entry.constant, number) for place, entry in enumerate(entries) if entry.constant is not None
         }
         self._calls: list[Call] = []
         self._moving: list[tuple[int, Callable[[slice], Call]]] = []
@@ -102,14 +109,18 @@ class Chunks:
         return self._arrays[self._entries[place].given][part]
 
 
-def room(value: Any, size: int) -> tuple[NDArray[Any], list[Store]]:
-    """Return an array for a value at all positions, filled where it is the same everywhere, and what fills the rest."""
+def room(value: Any, size: int, kind: DTypeLike = float) -> tuple[NDArray[Any], list[Store]]:
+    """Return an array for a value at all positions, filled where it is the same everywhere, and what fills the rest.
+
+    `kind` is the type of its numbers, real ones.
+    """
+    vectors = np.result_type(kind, np.complex64)
     if not isinstance(value, (Real, Vector)):
-        return np.full(size, value + type(value)()), []
+        return np.full(size, value + type(value)(), vectors if isinstance(value, complex) else kind), []
     if isinstance(value, Real):
-        room = np.empty(size)
+        room = np.empty(size, kind)
         return room, [Store(value.place, value.negative, room)]
-    points, stores = np.empty(size, complex), []
+    points, stores = np.empty(size, vectors), []
     for number, into in ((value.real, points.real), (value.imag, points.imag)):
         if isinstance(number, Real):
             stores.append(Store(number.place, number.negative, into))

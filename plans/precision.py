@@ -12,10 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .batch import CHUNK, ArrayBoard, batch
+from .arithmetic import Real, Vector
+from .batch import CHUNK, ArrayBoard, batch, noted
 from .board import Program
 from .exact import RIGHT, SINGULAR, TANGENT, run
 from .fifty_digits import fifty_digits
+from .noting import NotingBoard
 from .template import CLOSED, CORRECTIONS, FOLDED
 
 PRECISIONS = ("single", "double", "extended", "fifty")
@@ -72,8 +74,17 @@ class ExtendedBoard(PrecisionBoard):
     """The longest floating-point numbers of the machine; the givens are no better, so the thresholds stay."""
 
     number, vector = np.longdouble, np.clongdouble
-    right = RIGHT * float(np.finfo(np.longdouble).eps) * 2.0**52
+    right = RIGHT
     corrections = CORRECTIONS + 1
+
+
+class SingleNoting(NotingBoard):
+    """Notes the arithmetic of single precision; what depends on no array is done in double, and rounded then."""
+
+    def _turn(self, angle: Any) -> Any:
+        if not isinstance(angle, Real):
+            return super()._turn(angle)
+        return Vector(*(self._upright(self.tape.apply(function, angle)) for function in (np.cos, np.sin)))
 
 
 BOARDS: dict[str, type[PrecisionBoard]] = {"single": SingleBoard, "extended": ExtendedBoard}
@@ -102,6 +113,8 @@ def batch_in(
     """
     if precision == "double":
         return batch(program, givens, wanted, chunk)
+    if precision == "single":
+        return noted(program, givens, wanted, (SingleNoting, SingleBoard({}, 0)), chunk, np.float32)
     needed, board = program.needed_for(wanted), BOARDS[precision]({}, 0)
     exact = board.taken(givens)
     size = next(len(value) for value in exact.values() if value.ndim)
