@@ -6,7 +6,7 @@ import pytest
 
 from kulman.drawing.style import STYLES
 from kulman.tests.linkage_cases import Linkage
-from kulman.tests.printed_numbers import numbers_of
+from kulman.tests.printed_numbers import numbers_of, table
 from kulman.tests.readback import View
 from kulman.tests.sheet_geometry import NEAR, parallel
 
@@ -54,3 +54,16 @@ def test_every_inset_has_its_frame_in_the_plan_or_in_a_coarser_inset(case: Linka
         assert len([t for view in (plan, *plan.insets) for t in view.of("label") if t.string in NUMERALS]) == len(
             frames
         )
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_tables_give_the_millimetres_of_the_insets(case: Linkage) -> None:
+    rows = [row for view in case.sheet.views if view.name.startswith("results_forces") for row in table(view)]
+    read = [(numbers_of(row[1], case.lang), numbers_of(row[2], case.lang)) for row in rows]
+    found = {(mm[0], mu[0]) for mm, mu in read if mm and mu}
+
+    for plan in plans(case):
+        for name in ("F_i2", "F_i3", "F_i4", "R_12_t", "R_34_t", "G_2", "G_4"):
+            here = [v for inset in plan.insets for v in inset.vectors if v.quantity == name and abs(v.span) >= ARROW]
+            if here and abs(plan.vector(name).span) < ARROW:
+                assert any((round(abs(v.span), 2), v.mu) in found for v in here), name

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ...plans.linkages.compound import ACCELERATION, VELOCITY, Coupler
 from ..shapes import Vector, shifted
 from .letters import guide_letters
-from .plan_view import vectors_of
+from .marks import vectors_of
 from .scene import Scene
 
 PAST = 8.0  # mm by which a construction line runs past the point that it finds

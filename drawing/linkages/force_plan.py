@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ...plans.board import Step
 from ..shapes import Vector
 from .inset import NUMERALS, READABLE, TIMES, WIDEST, Window, shows, size_of, window_about
+from .marks import vectors_of
 from .scene import Scene
 
 FORCES = "forces_"  # with which the names of plans of forces begin
@@ -21,7 +22,11 @@ class ForcePlan:
 
     scene: Scene
     plan: str
-    drawn: Sequence[tuple[str, str, str]]  # quantity, tail, tip
+
+    @property
+    def drawn(self) -> list[tuple[str, str, str]]:
+        """Quantity, tail and tip of each force."""
+        return vectors_of(self.scene.solved.program.on(self.plan))
 
     def vectors(self) -> Iterator[Vector]:
         """Go through the forces that can be read on the plan or in an inset."""
@@ -74,12 +79,25 @@ class ForcePlan:
     def said(self, shown: Sequence[Window]) -> Iterator[str]:
         """Say which forces stand in which inset."""
         for numeral, window in zip(NUMERALS, shown, strict=False):
-            inside = [
-                v for v in self._short(1.0) if shows(window, (v.tail, v.tip)) and v not in self._short(window.times)
-            ]
-            symbols = dict.fromkeys(symbol(self.scene, vector.quantity) for vector in inside)
+            readable = (vector for vector in self.vectors() if _seen(self.scene, window, vector))
+            symbols = dict.fromkeys(symbol(self.scene, vector.quantity) for vector in readable)
             if symbols:
                 yield self.scene.words["said.inset"].format(vectors=", ".join(symbols), inset=numeral)
+
+
+def enlarged(scene: Scene, quantity: str, plan: str) -> float:
+    """Return how many times as large as on its plan a force can be read in an inset, 1 where it is in none."""
+    if not plan.startswith(FORCES):
+        return 1.0
+    forces = ForcePlan(scene, plan)
+    own = [vector for vector in forces.vectors() if vector.quantity == quantity]
+    return min((w.times for w in forces.windows() if any(_seen(scene, w, v) for v in own)), default=1.0)
+
+
+def _seen(scene: Scene, window: Window, vector: Vector) -> bool:
+    """Whether a vector too short for an arrowhead on its plan can be read in a window."""
+    ends, long = (vector.tail, vector.tip), abs(vector.tip - vector.tail) * window.times >= scene.style.arrow
+    return long and in_inset(scene, [window], ends)
 
 
 def _clusters(vectors: Sequence[Vector]) -> list[list[Vector]]:

@@ -9,8 +9,7 @@ from ..view import Canvas, View
 from .arrows import Arrows
 from .group_view import zeros
 from .lever_arms import LeverArm, draw_arms
-from .marks import letter_marks
-from .plan_view import vectors_of
+from .marks import letter_marks, vectors_of
 from .scene import Scene
 from .skeleton import rays_of
 

@@ -1,9 +1,10 @@
-"""Marks of a plan: poles, points, and their letters outside of the figure."""
+"""Marks of a plan: poles, points, their letters outside of the figure, and the vectors between them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
+from ...plans.board import Step
 from ..shapes import Circle, Group, Pen
 from ..view import Canvas
 from .scene import Scene
@@ -34,3 +35,14 @@ def letter_marks(
     for mark in letters:
         if mark not in poles:
             canvas.add(Group((Circle(places[mark], 0.3, Pen.THIN, fill="black"),), "point", mark))
+
+
+def vectors_of(steps: tuple[Step, ...]) -> list[tuple[str, str, str]]:
+    """Return (quantity, tail, tip) of the vectors that the steps draw."""
+    vectors = []
+    for step in steps:
+        if step.verb == "read":
+            vectors.append((step.name, step.operands[0], step.operands[1]))
+        elif step.verb == "chain":
+            vectors.append((step.operands[1], step.operands[0], step.name))
+    return vectors

@@ -10,7 +10,7 @@ from ..view import Canvas, View
 from .flat import said_flat
 from .force_plan import FORCES, ForcePlan, construction_line, in_inset, symbol
 from .inset import with_insets
-from .marks import letter_marks
+from .marks import letter_marks, vectors_of
 from .scene import Scene
 from .similarity import draw_sides
 
@@ -22,7 +22,7 @@ def plan_view(scene: Scene, plan: str, key: str, **fill: str) -> View:
     canvas = Canvas(scene.style)
     steps = scene.solved.program.on(plan)
     vectors = vectors_of(steps)
-    forces = ForcePlan(scene, plan, vectors)
+    forces = ForcePlan(scene, plan)
     shown = forces.windows() if plan.startswith(FORCES) else []
     left = [ends for ends in vectors if not in_inset(scene, shown, (scene.mm(ends[1]), scene.mm(ends[2])))]
     _construction(canvas, scene, steps)
@@ -32,17 +32,6 @@ def plan_view(scene: Scene, plan: str, key: str, **fill: str) -> View:
     _letters(canvas, scene, plan, [tip for _, _, tip in vectors if tip in ends])
     heading, notes = scene.heading(key, plan, **fill), (*_said(scene, plan, left), *forces.said(shown))
     return with_insets(canvas, plan, heading, notes, [(forces, window) for window in shown])
-
-
-def vectors_of(steps: tuple[Step, ...]) -> list[tuple[str, str, str]]:
-    """Return (quantity, tail, tip) of the vectors that the steps draw."""
-    vectors = []
-    for step in steps:
-        if step.verb == "read":
-            vectors.append((step.name, step.operands[0], step.operands[1]))
-        elif step.verb == "chain":
-            vectors.append((step.operands[1], step.operands[0], step.name))
-    return vectors
 
 
 def _construction(canvas: Canvas, scene: Scene, steps: tuple[Step, ...]) -> None:

@@ -13,10 +13,12 @@ from ...plans.board import POSITION
 from ...plans.linkages.compound import found_here
 from ...plans.linkages.solved import Solved
 from ...plans.quantities import Quantity
+from ...scales.scale import Scale
 from ..printed import ruler_decimals, segment_decimals, value_text
 from ..table import table
 from ..view import View
 from .equations import rate_of
+from .force_plan import enlarged
 from .reading import read
 from .scene import Scene
 
@@ -56,7 +58,7 @@ def givens_table(scene: Scene) -> View:
             )
         else:
             rows.append([words.symbol(name), words.short(given.value), words.unit(given.unit)])
-    rows += ([symbols, number, ""] for symbols, number in _factors(scene))
+    rows += ([symbols, number, words["table.calculated"]] for symbols, number in _factors(scene))
     return table("givens", words["heading.givens"], rows, scene.style)
 
 
@@ -196,7 +198,8 @@ def _row(scene: Scene, q: Quantity) -> list[str]:
     plan = POSITION if q.name.startswith("l_") else scene.figure_of(q.name)
     if plan not in scene.scales:
         return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, tidy(q, value)), unit]
-    number = words.factor(scene.scales[plan])
+    scale, times = scene.scales[plan], enlarged(scene, q.name, plan)
+    number = words.factor(Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit))
     mu = 1.0 / number if words.per_unit else number
     places, decimals = segment_decimals(value, mu, ruler_decimals(words))
     return [
