@@ -56,6 +56,11 @@ def lines_of(view: View) -> list[str]:
     return lines
 
 
+def _shows_three_digits(mu: float, printed: float) -> bool:
+    """Whether a hundredth of a millimetre is no more than a unit of the third digit of a value."""
+    return printed != 0.0 and 0.01 * mu <= 10.0 ** (math.floor(math.log10(abs(printed))) - 2)
+
+
 def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[str]:
     """Rows in which mm times mu is not the value to its last digit, or which `values` (by symbol) contradict."""
     for name in sheet.names:
@@ -67,7 +72,8 @@ def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[
             if mm != "–" and abs(value(mm) * value(mu) - value(printed)) > half_digit(printed):
                 yield f"{symbol}: {mm}·{mu} is not {printed}"
             # of hundreds and thousands the units are printed, which a hundredth of a millimetre may not show
-            if mm != "–" and value(mm) > 2.0 and len(re.split("[.,]", mm)[-1]) > most and abs(value(printed)) < 100.0:
+            longer = mm != "–" and value(mm) > 2.0 and len(re.split("[.,]", mm)[-1]) > most
+            if longer and abs(value(printed)) < 100.0 and _shows_three_digits(value(mu), value(printed)):
                 yield f"{symbol}: no ruler reads {mm} mm"
             if symbol in values and abs(abs(value(printed)) - abs(values[symbol])) > half_digit(printed) + 1e-9:
                 yield f"{symbol}: {printed} is not {values[symbol]}"

@@ -151,7 +151,8 @@ def l7_senses(case: Case, sheet: Sheet) -> Faults:
             yield from unless(turning is None or abs(carried.span) > 0, f"an arrow for a zero {arc}")
             continue
         arrow = view.arrow(vector)
-        yield from unless(turning is not None and same(turning[0], a, 0.02), f"{arc} is not an arc about A")
+        about = turning is not None and any(same(turning[0], joint, 0.02) for joint in (a, b))
+        yield from unless(about, f"{arc} is not an arc about a joint of link 2")
         yield from unless(parallel(arrow.tip - arrow.tail, carried.span, 0.05), f"{vector} at B is not parallel")
         yield from unless(same(arrow.tail, b), f"{vector} is not carried to B")
         sense = math.copysign(1.0, cross(b - a, carried.span))
