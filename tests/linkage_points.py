@@ -273,7 +273,9 @@ def l10_force_plans(case: Linkage, sheet: Sheet) -> Faults:
         parted = {name.removesuffix("_n") for name in names if name.endswith("_n")}
         group = groups.get(view.name.removeprefix("forces_"))
         inner = {f"R_{i}{j}" for i in group.links for j in group.links} if group else set()
-        sides = [v for v in view.vectors if v.quantity not in parted | inner and v.quantity not in _pole_chords(view)]
+        across = {name for name in names if name.endswith("_m")}  # it finds the reaction, and is no side of the plan
+        beside = parted | inner | across | _pole_chords(view)
+        sides = [v for v in view.vectors if v.quantity not in beside]
         whole = sum(v.span for v in sides)
         yield from unless(abs(whole) < 0.02, f"{view.name} is open by {abs(whole):.3f} mm: {sorted(names)}")
         yield from unless(abs(whole) > 0.02 or closed_chain(sides) is not None, f"{view.name}: not tip to tail")

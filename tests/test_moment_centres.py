@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,10 @@ from kulman.plans.linkages.solved import Solved, solve_linkage
 from kulman.plans.shaky import Paper
 from kulman.plans.worth import references
 from kulman.tests.dyads import random_dyads
+from kulman.tests.linkage_cases import Linkage
+from kulman.tests.linkage_points import linkage_faults
 from kulman.tests.mechanisms import one_of
+from kulman.variants.shelf import bundled_text
 
 CAREFUL = preset("careful").hand
 FLAT = {"l_OA": "100 mm", "l_OC": "170 mm", "l_AS2": "150 mm", "l_CS3": "155 mm"}  # A and C close together beside B
@@ -83,6 +87,23 @@ def test_sheet_tells_the_moments_and_both_ways_to_the_reaction() -> None:
     assert "(2, 3) = 0:" in text
     assert 'data-quantity="R_12_m"' in text
     assert 'data-name="h_2_C"' in text
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("variant", [pytest.param("a", id="C"), pytest.param("b", id="A")])
+def test_sheet_of_a_folded_dyad_has_no_fault(variant: str, tmp_path: Path) -> None:
+    rows = "".join(
+        f'  {{ id = "{name}", phi = {phi}, l_OA = 100, l_AB = {ab}, l_CB = {cb}, l_OC = 170, l_AS2 = 150, l_CS3 = 155, '
+        "n_1 = 200, q = 19, M_3 = 240 },\n"
+        for name, phi, ab, cb in (("a", 20, 300, 310), ("b", -10, 310, 300))
+    )
+    text = bundled_text("scheme-03-crank-rocker").replace("variant = [\n", f"variant = [\n{rows}")
+    task = tmp_path / "folded.toml"
+    task.write_text(text, encoding="utf-8")
+    case = Linkage(str(task), variant, format="A1")
+
+    assert case.solution.solved.mechanism.centres != ()
+    assert linkage_faults(case) == []
 
 
 def own_error(program: Program, solved: Solved) -> float:

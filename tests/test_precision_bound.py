@@ -27,6 +27,8 @@ from kulman.plans.linkages.limits import Reach, reach_of
 from kulman.plans.linkages.strokes import output_motions
 from kulman.plans.linkages.swept import Swept, swept
 from kulman.plans.worth import references, results
+from kulman.tests.dyads import random_dyads
+from kulman.tests.mechanisms import one_of
 from kulman.variants.shelf import bundled
 
 EPS = 2.0**-52
@@ -123,6 +125,34 @@ def test_plans_err_no_more_than_their_data(name: str) -> None:
     ratio, quantity, place = worst(task, [*task.cycle(72), *near])
 
     assert ratio <= MOST, (quantity, place)
+
+
+DYADS: list[tuple[str, tuple[int, int], tuple[bool, ...]]] = [
+    ("RRR", (2, 3), ()),
+    ("RRP", (2, 3), (False,)),
+    ("RRP", (2, 1), (True,)),
+    ("RPR", (2, 3), (False,)),
+    ("RPR", (2, 1), (True,)),
+    ("PRP", (2, 3), (False, True)),
+    ("RPP", (2, 3), (False, False)),
+]
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(("kind", "before", "carries"), DYADS)
+def test_dyads_err_no_more_than_their_data_beside_their_limits(
+    kind: str, before: tuple[int, int], carries: tuple[bool, ...]
+) -> None:
+    mechanism, values, _ = random_dyads(kind, before, carries, seed=7, count=2)
+    for index in range(2):
+        one = one_of(values, index)
+        drive = swept(mechanism, one)
+        task = Task(drive, construct(drive.mechanism)[1], one, reach_of(drive, one))
+        near = [place + away for place in task.reach.limits for step in AWAY for away in (step, -step)]
+
+        ratio, quantity, place = worst(task, [drive.start, *near])
+
+        assert ratio <= MOST, (index, quantity, place)
 
 
 def test_a_plan_without_a_few_digits_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
