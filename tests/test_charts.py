@@ -163,6 +163,14 @@ def test_a_chart_that_the_task_cannot_have_is_left_out_with_a_word(capsys: pytes
     assert err == "the chart of the model's depth needs the plan of forces or the lever\n"
 
 
+@pytest.mark.parametrize("plans", ["structure", "position", "velocity"])
+def test_few_plans_have_their_stability(plans: str, capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = run(["--only", plans, "--chart", "stability", "--positions", "6"], capsys)
+
+    assert (status, err) == (0, "")
+    assert "worst intersection" in out
+
+
 @pytest.mark.parametrize(
     "arguments",
     [

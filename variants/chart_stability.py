@@ -163,7 +163,8 @@ def scales_of(scene: Scene, cycle: Cycle) -> dict[str, float]:
     case, mus = scene.case, dict[str, float]()
     values = case.task.values(case.variant, case.settings)
     places = cycle.angles[:: max(len(cycle.angles) // LOOKED, 1)]
-    solutions = [solve_linkage(cycle.mechanism, {**values, cycle.drive.variable: at}, case.plans) for at in places]
+    plans = (*case.plans, "position")
+    solutions = [solve_linkage(cycle.mechanism, {**values, cycle.drive.variable: at}, plans) for at in places]
     sound = [solved for solved in solutions if solved.trouble is None]
     for solved in [solved for solved in sound if solved.worst_sine()[1] >= SMALL] or sound:
         try:

@@ -244,7 +244,8 @@ def _cycle(case: Case, positions: int) -> Cycle:
     PositionError
         No position at all can be assembled.
     """
-    plans = tuple(plan for plan in with_needs(case.plans) if plan not in ("cycle", "compound"))
+    wanted = with_needs((*case.plans, "position"))
+    plans = tuple(plan for plan in wanted if plan not in ("cycle", "compound"))
     found = cycle(case.task.mechanism, case.task.values(case.variant, case.settings), plans, positions)
     if not found.reach.stretches:
         raise case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")

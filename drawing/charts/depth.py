@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-LEFT, WIDTH, GAP = 62.0, 108.0, 8.0  # mm
+LEFT, WIDTH, GAP = 60.0, 104.0, 15.0  # mm
 FOOT, HEAD, ROW = 30.0, 34.0, 9.0
 TALL = 210.0
-LEAST, MOST = 1e-3, 3e2  # per cent
+LEAST, MOST = 1e-3, 1e3  # per cent
 SHOWN = 3  # digits
 
 
@@ -76,7 +76,7 @@ def verdict(found: Depth, words: Words, plain: bool = False) -> str:
 
     tolerance = words.short(found.tolerance)
     lines = [words["chart.needed"].format(tolerance=tolerance, parts=names(found.needed))]
-    cost = words.short(found.together.worst, SHOWN)
+    cost = _short(found.together.worst, words)
     lines.append(words["chart.spare"].format(parts=names(found.spare), cost=cost))
     return "\n".join(lines)
 

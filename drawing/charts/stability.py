@@ -34,6 +34,7 @@ LOOKS: tuple[tuple[Any, str], ...] = (
     ((0, (3, 1, 1, 1, 1, 1)), "x"),
 )
 FARTHEST = 1e3  # mm or per cent beyond which nothing is drawn
+SHOWN_DIGITS = 6
 MARKED = 12  # markers along a curve
 SPOTS = {CHANGE: "chart.change", POLE: "chart.parallel", LIMIT: "chart.limit"}
 
@@ -210,6 +211,7 @@ def _digits(axes: Axes, words: Words) -> None:
     """Write at the right how many digits are left."""
     low, high = (math.log10(y) for y in axes.get_ylim())
     whole = [k for k in range(math.ceil(low), math.floor(high) + 1) if k >= 0]
+    whole = whole[:: math.ceil(len(whole) / SHOWN_DIGITS) or 1]
     for k in whole:
         axes.text(
             1.008,

@@ -23,6 +23,7 @@ from .undetermined import undetermined_at
 
 Array = NDArray[Any]
 DIGITS = 16.0  # of double precision
+NOTHING_LEFT = 1e15  # K at which a quantity and the largest beside it are nothing but rounding
 DRAWINGS, SHARE = 300, 0.95
 AT_ONCE = 60_000  # drawings in one go, of all positions together
 DEAD, CHANGE, POLE, LIMIT = "dead", "change", "parallel", "limit"
@@ -119,7 +120,7 @@ def _conditions(
         known = conditions(cycle.program, values, varied, board.values, board.sines)
         for name in names:
             value = known[name].value
-            found[name][i] = np.nan if value is None else value
+            found[name][i] = value if value is not None and value < NOTHING_LEFT else np.nan
     return sines, tuple(worst), found
 
 
