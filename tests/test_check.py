@@ -4,14 +4,22 @@ from __future__ import annotations
 
 import json
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from kulman import cli, load_task, sheet, solve
 from kulman.plans.hand import PRESETS
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.variants.marking.command import Check, mark_alone, prepare
 from kulman.variants.marking.keyed import asked_of
+from kulman.variants.marking.reading import read_answers
+from kulman.variants.marking.report_html import report_html
+from kulman.variants.marking.report_json import to_json
+from kulman.variants.marking.report_text import report_text
 from kulman.variants.marking.roster import read_roster, variant_of_book
 from kulman.variants.marking.rubric import read_rubric
 from kulman.variants.marking.sheet_id import same_id, sheet_id, variant_of_id
@@ -312,3 +320,45 @@ def test_a_sheet_bears_the_id_that_its_form_asks_for(tmp_path: Path, norm: str) 
     sheet(TASK, "3", only="velocity", norm=norm, lang="en").save(tmp_path / "sheet.svg")
 
     assert f"Sheet id: {sheet_id(load_task(TASK), '3')}" in (tmp_path / "sheet.svg").read_text(encoding="utf-8")
+
+
+NUMBERS = st.sampled_from(("", "0", "-1", "3", "1e30", "1e-30", "0,05", "80", "сто"))
+CELLS = st.tuples(NUMBERS, NUMBERS, NUMBERS, st.sampled_from(("", "+", "-", "90", "?")))
+
+
+@pytest.mark.parametrize("task", ["nau-slider-crank", "scheme-19-scotch-yoke"])
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.data())
+def test_whatever_numbers_come_they_are_marked(tmp_path: Path, task: str, data: st.DataObject) -> None:
+    """Zeros, nonsense, and values that make the construction impossible."""
+    check = prepared(task)
+    names = data.draw(st.lists(st.sampled_from(sorted(check.asked.quantities)), min_size=3, unique=True))
+    rows = [f"{name};{';'.join(data.draw(CELLS))}\n" for name in names]
+    file = tmp_path / "any.csv"
+    file.write_text(f"quantity;mm;mu;value;direction\nV_A;;;4;\n{''.join(rows)}", encoding="utf-8")
+
+    found = mark_alone(check, read_answers(file, check.asked)[0])
+
+    assert 0.0 <= found.marked.mark <= 100.0
+    assert report_html(found).endswith("</html>\n")
+    assert report_text(found)
+    json.dumps(to_json(found, check.rubric), allow_nan=False)
+
+
+@cache
+def prepared(task: str) -> Check:
+    """Return a task about to be marked."""
+    return prepare(
+        task,
+        None,
+        settings={},
+        only=None,
+        scales={},
+        notation=None,
+        language="en",
+        preset="normal",
+        rubric=None,
+        roster=None,
+        digits=1,
+        own=False,
+    )
