@@ -149,6 +149,7 @@ def test_another_variant_and_a_wrong_sheet_id_are_told_of(tmp_path: Path, capsys
     assert status == 0
     assert f"the sheet id '{other}' is that of variant 5, not of variant 3" in out
     assert "variant: 3" in out
+    assert "the form says variant 'example'; it is marked as variant 3" in out
 
 
 def test_a_sheet_id_belongs_to_task_variant_and_data() -> None:

@@ -87,17 +87,16 @@ class Desk:
         if other and other != task.id:
             notes.append(InputError("marked-task", text=quote(other), task=task.id))
         book = answers.who.book or (entry.who.book if entry else "")
-        right = entry.variant if entry else ""
-        if not right and entry and book:
-            right = variant_of_book(task, book, self.digits)
-        if said and right and said != right:
-            notes.append(InputError("marked-variant", text=quote(said), variant=right))
-        found = right or self.request.variant or (said if said in task.variants else "")
-        if said and said not in task.variants and not right:
-            notes.append(InputError("marked-variant", text=quote(said), variant=found or next(iter(task.variants))))
+        found = entry.variant if entry else ""
+        if not found and entry and book:
+            found = variant_of_book(task, book, self.digits)
+        found = found or self.request.variant or (said if said in task.variants else "")
         if not found and book:
             found = variant_of_book(task, book, self.digits)
-        return found or next(iter(task.variants)), notes
+        found = found or next(iter(task.variants))
+        if said and said != found:
+            notes.append(InputError("marked-variant", text=quote(said), variant=found))
+        return found, notes
 
     def _sheet(self, answers: Answers, key: Keyed) -> list[KulmanError]:
         """Say where the sheet id is that of another sheet."""

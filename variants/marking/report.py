@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from ...drawing.words import Words
 from ...plans.board import Step
 from ...plans.marking.verdicts import Line, Verdict, behind
-from ...plans.mistakes.explaining import Candidate
 from ...plans.mistakes.rules import Broken
 from ...scales.units import format_unit
 from .marked import Marked
@@ -157,24 +156,20 @@ class _Teller:
         return letter(self.words, step.name)
 
     def candidates(self) -> Iterator[str]:
-        """Go through the mistakes that explain the answers, the simplest first."""
+        """Go through the mistakes that explain the answers, the simplest first, each with those that look the same."""
         for number, candidate in enumerate(self.marked.candidates[:SHOWN_CANDIDATES], start=1):
-            text = self.said["report.and"].join(self.mistake(broken) for broken in candidate.mistakes)
             names = ", ".join(self.symbol(name) for name in candidate.explained)
-            parts = [f"{number}. {text}", self.said["report.explains"].format(names=names)] if names else [text]
-            same = self._same(candidate)
-            yield "; ".join([*parts, same] if same else parts)
+            explains = f"; {self.said['report.explains'].format(names=names)}" if names else ""
+            yield f"{number}. {self._mistakes(candidate.mistakes)}{explains}"
+            others = dict.fromkeys(self._mistakes(found) for found in candidate.same)
+            others.pop(self._mistakes(candidate.mistakes), None)
+            for text in list(others)[:SHOWN_CANDIDATES]:
+                yield self.said["report.same"].format(texts=text)
 
-    def _same(self, candidate: Candidate) -> str:
-        """Return other mistakes that give the same answers."""
-        own = {broken.mistake for broken in candidate.mistakes}
-        others: dict[str, str] = {}
-        for found in candidate.same:
-            new = [broken for broken in found if broken.mistake not in own]
-            if new:
-                key = "+".join(broken.mistake for broken in found)
-                others.setdefault(key, self.said["report.and"].join(self.mistake(broken) for broken in found))
-        return self.said["report.same"].format(texts=" / ".join(others.values())) if others else ""
+    def _mistakes(self, found: tuple[Broken, ...]) -> str:
+        """Return mistakes that were made together, in the order of the list."""
+        ordered = sorted(found, key=lambda broken: (broken.mistake, broken.at))
+        return self.said["report.and"].join(self.mistake(broken) for broken in ordered)
 
     def mistake(self, broken: Broken) -> str:
         """Return what was done, and where."""
