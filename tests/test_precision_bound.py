@@ -143,16 +143,15 @@ DYADS: list[tuple[str, tuple[int, int], tuple[bool, ...]]] = [
 def test_dyads_err_no_more_than_their_data_beside_their_limits(
     kind: str, before: tuple[int, int], carries: tuple[bool, ...]
 ) -> None:
-    mechanism, values, _ = random_dyads(kind, before, carries, seed=7, count=2)
-    for index in range(2):
-        one = one_of(values, index)
-        drive = swept(mechanism, one)
-        task = Task(drive, construct(drive.mechanism)[1], one, reach_of(drive, one))
-        near = [place + away for place in task.reach.limits for step in AWAY for away in (step, -step)]
+    mechanism, values, _ = random_dyads(kind, before, carries, seed=7, count=1)
+    one = one_of(values, 0)
+    drive = swept(mechanism, one)
+    task = Task(drive, construct(drive.mechanism)[1], one, reach_of(drive, one))
+    near = [place + away for place in task.reach.limits for step in AWAY for away in (step, -step)]
 
-        ratio, quantity, place = worst(task, [drive.start, *near])
+    ratio, quantity, place = worst(task, [drive.start, *near])
 
-        assert ratio <= MOST, (index, quantity, place)
+    assert ratio <= MOST, (quantity, place)
 
 
 def test_a_plan_without_a_few_digits_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
