@@ -223,3 +223,28 @@ def test_two_mistakes_together_are_found(first: str, second: str) -> None:
     candidates = [c for c in explanation.candidates if {first, second} <= c.ids]
     assert candidates
     assert len(candidates[0].mistakes) == 2
+
+
+ODD = [0.0, -0.0, 1e300, -1e300, 1e-300, 5e-324, math.inf, -math.inf, math.nan, 1.0, -1.0, 1e5, -3.0]
+
+
+@pytest.mark.parametrize("task", ["nau-slider-crank", "scheme-20-press-automaton"])
+def test_any_numbers_at_all_can_be_marked_and_explained(task: str) -> None:
+    choose = random.Random(SEED)
+    of_task, names = key(task), list(key(task).questions)
+
+    def odd() -> float | None:
+        return choose.choice([*ODD, *[None] * 6])
+
+    for _ in range(12):
+        answers = [
+            Answer(name, odd(), odd(), choose.choice([odd(), abs(of_task[name])]), odd(), choose.choice([None, 1, -1]))
+            for name in choose.sample(names, choose.randrange(len(names)))
+        ]
+        marking = mark(of_task, answers)
+        explanation = explain(mistakes(task), marking)
+
+        assert [line.name for line in explanation.marking.lines] == names
+        assert all(line.verdict in Verdict for line in marking.lines)
+        asked = {a.name for a in answers if a.value is not None and math.isfinite(a.value)}
+        assert asked <= {line.name for line in marking.answered}

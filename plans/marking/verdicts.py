@@ -229,15 +229,16 @@ def _off(held: _Held) -> float:
 
 def _agree(shown: list[float]) -> bool:
     """Whether most segments of a plan show the same scale; one alone shows none."""
-    near = [mu for mu in shown if abs(mu / median(shown) - 1.0) < AGREE]
+    middle = median(shown) if shown else 0.0
+    near = [mu for mu in shown if abs(mu - middle) < AGREE * middle]
     return len(shown) > 1 and len(near) > len(shown) / 2
 
 
 def _nearest(mu: float, ours: float) -> float:
     """Return a scale factor as value per mm, whichever convention is nearer to ours."""
-    return _nearest_to((mu, 1.0 / mu), ours)
+    return _nearest_to((mu, 1.0 / mu), ours) if mu else ours
 
 
 def _nearest_to(values: tuple[float, ...], ours: float) -> float:
     """Return the value nearest to ours in ratio."""
-    return min(values, key=lambda x: abs(math.log(abs(x) / ours)) if x and ours else math.inf)
+    return min(values, key=lambda x: abs(math.log(abs(x)) - math.log(ours)) if x and ours else math.inf)
