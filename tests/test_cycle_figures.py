@@ -10,9 +10,9 @@ import kulman
 from kulman.tests.readback import Sheet, read
 
 
-@lru_cache(maxsize=1)
-def cycle_sheet() -> Sheet:
-    drawn = kulman.sweep("nau-slider-crank", "3").drawn()
+@lru_cache(maxsize=2)
+def cycle_sheet(task: str = "nau-slider-crank") -> Sheet:
+    drawn = kulman.sweep(task, positions=12).drawn()
     return read(*(drawn.svg(number) for number in range(1, len(drawn.pages) + 1)))
 
 
@@ -35,7 +35,7 @@ def test_plan_of_positions_shows_how_the_crank_turns() -> None:
     turning = view.turning("omega_1")
 
     assert turning is not None
-    assert turning[1] == math.copysign(1.0, kulman.solve("nau-slider-crank", "3").solved.values["omega_1"])
+    assert turning[1] == math.copysign(1.0, kulman.solve("nau-slider-crank").solved.values["omega_1"])
     assert "ω_{1}" in labels("positions")
 
 
@@ -56,3 +56,21 @@ def test_rays_have_the_numbers_of_their_chords() -> None:
 
     assert numbers == sorted([*range(1, 13)] * 2)
     assert all(name.replace(" ", ", ") in labels("diagrams") for name in rays)
+
+
+def test_rates_without_limit_are_cut_off() -> None:
+    """The rocker of the tipper turns without limit where its links stretch out, at both ends of the drive's range."""
+    sheet = cycle_sheet("scheme-18-hydraulic-drive")
+    scales = {t.string.partition(";")[0]: t.string for t in sheet["diagrams"].of("label") if "μ" in t.string}
+
+    assert scales["ω_{3}"].endswith("μ_{ω} = 0.1 (rad/s)/mm")
+    assert any("ω_{3}, ε_{3}" in t.string for t in sheet["diagrams"].of("heading"))
+
+
+def test_guide_of_a_sliding_driver_is_as_long_as_its_range() -> None:
+    view = cycle_sheet("scheme-18-hydraulic-drive")["positions"]
+    ends = [p.real for s in view.inside("guide") if s.role != "hatch" for p in s.points]
+    on_guide = [r.centre.real for r in view.rings if abs(r.centre.imag - view.point("A").imag) < 0.01]
+
+    assert min(ends) < min(on_guide)
+    assert max(ends) > max(on_guide)

@@ -27,6 +27,8 @@ DENSE = 180  # sections through whose ends a smooth curve is drawn
 LENGTH = {5.0: 180.0, 3.5: 120.0}  # mm of the axis of angles, by the height of letters
 TALL = 0.36  # height of a diagram in parts of that length
 FARTHEST = 50.0  # mm from the axis beyond which no pole stands
+# part of the sections in which a rate is as large as usual; peaks beyond, and what is left of them, in parts of that
+USUAL, PEAK, LEFT = 0.9, 8.0, 2.5
 GAP = 12.0  # mm between diagrams
 
 
@@ -38,6 +40,7 @@ class Band:
     scale: Scale
     curve: Array
     chords: tuple[Array, Array] | None = None  # seconds, values
+    cut: bool = False  # whether what grows without limit is left out
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -95,13 +98,24 @@ def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion
     for name, values, found, per in zip(
         names[1:], (dense.v, dense.a), (drawn.velocity, drawn.acceleration), ("s", "s^2"), strict=True
     ):
-        scale = _round(f"mu_{name}", values, tall, f"{unit}/{per}")
+        shown, chords = _cut(values, found.chords)
+        scale = _round(f"mu_{name}", shown, tall, f"{unit}/{per}")
         for mu in steps(scale.mu):
             scale = Scale(scale.symbol, mu, scale.unit)
             if pole_distance(bands[-1].scale.mu, across.mu, mu) <= FARTHEST:
                 break
-        bands.append(Band(name, scale, values, (found.times, found.chords)))
+        bands.append(Band(name, scale, shown, (found.times, chords), shown is not values))
     return tuple(bands)
+
+
+def _cut(values: Array, chords: Array) -> tuple[Array, Array]:
+    """Leave out what has no bound: where the range ends at a limiting position, rates grow there without limit."""
+    sizes = np.abs(values[np.isfinite(values)])
+    usual = float(np.quantile(sizes, USUAL)) if len(sizes) else 0.0
+    if not len(sizes) or float(sizes.max()) <= PEAK * usual:
+        return values, chords
+    most = LEFT * usual
+    return np.where(np.abs(values) <= most, values, np.nan), np.where(np.abs(chords) <= most, chords, np.nan)
 
 
 def _round(symbol: str, values: Array, tall: float, unit: str) -> Scale:
@@ -177,4 +191,6 @@ def _notes(scene: Scene, drawn: Diagrams, bands: Sequence[Band]) -> tuple[str, .
     for band, found in zip(bands[1:], (drawn.velocity, drawn.acceleration), strict=True):
         most = float(np.nanmax(found.per_cent, initial=0.0))
         parts.append(f"{scene.words.symbol(band.name)} {scene.words.number(most, 1)} %")
-    return (scene.words["said.chords"], scene.words["said.chords_off"].format(values="; ".join(parts)))
+    notes = scene.words["said.chords"], scene.words["said.chords_off"].format(values="; ".join(parts))
+    gone = ", ".join(scene.words.symbol(band.name) for band in bands if band.cut)
+    return (*notes, scene.words["said.cut"].format(values=gone)) if gone else notes

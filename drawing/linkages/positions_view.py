@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...plans.laws import dot
 from ...plans.linkages.cycle import Cycle
-from ...plans.linkages.mechanism import Driver
+from ...plans.linkages.mechanism import FRAME, Driver, Prismatic
 from ...plans.linkages.solved import solve_linkage
 from ...plans.linkages.strokes import Dead, OutputMotion
 from ..shapes import Circle, Line, Pen, Polyline
@@ -58,6 +59,7 @@ def positions_view(scene: Scene, cycle: Cycle) -> View:
             _lay_down(canvas, at, numbers, Pen.EXTREME, "dead-position")
     _number(canvas, scene, stands, cycle.mechanism.driver.point)
     _number(canvas, scene, stands, _output_point(cycle))
+    scene = replace(scene, runs={**scene.runs, **_ways(scene, stands)})
     figures = draw_links(canvas, scene, numbers, whole=True)
     draw_frame(canvas, scene, numbers, figures)
     _driving(canvas, scene)
@@ -162,6 +164,19 @@ def _number(canvas: Canvas, scene: Scene, stands: list[Stand], point: str) -> No
         # as of a point, for bare numbers are those of links
         text = f"{scene.words.mark(point)}_{{{','.join(numbers)}}}"
         canvas.label(text, place, prefer=away, clear=scene.style.node + 0.6, height=scene.style.text)
+
+
+def _ways(scene: Scene, stands: list[Stand]) -> dict[str, tuple[float, float]]:
+    """Return by guide of the frame how far its slider stands back and forth of its calculated place, metres."""
+    found = {}
+    for pair in scene.solved.mechanism.pairs:
+        if isinstance(pair, Prismatic) and FRAME in pair.links:
+            name, point = scene.solved.guide_name(pair), pair.point
+            at, u = scene.solved.point(point), scene.solved.point(name)
+            ways = [dot(stand.scene.solved.point(point) - at, u) for stand in stands]
+            low, high = scene.runs.get(name, (0.0, 0.0))
+            found[name] = min([low, *ways]), max([high, *ways])
+    return found
 
 
 def _driving(canvas: Canvas, scene: Scene) -> None:
