@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from .board import POSITION, Program, Step
+from .exact import ILL
 from .quantities import POINTS, shown_on, unit_of
 
 RESULTS = ("read", "calc", "arm", "distance", "measure")
@@ -69,6 +70,15 @@ def point_of(program: Program, mark: str) -> str:
     """Return the mark at which a meeting is seen: a tangent finds the direction of a line through its second point."""
     step = next(step for step in program if step.name == mark)
     return step.operands[1] if step.verb == "tangent" else mark
+
+
+def pins_together(program: Program, values: Mapping[str, Any], mark: str) -> tuple[str, str] | None:
+    """Return the two joints that settle a direction badly because they nearly coincide, None for lines that do."""
+    step = next(step for step in program if step.name == mark)
+    if step.verb != "tangent":
+        return None
+    first, second, *_, size = step.operands
+    return (first, second) if abs(values[second] - values[first]) < ILL * values[size] else None
 
 
 def worst_behind(

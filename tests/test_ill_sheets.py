@@ -92,3 +92,13 @@ def test_the_worst_condition_is_that_of_the_plan_that_shows_it() -> None:
     assert value == max(conditions_of(solved)[one].value or 0.0 for one in shown if one in conditions_of(solved))
     points = {step.name for step in solved.program if step.verb in POINTS}
     assert worst_condition(solved, "position")[0] in points | {"h_1", "h_2", "h_3", "h_21"}
+
+
+def test_joints_that_nearly_coincide_are_named() -> None:
+    settings = {"l_OC": 150, "phi": "270.02", "l_DE": 500}
+    (warning,) = solve("scheme-09-shaper", set=settings).warnings
+
+    lines = texts("scheme-09-shaper", "en", **settings)
+
+    assert (warning.key, warning.data["first"], warning.data["second"]) == ("ill-conditioned-pins", "C", "A")
+    assert sum(line.startswith("Ill-conditioned position: the joints C and A nearly coincide") for line in lines) == 1

@@ -11,7 +11,7 @@ from ..drawing.linkages.scene import Given
 from ..plans.exact import SMALL
 from ..plans.linkages.chain import require_couplers
 from ..plans.linkages.solved import Solved, scale_symbols, solve_linkage
-from ..plans.worth import point_of
+from ..plans.worth import pins_together, point_of
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
 from ..scales.display import Display
 from ..scales.errors import InputError
@@ -67,7 +67,11 @@ class Case:
         from ..plans.linkages.accuracy import worst_condition  # needs numpy, and few positions need it
 
         quantity, condition = worst_condition(self.solved)
-        return (InputError("ill-conditioned", quantity=quantity, condition=_short(condition), **said),)
+        said |= {"quantity": quantity, "condition": _short(condition)}
+        pins = pins_together(self.solved.program, self.solved.values, mark)
+        if pins is None:
+            return (InputError("ill-conditioned", **said),)
+        return (InputError("ill-conditioned-pins", first=pins[0], second=pins[1], **said),)
 
 
 def _short(value: float) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ...plans.board import POSITION
 from ...plans.exact import ILL, SMALL
-from ...plans.worth import intersections, point_of
+from ...plans.worth import intersections, pins_together, point_of
 from .scene import Scene
 
 LARGE = 1e4  # above it a number is written with a power of ten
@@ -31,7 +31,11 @@ def said_flat(scene: Scene, plan: str) -> Iterator[str]:
         kind = solved.quantities[quantity].kind
         symbol = words.mark(quantity) if kind == "point" else words.symbol(quantity)
         said |= {"quantity": symbol, "condition": _large(scene, condition)}
-        yield words["said.ill_position"].format(**said)
+        pins = pins_together(solved.program, solved.values, mark)
+        if pins is None:
+            yield words["said.ill_position"].format(**said)
+        else:
+            yield words["said.ill_pins"].format(first=words.mark(pins[0]), second=words.mark(pins[1]))
         yield words["said.ill_growth"].format(**said)
 
 
