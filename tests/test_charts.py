@@ -6,6 +6,8 @@ import csv
 import importlib.util
 import json
 import re
+import subprocess
+import sys
 import time
 from functools import partial
 from pathlib import Path
@@ -254,6 +256,18 @@ def test_what_the_document_shows_is_what_is_printed(tmp_path: Path) -> None:
     assert len(blocks) == 2
     for block in blocks:
         assert refresh.filled(block, str(tmp_path)) == block
+
+
+def test_tables_need_no_picture() -> None:
+    code = (
+        "import sys\nfrom kulman.variants.charts import chart\n"
+        f"found = chart('{TASK}', chart='stability,depth', positions=6)\nfound.table(), found.to_json()\n"
+        "print([name for name in ('matplotlib', 'mpmath', 'reportlab') if name in sys.modules])"
+    )
+
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+
+    assert done.stdout == "[]\n"
 
 
 def test_charts_show_themselves_in_a_notebook() -> None:

@@ -19,7 +19,7 @@ from ..drawing.words import Words
 from ..plans.hand import preset
 from ..plans.linkages.contest import FULL, Contest, Effort, Entry, contest
 from ..plans.linkages.cycle import Cycle
-from ..plans.linkages.hand_drawn import by_hand
+from ..plans.linkages.hand_drawn import DrawnSheet, by_hand
 from ..scales.errors import InputError
 from .chart_data import Cell, Scene, aligned, as_csv, finite, place_value, short, wrapped
 
@@ -127,7 +127,8 @@ def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
     for name in FORMATS:
         mus = _scales(scene, name)
         if mus is not None:
-            yield from by_hand(cycle, scene.case.solved, mus, preset(scene.hand).hand, found.groups, name)
+            drawn = DrawnSheet(name, scene.case.solved, mus)
+            yield from by_hand(cycle, drawn, preset(scene.hand).hand, found.groups)
 
 
 def _scales(scene: Scene, name: str) -> Mapping[str, float] | None:

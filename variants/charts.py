@@ -177,7 +177,7 @@ def chart(
     words = Words.of("en" if lang is None else lang, case.task.notation if notation is None else notation)
     of_kind("hand", hand, (str,), "str")
     preset(hand)
-    return _made(case, Scene(case, words.showing(case.display), hand), names, wanted, positions, most)
+    return _made(Scene(case, words.showing(case.display), hand), names, wanted, positions, most)
 
 
 def _per_cent(tolerance: str | float) -> float:
@@ -205,10 +205,10 @@ def _names(argument: str, value: str | Iterable[str] | None) -> tuple[str, ...]:
 
 
 def _made(
-    case: Case, scene: Scene, names: tuple[str, ...], wanted: tuple[str, ...], positions: int | None, tolerance: float
+    scene: Scene, names: tuple[str, ...], wanted: tuple[str, ...], positions: int | None, tolerance: float
 ) -> Charts:
     """Make the charts; of all of them one that the task cannot have is left out."""
-    cycles: dict[int, Cycle] = {}
+    case, cycles = scene.case, dict[int, Cycle]()
     charts: dict[str, Chart] = {}
     warnings: list[KulmanError] = []
     for name in names or CHARTS:

@@ -103,21 +103,25 @@ def _rows(
         arrowprops={"arrowstyle": "-", "lw": 0.5, "shrinkB": 0.0},
     )
     for row, (most, mean) in enumerate(pairs):
-        at, half = (min(max(value, LEAST), MOST) for value in (most, mean))
-        axes.plot([LEAST, at], [row, row], color=GREY, lw=2.4, solid_capstyle="butt", zorder=2, clip_on=False)
-        axes.plot(half, row, "o", mfc="white", mec=BLACK, ms=4.6, mew=0.8, zorder=3, clip_on=False)
-        axes.plot(at, row, "D", mfc=BLACK, mec=BLACK, ms=4.6, zorder=3, clip_on=False)
-        axes.annotate(
-            _short(most, words),
-            (at, row),
-            (7.0, 0.0),
-            textcoords="offset points",
-            va="center",
-            fontsize=SMALL,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4},
-        )
+        _row(axes, row, most, mean, words)
     decimals(axes.xaxis, words)
     axes.minorticks_off()
+
+
+def _row(axes: Axes, row: int, most: float, mean: float, words: Words) -> None:
+    at, half = (min(max(value, LEAST), MOST) for value in (most, mean))
+    axes.plot([LEAST, at], [row, row], color=GREY, lw=2.4, solid_capstyle="butt", zorder=2, clip_on=False)
+    axes.plot(half, row, "o", mfc="white", mec=BLACK, ms=4.6, mew=0.8, zorder=3, clip_on=False)
+    axes.plot(at, row, "D", mfc=BLACK, mec=BLACK, ms=4.6, zorder=3, clip_on=False)
+    axes.annotate(
+        _short(most, words),
+        (at, row),
+        (7.0, 0.0),
+        textcoords="offset points",
+        va="center",
+        fontsize=SMALL,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4},
+    )
 
 
 def _short(value: float, words: Words) -> str:

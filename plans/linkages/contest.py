@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -263,7 +263,8 @@ class _Race:
         self, method: str, setting: float, errors: Mapping[str, Array], seconds: float | None, at_once: int
     ) -> Entry:
         """Sum up the errors of a method."""
-        return summed(method, setting, self.group, self.places, errors, seconds, at_once)
+        found = summed(method, setting, self.group, self.places, errors)
+        return replace(found, seconds=seconds, at_once=at_once)
 
 
 def summed(
@@ -272,10 +273,8 @@ def summed(
     group: Group,
     places: Array,
     errors: Mapping[str, Array],
-    seconds: float | None = None,
-    at_once: int = 1,
 ) -> Entry:
-    """Return the worst and the typical error of a method."""
+    """Return the worst and the typical error of a method, whose time is not known."""
     table = np.stack([errors[name] for name in group.names])
     filled = np.where(np.isnan(table), -1.0, table)
     worst = filled.max(axis=0)
@@ -289,7 +288,7 @@ def summed(
         float(np.median(worst[there])) if there.any() else None,
         group.names[row],
         float(places[column]),
-        seconds,
-        at_once,
+        None,
+        1,
         float(1.0 - there.mean()),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -25,34 +26,26 @@ NEAR_DEAD = 0.01  # part of the cycle
 DRAWN, DRAWINGS, SHARE = 12, 400, 0.95  # positions that are drawn, how many times, the part of drawings that counts
 
 
-def by_hand(
-    cycle: Cycle,
-    solved: Solved,
-    mus: Mapping[str, float],
-    hand: Hand,
-    kinds: Iterable[Group],
-    paper: str,
-    seed: int = 1,
-) -> Iterator[Entry]:
+@dataclass(frozen=True, slots=True)
+class DrawnSheet:
+    """The sheet of one position, `solved`, on a `paper`, with its scale factors by plan, SI per mm."""
+
+    paper: str
+    solved: Solved
+    mus: Mapping[str, float]
+
+
+def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Group]) -> Iterator[Entry]:
     """Go through the errors that most drawings of a hand keep, kind by kind.
 
     The plans of every position are drawn as long as a sheet draws those of one.
-
-    Parameters
-    ----------
-    solved : Solved
-        The position that the sheet shows.
-    mus : mapping of str to float
-        Scale factors of the sheet by plan, SI per mm.
-    paper : str
-        What the hand draws on, the setting of the entries.
     """
     places, kinds = _not_dead(cycle, places_of(cycle, DRAWN)), tuple(kinds)
     names = tuple(name for group in kinds for name in group.names)
     program, givens = cycle.program.needed_for(names), cycle.drive.givens(cycle.givens, places, cycle.program)
     runs = [run(cycle.program, one_of(givens, i)) for i in range(len(places))]
     column = {name: value[:, None] if np.ndim(value) else value for name, value in givens.items()}
-    on_paper = Paper(program, column, _as_long(cycle.program, runs, solved, mus))
+    on_paper = Paper(program, column, _as_long(cycle.program, runs, sheet))
     board = draw(on_paper, hand, np.random.default_rng(SEED), (len(places), DRAWINGS))
     sizes = [references(cycle.program, one.values) for one in runs]
     errors = {}
@@ -63,18 +56,16 @@ def by_hand(
         size = beside(cycle, name, np.array([size[name] for size in sizes]))
         errors[name] = misses[:, int(np.ceil(SHARE * DRAWINGS)) - 1] * (1.0 / size)
     for group in kinds:
-        yield summed(HAND, paper, group, places, errors)
+        yield summed(HAND, sheet.paper, group, places, errors)
 
 
-def _as_long(
-    program: Program, runs: Iterable[ExactBoard], solved: Solved, mus: Mapping[str, float]
-) -> dict[str, float | Array]:
+def _as_long(program: Program, runs: Iterable[ExactBoard], sheet: DrawnSheet) -> dict[str, float | Array]:
     """Return scale factors by plan at which the longest vectors are as long as those of the solved position."""
-    symbols = solved.scale_of_plan
+    solved, symbols = sheet.solved, sheet.solved.scale_of_plan
     own = _largest(solved.program, solved.values, symbols)
     each = [_largest(program, one.values, symbols) for one in runs]
     found: dict[str, float | Array] = {}
-    for plan, mu in mus.items():
+    for plan, mu in sheet.mus.items():
         symbol = symbols.get(plan, "")
         sizes = np.array([size.get(symbol, 0.0) for size in each])[:, None]
         drawn = own.get(symbol, 0.0) if plan != POSITION else 0.0
