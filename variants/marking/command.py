@@ -95,8 +95,11 @@ def _class(
 ) -> None:
     """Mark a class: a line per student to the console, reports to the folder, tables to files."""
     place = None if folder is None else Path(folder)
-    with click.progressbar(length=len(found), file=sys.stderr, hidden=not sys.stderr.isatty()) as bar:
-        results = mark_all(check, found, place, bar.update, jobs or None)
+    if sys.stderr is not None and sys.stderr.isatty():
+        with click.progressbar(length=len(found), file=sys.stderr) as bar:
+            results = mark_all(check, found, place, bar.update, jobs or None)
+    else:
+        results = mark_all(check, found, place, lambda done: None, jobs or None)
     table = None if moodle is None else Path(moodle)
     write_tables(check, results, found, files, table)
     for line in class_lines(check, results):
