@@ -30,7 +30,8 @@ def report_html(report: Report) -> str:
     """Return the report as a page; every text in it is escaped, and it loads nothing."""
     said = texts(report.language)
     body = "".join(_body(report, said))
-    head = f'<meta charset="utf-8"><title>{escape(said["report.title"])}: {escape(report.title)}</title><style>{STYLE}</style>'
+    title = escape(f"{said['report.title']}: {report.title}")
+    head = f'<meta charset="utf-8"><title>{title}</title><style>{STYLE}</style>'
     return f'<!DOCTYPE html>\n<html lang="{report.language}"><head>{head}</head><body>{body}</body></html>\n'
 
 
