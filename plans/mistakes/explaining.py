@@ -22,6 +22,7 @@ MOST = 4.0  # tolerances beyond which a miss counts no more
 ALIKE = 0.5  # tolerances by which values differ that answers cannot tell apart
 NEAR = 12  # signatures that are looked at closely
 FAR, NEARLY = 1.5, 0.3  # how much worse than the nearest a signature may be to be looked at
+MISFIT = 2.0  # mean miss in tolerances from which a mistake explains nothing
 LEFT, SECOND = 0.15, 0.25  # by how many tolerances a line left wrong, or a second mistake, is worse
 PAIRS = 8  # pairs of them
 FIRSTS = 4  # mistakes to which a second one is added
@@ -140,9 +141,9 @@ class _Search:
             return None
         left = tuple(wrong)
         explained = tuple(name for name in self.faulty if name not in wrong)
-        if not explained:
-            return None
         misses = float(_mean(self.said.misses(self.book, last.row[None, :], last.allowed[None, :]))[0])
+        if not explained or misses > MISFIT:
+            return None
         return Candidate(tuple(s.broken for s in signatures), (), explained, left, misses), last
 
     def _pairs(self, off: Floats) -> list[tuple[Candidate, Signature]]:
@@ -178,6 +179,8 @@ class _Search:
 
     def _carried(self, candidate: Candidate) -> Marking:
         """Return the marking in which lines after the first wrong one that the candidate explains are carried."""
+        if candidate.misses > 1.0:
+            return self.marking  # it fits in part, but not within the tolerances
         explained = set(candidate.explained) - {self.marking.first_wrong}
         lines = tuple(_carried(line) if line.name in explained else line for line in self.marking.lines)
         return replace(self.marking, lines=lines)
