@@ -132,6 +132,8 @@ def main() -> None:
         once = shortest(lambda: kulman.sheet("nau-slider-crank", "3").save(svg, pdf))
         row("SVG and PDF, warm", once * 1e3, "ms", 60, f"{once / bare:.2f} starts of Python")
     task = kulman.load_task("nau-slider-crank")
+    swept = shortest(lambda: kulman.sweep(task, positions=360))
+    row("a cycle of 360 positions", swept * 1e3, "ms", 25, f"{swept / bare:.2f} starts of Python")
     _, program = construct(task.mechanism)
     givens = board_givens(task.mechanism, task.values("example"))
     values = task.values("example")

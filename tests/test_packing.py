@@ -1,7 +1,6 @@
 """Views stay in the area, apart from each other and from the reserved corners; shapely is the judge."""
 
 import random
-import time
 
 import pytest
 import shapely
@@ -205,15 +204,3 @@ def test_same_views_same_places():
     first = pack(views, AREAS["A3"], corners_of(AREAS["A3"]), pages=None)
 
     assert first == pack(views, AREAS["A3"], corners_of(AREAS["A3"]), pages=None)
-
-
-def test_a_sheet_is_packed_in_a_few_milliseconds():
-    views = [[size] for size in SHEET]
-    times = []
-    for _ in range(5):
-        start = time.process_time()
-        pack(views, AREAS["A1"], corners_of(AREAS["A1"]), gap=GAP)
-        times.append(time.process_time() - start)
-
-    # 2 ms where it was measured; the rest is for slow and busy machines.
-    assert min(times) < 0.05

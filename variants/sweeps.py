@@ -207,7 +207,8 @@ def sweep(
     if last is not None and isinstance(case.task.mechanism.driver, Driver):
         raise InputError("sweep-end")
     values = case.task.values(case.variant, case.settings)
-    done = cycle(case.task.mechanism, values, case.plans, _count(positions), first, last)
+    plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
+    done = cycle(case.task.mechanism, values, plans, _count(positions), first, last)
     return Sweep(case, done, chosen, words.showing(case.display))
 
 
