@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import phase, rect
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 
@@ -13,12 +13,13 @@ from ..shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape
 from .skeleton import NEAR, Stroke
 
 CLEAR = 3.5  # mm that should be left between an arc and what it passes
-CROSSED = 1.2  # mm between points of an arc that crosses a line and the line
-APART = 7.0  # mm between two arcs about one joint
+CROSSED, CROSSING = 1.2, 3.0  # mm between points of an arc that crosses a line and the line; what that costs
+APART = 0.25  # lengths of the arrow of a force between two arcs about one joint
 NEAREST, STEP = 14.0, 1.0  # mm from the joint: the least radius, and between radii that are tried
 SAMPLES = 13  # points of an arc at which its neighbours are looked for
 LENGTHS, SHORTER = (1.0, 0.6), 0.3  # of an arc, and the cost of a short one
 LIGHT = 0.35  # how much a thin line counts beside a main one
+KEPT = 24  # places of each arc, the cheapest, that are looked at together
 AWAY, OTHER = 1.5, 0.4  # cost of a place a whole link away from the wanted one, and of a line that was not wanted
 Obstacle = tuple[complex, complex, float, float]  # ends, how far it reaches about itself, how much it counts
 
@@ -50,25 +51,35 @@ def place_arcs(
         Length of the arrow of a force, mm, to which arcs are proportioned.
     """
     tries = [_tries(ray, _others(ray, busy, own), force) for ray in rays]
-    chosen: list[Place] = []
-    first = 0
+    kept: list[list[tuple[float, int, Place]]] = []
     for share in wanted:
         found = []
         for number, (ray, (places, costs)) in enumerate(zip(rays, tries, strict=True)):
             radii, reach = np.array([place.radius for place in places]), abs(ray[1] - ray[0])
-            cost = costs + AWAY * np.abs(radii - share * reach) / reach + OTHER * (number != first)
-            for other in chosen:
-                (arc,) = _points([other])
-                cost += 10.0 * (
-                    (np.abs(radii - other.radius) < APART)
-                    if other.centre == ray[0]
-                    else np.abs(_points(places)[:, :, None] - arc).min(axis=(1, 2)) < APART
-                )
-            best = int(cost.argmin())
-            found.append((round(float(cost[best]), 6), number, places[best]))
-        _, first, place = min(found, key=lambda one: one[:2])
-        chosen.append(place)
-    return tuple(chosen)
+            cost = costs + AWAY * np.abs(radii - share * reach) / reach
+            order = np.argsort(np.round(cost, 6), kind="stable")[:KEPT].tolist()
+            found += [(round(float(cost[k]), 6), number, places[k]) for k in order]
+        kept.append(sorted(found, key=lambda one: one[:2])[:KEPT])
+    return _together(kept, APART * force)
+
+
+def _together(kept: Sequence[Sequence[tuple[float, int, Place]]], apart: float) -> tuple[Place, ...]:
+    """Choose one place for each arc, together the cheapest: apart, and about the usual joint, or both about another."""
+    lines = [_points([place for _, _, place in one]) for one in kept]
+    total = sum(np.ix_(*([cost + OTHER * (number != 0) for cost, number, _ in one] for one in kept)), start=np.zeros(1))
+    for i, j in combinations(range(len(kept)), 2):
+        gaps = np.abs(lines[i][:, None, :, None] - lines[j][None, :, None, :]).min(axis=(2, 3))
+        centres = [np.array([place.centre for _, _, place in kept[k]]) for k in (i, j)]
+        radii = [np.array([place.radius for _, _, place in kept[k]]) for k in (i, j)]
+        same = centres[0][:, None] == centres[1]
+        close = np.where(same, np.abs(radii[0][:, None] - radii[1]) < apart - NEAR, gaps < apart - NEAR)
+        both = np.array([number for _, number, _ in kept[i]])[:, None] == np.array([n for _, n, _ in kept[j]])
+        pair = 10.0 * close - OTHER * (both & (np.array([n for _, n, _ in kept[j]]) != 0))
+        shape = [1] * len(kept)
+        shape[i], shape[j] = pair.shape
+        total = total + pair.reshape(shape)
+    best = np.unravel_index(int(np.round(total, 6).argmin()), total.shape)
+    return tuple(one[int(k)][2] for one, k in zip(kept, best, strict=True))
 
 
 def _others(ray: Stroke, busy: Sequence[Obstacle], own: Sequence[Stroke]) -> list[Obstacle]:
@@ -108,9 +119,9 @@ def crowd(points: np.ndarray, busy: Sequence[Obstacle]) -> np.ndarray:
     half = np.abs(points - middle).max(axis=1)[:, None]
     i, j = (_gaps(middle, a, b) - size < CLEAR + half).nonzero()
     gap = _gaps(points[i], a[j, None], b[j, None]) - size[j, None]
-    # to each obstacle the nearest point counts, and twice where the arc crosses it
+    # to each obstacle the nearest point counts, and much more where the arc crosses it
     close = np.zeros((len(points), len(busy)))
-    close[i, j] = (np.clip(1.0 - gap / CLEAR, 0.0, 1.0) + (gap < CROSSED)).max(axis=1)
+    close[i, j] = (np.clip(1.0 - gap / CLEAR, 0.0, 1.0) + CROSSING * (gap < CROSSED)).max(axis=1)
     result: np.ndarray = close @ weight
     return result
 
@@ -126,7 +137,7 @@ def _gaps(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
 def _tries(ray: Stroke, busy: Sequence[Obstacle], force: float) -> tuple[list[Place], np.ndarray]:
     """Return the arcs that may stand about the start of a ray, and how much each is in the way of what is drawn."""
     reach, along = abs(ray[1] - ray[0]), phase(ray[1] - ray[0])
-    every = np.arange(NEAREST, max(reach - CLEAR, NEAREST + 3 * APART), STEP).tolist()
+    every = np.arange(NEAREST, max(reach - CLEAR, NEAREST + 3 * APART * force), STEP).tolist()
     # long enough to be seen as arcs
     places = [Place(ray[0], along, r, part * min(0.9, 1.1 * force / r)) for r in every for part in LENGTHS]
     costs = crowd(_points(places), busy)
