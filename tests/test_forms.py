@@ -96,7 +96,7 @@ def test_a_form_can_be_read_in_the_language_it_is_written_in(tmp_path: Path, nam
 
     assert len(header) == 8
     assert asked.index("V_A") < asked.index("V_B") < asked.index("omega_2") < asked.index("a_B") < asked.index("R_12")
-    assert set(ASKED.names) == {*asked}
+    assert {*asked} == {name for name in ASKED.names if "_couple_" not in name}
 
 
 def test_an_empty_form_is_told_to_be_empty(tmp_path: Path) -> None:

@@ -47,6 +47,11 @@ def sections(solved: Solved, questions: Iterable[Question], words: Words) -> lis
     return found
 
 
+def is_asked(question: Question) -> bool:
+    """Whether a form asks for a quantity: not for each force of a couple, which are as large as the couple's force."""
+    return "_couple_" not in question.name
+
+
 def drawn(question: Question) -> bool:
     """Whether a quantity can be measured on a plan."""
     return question.vector or question.step.verb in ("read", "arm", "measure", "distance")
@@ -101,7 +106,7 @@ def form_rows(
         for symbol in part.scales:
             unit = _written(f"({asked.display.unit(asked.scales[symbol])})/{asked.display.paper}", words)
             yield (symbol, plain(words.symbol(symbol)), "", "", "", "", unit)
-        for question in part.questions:
+        for question in filter(is_asked, part.questions):
             name, unit = question.name, _written(asked.unit(question.name), words)
             yield (name, plain(words.symbol(name)), letters.get(name, ""), "", "", "", unit)
 
@@ -128,7 +133,7 @@ def class_header(parts: Iterable[Section], language: str) -> tuple[str, ...]:
     columns = [said[f"about.{key}"] for key in ("student", "group", "book", "number", "variant", "sheet")]
     for part in parts:
         columns += part.scales
-        for question in part.questions:
+        for question in filter(is_asked, part.questions):
             name = question.name
             columns += [f"{name}.mm"] if drawn(question) else []
             columns += [name]

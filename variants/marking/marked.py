@@ -11,6 +11,7 @@ from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ..case import Settings
 from .answers import Answers
+from .form import is_asked
 from .keyed import Keyed, Request, keyed
 from .roster import Entry, Roster, variant_of_book
 from .rubric import Rubric
@@ -111,7 +112,10 @@ class Desk:
     def _counted(self, marking: Marking, answers: Answers) -> tuple[Line, ...]:
         """Return the lines that count: those of the rubric, else those of the class's columns, else all."""
         names = self.rubric.asked or answers.columns
-        return tuple(line for line in marking.lines if not names or line.name in names)
+        if names:
+            return tuple(line for line in marking.lines if line.name in names)
+        questions = marking.key.questions
+        return tuple(line for line in marking.lines if line.answer is not None or is_asked(questions[line.name]))
 
 
 def _given(answers: Answers, key: Keyed) -> tuple[list[Answer], list[KulmanError]]:
