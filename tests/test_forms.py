@@ -143,6 +143,24 @@ def test_csv_comes_in_any_encoding_with_any_separator(tmp_path: Path, encoding: 
     assert found.lines["V_B"].mm == pytest.approx(55.2)
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_form_saved_by_an_old_spreadsheet_comes_back(tmp_path: Path, language: str) -> None:
+    text = form(tmp_path, "form.csv", language).read_text(encoding="utf-8-sig")
+    separator = "," if language == "en" else ";"
+    rows = list(csv.reader(io.StringIO(text), delimiter=separator))
+    for row in rows:
+        if row[0] in ASKED.quantities:
+            row[3:6] = ["10", "2", "20"]
+    stream = io.StringIO()
+    csv.writer(stream, delimiter=separator).writerows(rows)
+
+    found = one(tmp_path, stream.getvalue().encode("cp1251", "replace"))  # which has no superscripts
+
+    assert found.problems == ()
+    assert found.lines["a_B"].value == pytest.approx(20.0)
+    assert found.lines["M_bal"].value == pytest.approx(20.0)
+
+
 def test_columns_may_stand_in_any_order_in_any_language(tmp_path: Path) -> None:
     found = one(tmp_path, "direction,unit,value,Quantity,мм,масштаб\n180,m/s,2.76,V_B,55.2,0.05\n")
 

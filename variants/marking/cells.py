@@ -29,6 +29,11 @@ _DECIMALS = re.compile(r"^[^0-9]*[0-9 \u00a0\u2009\u202f]*[.,]([0-9]+)")
 MM = unit("mm")
 
 
+def known(written: str) -> Unit:
+    """Return the unit that stands in a file; cp1251 has no ², which comes back as a question mark."""
+    return unit(written.replace("?", "2"))
+
+
 def checked(grid: Grid, row: int, column: int | None) -> str:
     """Return the text of a cell for a number; nothing where there is no answer.
 
@@ -55,7 +60,7 @@ def segment(text: str, written: str) -> tuple[float, int]:
         No number, another unit than of length, a negative length.
     """
     number, rest = split_number(text)
-    own = unit(rest) if rest else unit(written) if written else MM
+    own = known(rest) if rest else known(written) if written else MM
     millimetres = converted(number, own, MM) * 1e3
     if number < 0.0:
         raise InputError("answer-negative", text=quote(text))
@@ -83,7 +88,7 @@ def scale_factor(text: str, written: str, per_mm: str, display_per_mm: str) -> M
     if number <= 0.0:
         raise InputError("scale-not-positive", text=quote(text))
     name, si = rest or written, unit(per_mm)
-    own = unit(name) if name else unit(display_per_mm)
+    own = known(name) if name else unit(display_per_mm)
     on_paper = {("mm", 1), ("cm", 1)}
     if own.powers and own.powers[0] in on_paper and (own.powers[-1][0], -own.powers[-1][1]) not in on_paper:
         reciprocal = Unit(tuple((symbol, -power) for symbol, power in si.powers))
@@ -100,7 +105,7 @@ def value(text: str, written: str, name: str, asked: Asked) -> float:
         No number, an unknown unit, or one that does not fit the quantity.
     """
     number, rest = split_number(text)
-    return converted(number, unit(rest or written or asked.unit(name)), unit(asked.quantities[name].unit))
+    return converted(number, known(rest or written or asked.unit(name)), unit(asked.quantities[name].unit))
 
 
 def bare(text: str, name: str, asked: Asked) -> float | None:

@@ -171,7 +171,7 @@ def write_form(check: Check, file: Path) -> None:
         rows = [class_header(key.parts, language), *_students(check, check.roster)]
         bold, frozen = [0], 1
     else:
-        about = {"task": task.id, "variant": key.solution.variant}
+        about = {"task": task.id, "variant": check.request.variant}
         rows = list(form_rows(key.solution.solved, key.parts, key.asked, key.solution.words, about))
         columns = texts(language)["column.name"]
         frozen = next(number for number, row in enumerate(rows) if row[0] == columns) + 1
