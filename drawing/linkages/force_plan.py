@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...plans.board import Step
+from ...scales.scale import SERIES
 from ..shapes import Vector
 from .inset import NUMERALS, READABLE, TIMES, WIDEST, Window, shows, size_of, window_about
 from .marks import vectors_of
@@ -30,7 +31,7 @@ class ForcePlan:
 
     def vectors(self) -> Iterator[Vector]:
         """Go through the forces that can be read on the plan or in an inset."""
-        least = READABLE * self.scene.style.arrow / TIMES[-1]
+        least = READABLE * self.scene.style.arrow / self._times()[-1]
         for quantity, tail, tip in dict.fromkeys(self.drawn):
             vector = self.scene.vector(quantity, tail, tip)
             if abs(vector.tip - vector.tail) >= least:
@@ -61,7 +62,7 @@ class ForcePlan:
             window = self._window(cluster)
             found.append(window)
             finer = [vector for vector in cluster if vector in self._short(window.times)]
-            left += _clusters(finer) if len(finer) < len(cluster) or window.times < TIMES[-1] else []
+            left += _clusters(finer) if len(finer) < len(cluster) or window.times < self._times()[-1] else []
         return found
 
     def _short(self, times: float) -> list[Vector]:
@@ -72,9 +73,16 @@ class ForcePlan:
         """Return the window for forces that hang together, as large as they are readable or as an inset may be."""
         ends = {end for vector in cluster for end in (vector.tail, vector.tip)}
         least = min(abs(vector.tip - vector.tail) for vector in cluster)
-        readable = next((m for m in TIMES if least * m >= READABLE * self.scene.style.arrow), TIMES[-1])
-        fitting = [m for m in TIMES if max(size_of(ends)) * m <= WIDEST]
-        return window_about(ends, min(readable, fitting[-1] if fitting else TIMES[0]), NARROWEST)
+        times = self._times()
+        readable = next((m for m in times if least * m >= READABLE * self.scene.style.arrow), times[-1])
+        fitting = [m for m in times if max(size_of(ends)) * m <= WIDEST]
+        return window_about(ends, min(readable, fitting[-1] if fitting else times[0]), NARROWEST)
+
+    def _times(self) -> Sequence[float]:
+        """Return the enlargements whose scale factors are of the customary series; all, where there are none."""
+        mu = self.scene.scales[self.plan].mu
+        customary = [m for m in TIMES if float(f"{mu / m:e}".partition("e")[0]) in SERIES]
+        return customary or TIMES
 
     def said(self, shown: Sequence[Window]) -> Iterator[str]:
         """Say which forces stand in which inset."""
