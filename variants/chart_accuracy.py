@@ -47,8 +47,8 @@ class AccuracyChart:
         rows: dict[tuple[str, float | str], dict[str, list[str]]] = {}
         for entry in self.contest.entries:
             row = rows.setdefault((entry.method, entry.setting), {})
-            beaten = "" if id(entry) in fronts[entry.kind] else " "
-            row[entry.kind] = [short(words, entry.error), short(words, entry.seconds), "*" if not beaten else ""]
+            mark = "*" if id(entry) in fronts[entry.kind] else ""
+            row[entry.kind] = [short(words, entry.error), short(words, entry.seconds), mark]
         lines = [head]
         for (method, setting), row in rows.items():
             shown = words.decimal(f"{setting:g}" if isinstance(setting, float) else str(setting))

@@ -27,11 +27,9 @@ PLAN, NEWTON, DIFFERENCES, CHORDS, HAND = "plan", "newton", "differences", "chor
 TOLERANCES = (1e-1, 1e-2, 1e-4, 1e-8)
 STEPS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 SECTIONS = (12, 24, 48, 96, 192, 384)
-ROUNDS, ENOUGH, LONG = (
-    3,
-    0.05,
-    1.0,
-)  # runs of a piece of work, seconds of work that need no repeating, that are too many
+ROUNDS = 3  # runs of a piece of work
+ENOUGH = 0.05  # seconds of work that need no repeating
+LONG = 1.0  # seconds that are too many
 
 
 @dataclass(frozen=True, slots=True)
