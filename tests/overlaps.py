@@ -1,4 +1,4 @@
-"""What touches on a drawn sheet (checklist G5, G2); shapely, which no drawing code uses, is the judge."""
+"""What touches on a drawn sheet; shapely, which no drawing code uses, is the judge."""
 
 from __future__ import annotations
 

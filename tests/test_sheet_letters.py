@@ -1,4 +1,4 @@
-"""Page, pens, letters and words of a sheet (checklist G1 to G7), read back from the file."""
+"""Page, pens, letters and words of a sheet, read back from the file."""
 
 from __future__ import annotations
 
