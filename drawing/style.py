@@ -1,4 +1,4 @@
-"""Sizes of letters, nodes and symbols on each format, in mm (heights of letters: GOST 2.304; symbols: what reads well)."""
+"""Sizes of letters, nodes and symbols on each format, in mm (letters: GOST 2.304; symbols: what reads well)."""
 
 from __future__ import annotations
 
