@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Callable, Collection, Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO, TypeAlias
 
+from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.numbers import quote
 from .page import Page
 
 Writer: TypeAlias = Callable[[Sequence[Page], BinaryIO], None]
+Files: TypeAlias = Iterable[tuple[Path, bytes]]
 
 
 def _svg(pages: Sequence[Page], stream: BinaryIO) -> None:
@@ -82,13 +84,48 @@ def check_outputs(*paths: Path, known: Collection[str] = WRITERS) -> None:
         seen.add(place)
 
 
-def write_pages(pages: Sequence[Page], *paths: Path, tile: str | None = None) -> list[Path]:
+def save_all(
+    paths: Iterable[str | os.PathLike[str]], known: Collection[str], make: Callable[[Path], Files]
+) -> list[Path]:
+    """Save something to each of `paths`.
+
+    Parameters
+    ----------
+    paths : iterable of str or PathLike
+    known : collection of str
+        The suffixes that can be written.
+    make : callable
+        Returns the files that a path stands for, one or several: their names and what they hold.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+
+    Raises
+    ------
+    InputError
+        A path of a wrong kind, or a file that cannot be written: then none is.
+    """
+    wanted = []
+    for path in paths:
+        of_kind("paths", path, (str, os.PathLike), "str | PathLike")
+        wanted.append(Path(path))
+    check_outputs(*wanted, known=known)
+    # every file is made before the first is written: what cannot be drawn costs no older file
+    files = [file for path in wanted for file in make(path)]
+    check_outputs(*(path for path, _ in files), known=known)
+    _write(files)
+    return [path for path, _ in files]
+
+
+def write_pages(pages: Sequence[Page], *paths: str | os.PathLike[str], tile: str | None = None) -> list[Path]:
     """Write pages to each of `paths`, or to one numbered file each where the format holds a single page.
 
     Parameters
     ----------
     pages : sequence of Page
-    *paths : Path
+    *paths : str or PathLike
         The suffix of each picks the writer.
     tile : str, optional
         Paper ("A4") on which the pages are spread at full size; for a PDF only.
@@ -101,19 +138,13 @@ def write_pages(pages: Sequence[Page], *paths: Path, tile: str | None = None) ->
     Raises
     ------
     InputError
-        A file cannot be written: then none is, unless the disk itself fails half-way.
+        A file cannot be written: then none is.
     """
-    check_outputs(*paths)
-    # every file is made before the first is written: what cannot be drawn costs no older file
-    files = [file for path in paths for file in _files(pages, path, tile)]
-    check_outputs(*(path for path, _ in files))
-    for path, data in files:
-        write_whole(path, data)
-    return [path for path, _ in files]
+    return save_all(paths, WRITERS, lambda path: page_files(pages, path, tile))
 
 
-def _files(pages: Sequence[Page], path: Path, tile: str | None) -> Iterator[tuple[Path, bytes]]:
-    """Make the files that `path` stands for: their names and what they hold."""
+def page_files(pages: Sequence[Page], path: Path, tile: str | None = None) -> Iterator[tuple[Path, bytes]]:
+    """Make the files of pages that `path` stands for: their names and what they hold."""
     writer = writer_for(path) if tile is None else _tiled(path, tile)
     parts: list[tuple[Path, Sequence[Page]]] = [(path, pages)]
     if path.suffix.lower() in ONE_PAGE and len(pages) > 1:
@@ -145,13 +176,31 @@ def write_whole(path: Path, data: bytes) -> None:
     InputError
         The file cannot be written.
     """
-    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
+    _write([(path, data)])
+
+
+def _write(files: Files) -> None:
+    """Write each file beside its place; they take their places when all are whole, and vanish when anything fails."""
+    waiting: list[tuple[Path, Path]] = []
     try:
-        with beside.open("xb") as stream:
-            stream.write(data)
-        os.replace(beside, path)
+        for path, data in files:
+            beside = path.with_name(f".{path.name}.{os.getpid()}.part")
+            waiting.append((beside, path))
+            with _told(path), beside.open("xb") as stream:
+                stream.write(data)
+        for beside, path in waiting:
+            with _told(path):
+                os.replace(beside, path)
+    finally:
+        for beside, _ in waiting:
+            with suppress(OSError):
+                beside.unlink()
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Say which file the system refuses to write."""
+    try:
+        yield
     except OSError as problem:
         raise InputError("output-refused", file=quote(path, SHOWN), reason=problem.strerror or "") from None
-    finally:
-        with suppress(OSError):
-            beside.unlink()

@@ -219,6 +219,17 @@ def test_a_sweep_can_be_asked_from_python(tmp_path: Path) -> None:
     assert swept.reason is None
 
 
+def test_no_file_of_a_sweep_is_written_when_one_cannot_be(tmp_path: Path) -> None:
+    swept = kulman.sweep(TASK, "example", only="velocity")
+    too_long = "a" * 250 + ".csv"  # a name that the system lets pass, but not with what it is called while written
+
+    with pytest.raises(KulmanError) as caught:
+        swept.save(tmp_path / "cycle.svg", tmp_path / "cycle.csv", tmp_path / too_long)
+
+    assert caught.value.key == "output-refused"
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_what_the_document_shows_is_what_is_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = Path(kulman.__file__).parent / "docs"
     spec = importlib.util.spec_from_file_location("refresh", folder / "refresh.py")

@@ -1,4 +1,4 @@
-"""What callers of the Python API hand over: of the right kind, or refused in one line."""
+"""Settings and plans that callers of the Python API hand over: told apart, or refused in one line."""
 
 from __future__ import annotations
 
@@ -6,21 +6,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ..plans.linkages.chain import PLANS
-from ..scales.errors import InputError
+from ..scales.arguments import of_kind
 from ..scales.names import unknown
-from ..scales.numbers import quote
-
-
-def of_kind(name: str, value: object, kinds: tuple[type, ...], expected: str) -> None:
-    """Refuse the argument `name` unless its value is of one of `kinds`; `expected` says so in Python's words.
-
-    Raises
-    ------
-    InputError
-        The value is of another kind.
-    """
-    if not isinstance(value, kinds):
-        raise InputError("argument-type", name=name, expected=expected, text=quote(type(value).__name__))
 
 
 def by_name(name: str, value: Mapping[str, Any] | None) -> dict[str, Any]:

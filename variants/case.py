@@ -12,12 +12,13 @@ from ..plans.exact import SMALL
 from ..plans.linkages.chain import require_couplers
 from ..plans.linkages.solved import Solved, scale_symbols, solve_linkage
 from ..plans.worth import pins_together, point_of
+from ..scales.arguments import of_kind
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
 from ..scales.display import Display
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import quote
-from .arguments import by_name, of_kind, plans_wanted
+from .arguments import by_name, plans_wanted
 from .reader import load_task
 from .task import WITH_FORCES, LocatedError, Task
 

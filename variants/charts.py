@@ -4,23 +4,24 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..drawing.charts.paper import SUFFIXES as PICTURES
 from ..drawing.charts.paper import saved
 from ..drawing.words import Words
-from ..drawing.writers import check_outputs, write_whole
+from ..drawing.writers import save_all
 from ..plans.hand import preset
 from ..plans.linkages.chain import with_needs
 from ..plans.linkages.cycle import FEWEST, MOST, Cycle, cycle
+from ..scales.arguments import of_kind
 from ..scales.errors import InputError, KulmanError, PositionError
 from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import parse, unit
-from .arguments import of_kind
 from .case import Case, Settings, solve_case
 from .chart_accuracy import AccuracyChart, accuracy_chart
 from .chart_data import Scene
@@ -82,27 +83,20 @@ class Charts:
         InputError
             An unknown suffix, two outputs of one name, or a file that cannot be written: then none is.
         """
-        for path in paths:
-            of_kind("paths", path, (str, os.PathLike), "str | PathLike")
-        files = [Path(path) for path in paths]
-        check_outputs(*files, known=SUFFIXES)
-        figures = []  # drawn once for all files
-        if any(file.suffix.lower() in PICTURES for file in files):
-            figures = [chart.figure(self.words) for chart in self.charts.values()]
-        made = [item for file in files for item in self._files(file, figures)]
-        check_outputs(*(file for file, _ in made), known=SUFFIXES)
-        for file, data in made:
-            write_whole(file, data)
-        return [file for file, _ in made]
+        drawn = cache(self._figures)  # once for all files, and only where one of them shows it
+        return save_all(paths, SUFFIXES, lambda path: self._files(path, drawn))
 
-    def _files(self, path: Path, figures: Sequence[Figure]) -> Iterator[tuple[Path, bytes]]:
+    def _figures(self) -> list[Figure]:
+        return [chart.figure(self.words) for chart in self.charts.values()]
+
+    def _files(self, path: Path, figures: Callable[[], Sequence[Figure]]) -> Iterator[tuple[Path, bytes]]:
         """Make the files that `path` stands for."""
         suffix = path.suffix.lower()
         names = list(self.charts)
         several = len(names) > 1 and suffix != PAGED
         targets = [path.with_name(f"{path.stem}-{name}{path.suffix}") for name in names] if several else [path]
         csv = [chart.csv(self.words) for chart in self.charts.values()] if suffix == ".csv" else None
-        data = saved(figures, suffix) if csv is None else csv
+        data = saved(figures(), suffix) if csv is None else csv
         yield from zip(targets, data, strict=True)
 
     def __repr__(self) -> str:

@@ -16,10 +16,10 @@ from ..plans.linkages.guides import guide_letters
 from ..plans.quantities import Quantity
 from ..plans.shaky import Paper
 from ..plans.spread import Spread
+from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.numbers import quote
 from ..scales.units import format_unit, parse, unit
-from .arguments import of_kind
 
 OWN = "own"
 BETWEEN = re.compile(r"\s*;\s*|,\s+|(?<=[^\d\s]),")  # not a decimal comma

@@ -17,12 +17,12 @@ from ..plans.linkages.chain import PLANS, construct, require_couplers
 from ..plans.linkages.mechanism import Mechanism
 from ..plans.linkages.solved import scale_symbols
 from ..plans.linkages.structure import analyse
+from ..scales.arguments import of_kind
 from ..scales.choose import Segment, chooser
 from ..scales.display import AS_INSIDE, LENGTHS, METRE, PAPER, Display
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote
-from .arguments import of_kind
 from .checks import Checker, EnoughError, Field, array_of, as_is, label, one_of, record, text
 from .checks_givens import Settings, read_choices, read_givens, read_variants
 from .checks_loads import diagrams_in_order

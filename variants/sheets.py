@@ -17,11 +17,11 @@ from ..drawing.pens import Norm
 from ..drawing.titleblock import Stamp
 from ..drawing.words import Words
 from ..drawing.writers import write_pages
+from ..scales.arguments import of_kind
 from ..scales.choose import Fixed
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.scale import Scale
-from .arguments import of_kind
 from .case import Case, Settings, solve_case
 from .marking.sheet_id import sheet_id
 from .task import Task
@@ -55,12 +55,10 @@ class Sheet:
         Raises
         ------
         InputError
-            An unknown suffix, two outputs of one name, a missing extra (before anything is written), or a file that
-            cannot be written.
+            An unknown suffix, two outputs of one name, a missing extra, or a file that cannot be written: then none
+            is.
         """
-        for path in paths:
-            of_kind("paths", path, (str, os.PathLike), "str | PathLike")
-        return write_pages(self.pages, *map(Path, paths), tile=tile)
+        return write_pages(self.pages, *paths, tile=tile)
 
     def svg(self, page: int = 1) -> str:
         """Return one page, counted from 1, as SVG text.

@@ -6,20 +6,21 @@ import math
 import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from ..drawing.words import Words
-from ..drawing.writers import WRITERS, check_outputs, write_whole
+from ..drawing.writers import WRITERS, Files, page_files, save_all
 from ..plans.graphs import Diagrams
 from ..plans.linkages.cycle import FEWEST, MOST, Cycle, cycle
 from ..plans.linkages.diagrams import diagrams
 from ..plans.linkages.mechanism import Driver
+from ..scales.arguments import of_kind
 from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import Unit, parse, unit
-from .arguments import of_kind
 from .case import Case, Settings, solve_case
 from .columns import letters
 from .sheets import Sheet, cycle_sheet
@@ -106,18 +107,15 @@ class Sweep:
         Raises
         ------
         InputError
-            An unknown suffix, two outputs of one name, or a file that cannot be written.
+            An unknown suffix, two outputs of one name, or a file that cannot be written: then none is.
         """
-        for path in paths:
-            of_kind("paths", path, (str, os.PathLike), "str | PathLike")
-        files = [Path(path) for path in paths]
-        check_outputs(*files, known=SUFFIXES)
-        drawings = [file for file in files if file.suffix.lower() in WRITERS]
-        made = [(file, SAVERS[file.suffix.lower()](self)) for file in files if file not in drawings]
-        saved = self.drawn().save(*drawings) if drawings else []
-        for file, data in made:
-            write_whole(file, data)
-        return [*saved, *(file for file, _ in made)]
+        drawn = cache(self.drawn)  # once for all files, and only where one of them shows it
+
+        def files(path: Path) -> Files:
+            saver = SAVERS.get(path.suffix.lower())
+            return page_files(drawn().pages, path) if saver is None else [(path, saver(self))]
+
+        return save_all(paths, SUFFIXES, files)
 
     def drawn(self) -> Sheet:
         """Return the sheet with the plan of positions and the diagrams by plans and by chords.
