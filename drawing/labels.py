@@ -30,6 +30,7 @@ from .spots import (
     crossings,
 )
 
+SOME = 300  # places on a leader, the cheapest for their own sake, that are looked at
 AGAIN = 4  # times that all labels are placed anew when some found no place
 
 __all__ = ["Labels", "Obstacles", "Request", "place"]
@@ -76,10 +77,10 @@ def place(requests: Sequence[Request], obstacles: Obstacles, gap: float = 0.6, b
     grid = Grid.around(wanted, scene.bodies, NEAR, bounds)
     best, first = scene.placed(grid, ()), tuple[int, ...]()
     for _ in range(AGAIN):
-        if not best.failed:
+        failed = [i for i, request in enumerate(requests) if request.name in best.failed]
+        if not any(requests[i].afield for i in failed):
             break
         # who found no place the last time chooses first the next time
-        failed = [i for i, request in enumerate(requests) if request.name in best.failed]
         first = (*first, *(i for i in failed if i not in first))
         other = scene.placed(grid, first)
         best = min(best, other, key=lambda labels: len(labels.failed))
@@ -244,7 +245,8 @@ class _Scene:
     def _led(self, i: int, one: Wanted, board: _Board, steps: Sequence[float], limit: float) -> bool:
         # what goes far afield may even leave the bounds
         grid = Grid.around(one, self.bodies, steps, self.bounds if len(steps) else None, led=True)
-        x, y, cost = grid.x[0], grid.y[0], grid.cost[0]
+        order = np.argsort(grid.cost[0], kind="stable")[:SOME]
+        x, y, cost = grid.x[0][order], grid.y[0][order], grid.cost[0][order]
         cost = cost + COVER * board.clashes(i, x, y).sum(axis=1)
         foot = one.feet(x + 1j * y)
         head = np.clip(foot.real, x - one.hw, x + one.hw) + 1j * np.clip(foot.imag, y - one.hh, y + one.hh)
