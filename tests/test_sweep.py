@@ -220,7 +220,7 @@ def test_a_sweep_can_be_asked_from_python(tmp_path: Path) -> None:
 
 
 def test_no_file_of_a_sweep_is_written_when_one_cannot_be(tmp_path: Path) -> None:
-    swept = kulman.sweep(TASK, "example", only="velocity")
+    swept = kulman.sweep(TASK, "example", only="acceleration", positions=8)
     too_long = "a" * 250 + ".csv"  # a name that the system lets pass, but not with what it is called while written
 
     with pytest.raises(KulmanError) as caught:
