@@ -16,8 +16,8 @@ from kulman.plans.exact import run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Mechanism, Prismatic, Revolute
-from kulman.plans.mistakes.book import broken
-from kulman.plans.mistakes.rules import MISTAKES, Broken, Scene, breaks
+from kulman.plans.mistakes.book import CHAPTERS, MISTAKES, broken
+from kulman.plans.mistakes.rules import Broken, Scene, breaks
 from kulman.plans.shaky import Paper
 from kulman.tests.marking_cases import mistakes
 from kulman.tests.mechanisms import ORIGIN
@@ -130,7 +130,7 @@ def scene(mechanism: Mechanism, values: Mapping[str, float]) -> Scene:
 
 def ways(where: Scene, id: str, at: str = "", how: str = "") -> list[Broken]:
     """Return the ways to break the rule of a mistake, at a place, in a way."""
-    return [b for b in breaks(where, id) if at in ("", b.at) and b.how.startswith(how)]
+    return [b for b in breaks(where, MISTAKES[id]) if at in ("", b.at) and b.how.startswith(how)]
 
 
 def after(where: Scene, id: str, at: str = "", how: str = "") -> Mapping[str, Any]:
@@ -403,11 +403,12 @@ def test_what_concerns_a_construction_follows_from_its_steps() -> None:
     assert not {"M33", "M34", "M35", "M48", "M54"} & crank
     assert {"M12", "M26", "M30", "M73"} <= crank
     assert not {"M12", "M38"} & slotted
-    assert len(MISTAKES) >= 60
+    assert sorted(MISTAKES) == [f"M{n:02}" for n in range(1, 83)]
+    assert len(MISTAKES) == sum(len(chapter.MISTAKES) for chapter in CHAPTERS)
     assert len(crank) >= 60
 
 
-def test_every_mistake_of_the_list_concerns_a_bundled_task_or_a_crank_that_speeds_up() -> None:
+def test_every_mistake_concerns_a_bundled_task_or_a_crank_that_speeds_up() -> None:
     found = set()
     for task in ("nau-slider-crank", "scheme-03-crank-rocker", "scheme-09-shaper", "scheme-06-opposed-compressor"):
         solved = solve(task).solved

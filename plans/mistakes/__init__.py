@@ -16,10 +16,9 @@
     >>> sorted(explanation.candidates[0].ids)  # in sizes, a_A outward and a_BA_n away from A are one
     ['M37', 'M38']
 
-`rules.MISTAKES`
-    All `Mistake(id, chapter, breaks, by_scale)` by id, `M01` ...; `chapter` is `inputs`, `reading`, `velocity`,
-    `acceleration`, `forces` or `lever` (import `book` first, which knows all chapters). Whether one concerns a task
-    follows from the steps of its program alone.
+`book.MISTAKES`
+    All `Mistake(id, breaks, by_scale)` by id, `M01` ...; `inputs`, `reading`, `velocity`, `acceleration`, `forces` and
+    `lever` hold their rules. Whether one concerns a task follows from the steps of its program alone.
 `rules.Broken(mistake, at, how, program, givens)`
     One rule broken at one place: `at` names the step, the quantity or the given, `how` which of several ways.
 `book.broken(paper, values, ids=()) -> iterator of Broken`

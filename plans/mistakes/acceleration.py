@@ -8,11 +8,11 @@ from dataclasses import replace
 from ..board import Step
 from .rules import (
     Change,
+    Chapter,
     Scene,
     constant,
     instead,
     length_of,
-    mistake,
     operand,
     opposed,
     scaled,
@@ -30,10 +30,12 @@ from .velocity import (
     rates,
 )
 
+MISTAKES = Chapter()
+mistake = MISTAKES.enter
 POLE = f"{ACCELERATION}.p"
 
 
-@mistake("M37", ACCELERATION)
+@mistake("M37")
 def away_from_pivot(scene: Scene) -> Iterator[Change]:
     """The acceleration of the crank pin is drawn away from the pivot."""
     step = drive(scene, ACCELERATION)
@@ -64,7 +66,7 @@ def _normals(scene: Scene, *kinds: str) -> Iterator[Step]:
     return (step for step, kind in normals(scene) if kind in kinds)
 
 
-@mistake("M38", ACCELERATION)
+@mistake("M38")
 def away_from_centre(scene: Scene) -> Iterator[Change]:
     """The normal part is drawn from A to B."""
     yield from (instead(step, verb="lay") for step in _normals(scene, "link", "rocker"))
@@ -74,19 +76,19 @@ def _forgotten(step: Step) -> Change:
     return instead(step, "none", operands=operand(step, 2, "zero"))
 
 
-@mistake("M39", ACCELERATION)
+@mistake("M39")
 def normal_forgotten(scene: Scene) -> Iterator[Change]:
     """The normal part is forgotten."""
     yield from map(_forgotten, _normals(scene, "link"))
 
 
-@mistake("M47", ACCELERATION)
+@mistake("M47")
 def second_normal_forgotten(scene: Scene) -> Iterator[Change]:
     """The normal part of the rocker is forgotten."""
     yield from map(_forgotten, _normals(scene, "rocker"))
 
 
-@mistake("M54", ACCELERATION)
+@mistake("M54")
 def normal_of_slotted_link(scene: Scene) -> Iterator[Change]:
     """The normal part of the slotted link is forgotten, or drawn away from its pivot."""
     for step in _normals(scene, "slotted"):
@@ -102,7 +104,7 @@ def normal_laws(scene: Scene) -> Iterator[tuple[Step, Step]]:
             yield step, reading
 
 
-@mistake("M40", ACCELERATION)
+@mistake("M40")
 def normal_from_another(scene: Scene) -> Iterator[Change]:
     """The normal part is calculated from the absolute velocity, or from the angular velocity of the crank."""
     for step, reading in normal_laws(scene):
@@ -113,7 +115,7 @@ def normal_from_another(scene: Scene) -> Iterator[Change]:
             yield instead(step, "omega_1", operands=operand(step, 0, "omega_1"), law="centripetal")
 
 
-@mistake("M41", ACCELERATION)
+@mistake("M41")
 def square_lost(scene: Scene) -> Iterator[Change]:
     """The normal part is v / l, or omega l^2: a square is lost, or is in the wrong place."""
     for step, reading in normal_laws(scene):
@@ -123,13 +125,13 @@ def square_lost(scene: Scene) -> Iterator[Change]:
             yield Change(step.name, {step.name: (*size, last)}, {}, how)
 
 
-@mistake("M42", ACCELERATION)
+@mistake("M42")
 def tangential_along_link(scene: Scene) -> Iterator[Change]:
     """The line of the tangential part is drawn along the link."""
     yield from along_links(scene, ACCELERATION)
 
 
-@mistake("M43", ACCELERATION)
+@mistake("M43")
 def rate_from_full(scene: Scene) -> Iterator[Change]:
     """The angular acceleration is calculated from the full relative acceleration."""
     for step, reading in rates(scene, ACCELERATION):
@@ -138,7 +140,7 @@ def rate_from_full(scene: Scene) -> Iterator[Change]:
             yield rate_from(scene, step, full)
 
 
-@mistake("M44", ACCELERATION)
+@mistake("M44")
 def rate_from_absolute(scene: Scene) -> Iterator[Change]:
     """The angular acceleration is calculated from the absolute acceleration."""
     for step, reading in rates(scene, ACCELERATION):
@@ -147,13 +149,13 @@ def rate_from_absolute(scene: Scene) -> Iterator[Change]:
             yield rate_from(scene, step, absolute.name)
 
 
-@mistake("M45", ACCELERATION)
+@mistake("M45")
 def sense_of_acceleration(scene: Scene) -> Iterator[Change]:
     """The sense of an angular acceleration is wrong: the tangential part stands at the wrong end of the link."""
     yield from (opposed(step) for step, _ in rates(scene, ACCELERATION))
 
 
-@mistake("M46", ACCELERATION)
+@mistake("M46")
 def crank_tangential_lost(scene: Scene) -> Iterator[Change]:
     """The tangential part of the crank pin is lost though the crank speeds up."""
     for step in scene.made_by("calc", law="circular_acceleration"):
@@ -167,26 +169,26 @@ def coriolis(scene: Scene) -> Iterator[Step]:
     return scene.made_by("calc", law="coriolis")
 
 
-@mistake("M48", ACCELERATION)
+@mistake("M48")
 def coriolis_forgotten(scene: Scene) -> Iterator[Change]:
     """The acceleration of Coriolis is forgotten."""
     for step in coriolis(scene):
         yield instead(step, operands=("zero", step.operands[1]), law="along")
 
 
-@mistake("M49", ACCELERATION)
+@mistake("M49")
 def coriolis_reversed(scene: Scene) -> Iterator[Change]:
     """The acceleration of Coriolis is turned against the rotation."""
     yield from map(opposed, coriolis(scene))
 
 
-@mistake("M50", ACCELERATION)
+@mistake("M50")
 def coriolis_halved(scene: Scene) -> Iterator[Change]:
     """The acceleration of Coriolis without its factor two."""
     yield from (scaled(step, 0.5) for step in coriolis(scene))
 
 
-@mistake("M51", ACCELERATION)
+@mistake("M51")
 def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
     """The acceleration of Coriolis with the angular velocity of the crank, or with the velocity of its pin."""
     for step in coriolis(scene):
@@ -197,7 +199,7 @@ def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
             yield scaled(step, pin / slide, "v")
 
 
-@mistake("M52", ACCELERATION)
+@mistake("M52")
 def coriolis_along_guide(scene: Scene) -> Iterator[Change]:
     """The acceleration of Coriolis is drawn along the guide."""
     for step in coriolis(scene):
@@ -207,7 +209,7 @@ def coriolis_along_guide(scene: Scene) -> Iterator[Change]:
         yield Change(step.name, {step.name: (double, along)}, {constant(2.0): 2.0})
 
 
-@mistake("M53", ACCELERATION)
+@mistake("M53")
 def coriolis_without_rotation(scene: Scene) -> Iterator[Change]:
     """An acceleration of Coriolis is added where the guide does not turn."""
     for step in scene.made_by("meet", plan=ACCELERATION):
@@ -231,7 +233,7 @@ def _with_coriolis(step: Step, place: int, omega: str, speed: str) -> Change:
     return Change(step.name, {step.name: new}, {}, omega)
 
 
-@mistake("M55", ACCELERATION)
+@mistake("M55")
 def point_wrong(scene: Scene) -> Iterator[Change]:
     """A point of a link counted from the other end, put in the middle, or on the other side, on the plan."""
     for how, found in (
@@ -242,7 +244,7 @@ def point_wrong(scene: Scene) -> Iterator[Change]:
         yield from (replace(change, how=how) for change in found)
 
 
-@mistake("M56", ACCELERATION, by_scale=True)
+@mistake("M56", by_scale=True)
 def read_from_velocity_plan(scene: Scene) -> Iterator[Change]:
     """An acceleration is read from the letter of the velocity plan."""
     for step in scene.made_by("read", plan=ACCELERATION):

@@ -14,11 +14,10 @@ from ..marking.key import Key
 from ..marking.tolerances import tolerances
 from ..shaky import Paper
 from . import acceleration, forces, inputs, lever, reading, velocity
-from .rules import MISTAKES, Broken, Scene, breaks
+from .rules import Broken, Mistake, Scene, breaks
 
-CHAPTERS = {
-    module.__name__.rpartition(".")[2]: module for module in (inputs, reading, velocity, acceleration, forces, lever)
-}
+CHAPTERS = (inputs, reading, velocity, acceleration, forces, lever)
+MISTAKES: dict[str, Mistake] = {id: found for chapter in CHAPTERS for id, found in chapter.MISTAKES.items()}
 NOTHING = 1e-9  # part of a tolerance that is rounding
 FLATTER = 0.7  # of the flattest angle of the right construction: lines meet more flatly than they should
 UNDRAWN = 1e-9  # scale factor of what is only calculated, SI per mm
@@ -28,7 +27,7 @@ def broken(paper: Paper, values: Mapping[str, Any], ids: Iterable[str] = ()) -> 
     """Go through every way in which a construction can go wrong; `ids` are the only mistakes, all when left out."""
     scene = Scene(paper, values)
     for id in sorted(ids or MISTAKES):
-        yield from breaks(scene, id)
+        yield from breaks(scene, MISTAKES[id])
 
 
 @dataclass(frozen=True, slots=True, eq=False)

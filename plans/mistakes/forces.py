@@ -9,12 +9,12 @@ from dataclasses import replace
 from ..board import Step
 from .rules import (
     Change,
+    Chapter,
     Scene,
     aside,
     constant,
     instead,
     length_of,
-    mistake,
     operand,
     opposed,
     reversed_,
@@ -22,6 +22,8 @@ from .rules import (
     with_sign,
 )
 
+MISTAKES = Chapter()
+mistake = MISTAKES.enter
 FORCES = "forces"
 G = 9.81
 
@@ -49,7 +51,7 @@ def loads(scene: Scene) -> list[str]:
     return [force for force in hung(scene) if not force.lstrip("_").startswith(("R", "F_bal"))]
 
 
-@mistake("M57", FORCES)
+@mistake("M57")
 def along_acceleration(scene: Scene) -> Iterator[Change]:
     """Inertia forces are drawn along the accelerations: one of them, or all."""
     steps = inertia_forces(scene)
@@ -58,7 +60,7 @@ def along_acceleration(scene: Scene) -> Iterator[Change]:
         yield Change("F_i", {step.name: reversed_(step) for step in steps}, {}, "all")
 
 
-@mistake("M58", FORCES)
+@mistake("M58")
 def force_left_out(scene: Scene) -> Iterator[Change]:
     """A known force is left out of the polygon, or of everything."""
     polygons = hung(scene)
@@ -79,7 +81,7 @@ def instead_zero(step: Step) -> tuple[Step, ...]:
     return replace(step, name=aside(step.name)), Step("calc", step.name, ("zero", aside(step.name)), "along")
 
 
-@mistake("M59", FORCES)
+@mistake("M59")
 def force_reversed(scene: Scene) -> Iterator[Change]:
     """A known force acts the other way: in the polygon, or everywhere."""
     inertia = {step.name for step in inertia_forces(scene)}
@@ -95,7 +97,7 @@ def force_reversed(scene: Scene) -> Iterator[Change]:
             yield opposed(made, "everywhere")
 
 
-@mistake("M60", FORCES)
+@mistake("M60")
 def inertia_moment_lost(scene: Scene) -> Iterator[Change]:
     """The inertia moment is forgotten, or has the wrong sense."""
     for step in inertia_moments(scene):
@@ -103,13 +105,13 @@ def inertia_moment_lost(scene: Scene) -> Iterator[Change]:
         yield opposed(step, "sense")
 
 
-@mistake("M61", FORCES)
+@mistake("M61")
 def inertia_about_end(scene: Scene) -> Iterator[Change]:
     """The moment of inertia is taken about the end of the link: m l^2 / 3 for m l^2 / 12."""
     yield from (scaled(step, 4.0) for step in inertia_moments(scene))
 
 
-@mistake("M62", FORCES)
+@mistake("M62")
 def force_at_wrong_point(scene: Scene) -> Iterator[Change]:
     """An inertia force stands at a joint or in the middle of the link, instead of the centre of mass."""
     inertia = {step.name for step in inertia_forces(scene)}
@@ -127,7 +129,7 @@ def force_at_wrong_point(scene: Scene) -> Iterator[Change]:
         yield Change(step.name, {step.name: (point, moved)}, {half: 0.5}, "middle")
 
 
-@mistake("M63", FORCES)
+@mistake("M63")
 def mass_and_weight(scene: Scene) -> Iterator[Change]:
     """The weight stands for the mass in inertia forces, or the mass for the weight."""
     for law, factor in (("inertia_force", G), ("weight", 1.0 / G)):
@@ -138,7 +140,7 @@ def mass_and_weight(scene: Scene) -> Iterator[Change]:
             yield Change(law, {n: c.steps[n] for n, c in right}, {constant(factor): factor}, "all")
 
 
-@mistake("M64", FORCES)
+@mistake("M64")
 def load_from_pressure(scene: Scene) -> Iterator[Change]:
     """The force on a piston from its diameter in the place of the radius, without pi / 4, or in kilonewtons."""
     for step in scene.made_by("calc"):
@@ -152,7 +154,7 @@ def load_from_pressure(scene: Scene) -> Iterator[Change]:
                 yield scaled(step, factor, f"{factor:.4g}")
 
 
-@mistake("M65", FORCES)
+@mistake("M65")
 def resistance_along_motion(scene: Scene) -> Iterator[Change]:
     """A resistance acts along the motion, or in the idle stroke too."""
     for law in ("resisting_force", "resisting_along", "resisting_moment"):
@@ -169,7 +171,7 @@ def moments(scene: Scene) -> Iterator[Step]:
     return (step for step in scene.made_by("moment") if "." not in step.operands[1])
 
 
-@mistake("M66", FORCES)
+@mistake("M66")
 def arm_to_point(scene: Scene) -> Iterator[Change]:
     """The arm is measured to the point of application instead of the line of action."""
     for step in moments(scene):
@@ -189,7 +191,7 @@ def equations(scene: Scene) -> Iterator[tuple[Step, list[Step]]]:
             yield step, found
 
 
-@mistake("M67", FORCES)
+@mistake("M67")
 def arms_from_another_hinge(scene: Scene) -> Iterator[Change]:
     """Moments are taken about one hinge with arms measured from another."""
     for equation, found in equations(scene):
@@ -206,7 +208,7 @@ def arms_from_another_hinge(scene: Scene) -> Iterator[Change]:
             yield Change(equation.name, new, {})
 
 
-@mistake("M68", FORCES, by_scale=True)
+@mistake("M68", by_scale=True)
 def arms_in_millimetres(scene: Scene) -> Iterator[Change]:
     """Arms in millimetres beside a moment in newton metres, or the other way round."""
     for equation, _ in equations(scene):
@@ -222,13 +224,13 @@ def arms_in_millimetres(scene: Scene) -> Iterator[Change]:
                 yield Change(equation.name, {equation.name: steps}, {constant(factor): factor}, how)
 
 
-@mistake("M69", FORCES)
+@mistake("M69")
 def minus_lost(scene: Scene) -> Iterator[Change]:
     """The minus of a tangential part is lost: it is drawn the other way."""
     yield from (opposed(equation) for equation, _ in equations(scene))
 
 
-@mistake("M70", FORCES)
+@mistake("M70")
 def component_for_whole(scene: Scene) -> Iterator[Change]:
     """A component is taken for the full reaction."""
     for step in scene.made_by("read", plan=FORCES):
@@ -244,13 +246,13 @@ def passed(scene: Scene) -> list[Step]:
     return [s for s in scene.made_by("calc", law="opposite") if s.name.startswith("R_") and s.name in used]
 
 
-@mistake("M71", FORCES)
+@mistake("M71")
 def not_reversed(scene: Scene) -> Iterator[Change]:
     """A reaction is carried to the next link without being reversed."""
     yield from (instead(step, law="given") for step in passed(scene))
 
 
-@mistake("M72", FORCES)
+@mistake("M72")
 def from_driver_end(scene: Scene) -> Iterator[Change]:
     """Groups are solved from the driver's end: the reaction of the later group is missing."""
     driver = next((s.operands[1] for s in reversed(list(scene.made_by("chain", plan=FORCES)))), "")
@@ -259,7 +261,7 @@ def from_driver_end(scene: Scene) -> Iterator[Change]:
             yield Change(step.name, {step.name: instead_zero(step)}, {})
 
 
-@mistake("M73", FORCES)
+@mistake("M73")
 def reaction_along_guide(scene: Scene) -> Iterator[Change]:
     """The reaction of a guide is not normal to it; or its moment is skipped."""
     for step in scene.made_by("meet", plan=FORCES):
@@ -278,13 +280,13 @@ def closing(scene: Scene) -> Iterator[Step]:
     return (s for s in scene.made_by("read", plan=FORCES) if s.name not in scene.laid_off and s.name[0] == "R")
 
 
-@mistake("M75", FORCES)
+@mistake("M75")
 def arrow_reversed(scene: Scene) -> Iterator[Change]:
     """The polygon is closed with the arrow the wrong way round."""
     yield from (instead(step, operands=step.operands[::-1]) for step in closing(scene))
 
 
-@mistake("M76", FORCES)
+@mistake("M76")
 def wrong_vertex(scene: Scene) -> Iterator[Change]:
     """A reaction is read to the vertex beside the right one."""
     for step in closing(scene):

@@ -8,9 +8,10 @@ from functools import partial
 from itertools import combinations
 
 from ..board import POSITION, Step
-from .rules import Change, Scene, constant, instead, mistake, operand
+from .rules import Change, Chapter, Scene, constant, instead, operand
 
-INPUTS = "inputs"
+MISTAKES = Chapter()
+mistake = MISTAKES.enter
 TWELFTH = math.pi / 6.0  # between positions
 # which operands of a step are lengths, in the laws too
 LENGTHS = {"place": (0, 1), "arc": (1,), "arcs": (1, 3), "tangent": (2,), "divide": (2, 3)}
@@ -44,7 +45,7 @@ for _id, _factor in (
     ("M04", 0.5),
     ("M05", 180.0 / math.pi),
 ):
-    mistake(_id, INPUTS)(partial(_speed_times, _factor))
+    mistake(_id)(partial(_speed_times, _factor))
 
 
 def lengths(scene: Scene) -> list[str]:
@@ -64,13 +65,13 @@ def lengths(scene: Scene) -> list[str]:
     return [name for name in found if isinstance(scene.paper.givens[name], float)]
 
 
-@mistake("M06", INPUTS)
+@mistake("M06")
 def millimetres_for_metres(scene: Scene) -> Iterator[Change]:
     """Lengths stay in millimetres."""
     yield Change("l", {}, {name: scene.paper.givens[name] * 1000.0 for name in lengths(scene)})
 
 
-@mistake("M07", INPUTS)
+@mistake("M07")
 def diameter_for_radius(scene: Scene) -> Iterator[Change]:
     """The stroke, or the diameter of the crank circle, is taken for the crank, or half the crank."""
     for step in scene.made_by("calc", law="circular_speed"):
@@ -97,13 +98,13 @@ def _angle(scene: Scene) -> float:
     return float(scene.paper.givens.get(angle_of_driver(scene) or "", 0.0))
 
 
-@mistake("M08", INPUTS)
+@mistake("M08")
 def degrees_for_radians(scene: Scene) -> Iterator[Change]:
     """Degrees are given to a function of radians."""
     yield from _turned(scene, "", math.degrees(_angle(scene)))
 
 
-@mistake("M09", INPUTS)
+@mistake("M09")
 def clockwise(scene: Scene) -> Iterator[Change]:
     """The angle is laid off clockwise; or the crank turns the other way."""
     yield from _turned(scene, "angle", -_angle(scene))
@@ -115,21 +116,21 @@ def clockwise(scene: Scene) -> Iterator[Change]:
             yield Change(step.name, {step.name: (*steps, again)}, {sense: -1.0}, "sense")
 
 
-@mistake("M10", INPUTS)
+@mistake("M10")
 def another_zero(scene: Scene) -> Iterator[Change]:
     """The angle is counted from the other dead position, or from the other axis."""
     for how, shift in (("+180", math.pi), ("+90", 0.5 * math.pi), ("-90", -0.5 * math.pi)):
         yield from _turned(scene, how, _angle(scene) + shift)
 
 
-@mistake("M10", INPUTS)
+@mistake("M10")
 def another_position(scene: Scene) -> Iterator[Change]:
     """The positions are numbered from another one: the whole plan is that of a neighbour."""
     for how, shift in (("+30", TWELFTH), ("-30", -TWELFTH)):
         yield from _turned(scene, how, _angle(scene) + shift)
 
 
-@mistake("M11", INPUTS)
+@mistake("M11")
 def other_assembly(scene: Scene) -> Iterator[Change]:
     """A dyad is put together on the other side."""
     for step in scene.made_by("arc", "arcs", "tangent"):
@@ -143,7 +144,7 @@ def instead_last(step: Step, name: str) -> Step:
     return Step(step.verb, step.name, operand(step, len(step.operands) - 1, name), step.law)
 
 
-@mistake("M12", INPUTS)
+@mistake("M12")
 def offset_lost(scene: Scene) -> Iterator[Change]:
     """The offset of a guide is forgotten, or laid off on the wrong side."""
     for step in scene.made_by("lay", "back", plan=POSITION):
@@ -166,7 +167,7 @@ def _offset_at(step: Step, place: int) -> Iterator[Change]:
     yield Change(step.name, {step.name: (other, moved)}, {}, f"side {place}")
 
 
-@mistake("M13", INPUTS)
+@mistake("M13")
 def lengths_exchanged(scene: Scene) -> Iterator[Change]:
     """The lengths of two links are exchanged."""
     given = scene.paper.givens

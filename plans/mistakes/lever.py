@@ -7,8 +7,10 @@ from dataclasses import replace
 
 from ..board import POSITION, Step
 from .forces import instead_zero
-from .rules import Change, Scene, instead, mistake, opposed, scaled
+from .rules import Change, Chapter, Scene, instead, opposed, scaled
 
+MISTAKES = Chapter()
+mistake = MISTAKES.enter
 LEVER = "lever"
 
 
@@ -22,7 +24,7 @@ def moments(scene: Scene) -> Iterator[Step]:
     return (step for step in scene.made_by("moment") if step.operands[1].startswith(f"{LEVER}."))
 
 
-@mistake("M77", LEVER)
+@mistake("M77")
 def not_turned(scene: Scene) -> Iterator[Change]:
     """The plan is not turned."""
     marks = turned(scene)
@@ -30,7 +32,7 @@ def not_turned(scene: Scene) -> Iterator[Change]:
         yield Change(marks[0].name, {step.name: (replace(step, verb="same"),) for step in marks}, {})
 
 
-@mistake("M78", LEVER)
+@mistake("M78")
 def force_on_wrong_point(scene: Scene) -> Iterator[Change]:
     """A force hangs on another point of its link."""
     marks = {step.name for step in turned(scene)}
@@ -62,7 +64,7 @@ def couples(scene: Scene) -> list[Step]:
     return [s for s in scene.made_by("calc") if s.law in ("couple", "couple_on_lever")]
 
 
-@mistake("M79", LEVER, by_scale=True)
+@mistake("M79", by_scale=True)
 def moment_missing(scene: Scene) -> Iterator[Change]:
     """A moment is missing on the lever, or hangs there as it is, without ab / AB."""
     for step in couples(scene):
@@ -80,13 +82,13 @@ def _relative(scene: Scene, couple: Step) -> float:
     return float(abs(scene.values.get(rate, 0.0)) * abs(scene.values[couple.operands[1]]))
 
 
-@mistake("M80", LEVER)
+@mistake("M80")
 def sense_of_moment(scene: Scene) -> Iterator[Change]:
     """The sense of a moment on the lever is not checked against the direction of ab."""
     yield from map(opposed, couples(scene))
 
 
-@mistake("M81", LEVER)
+@mistake("M81")
 def reactions_on_lever(scene: Scene) -> Iterator[Change]:
     """A reaction hangs on the lever."""
     last = next((s for s in scene.made_by("calc", law="moment_equation") if not s.name.startswith("_R")), None)
@@ -98,7 +100,7 @@ def reactions_on_lever(scene: Scene) -> Iterator[Change]:
     yield Change(last.name, {last.name: (step, replace(last, operands=(*last.operands, extra)))}, {}, reaction)
 
 
-@mistake("M82", LEVER)
+@mistake("M82")
 def force_for_moment(scene: Scene) -> Iterator[Change]:
     """The balancing moment is the force, its arm being lost."""
     for step in scene.made_by("calc", law="crank_moment"):

@@ -8,9 +8,10 @@ from collections.abc import Iterator
 from ..board import POSITION, Step
 from ..exact import run
 from .inputs import TWELFTH, angle_of_driver
-from .rules import Change, Scene, all_scaled, constant, mistake, scaled
+from .rules import Change, Chapter, Scene, all_scaled, constant, scaled
 
-READING = "reading"
+MISTAKES = Chapter()
+mistake = MISTAKES.enter
 ROUNDED = (1.03, 0.97)
 PRINTED = 0.955  # of a sheet that the printer has fitted to its page
 
@@ -33,14 +34,14 @@ def _on(scene: Scene, plans: tuple[str, ...]) -> list[Step]:
     return [step for step in readings(scene) if step.plan in plans]
 
 
-@mistake("M14", READING, by_scale=True)
+@mistake("M14", by_scale=True)
 def scale_inverted(scene: Scene) -> Iterator[Change]:
     """Divided by the scale factor instead of multiplied."""
     for plans in drawn_plans(scene):
         yield all_scaled(plans[0], _on(scene, plans), scene.mu(plans[0]) ** -2)
 
 
-@mistake("M15", READING, by_scale=True)
+@mistake("M15", by_scale=True)
 def another_scale(scene: Scene) -> Iterator[Change]:
     """The scale factor of velocities is taken for accelerations, or the other way round, or that of lengths."""
     for plans in drawn_plans(scene):
@@ -50,7 +51,7 @@ def another_scale(scene: Scene) -> Iterator[Change]:
                     yield all_scaled(plans[0], _on(scene, plans), scene.mu(other) / scene.mu(plans[0]), other)
 
 
-@mistake("M74", "forces", by_scale=True)
+@mistake("M74", by_scale=True)
 def scale_of_another_group(scene: Scene) -> Iterator[Change]:
     """The force plan of one group is read with the scale factor of another."""
     groups = [plans for plans in drawn_plans(scene) if plans[0].startswith("forces")]
@@ -61,7 +62,7 @@ def scale_of_another_group(scene: Scene) -> Iterator[Change]:
                 yield all_scaled(plans[0], _on(scene, plans), factor, other[0])
 
 
-@mistake("M16", READING, by_scale=True)
+@mistake("M16", by_scale=True)
 def segments_without_scale(scene: Scene) -> Iterator[Change]:
     """The segment of a normal part is ab^2 / AB in millimetres, which needs the crank's scale."""
     if "acceleration" in scene.paper.mus and "velocity" in scene.paper.mus:
@@ -69,7 +70,7 @@ def segments_without_scale(scene: Scene) -> Iterator[Change]:
         yield all_scaled("acceleration", list(scene.made_by("calc", law="normal_part")), factor)
 
 
-@mistake("M17", READING, by_scale=True)
+@mistake("M17", by_scale=True)
 def millimetres_for_length(scene: Scene) -> Iterator[Change]:
     """The drawn millimetres of a link stand in omega = v / l in the place of its length."""
     for rate in ("omega", "epsilon"):
@@ -79,7 +80,7 @@ def millimetres_for_length(scene: Scene) -> Iterator[Change]:
             yield all_scaled(steps[0].name, steps, 1e-3, "mm")
 
 
-@mistake("M18", READING)
+@mistake("M18")
 def scale_rounded(scene: Scene) -> Iterator[Change]:
     """The scale factor is rounded after the plan is drawn."""
     for plans in drawn_plans(scene):
@@ -87,13 +88,13 @@ def scale_rounded(scene: Scene) -> Iterator[Change]:
             yield all_scaled(plans[0], _on(scene, plans), factor, f"{factor}")
 
 
-@mistake("M19", READING)
+@mistake("M19")
 def printed_smaller(scene: Scene) -> Iterator[Change]:
     """The sheet was not printed at 100 per cent."""
     yield all_scaled("", readings(scene), PRINTED)
 
 
-@mistake("M20", READING)
+@mistake("M20")
 def centimetres(scene: Scene) -> Iterator[Change]:
     """Centimetres for millimetres, on a plan or in one reading."""
     for factor in (10.0, 0.1):
@@ -103,7 +104,7 @@ def centimetres(scene: Scene) -> Iterator[Change]:
             yield scaled(step, factor, f"{factor} alone")
 
 
-@mistake("M21", READING)
+@mistake("M21")
 def relative_for_absolute(scene: Scene) -> Iterator[Change]:
     """The segment ab is read for v_B, and pb for v_BA."""
     by_tip: dict[str, list[Step]] = {}
@@ -119,7 +120,7 @@ def relative_for_absolute(scene: Scene) -> Iterator[Change]:
                 yield Change(step.name, {absolute.name: (first,), step.name: (second,)}, {}, absolute.name)
 
 
-@mistake("M22", READING)
+@mistake("M22")
 def another_position(scene: Scene) -> Iterator[Change]:
     """One segment is copied from the plan of a neighbouring position."""
     name = angle_of_driver(scene)

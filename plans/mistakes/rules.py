@@ -1,7 +1,6 @@
 """Rules that can be broken: each a rewrite of the same construction, found to apply from its steps alone.
 
-The numbers of the mistakes are those of the list that teachers keep, M01 to M87; M83 and later concern diagrams over
-the cycle and have no place in the plans of one position.
+The mistakes have numbers, M01 to M82; the other modules here, a chapter each, hold their rules, `book` all of them.
 """
 
 from __future__ import annotations
@@ -76,10 +75,9 @@ Rule = Callable[[Scene], Iterator[Change]]
 
 @dataclass(frozen=True, slots=True)
 class Mistake:
-    """A mistake of the list; where `by_scale` it hangs on the scale factors that the student has chosen."""
+    """A mistake; where `by_scale` it hangs on the scale factors that the student has chosen."""
 
     id: str
-    chapter: str
     breaks: Rule
     by_scale: bool = False
 
@@ -100,19 +98,19 @@ class Broken:
         return self.mistake, self.at, self.how
 
 
-MISTAKES: dict[str, Mistake] = {}
+class Chapter(dict[str, Mistake]):
+    """The mistakes of one module by their numbers."""
 
+    def enter(self, id: str, by_scale: bool = False) -> Callable[[Rule], Rule]:
+        """Enter the function that follows; several may break the rule of one mistake."""
 
-def mistake(id: str, chapter: str, by_scale: bool = False) -> Callable[[Rule], Rule]:
-    """Enter a rule in the list; several functions may break the rule of one mistake."""
+        def entered(rule: Rule) -> Rule:
+            before = self.get(id)
+            breaks = rule if before is None else _both(before.breaks, rule)
+            self[id] = Mistake(id, breaks, by_scale or (before is not None and before.by_scale))
+            return rule
 
-    def enter(rule: Rule) -> Rule:
-        before = MISTAKES.get(id)
-        breaks = rule if before is None else _both(before.breaks, rule)
-        MISTAKES[id] = Mistake(id, chapter, breaks, by_scale or (before is not None and before.by_scale))
-        return rule
-
-    return enter
+        return entered
 
 
 def _both(first: Rule, second: Rule) -> Rule:
@@ -123,12 +121,12 @@ def _both(first: Rule, second: Rule) -> Rule:
     return rule
 
 
-def breaks(scene: Scene, id: str) -> Iterator[Broken]:
+def breaks(scene: Scene, mistake: Mistake) -> Iterator[Broken]:
     """Go through all ways in which the rule of one mistake can be broken here."""
-    for change in MISTAKES[id].breaks(scene):
+    for change in mistake.breaks(scene):
         steps = [new for step in scene.program for new in change.steps.get(step.name, (step,))]
         givens = {**scene.paper.givens, **change.givens}
-        yield Broken(id, change.at, change.how, Program(tuple(steps)), givens)
+        yield Broken(mistake.id, change.at, change.how, Program(tuple(steps)), givens)
 
 
 # Rewrites that many rules share.

@@ -6,8 +6,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..board import Step
-from .rules import Change, Scene, aside, constant, instead, length_of, mistake, operand, opposed, with_sign
+from .rules import Change, Chapter, Scene, aside, constant, instead, length_of, operand, opposed, with_sign
 
+MISTAKES = Chapter()
+mistake = MISTAKES.enter
 VELOCITY, ACCELERATION = "velocity", "acceleration"
 
 
@@ -16,7 +18,7 @@ def drive(scene: Scene, plan: str) -> Step | None:
     return next(scene.made_by("lay", "back", plan=plan), None)
 
 
-@mistake("M23", VELOCITY)
+@mistake("M23")
 def against_rotation(scene: Scene) -> Iterator[Change]:
     """The vector pa is drawn against the rotation."""
     step = drive(scene, VELOCITY)
@@ -24,7 +26,7 @@ def against_rotation(scene: Scene) -> Iterator[Change]:
         yield instead(step, verb="back")
 
 
-@mistake("M24", VELOCITY)
+@mistake("M24")
 def along_crank(scene: Scene) -> Iterator[Change]:
     """The vector pa is drawn along the crank."""
     step = drive(scene, VELOCITY)
@@ -47,7 +49,7 @@ def along_links(scene: Scene, plan: str) -> Iterator[Change]:
             yield by_size(scene, instead(step, direction, operands=operand(step, place, along)))
 
 
-@mistake("M25", VELOCITY)
+@mistake("M25")
 def relative_along_link(scene: Scene) -> Iterator[Change]:
     """The relative velocity is drawn along the link."""
     yield from along_links(scene, VELOCITY)
@@ -66,13 +68,13 @@ def _exchanged(scene: Scene, step: Step) -> Change:
     return by_size(scene, instead(step, operands=(p, w, q, u)))
 
 
-@mistake("M26", VELOCITY)
+@mistake("M26")
 def lines_from_swapped_points(scene: Scene) -> Iterator[Change]:
     """Each of two lines is drawn through the mark of the other."""
     yield from (_exchanged(scene, step) for step in scene.made_by("meet", plan=VELOCITY) if not _slotted(step))
 
 
-@mistake("M27", VELOCITY)
+@mistake("M27")
 def across_guide(scene: Scene) -> Iterator[Change]:
     """The line of the guide is drawn normal to it."""
     for step, place, direction in lines(scene, VELOCITY):
@@ -115,7 +117,7 @@ def rates(scene: Scene, plan: str) -> Iterator[tuple[Step, Step]]:
             yield step, reading
 
 
-@mistake("M28", VELOCITY)
+@mistake("M28")
 def rate_from_absolute(scene: Scene) -> Iterator[Change]:
     """The angular velocity is calculated from the absolute velocity."""
     for step, reading in rates(scene, VELOCITY):
@@ -124,7 +126,7 @@ def rate_from_absolute(scene: Scene) -> Iterator[Change]:
             yield rate_from(scene, step, absolute.name)
 
 
-@mistake("M29", VELOCITY)
+@mistake("M29")
 def sense_of_rotation(scene: Scene) -> Iterator[Change]:
     """The sense of an angular velocity is wrong: the vector stands at the wrong end of the link."""
     yield from (opposed(step) for step, _ in rates(scene, VELOCITY))
@@ -154,31 +156,31 @@ def mirrored(scene: Scene, plan: str) -> Iterator[Change]:
         yield Change(step.name, {step.name: (opposite, replace(step, operands=operand(step, 3, other)))}, {})
 
 
-@mistake("M30", VELOCITY)
+@mistake("M30")
 def point_from_other_end(scene: Scene) -> Iterator[Change]:
     """A point of a link is counted from the other end of ab."""
     yield from other_end(scene, VELOCITY)
 
 
-@mistake("M31", VELOCITY)
+@mistake("M31")
 def point_in_middle(scene: Scene) -> Iterator[Change]:
     """A point of a link is always put in the middle of ab."""
     yield from middle(scene, VELOCITY)
 
 
-@mistake("M32", VELOCITY)
+@mistake("M32")
 def triangle_mirrored(scene: Scene) -> Iterator[Change]:
     """The similar triangle is mirrored."""
     yield from mirrored(scene, VELOCITY)
 
 
-@mistake("M33", VELOCITY)
+@mistake("M33")
 def slide_and_rotation_exchanged(scene: Scene) -> Iterator[Change]:
     """In a slotted pair the directions of sliding and of rotation are exchanged."""
     yield from (_exchanged(scene, step) for step in scene.made_by("meet", plan=VELOCITY) if _slotted(step))
 
 
-@mistake("M34", VELOCITY)
+@mistake("M34")
 def over_cosine(scene: Scene) -> Iterator[Change]:
     """The velocity is divided by the cosine instead of multiplied: the right angle stands at the wrong vertex."""
     for step in scene.made_by("meet", plan=VELOCITY):
@@ -195,7 +197,7 @@ def over_cosine(scene: Scene) -> Iterator[Change]:
             yield Change(step.name, {step.name: new}, {})
 
 
-@mistake("M35", VELOCITY)
+@mistake("M35")
 def points_not_distinguished(scene: Scene) -> Iterator[Change]:
     """The point of the slotted link is taken for that of the slider."""
     for step in scene.made_by("meet", plan=VELOCITY):
@@ -204,7 +206,7 @@ def points_not_distinguished(scene: Scene) -> Iterator[Change]:
             yield by_size(scene, Change(step.name, {step.name: (Step("same", step.name, (start,)),)}, {}))
 
 
-@mistake("M36", VELOCITY)
+@mistake("M36")
 def same_side(scene: Scene) -> Iterator[Change]:
     """A point on the other side of the shaft is put on the side of the pin."""
     for step in scene.made_by("divide", plan=VELOCITY):
