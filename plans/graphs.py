@@ -46,22 +46,11 @@ def chords(values: Array, section: float) -> Array:
     return slopes
 
 
-def drawn_chords(ordinates: Array, section: float, pole: float) -> Array:
-    """Return what the rays from a pole cut off on the axis; all in millimetres of paper.
-
-    A ray at the pole distance H rises like its chord: y / H = (difference of ordinates) / (length of section).
-    """
-    cut: Array = (ordinates[1:] - ordinates[:-1]) * (pole / section)
-    return cut
-
-
-def derived_scale(mu: float, mu_t: float, pole: float) -> float:
-    """Return the scale factor of a derived curve, per mm: mu_v = mu_s / (mu_t * H), mu_a = mu_v / (mu_t * H)."""
-    return mu / (mu_t * pole)
-
-
 def pole_distance(mu: float, mu_t: float, derived: float) -> float:
-    """Return the pole distance, mm, with which a derived curve gets the scale factor `derived`."""
+    """Return the pole distance H, mm, with which a derived curve gets the scale factor `derived`.
+
+    A ray at the pole distance rises like its chord, so that mu_v = mu_s / (mu_t * H), mu_a = mu_v / (mu_t * H).
+    """
     return mu / (mu_t * derived)
 
 

@@ -20,7 +20,6 @@ from .fifty_digits import fifty_digits
 from .noting import NotingBoard
 from .template import CLOSED, CORRECTIONS, FOLDED
 
-PRECISIONS = ("single", "double", "extended", "fifty")
 NO_WORD: dict[str, Any] = dict.fromkeys(("invalid", "divide", "over", "under"), "ignore")
 LESS = 2.0**29  # how much coarser single precision is than double
 

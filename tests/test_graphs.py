@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from kulman.plans.graphs import chords, derived_scale, differentiate, drawn_chords, middles, pole_distance
+from kulman.plans.graphs import chords, differentiate, middles, pole_distance
 from kulman.plans.linkages.cycle import cycle
 from kulman.plans.linkages.diagrams import diagrams
 from kulman.plans.linkages.field import velocities, velocity_field
@@ -72,13 +72,13 @@ def test_a_sliding_driver_draws_open_diagrams() -> None:
 def test_chords_on_paper_and_their_scale_factors_give_the_same_values() -> None:
     times = np.linspace(0.0, 0.08, 13)
     s = 0.1 * np.sin(40.0 * times)
-    mu_s, mu_t, pole = 0.001, 0.08 / 180.0, 30.0  # m/mm, s/mm, mm
+    mu_s, mu_t, mu_v = 0.001, 0.08 / 180.0, 0.075  # m/mm, s/mm, (m/s)/mm
 
-    drawn = drawn_chords(s / mu_s, 180.0 / 12, pole)
+    pole = pole_distance(mu_s, mu_t, mu_v)
 
-    mu_v = derived_scale(mu_s, mu_t, pole)
-    assert np.allclose(drawn * mu_v, chords(s, times[1]), rtol=1e-13)
-    assert pole_distance(mu_s, mu_t, mu_v) == pytest.approx(pole)
+    cut = np.diff(s / mu_s) * (pole / (180.0 / 12))  # by rays from the pole, parallel to the chords
+    assert pole == pytest.approx(30.0)
+    assert np.allclose(cut * mu_v, chords(s, times[1]), rtol=1e-13)
 
 
 def test_chords_of_a_parabola_are_exact() -> None:

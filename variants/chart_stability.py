@@ -23,7 +23,7 @@ from .columns import BALANCE, driver_name
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-POSITIONS, LINES = 360, 24  # of the cycle; lines of the table
+LINES = 24  # of the table
 LOOKED = 12  # positions at which scale factors are looked for
 
 

@@ -23,10 +23,9 @@ ROUNDS = 20  # corrections after which Newton's method is given up
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Found:
-    """Poses by Newton's method; `rounds` counts its corrections, `held` tells where they came to an end."""
+    """Poses by Newton's method; `held` tells where its corrections came to an end."""
 
     pose: Pose
-    rounds: int
     held: NDArray[np.bool_]
 
 
@@ -74,14 +73,14 @@ class Closure:
         """
         contours, pose = self.contours, self.driven(near, places)
         held = np.zeros(len(places), bool)
-        rounds = 0
-        while rounds < ROUNDS and not held.all():
-            rounds += 1
+        for _ in range(ROUNDS):
             step = self._solved(pose, [contours.value(form, pose) for form in contours.closed])
             pose = Pose(pose.angles + step.angles, pose.ways + step.ways)
             sizes = np.concatenate((np.abs(step.angles), np.abs(step.ways) * (1.0 / contours.size)))
             held = sizes.max(axis=0) < tolerance
-        return Found(Pose(np.where(held, pose.angles, NAN), np.where(held, pose.ways, NAN)), rounds, held)
+            if held.all():
+                break
+        return Found(Pose(np.where(held, pose.angles, NAN), np.where(held, pose.ways, NAN)), held)
 
     def rates(self, pose: Pose, speed: float) -> Pose:
         """Return velocities at a speed of the driver, by a linear system."""

@@ -149,10 +149,6 @@ class Contours:
         """Return the number of a link's angle."""
         return self._angle_of[link]
 
-    def ahead(self, link: int) -> float:
-        """Return by how much a link's x axis lies ahead of its angle, rad."""
-        return self._ahead[link]
-
     def driving(self) -> tuple[int | None, int | None, float]:
         """Return the number of the driver's angle or of its way, and the variable's value at which that is zero."""
         driver = self._m.driver

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..batch import batch
 from ..board import Program, RecordingBoard
-from ..exact import ILL, SMALL, run
+from ..exact import SMALL, run
 from .bare import without_loads
 from .chain import construct, named_groups
 from .mechanism import Mechanism
@@ -48,33 +48,6 @@ def with_special_points(
         first = int(np.argmax(np.minimum(worst, enough)))
         mechanism = _choose(mechanism, number, pairs[first])
     return mechanism
-
-
-def by_special_points(
-    mechanism: Mechanism, values: Mapping[str, Any], near: Mapping[str, Any] | None = None, least: float = ILL
-) -> list[tuple[Mechanism, NDArray[np.intp]]]:
-    """Return the mechanism with legs chosen, and the positions for which they are.
-
-    These are all, unless the worst sine of the best legs is below `least`: then each position has its own best legs.
-
-    Parameters
-    ----------
-    values : mapping of str to float or float64 array of shape (N,)
-        Its numbers in SI, at least one array.
-    """
-    size = next(len(value) for value in values.values() if np.ndim(value))
-    parts: list[tuple[Mechanism, NDArray[np.intp]]] = [(mechanism, np.arange(size))]
-    for number, (pairs, sines) in _sines(mechanism, values, near).items():
-        sines = np.broadcast_to(sines, (len(pairs), size))
-        once = int(np.argmax(np.minimum(sines.min(axis=1), SMALL)))
-        best = np.full(size, once) if sines[once].min() >= least else np.argmax(sines, axis=0)
-        parts = [
-            (_choose(part, number, legs), places[best[places] == i])
-            for part, places in parts
-            for i, legs in enumerate(pairs)
-            if np.any(best[places] == i)
-        ]
-    return parts
 
 
 def _choose(mechanism: Mechanism, number: int, legs: Legs) -> Mechanism:
