@@ -14,10 +14,9 @@ from .hand import Hand, Tolerance
 from .marking.key import Key, answer_key
 from .marking.tolerances import failing
 from .shaky import Paper
-from .spread import Spread, drawn
+from .spread import SHARE, Spread, drawn
 from .worth import plans_of
 
-SHARE = 0.95
 DRAWINGS = 4000
 SEED = 1
 

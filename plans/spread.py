@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -19,6 +20,7 @@ from .worth import plans_of, references, results
 
 Array = NDArray[Any]
 DRAWINGS = 1000
+SHARE = 0.95  # of all drawings: what most of them keep
 NOTHING = 1e-12  # part of the largest vector that is rounding
 
 
@@ -33,7 +35,8 @@ class Spread:
     deviation : float
         Standard deviation, SI; of a point that of its distance from the exact place, from zero.
     miss : float
-        What a vector or point misses by, direction and all: not more in the part `share` of all drawings, SI.
+        What a vector or point misses by, direction and all: not more in the part `share` of all drawings, SI; NaN where
+        fewer can be drawn.
     mm, mm_miss : float or None
         Deviation and miss on paper, where a plan shows the quantity.
     percent, of_largest : float or None
@@ -41,7 +44,8 @@ class Spread:
     undrawn : float
         Part of the drawings in which it cannot be drawn.
     degrees : float or None
-        What a vector turns by at most, in the part `share` of all drawings; None for one that is zero.
+        What a vector turns by at most, in the part `share` of all drawings, NaN where fewer can be drawn; None for one
+        that is zero.
     """
 
     exact: float | None
@@ -69,7 +73,7 @@ class Drawn:
         """Return what each drawing gives for a name, NaN where it cannot be drawn."""
         return np.broadcast_to(self.board.values[name], self.board.codes.shape)
 
-    def spreads(self, share: float = 0.95) -> dict[str, Spread]:
+    def spreads(self, share: float = SHARE) -> dict[str, Spread]:
         """Return what the drawings give for every quantity; `share` of them lie in the intervals."""
         sizes = references(self.paper.program, self.exact)
         plans = plans_of(self.paper.program)
@@ -80,14 +84,14 @@ class Drawn:
         return found
 
     def _spread(self, name: str, point: bool, mu: float | None, size: float, share: float) -> Spread:
-        exact, values = self.exact[name], self[name]
-        values = values[~np.isnan(values)]
+        exact, drawings = self.exact[name], self[name]
+        values = drawings[~np.isnan(drawings)]
         undrawn = 1.0 - values.size / self.board.codes.size
         if not values.size or exact != exact:
             nothing = float("nan")
             return Spread(None, None, None, nothing, nothing, None, None, None, None, undrawn)
         misses = np.abs(values - exact)
-        miss = float(np.quantile(misses, share))
+        miss = float(kept(drawings, exact, share))
         if point:
             deviation, value, low, high = float(np.sqrt(np.mean(misses**2))), None, None, None
         else:
@@ -106,8 +110,31 @@ class Drawn:
             _per_cent(deviation, value, size),
             _per_cent(deviation, size, size),
             undrawn,
-            None if point else _turning(values, exact, size, share),
+            None if point else _turning(drawings, exact, size, share),
         )
+
+
+def kept(drawings: Array, exact: Any, share: float = SHARE) -> Array:
+    """Return by how much drawings miss the exact value at most, in the part `share` of them: of all, drawn or not.
+
+    Parameters
+    ----------
+    drawings : float64 or complex128 array of shape (..., drawings)
+        What each gives, NaN where it cannot be drawn.
+    exact : number, or array that broadcasts to `drawings`
+        What it should be.
+
+    Returns
+    -------
+    float64 array of shape (...)
+        NaN where fewer than that can be drawn.
+
+    >>> float(kept(np.array([1.0, 4.0, np.nan, 2.0]), 1.0, 0.75))
+    3.0
+    """
+    misses = np.sort(np.abs(drawings - exact), axis=-1)  # what cannot be drawn comes last
+    found: Array = misses[..., math.ceil(share * misses.shape[-1]) - 1]
+    return found
 
 
 def _turning(values: Array, exact: Any, size: float, share: float) -> float | None:
@@ -115,7 +142,7 @@ def _turning(values: Array, exact: Any, size: float, share: float) -> float | No
     if not isinstance(exact, complex) or abs(exact) <= NOTHING * size:
         return None
     angles = np.arctan2(cross(exact, values), dot(exact, values))
-    return float(np.degrees(np.quantile(np.abs(angles), share)))
+    return math.degrees(kept(angles, 0.0, share))
 
 
 def _per_cent(part: float, whole: float | None, size: float) -> float | None:

@@ -169,6 +169,8 @@ def test_drawings_that_fail_are_counted() -> None:
     found = drawn(drawing, preset("normal").hand, generator(), 4000)
 
     assert found.spreads()["B"].undrawn == pytest.approx(0.5, abs=0.05)
+    assert math.isnan(found.spreads()["B"].miss)
+    assert found.spreads(0.4)["B"].miss > 0.0
     assert found.spreads()["A"].undrawn == 0.0
     assert np.mean(found.board.codes == 3) == found.spreads()["B"].undrawn
     assert failing(found, dict.fromkeys((step.name for step in results(program)), 1e9))["B"] > 0.4

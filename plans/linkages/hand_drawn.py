@@ -14,6 +14,7 @@ from ..exact import ExactBoard, run
 from ..hand import Hand
 from ..laws import TURN
 from ..shaky import Paper, draw
+from ..spread import kept
 from ..worth import plans_of, references
 from .contest import HAND, Entry, beside, one_of, places_of, summed
 from .cycle import Cycle
@@ -23,7 +24,7 @@ from .solved import Solved
 Array = NDArray[Any]
 SEED = 1  # the same hand on every paper
 NEAR_DEAD = 0.01  # part of the cycle
-DRAWN, DRAWINGS, SHARE = 12, 400, 0.95  # positions that are drawn, how many times, the part of drawings that counts
+DRAWN, DRAWINGS = 12, 400  # positions that are drawn, how many times
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,10 +52,9 @@ def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Group])
     errors = {}
     for name in names:
         exact = np.array([one.values[name] for one in runs])[:, None]
-        off = np.broadcast_to(np.abs(board.values[name] - exact), (len(places), DRAWINGS))
-        misses = np.sort(off, axis=1)  # what cannot be drawn comes last
+        drawings = np.broadcast_to(board.values[name], (len(places), DRAWINGS))
         size = beside(cycle, name, np.array([size[name] for size in sizes]))
-        errors[name] = misses[:, int(np.ceil(SHARE * DRAWINGS)) - 1] * (1.0 / size)
+        errors[name] = kept(drawings, exact) * (1.0 / size)
     for group in kinds:
         yield summed(HAND, sheet.paper, group, places, errors)
 

@@ -15,6 +15,7 @@ from ..exact import SMALL, run
 from ..hand import Hand
 from ..laws import TURN
 from ..shaky import Paper, Shape, draw
+from ..spread import kept
 from ..worth import plans_of, worst_behind
 from .accuracy import signs
 from .contest import one_of
@@ -24,7 +25,7 @@ from .undetermined import undetermined_at
 Array = NDArray[Any]
 DIGITS = 16.0  # of double precision
 NOTHING_LEFT = 1e15  # K at which a quantity and the largest beside it are nothing but rounding
-DRAWINGS, SHARE = 300, 0.95
+DRAWINGS = 300
 AT_ONCE = 60_000  # drawings in one go, of all positions together
 DEAD, CHANGE, POLE, LIMIT = "dead", "change", "parallel", "limit"
 
@@ -157,7 +158,6 @@ def _misses(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand: 
     givens = cycle.drive.givens(cycle.givens, cycle.angles, cycle.program)
     count, some = len(cycle.angles), max(AT_ONCE // DRAWINGS, 1)
     found = {name: np.full(count, np.nan) for name in names}
-    last = int(np.ceil(SHARE * DRAWINGS)) - 1
     for start in range(0, count, some):
         part = slice(start, min(start + some, count))
         shape = (part.stop - start, DRAWINGS)
@@ -165,8 +165,7 @@ def _misses(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand: 
         board = draw(Paper(program, here, mus), hand, _Alike(np.random.default_rng(seed)), shape)
         for name in names:
             exact = np.broadcast_to(cycle.values[name], count)[part, None]
-            off = np.broadcast_to(np.abs(board.values[name] - exact), shape)
-            found[name][part] = np.sort(off, axis=1)[:, last]  # what cannot be drawn comes last
+            found[name][part] = kept(np.broadcast_to(board.values[name], shape), exact)
     return found
 
 
