@@ -14,20 +14,18 @@ from typing import Any
 import click
 
 from . import __version__
+from .scales.choices import HANDS, SIZES
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import system_language
 from .scales.numbers import quote
 from .variants.options import (
     Word,
-    charts_out,
-    columns_out,
     count,
     count_if_given,
     example,
+    files_out,
     given,
-    marks_out,
     of_task,
-    outputs,
 )
 
 INTERRUPTED, CLOSED = 130, 1
@@ -185,11 +183,11 @@ def _print_json(data: Mapping[str, Any]) -> None:
 )
 @click.option(
     "--hand",
-    help="Show what a hand draws: cad, careful, normal, lenient, or errors of one's own (standard deviations of marks, "
+    help=f"Show what a hand draws: {', '.join(HANDS)}, or errors of one's own (standard deviations of marks, "
     "directions, readings): '0.2 mm, 0.5 deg, 0.2 mm'. For each quantity where 95 % of drawings lie, half of that in "
     "mm and per cent, what a teacher should let pass, and the step that errs most.",
 )
-@click.option("--format", type=Word("A4", "A3", "A2", "A1"), help="Take the scale factors of the sheet of this format.")
+@click.option("--format", type=Word(*SIZES), help="Take the scale factors of the sheet of this format.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) and show all quantities."""
@@ -219,10 +217,10 @@ def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, 
     metavar="FILE",
     multiple=True,
     required=True,
-    callback=outputs,
+    callback=files_out("..drawing.writers"),
     help="Where to; the suffix picks the kind of file. Repeatable.",
 )
-@click.option("--format", type=Word("A4", "A3", "A2", "A1"), help="Without it the smallest one that holds everything.")
+@click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything.")
 @click.option("--norm", type=Word("gost", "iso"), default="gost", show_default=True, help="Frame and title block.")
 @click.option("--tile", type=Word("A4", "A3"), help="Cut a PDF into pages of this format for a small printer.")
 @click.option("--student", help="For the title block.")
@@ -273,7 +271,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
     "files",
     metavar="FILE",
     multiple=True,
-    callback=columns_out,
+    callback=files_out(".sweeps"),
     help="Where to: all columns to a .csv, the drawing to .svg, .pdf, .png. Repeatable.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
@@ -310,14 +308,14 @@ def sweep(
     "--positions", metavar="N", callback=count_if_given, help="Positions of the cycle: 36 for accuracy, else 360."
 )
 @click.option("--tolerance", metavar="%", default="1", show_default=True, help="By how much a simpler model may miss.")
-@click.option("--hand", default="normal", show_default=True, help="Who draws: cad, careful, normal, lenient.")
+@click.option("--hand", default="normal", show_default=True, help=f"Who draws: {', '.join(HANDS)}.")
 @click.option(
     "-o",
     "--output",
     "files",
     metavar="FILE",
     multiple=True,
-    callback=charts_out,
+    callback=files_out(".charts"),
     help="Where to: pictures to .svg, .pdf, .png, rows to .csv; of several charts x-accuracy.svg, ... Repeatable.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
@@ -348,7 +346,7 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 @click.option("--form", metavar="FILE", help="Write an empty form, .csv or .xlsx; with --roster that of a class.")
 @click.option(
     "--preset",
-    type=Word("cad", "careful", "normal", "lenient"),
+    type=Word(*HANDS),
     default="normal",
     show_default=True,
     help="What may be missed by hand.",
@@ -373,7 +371,7 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     "files",
     metavar="FILE",
     multiple=True,
-    callback=marks_out,
+    callback=files_out(".marking.reports"),
     help="Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx. Repeatable.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object (of one student).")

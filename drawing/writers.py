@@ -38,6 +38,7 @@ def _png(pages: Sequence[Page], stream: BinaryIO) -> None:
 
 
 WRITERS: dict[str, Writer] = {".svg": _svg, ".pdf": _pdf, ".png": _png}
+SUFFIXES = tuple(WRITERS)
 ONE_PAGE = {".svg", ".png"}  # several pages become x-1.svg, x-2.svg, ...
 SHOWN = 200  # characters of a path in a message
 

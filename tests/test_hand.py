@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 
 from kulman import cli, sheet, solve
+from kulman.drawing.formats import FORMATS
 from kulman.plans.expectations import DRAWINGS, SEED
 from kulman.plans.hand import PRESETS, Hand
 from kulman.plans.shaky import Paper, draw
+from kulman.scales.choices import HANDS, SIZES
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.hands import hand_of
 from kulman.variants.shelf import bundled
@@ -93,10 +95,17 @@ def test_directions_keep_within_their_degrees() -> None:
     assert items()["omega_2"]["degrees"] is None
 
 
+def test_what_the_command_line_offers_is_what_there_is() -> None:
+    lying = [name for name in FORMATS if not name.endswith("-portrait")]
+
+    assert list(HANDS) == list(PRESETS)
+    assert list(SIZES) == lying
+
+
 def test_a_steadier_hand_draws_narrower_intervals() -> None:
     widths = [
         {name: item["high"] - item["low"] for name, item in items(hand=hand).items() if item["low"] is not None}
-        for hand in ("cad", "careful", "normal", "lenient")
+        for hand in HANDS
     ]
 
     for steady, shaky in pairwise(widths):

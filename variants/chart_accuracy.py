@@ -20,13 +20,13 @@ from ..plans.hand import preset
 from ..plans.linkages.contest import FULL, Contest, Effort, Entry, contest
 from ..plans.linkages.cycle import Cycle
 from ..plans.linkages.hand_drawn import DrawnSheet, by_hand
+from ..scales.choices import SIZES
 from ..scales.errors import InputError
 from .chart_data import Cell, Scene, aligned, as_csv, finite, place_value, short, wrapped
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-FORMATS = ("A4", "A3", "A2", "A1")
 HEAD = ("method", "setting", "kind", "error", "typical", "quantity", "place", "seconds", "at_once", "failed", "front")
 
 
@@ -124,7 +124,7 @@ def accuracy_chart(
 
 def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
     """Go through the errors of a hand on the sheets of all formats."""
-    for name in FORMATS:
+    for name in SIZES:
         mus = _scales(scene, name)
         if mus is not None:
             drawn = DrawnSheet(name, scene.case.solved, mus)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -58,13 +59,23 @@ def given(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -
     return values or None
 
 
-def outputs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
-    """Refuse, before any work, files that cannot be written."""
-    from ..drawing.writers import check_outputs
+def files_out(module: str) -> Callable[[click.Context, click.Parameter, tuple[str, ...]], tuple[Path, ...]]:
+    """Return a callback that refuses, before any work, files that cannot be written.
 
-    paths = tuple(map(Path, values))
-    check_outputs(*paths)
-    return paths
+    Parameters
+    ----------
+    module : str
+        Where the `SUFFIXES` that can be written stand; it is imported when the option is read, not for the help.
+    """
+
+    def checked(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
+        from ..drawing.writers import check_outputs
+
+        paths = tuple(map(Path, values))
+        check_outputs(*paths, known=import_module(module, __package__).SUFFIXES)
+        return paths
+
+    return checked
 
 
 def of_task(command: Command) -> Command:
@@ -102,41 +113,12 @@ def example(*lines: str) -> str:
     return "\b\nExample:\n" + "\n".join(f"  {line}" for line in lines)
 
 
-def columns_out(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
-    """Refuse, before any work, files that a sweep cannot be written to."""
-    from ..drawing.writers import check_outputs
-    from .sweeps import SUFFIXES
-
-    paths = tuple(map(Path, values))
-    check_outputs(*paths, known=SUFFIXES)
-    return paths
-
-
 def count(ctx: click.Context, param: click.Parameter, value: str) -> int:
     """Read a whole number."""
     try:
         return int(value)
     except ValueError:
         raise InputError("cli-number", option=param.opts[0], text=quote(value)) from None
-
-
-def marks_out(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
-    """Refuse, before any work, files that marks cannot be written to."""
-    from ..drawing.writers import check_outputs
-
-    paths = tuple(map(Path, values))
-    check_outputs(*paths, known=(".html", ".txt", ".csv", ".xlsx"))
-    return paths
-
-
-def charts_out(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
-    """Refuse, before any work, files that charts cannot be written to."""
-    from ..drawing.writers import check_outputs
-    from .charts import SUFFIXES
-
-    paths = tuple(map(Path, values))
-    check_outputs(*paths, known=SUFFIXES)
-    return paths
 
 
 def count_if_given(ctx: click.Context, param: click.Parameter, value: str | None) -> int | None:

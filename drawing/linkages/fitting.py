@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ...plans.linkages.slider_runs import Runs, slider_runs
 from ...plans.linkages.solved import Solved
+from ...scales.choices import SIZES
 from ...scales.choose import UNITS, Choosers, CrankScale, Fixed
 from ...scales.errors import InputError
 from ...scales.scale import Scale, steps
@@ -26,7 +27,6 @@ from .views import Figure, figures
 if TYPE_CHECKING:
     from ...plans.linkages.cycle import Cycle
 
-SMALLEST_FIRST = ("A4", "A3", "A2", "A1")
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 FORCES_ONLY = 3
 # mm below which no plan is made smaller for want of room, by format, and how many times that by kind of plan
@@ -197,7 +197,7 @@ class Fitting:
         norm, mu = self.contents.norm, self.ladders[symbol][-1]
         width, height = room(sheet, norm)
         excess = max(size[0] / width, size[1] / height)
-        rooms = {name: room(FORMATS[name], norm) for name in SMALLEST_FIRST}
+        rooms = {name: room(FORMATS[name], norm) for name in SIZES}
         larger = [name for name, (w, h) in rooms.items() if w >= size[0] and h >= size[1]]
         return InputError(
             "plan-too-large" if larger else "plan-too-large-everywhere",

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from operator import is_
 
+from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ...scales.scale import Scale
 from ..compose import arrange, arrange_halves, compose
@@ -15,7 +16,7 @@ from ..page import Page
 from ..pens import Norm
 from ..titleblock import Stamp
 from ..view import View
-from .fitting import SMALLEST_FIRST, Contents, Fitted, Fitting
+from .fitting import Contents, Fitted, Fitting
 from .several import forces_begin, several
 from .zones import zoned
 
@@ -64,9 +65,9 @@ def _area(fitted: Fitted) -> float:
 
 def _worth_trying(fitting: Fitting) -> list[Format]:
     """Return the formats that the figures can fit by their area, and the largest one."""
-    largest = FORMATS[SMALLEST_FIRST[-1]]
+    largest = FORMATS[SIZES[-1]]
     area = _area(fitting.views(largest))
-    names = [name for name in SMALLEST_FIRST if area * LIGHTER[name] < FORMATS[name].width * FORMATS[name].height]
+    names = [name for name in SIZES if area * LIGHTER[name] < FORMATS[name].width * FORMATS[name].height]
     return [FORMATS[name] for name in dict.fromkeys([*names, largest.name])]
 
 

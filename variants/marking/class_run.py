@@ -24,8 +24,7 @@ from .answers import Answers
 from .keyed import Request
 from .marked import Desk
 from .report import report
-from .report_html import report_html
-from .report_text import report_text
+from .reports import REPORTS, report_bytes
 from .result import Result, failed, result_of
 from .roster import Roster
 from .rubric import Rubric
@@ -33,7 +32,6 @@ from .wording import texts
 
 TOGETHER = 8  # students that a process is given at once
 ALONE = 16  # students for whom no process is started
-KINDS = {".html": report_html, ".txt": report_text}
 Advance = Callable[[int], None]
 
 
@@ -47,7 +45,7 @@ class Job:
     digits: int = 1
     own: bool = False
     folder: str | None = None
-    kinds: tuple[str, ...] = (".html", ".txt")
+    kinds: tuple[str, ...] = tuple(REPORTS)
 
     def digest(self) -> str:
         """Return what tells this job from any that would mark or say something else."""
@@ -178,7 +176,7 @@ def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     stem = f"{number + 1:03d}-{slug(result.who.student or Path(answers.source).stem)}"
     names = tuple(f"{stem}{kind}" for kind in job.kinds)
     for kind, name in zip(job.kinds, names, strict=True):
-        write_whole(Path(job.folder) / name, KINDS[kind](said).encode("utf-8"))
+        write_whole(Path(job.folder) / name, report_bytes(said, kind))
     return replace(result, reports=names)
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from ...drawing.writers import check_outputs, write_whole
+from ...drawing.writers import check_outputs, save_all, write_whole
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ..reader import load_task
@@ -26,9 +26,9 @@ from .intake import read_all
 from .keyed import Request, asked_of
 from .marked import Desk
 from .report import Report, report
-from .report_html import report_html
 from .report_json import to_json
 from .report_text import report_text
+from .reports import REPORTS, report_bytes
 from .result import Result, result_of
 from .roster import Roster, read_roster, variant_of_book
 from .rubric import Rubric, read_rubric
@@ -211,9 +211,7 @@ def _desk(check: Check) -> Desk:
 
 def write_reports(found: Report, files: Sequence[Path]) -> None:
     """Write the report on one student to each file; the suffix picks text or HTML."""
-    for file in files:
-        text = report_html(found) if file.suffix.lower() == ".html" else report_text(found)
-        write_whole(file, text.encode("utf-8"))
+    save_all(files, REPORTS, lambda file: [(file, report_bytes(found, file.suffix))])
 
 
 def mark_all(

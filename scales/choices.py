@@ -1,0 +1,6 @@
+"""Names of what can be chosen: here, so that the help of the command line loads no plans and no drawings."""
+
+from __future__ import annotations
+
+HANDS = ("cad", "careful", "normal", "lenient")  # presets of `plans.hand`
+SIZES = ("A4", "A3", "A2", "A1")  # of `drawing.formats`, the smallest first
