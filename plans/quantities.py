@@ -27,6 +27,7 @@ UNITS = {
     "l": "m",
     "delta": "%",
 }
+BALANCES = ("M_bal", "M_bal_lever", "F_bal", "F_bal_lever")  # what balances the driver: by plans, by the lever
 POINTS = ("place", "lay", "back", "arc", "arcs", "meet", "divide", "similar", "template", "same")
 
 

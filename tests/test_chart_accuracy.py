@@ -13,7 +13,7 @@ from kulman.plans.linkages import contest as contests
 from kulman.plans.linkages.contest import Contest, Effort, Entry, contest, places_of, truth
 from kulman.plans.linkages.cycle import Cycle, cycle
 from kulman.plans.linkages.hand_drawn import DrawnSheet, by_hand
-from kulman.plans.linkages.rivals import Rivals, groups
+from kulman.plans.linkages.rivals import Rivals, kinds_of
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.plans.worth import references
 from kulman.variants.reader import load_task
@@ -110,7 +110,7 @@ def drawn(hand: str, factor: float = 1.0, name: str = "madi-four-bar") -> list[E
     task, whole = load_task(name), of_task(name)
     solved = solve_linkage(task.mechanism, task.values(None, {}), task.plans)
     scales = {plan: MUS.get(plan, 50.0) * factor for plan in solved.scale_of_plan}
-    return list(by_hand(whole, DrawnSheet("A1", solved, scales), preset(hand).hand, groups(whole)))
+    return list(by_hand(whole, DrawnSheet("A1", solved, scales), preset(hand).hand, kinds_of(whole)))
 
 
 def test_a_hand_errs_in_per_cents_and_a_computer_less() -> None:
@@ -132,7 +132,9 @@ def test_a_hand_draws_the_plans_of_every_position_as_long() -> None:
         sizes = references(solved.program, solved.values)
         paper = dict.fromkeys(solved.scale_of_plan, 0.005)
         paper |= {"acceleration": sizes["a_A"] / 100.0, "velocity": sizes["V_A"] / 100.0}  # longest vectors 100 mm long
-        mus.append(list(by_hand(whole, DrawnSheet("A1", solved, paper), preset("normal").hand, groups(whole, ["a_E"]))))
+        mus.append(
+            list(by_hand(whole, DrawnSheet("A1", solved, paper), preset("normal").hand, kinds_of(whole, ["a_E"])))
+        )
 
     assert [e.error for e in mus[0]] == pytest.approx([e.error for e in mus[1]], rel=1e-6)
 

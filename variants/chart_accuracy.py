@@ -40,7 +40,7 @@ class AccuracyChart:
 
     def table(self, words: Words) -> str:
         """Return a row for every method and setting: error and time by kinds; * where no other method beats it."""
-        kinds = [group.kind for group in self.contest.groups]
+        kinds = [kind.name for kind in self.contest.kinds]
         head = [words["chart.method"], words["chart.setting"]]
         head += [text for kind in kinds for text in (words[f"chart.kind.{kind}"], words["chart.seconds"], "")]
         fronts = {kind: set(map(id, self.contest.front(kind))) for kind in kinds}
@@ -64,7 +64,7 @@ class AccuracyChart:
 
     def csv(self, words: Words) -> bytes:
         """Return all entries."""
-        fronts = {id(entry) for group in self.contest.groups for entry in self.contest.front(group.kind)}
+        fronts = {id(entry) for kind in self.contest.kinds for entry in self.contest.front(kind.name)}
         rows = [self._row(entry, id(entry) in fronts) for entry in self.contest.entries]
         return as_csv(HEAD, rows, words)
 
@@ -116,7 +116,7 @@ def accuracy_chart(
         With the key `chart-no-rivals`: nothing that is wanted can be compared.
     """
     found = contest(cycle, positions, names, effort)
-    if not found.groups:
+    if not found.kinds:
         raise InputError("chart-no-rivals")
     hands = tuple(_hands(scene, cycle, found))
     return AccuracyChart(scene, cycle, replace(found, entries=found.entries + hands))
@@ -128,7 +128,7 @@ def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
         mus = _scales(scene, name)
         if mus is not None:
             drawn = DrawnSheet(name, scene.case.solved, mus)
-            yield from by_hand(cycle, drawn, preset(scene.hand).hand, found.groups)
+            yield from by_hand(cycle, drawn, preset(scene.hand).hand, found.kinds)
 
 
 def _scales(scene: Scene, name: str) -> Mapping[str, float] | None:

@@ -16,9 +16,10 @@ from ..plans.hand import preset
 from ..plans.linkages.cycle import Cycle
 from ..plans.linkages.solved import solve_linkage
 from ..plans.linkages.stability import DEAD, Stability, stability
+from ..plans.quantities import BALANCES
 from ..scales.errors import InputError
 from .chart_data import Cell, Scene, aligned, as_csv, finite, place, place_head, place_value, short, wrapped
-from .columns import BALANCE, driver_name
+from .columns import driver_name
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -141,7 +142,7 @@ def _unit(unit: str, words: Words) -> str:
 
 def stability_chart(scene: Scene, cycle: Cycle, names: Sequence[str]) -> StabilityChart:
     """Look at quantities over the cycle; without `names` at the motion of the output and what balances the driver."""
-    mus = scales_of(scene, cycle)
+    mus = scales_of_cycle(scene, cycle)
     found = stability(cycle, tuple(names) or usual(cycle), mus, preset(scene.hand).hand)
     return StabilityChart(scene, cycle, found, mus)
 
@@ -152,10 +153,10 @@ def usual(cycle: Cycle) -> tuple[str, ...]:
     links = [cycle.mechanism.link(output.link) for output in cycle.outputs[::-1]] or [cycle.mechanism.links[-1]]
     points = [point for link in links for point in link.points if f"V_{point}" in known]
     found = [name for point in points[:1] for name in (f"V_{point}", f"a_{point}") if name in known]
-    return (*found, *[name for name in BALANCE if name in known][:1]) or known[:1]
+    return (*found, *[name for name in BALANCES if name in known][:1]) or known[:1]
 
 
-def scales_of(scene: Scene, cycle: Cycle) -> dict[str, float]:
+def scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
     """Return scale factors, by plan, at which plans of all positions find room where lines do not meet flatly.
 
     They are the coarsest that the task's own choice gives at some positions of the cycle.

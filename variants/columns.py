@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 from ..plans.linkages.cycle import Cycle
 from ..plans.linkages.mechanism import Mechanism
 from ..plans.linkages.strokes import Output
-from ..plans.quantities import unit_of
+from ..plans.quantities import BALANCES, unit_of
 from ..scales.display import Display
 from ..scales.units import unit
 
 Array = NDArray[Any]
-BALANCE = ("M_bal", "M_bal_lever", "F_bal", "F_bal_lever")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -96,7 +95,7 @@ def all_columns(cycle: Cycle) -> list[Column]:
 def main_columns(cycle: Cycle) -> list[Column]:
     """Return the columns of a readable table: how the outputs move, and what balances the driver."""
     columns = [column for output in cycle.outputs for column in output_columns(cycle, output)]
-    balance = next((name for name in BALANCE if name in cycle.values), None)
+    balance = next((name for name in BALANCES if name in cycle.values), None)
     return columns + (list(quantity_columns(balance, cycle.values[balance])) if balance else [])
 
 

@@ -58,12 +58,11 @@ def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: s
 
     def draw(figure: Figure) -> None:
         shown = [
-            field(figure, place, contest, group.kind, words)
-            for group, place in zip(contest.groups, FIELDS, strict=False)
+            field(figure, place, contest, kind.name, words) for kind, place in zip(contest.kinds, FIELDS, strict=False)
         ]
         _align(shown)
-        for axes, group in zip(shown, contest.groups, strict=True):
-            letter(axes, contest, group.kind, words)
+        for axes, kind in zip(shown, contest.kinds, strict=True):
+            letter(axes, contest, kind.name, words)
         left, bottom = FIELDS[len(shown)]
         _key(box(figure, left, bottom - 8.0, SIZE[0], SIZE[1] + 8.0), words, hand, contest, turns)
 

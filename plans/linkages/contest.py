@@ -19,7 +19,7 @@ from ..exact import run
 from ..precision import run_in
 from ..worth import plans_of, references
 from .cycle import Cycle
-from .rivals import Group, Newton, Rivals, Values, Way, groups
+from .rivals import Kind, Newton, Rivals, Values, Way, kinds_of
 
 Array = NDArray[Any]
 SINGLE, EXTENDED = "plan-single", "plan-extended"
@@ -81,7 +81,7 @@ class Entry:
 class Contest:
     """Speed against accuracy of all methods: `places` of the driver at which they were compared."""
 
-    groups: tuple[Group, ...]
+    kinds: tuple[Kind, ...]
     places: Array
     entries: tuple[Entry, ...]
     effort: Effort = FULL
@@ -182,12 +182,12 @@ def contest(cycle: Cycle, positions: int, names: Iterable[str] = (), effort: Eff
     """
     rivals, places = Rivals.of(cycle), places_of(cycle, positions)
     found: list[Entry] = []
-    kinds = groups(cycle, names)
+    kinds = kinds_of(cycle, names)
     newton = Newton(rivals)
-    for group in kinds:
-        race = _Race(rivals, group, places, truth(cycle, places, group.names), effort)
+    for kind in kinds:
+        race = _Race(rivals, kind, places, truth(cycle, places, kind.names), effort)
         found += race.plans()
-        if group.kind != "forces":
+        if kind.name != "forces":
             found += race.others(newton)
     return Contest(kinds, places, tuple(found), effort)
 
@@ -197,14 +197,14 @@ class _Race:
     """The methods on quantities of one kind."""
 
     rivals: Rivals
-    group: Group
+    kind: Kind
     places: Array
     truth: Truth
     effort: Effort
 
     def plans(self) -> Iterator[Entry]:
         """Go through plans: in batches of all sizes, then in other precisions."""
-        names, rivals = self.group.names, self.rivals
+        names, rivals = self.kind.names, self.rivals
         errors = self.truth.errors(rivals.plan(self.places, names))
         spent = 0.0
         for size in self.effort.batches:
@@ -226,7 +226,7 @@ class _Race:
 
     def others(self, newton: Newton) -> Iterator[Entry]:
         """Go through the methods that are no plans."""
-        names, rivals = self.group.names, self.rivals
+        names, rivals = self.kind.names, self.rivals
         ways = [(NEWTON, tolerance, newton.way(tolerance)) for tolerance in TOLERANCES]
         ways += [(DIFFERENCES, step, rivals.differences(step)) for step in STEPS]
         sizes: dict[str, int] = {}
@@ -242,17 +242,17 @@ class _Race:
     def _affordable(self, way: Way) -> int:
         """Return how many positions at once a method is timed at."""
         few = 100
-        spent = timed(lambda: way(places_of(self.rivals.cycle, few), self.group.names))
+        spent = timed(lambda: way(places_of(self.rivals.cycle, few), self.kind.names))
         return self.effort.at_once if spent * self.effort.at_once / few < LONG * 10.0 else few
 
     def _time(self, way: Way, size: int) -> float:
         places = places_of(self.rivals.cycle, size)
-        return timed(lambda: way(places, self.group.names)) / size
+        return timed(lambda: way(places, self.kind.names)) / size
 
     def _one_by_one(self) -> float:
         """Return the time of one position on Python numbers."""
         cycle = self.rivals.cycle
-        program = cycle.program.needed_for(self.group.names)
+        program = cycle.program.needed_for(self.kind.names)
         givens = cycle.drive.givens(cycle.givens, self.places, cycle.program)
         each = [one_of(givens, i) for i in range(len(self.places))]
         return timed(lambda: [run(program, here) for here in each]) / len(each)
@@ -261,19 +261,19 @@ class _Race:
         self, method: str, setting: float, errors: Mapping[str, Array], seconds: float | None, at_once: int
     ) -> Entry:
         """Sum up the errors of a method."""
-        found = summed(method, setting, self.group, self.places, errors)
+        found = summed(method, setting, self.kind, self.places, errors)
         return replace(found, seconds=seconds, at_once=at_once)
 
 
 def summed(
     method: str,
     setting: float | str,
-    group: Group,
+    kind: Kind,
     places: Array,
     errors: Mapping[str, Array],
 ) -> Entry:
     """Return the worst and the typical error of a method, whose time is not known."""
-    table = np.stack([errors[name] for name in group.names])
+    table = np.stack([errors[name] for name in kind.names])
     filled = np.where(np.isnan(table), -1.0, table)
     worst = filled.max(axis=0)
     row, column = np.unravel_index(np.argmax(filled), filled.shape)
@@ -281,10 +281,10 @@ def summed(
     return Entry(
         method,
         setting,
-        group.kind,
+        kind.name,
         float(filled[row, column]) if there.any() else None,
         float(np.median(worst[there])) if there.any() else None,
-        group.names[row],
+        kind.names[row],
         float(places[column]),
         None,
         1,

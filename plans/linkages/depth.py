@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from ...scales.errors import InputError
 from ..board import Program, Step
 from ..laws import dot
+from ..quantities import BALANCES
 from .cycle import Cycle
 from .mechanism import ZERO
 
 Array = NDArray[Any]
 FORCES, MOMENTS, WEIGHTS, INERTIA, ALL = "inertia_forces", "inertia_moments", "weights", "inertia", "all"
-BALANCES = ("M_bal", "M_bal_lever", "F_bal", "F_bal_lever")
-LAWS = {"inertia_force": FORCES, "inertia_moment": MOMENTS, "weight": WEIGHTS}
+KINDS = {"inertia_force": FORCES, "inertia_moment": MOMENTS, "weight": WEIGHTS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,7 @@ class Depth:
 
 def parts_of(program: Program) -> dict[str, str]:
     """Return the forces and moments of masses that a program lays down, each with its kind."""
-    return {step.name: LAWS[step.law] for step in program if step.law in LAWS}
+    return {step.name: KINDS[step.law] for step in program if step.law in KINDS}
 
 
 def without(program: Program, parts: Collection[str]) -> Program:

@@ -18,7 +18,7 @@ from ..spread import kept
 from ..worth import plans_of, references
 from .contest import HAND, Entry, beside, one_of, places_of, summed
 from .cycle import Cycle
-from .rivals import Group
+from .rivals import Kind
 from .solved import Solved
 
 Array = NDArray[Any]
@@ -36,13 +36,13 @@ class DrawnSheet:
     mus: Mapping[str, float]
 
 
-def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Group]) -> Iterator[Entry]:
+def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Kind]) -> Iterator[Entry]:
     """Go through the errors that most drawings of a hand keep, kind by kind.
 
     The plans of every position are drawn as long as a sheet draws those of one.
     """
     places, kinds = _not_dead(cycle, places_of(cycle, DRAWN)), tuple(kinds)
-    names = tuple(name for group in kinds for name in group.names)
+    names = tuple(name for kind in kinds for name in kind.names)
     program, givens = cycle.program.needed_for(names), cycle.drive.givens(cycle.givens, places, cycle.program)
     runs = [run(cycle.program, one_of(givens, i)) for i in range(len(places))]
     column = {name: value[:, None] if np.ndim(value) else value for name, value in givens.items()}
@@ -55,8 +55,8 @@ def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Group])
         drawings = np.broadcast_to(board.values[name], (len(places), DRAWINGS))
         size = beside(cycle, name, np.array([size[name] for size in sizes]))
         errors[name] = kept(drawings, exact) * (1.0 / size)
-    for group in kinds:
-        yield summed(HAND, sheet.paper, group, places, errors)
+    for kind in kinds:
+        yield summed(HAND, sheet.paper, kind, places, errors)
 
 
 def _as_long(program: Program, runs: Iterable[ExactBoard], sheet: DrawnSheet) -> dict[str, float | Array]:

@@ -19,6 +19,7 @@ from ..exact import STATUSES
 from ..graphs import chords
 from ..laws import inclination
 from ..precision import batch_in
+from ..quantities import BALANCES
 from .chain import construct, moving_bodies
 from .closure import Closure
 from .contours import Pose
@@ -29,19 +30,20 @@ from .parts import Bodies
 Array = NDArray[Any]
 Values = dict[str, Array]
 Way = Callable[[Array, Sequence[str]], Values]
+PLANNED = tuple(name for name in BALANCES if not name.endswith("_lever"))  # what force plans give
 GRID = 72  # places round the cycle at which Newton's method knows where the links lie
 ORDERS = {"V": 1, "omega": 1, "a": 2, "epsilon": 2}  # how many times a quantity is a derivative of a place
 
 
 @dataclass(frozen=True, slots=True)
-class Group:
+class Kind:
     """Quantities of one kind: `velocity`, `acceleration` or `forces`."""
 
-    kind: str
+    name: str
     names: tuple[str, ...]
 
 
-def groups(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Group, ...]:
+def kinds_of(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Kind, ...]:
     """Return the quantities of a cycle that are compared, kind by kind.
 
     Those are velocities and accelerations of points, angular ones of links, reactions and what balances the driver;
@@ -61,8 +63,8 @@ def groups(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Group, ...]:
         )
         for kind, letters in rates.items()
     }
-    found["forces"] = tuple(name for name in known if name.startswith("R_") or name in ("M_bal", "F_bal"))
-    return tuple(Group(kind, names) for kind, names in found.items() if names)
+    found["forces"] = tuple(name for name in known if name.startswith("R_") or name in PLANNED)
+    return tuple(Kind(kind, names) for kind, names in found.items() if names)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
