@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -32,7 +33,7 @@ def of_task(name: str) -> Cycle:
 def race(request: pytest.FixtureRequest) -> Contest:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(contests, "ROUNDS", 1)
-        return contest(of_task(request.param), 12, effort=LITTLE)
+        return contest(of_task(request.param), 12, time.process_time, effort=LITTLE)
 
 
 def errors(race: Contest, method: str, kind: str) -> dict[float | str, float]:

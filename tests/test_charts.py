@@ -37,7 +37,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     little = partial(charts.accuracy_chart, effort=Effort((1, 10), 20))
     monkeypatch.setattr(charts, "accuracy_chart", little)
     monkeypatch.setattr(contests, "ROUNDS", 1)
-    monkeypatch.setattr("kulman.variants.chart_accuracy.FORMATS", ("A4",))
+    monkeypatch.setattr("kulman.variants.chart_accuracy.SIZES", ("A4",))
 
 
 def run(arguments: list[str], capsys: pytest.CaptureFixture[str], task: str = TASK) -> tuple[int, str, str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import platform
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -12,9 +13,6 @@ import numpy as np
 
 from .. import __version__
 from ..drawing.formats import format_named
-from ..drawing.linkages.fitting import Contents
-from ..drawing.linkages.sheet import draw
-from ..drawing.titleblock import Stamp
 from ..drawing.words import Words
 from ..plans.hand import preset
 from ..plans.linkages.contest import FULL, Contest, Effort, Entry, contest
@@ -23,6 +21,7 @@ from ..plans.linkages.hand_drawn import DrawnSheet, by_hand
 from ..scales.choices import SIZES
 from ..scales.errors import InputError
 from .chart_data import Cell, Scene, aligned, as_csv, finite, place_value, short, wrapped
+from .sheets import scales_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -115,7 +114,7 @@ def accuracy_chart(
     InputError
         With the key `chart-no-rivals`: nothing that is wanted can be compared.
     """
-    found = contest(cycle, positions, names, effort)
+    found = contest(cycle, positions, time.process_time, names, effort)
     if not found.kinds:
         raise InputError("chart-no-rivals")
     hands = tuple(_hands(scene, cycle, found))
@@ -125,25 +124,22 @@ def accuracy_chart(
 def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
     """Go through the errors of a hand on the sheets of all formats."""
     for name in SIZES:
-        mus = _scales(scene, name)
+        mus = _mus(scene, name)
         if mus is not None:
             drawn = DrawnSheet(name, scene.case.solved, mus)
             yield from by_hand(cycle, drawn, preset(scene.hand).hand, found.kinds)
 
 
-def _scales(scene: Scene, name: str) -> Mapping[str, float] | None:
+def _mus(scene: Scene, name: str) -> Mapping[str, float] | None:
     """Return the scale factors, by plan, that a sheet of a format takes; None where there is no such sheet."""
-    case, words = scene.case, scene.words
+    case = scene.case
     if case.solved.trouble is not None:
         return None
-    plans = tuple(plan for plan in case.plans if plan != "cycle")
-    stamp = Stamp(title=case.task.title[words.language], language=words.language)
-    contents = Contents(case.solved, plans, case.choosers, case.givens, words)
     try:
-        drawn = draw(contents, stamp, format_named(name))
+        scales = scales_of(case, scene.words, format_named(name))
     except InputError:  # too small for a plan, or for a scale factor that was asked for
         return None
-    return {plan: scale.mu for plan, scale in drawn.scales.items()}
+    return {plan: scale.mu for plan, scale in scales.items()}
 
 
 def machine(words: Words) -> str:

@@ -6,7 +6,6 @@ its unit's largest over the cycle; of a method the worst one counts, over all qu
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -22,6 +21,7 @@ from .cycle import Cycle
 from .rivals import Kind, Newton, Rivals, Values, Way, kinds_of
 
 Array = NDArray[Any]
+Clock = Callable[[], float]  # seconds
 SINGLE, EXTENDED = "plan-single", "plan-extended"
 PLAN, NEWTON, DIFFERENCES, CHORDS, HAND = "plan", "newton", "differences", "chords", "hand"
 TOLERANCES = (1e-1, 1e-2, 1e-4, 1e-8)
@@ -155,26 +155,28 @@ def one_of(givens: Mapping[str, Any], position: int) -> dict[str, float]:
     return {name: float(value[position] if np.ndim(value) else value) for name, value in givens.items()}
 
 
-def timed(work: Callable[[], object]) -> float:
-    """Return the processor time of a piece of work, seconds: the shortest of some runs."""
+def timed(work: Callable[[], object], clock: Clock) -> float:
+    """Return what a piece of work takes by a clock, seconds: the shortest of some runs."""
     best, total = float("inf"), 0.0
     for _ in range(ROUNDS):
-        start = time.process_time()
+        start = clock()
         work()
-        spent = time.process_time() - start
+        spent = clock() - start
         best, total = min(best, spent), total + spent
         if total > ENOUGH * ROUNDS:
             break
     return best
 
 
-def contest(cycle: Cycle, positions: int, names: Iterable[str] = (), effort: Effort = FULL) -> Contest:
+def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (), effort: Effort = FULL) -> Contest:
     """Let all methods but the hand, which `hand_drawn` adds, compete over a cycle.
 
     Parameters
     ----------
     positions : int
         At how many places of the driver errors are looked at.
+    clock : function
+        Returns seconds, best those of the processor: `time.process_time`.
     names : iterable of str
         Quantities wanted; all that can be compared when empty.
     effort : Effort
@@ -185,7 +187,7 @@ def contest(cycle: Cycle, positions: int, names: Iterable[str] = (), effort: Eff
     kinds = kinds_of(cycle, names)
     newton = Newton(rivals)
     for kind in kinds:
-        race = _Race(rivals, kind, places, truth(cycle, places, kind.names), effort)
+        race = _Race(rivals, kind, places, truth(cycle, places, kind.names), effort, clock)
         found += race.plans()
         if kind.name != "forces":
             found += race.others(newton)
@@ -201,6 +203,7 @@ class _Race:
     places: Array
     truth: Truth
     effort: Effort
+    clock: Clock
 
     def plans(self) -> Iterator[Entry]:
         """Go through plans: in batches of all sizes, then in other precisions."""
@@ -236,18 +239,18 @@ class _Race:
             yield self.entry(method, setting, errors, self._time(way, size), size)
         for sections in SECTIONS:
             errors = self.truth.errors(rivals.chords(sections)(self.places, names))
-            spent = timed(partial(rivals.chords_of_cycle, sections, names)) / sections
+            spent = timed(partial(rivals.chords_of_cycle, sections, names), self.clock) / sections
             yield self.entry(CHORDS, sections, errors, spent, sections)
 
     def _affordable(self, way: Way) -> int:
         """Return how many positions at once a method is timed at."""
         few = 100
-        spent = timed(lambda: way(places_of(self.rivals.cycle, few), self.kind.names))
+        spent = timed(lambda: way(places_of(self.rivals.cycle, few), self.kind.names), self.clock)
         return self.effort.at_once if spent * self.effort.at_once / few < LONG * 10.0 else few
 
     def _time(self, way: Way, size: int) -> float:
         places = places_of(self.rivals.cycle, size)
-        return timed(lambda: way(places, self.kind.names)) / size
+        return timed(lambda: way(places, self.kind.names), self.clock) / size
 
     def _one_by_one(self) -> float:
         """Return the time of one position on Python numbers."""
@@ -255,7 +258,7 @@ class _Race:
         program = cycle.program.needed_for(self.kind.names)
         givens = cycle.drive.givens(cycle.givens, self.places, cycle.program)
         each = [one_of(givens, i) for i in range(len(self.places))]
-        return timed(lambda: [run(program, here) for here in each]) / len(each)
+        return timed(lambda: [run(program, here) for here in each], self.clock) / len(each)
 
     def entry(
         self, method: str, setting: float, errors: Mapping[str, Array], seconds: float | None, at_once: int

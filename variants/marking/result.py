@@ -49,7 +49,7 @@ class Result:
         return cls(**{**data, "who": Who(**data["who"]), "segments": segments, **lists})
 
 
-def scales_of(marked: Marked) -> dict[str, float]:
+def students_scales(marked: Marked) -> dict[str, float]:
     """Return the student's scale factors by plan, value in SI per mm; ours where none is written.
 
     A factor may be meant as value per mm or as mm per unit: whichever is nearer to ours.
@@ -70,7 +70,7 @@ def scales_of(marked: Marked) -> dict[str, float]:
 def result_of(marked: Marked, language: str, reports: tuple[str, ...] = ()) -> Result:
     """Return what is kept of a student who was marked."""
     key, first = marked.keyed, marked.marking.first_wrong
-    segments = measured(marked.answers, marked.marking.key, scales_of(marked))
+    segments = measured(marked.answers, marked.marking.key, students_scales(marked))
     best = marked.candidates[0].mistakes if marked.candidates else ()
     return Result(
         marked.answers.source,
