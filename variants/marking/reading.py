@@ -156,7 +156,7 @@ def _form(grid: Grid, header: int, columns: Mapping[str, int], asked: Asked) -> 
         _form_row(sheet, row, columns, over)
     if not sheet.lines and not sheet.problems:
         raise InputError("answers-none", file=quote(grid.file, SHOWN))
-    exchanged = put_back(sheet.lines, asked)
+    exchanged = put_back(sheet.lines, sheet.scales, asked)
     if exchanged is not None:
         sheet.lines = exchanged
         sheet.problems.append(LocatedError(grid.place(header), InputError("answers-swapped")))

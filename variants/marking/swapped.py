@@ -14,21 +14,46 @@ FEWEST = 3  # lines that must tell
 CLEAR = math.log(3.0)  # by how much nearer to the task's size a value must be
 
 
-def put_back(lines: Mapping[str, Line], asked: Asked) -> dict[str, Line] | None:
-    """Return the lines with segments and values exchanged where nearly all of them only then agree; else None."""
-    told = [verdict for line in lines.values() for verdict in _told(line, asked)]
+def put_back(lines: Mapping[str, Line], scales: Mapping[str, Mu], asked: Asked) -> dict[str, Line] | None:
+    """Return the lines with segments and values exchanged where nearly all of them only then agree; else None.
+
+    Parameters
+    ----------
+    scales : mapping of str to Mu
+        The scale factors that stand in rows of their own, by symbol.
+    """
+    told = [verdict for line in lines.values() for verdict in _told(line, scales, asked)]
     if len(told) < FEWEST or sum(told) < 0.8 * len(told):
         return None
-    return {name: _exchanged(line, asked) for name, line in lines.items()}
+    return {name: _in_place(line, asked) for name, line in lines.items()}
 
 
-def _told(line: Line, asked: Asked) -> Iterator[bool]:
+def _in_place(line: Line, asked: Asked) -> Line:
+    """Return a line exchanged; of a lone number the size tells what it is, for what is calculated has no segment."""
+    if line.mm is not None and line.value is not None:
+        return _exchanged(line, asked)
+    lone = line.value if line.mm is None else unit(asked.unit(line.name)).to_si(line.mm)
+    if not lone:
+        return line
+    quantity = asked.quantities[line.name]
+    segment = quantity.mm and unit(asked.unit(line.name)).to_si(quantity.mm)
+    is_value = not segment or _apart(lone, quantity.value) <= _apart(lone, segment)
+    return line if is_value is (line.mm is None) else _exchanged(line, asked)
+
+
+def _apart(number: float, other: float | None) -> float:
+    """Return the logarithm of the ratio of two magnitudes."""
+    return abs(math.log(abs(number / other))) if other else math.inf
+
+
+def _told(line: Line, scales: Mapping[str, Mu], asked: Asked) -> Iterator[bool]:
     """Say of a line with segment, scale and value whether it is right only when exchanged; nothing where none agrees.
 
     A scale factor without a unit agrees either way, as value per millimetre and as millimetres per unit: then that
     value is meant which is of the size of the task's.
     """
-    mu, size = line.mu, abs(asked.quantities[line.name].value or 0.0)
+    quantity = asked.quantities[line.name]
+    mu, size = line.mu or scales.get(quantity.scale or ""), abs(quantity.value or 0.0)
     if mu is None or not line.mm or not line.value or not size:
         return
     other = _exchanged(line, asked)
@@ -36,7 +61,7 @@ def _told(line: Line, asked: Asked) -> Iterator[bool]:
     if agrees != instead:
         yield instead
     elif agrees:
-        off, then = (abs(math.log(abs(one.value or size) / size)) for one in (line, other))
+        off, then = (_apart(one.value or size, size) for one in (line, other))
         if abs(off - then) > CLEAR:
             yield then < off
 
