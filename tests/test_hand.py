@@ -189,6 +189,21 @@ def test_the_table_says_it_in_every_language(language: str) -> None:
     assert all(decimal in row for row in rows if row and row.split()[0] in ("V_E", "R_05"))
 
 
+def test_conditions_stand_beside_what_the_hand_makes() -> None:
+    solution = solve("nau-slider-crank", "3", only="velocity", hand="careful", condition=True)
+
+    plain = solve("nau-slider-crank", "3", only="velocity", hand="careful").drawn("en").splitlines()
+    lines = solution.drawn("en").splitlines()
+
+    head = next(line for line in lines if line.startswith("quantity"))
+    row = next(line for line in lines if line.startswith("V_B "))
+    k, sine = (float(row[: head.index(name) + len(name)].split()[-1]) for name in (" K", " sin"))
+    assert k == pytest.approx(solution.conditions["V_B"].value, rel=0.01)
+    assert sine == pytest.approx(solution.conditions["V_B"].sine, rel=0.01)
+    assert row.endswith("velocities 0.62")
+    assert " sin " not in "\n".join(plain)
+
+
 def test_a_zero_segment_lets_what_is_calculated_from_it_pass() -> None:
     """In the dead position a_BA_t is zero: epsilon_2 misses by what that point may miss, whichever way."""
     found = items(set={"phi": 0})

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
+from types import MappingProxyType
 from typing import Any
 
 from ..drawing.words import Words
@@ -24,6 +25,7 @@ from ..scales.units import format_unit, parse, unit
 OWN = "own"
 BETWEEN = re.compile(r"\s*;\s*|,\s+|(?<=[^\d\s]),")  # not a decimal comma
 DIGITS = 4
+STEP = 7  # the column of the worst step
 PLANS = ("position", "velocity", "acceleration", "forces", "lever")  # those of compound motion have names of their own
 READINGS = ("read", "measure", "distance", "angle")
 LINES = ("turn", "incline", "decline", "direction", "tangent", "normal")
@@ -99,13 +101,21 @@ def drawing(paper: Paper, text: str | Hand) -> Drawing:
     return Drawing(name, hand, tolerance, expectations(paper, hand, tolerance))
 
 
-def table(drawn: Drawing, quantities: Iterable[Quantity], program: Program, words: Words) -> str:
+def table(
+    drawn: Drawing,
+    quantities: Iterable[Quantity],
+    program: Program,
+    words: Words,
+    conditions: Mapping[str, tuple[str, str]] = MappingProxyType({}),
+) -> str:
     """Return a table: value, interval of drawings, half of it on paper and in per cents, what to let pass, worst step.
 
     Parameters
     ----------
     quantities : iterable of Quantity
         With their millimetres, in SI; those that are only given are left out.
+    conditions : mapping
+        K and the sine of the worst intersection of quantities, as texts; two columns before the worst step.
     """
     paper = format_unit(words.display.paper, words.language)
     heads = ("name", "value", "unit", "interval", "paper", "percent", "pass", "step")
@@ -114,14 +124,19 @@ def table(drawn: Drawing, quantities: Iterable[Quantity], program: Program, word
         expected = drawn.expected.get(quantity.name)
         if expected is not None:
             rows.append(_row(quantity, expected, program, words))
+            if conditions:
+                rows[-1][STEP:STEP] = conditions.get(quantity.name, ("", ""))
+    if conditions:
+        rows[0][STEP:STEP] = ("K", "sin")
+    last = len(rows[0]) - 1
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    lines = ["  ".join(_set(cell, widths[i], i) for i, cell in enumerate(row)).rstrip() for row in rows]
+    lines = ["  ".join(_set(cell, widths[i], i in (0, last)) for i, cell in enumerate(row)).rstrip() for row in rows]
     return "\n".join((_heading(drawn, words), "", *lines, *_undrawn(drawn, words)))
 
 
-def _set(cell: str, width: int, column: int) -> str:
+def _set(cell: str, width: int, words: bool) -> str:
     """Set a cell: words to the left, numbers to the right."""
-    return f"{cell:{width}}" if column in (0, 7) else f"{cell:>{width}}"
+    return f"{cell:{width}}" if words else f"{cell:>{width}}"
 
 
 def _heading(drawn: Drawing, words: Words) -> str:

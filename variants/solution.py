@@ -118,12 +118,17 @@ class Solution:
         return item if self.drawing is None else {**item, **self.drawing.item(quantity.name)}
 
     def drawn(self, language: str | None = None) -> str:
-        """Return what the hand that was asked for makes of every quantity, as a readable table; nothing without one."""
+        """Return what the hand that was asked for makes of every quantity, as a readable table; nothing without one.
+
+        Where conditions were asked for, K and the sine of the worst intersection stand before the worst step.
+        """
         if self.drawing is None:
             return ""
         from .hands import table
 
-        return table(self.drawing, self._tidy(), self.solved.program, self._words(language))
+        words = self._words(language)
+        conditions = {name: _condition(words, found) for name, found in self.conditions.items()}
+        return table(self.drawing, self._tidy(), self.solved.program, words, conditions)
 
     def _tidy(self) -> list[Quantity]:
         """Return the quantities without what is nothing but rounding."""
@@ -178,8 +183,12 @@ def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
 def _accuracy(words: Words, condition: Condition | None) -> tuple[str, str]:
     if condition is None:
         return "", ""
-    value = "–" if condition.value is None else words.short(condition.value, 3)
-    return f"K {value}", f"sin {words.short(condition.sine, 3)}"
+    value, sine = _condition(words, condition)
+    return f"K {value}", f"sin {sine}"
+
+
+def _condition(words: Words, condition: Condition) -> tuple[str, str]:
+    return "–" if condition.value is None else words.short(condition.value, 3), words.short(condition.sine, 3)
 
 
 def solve(
