@@ -5,15 +5,19 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .scales import KulmanError as KulmanError
     from .variants import chart as chart
+    from .variants import check as check
     from .variants import load_task as load_task
     from .variants import sheet as sheet
     from .variants import solve as solve
     from .variants import sweep as sweep
 
 __version__ = "0.1.0"
-__all__ = ["KulmanError", "__version__", "chart", "load_task", "sheet", "solve", "sweep"]
+__all__ = ["KulmanError", "__version__", "chart", "check", "load_task", "sheet", "solve", "sweep"]
 
-_HOMES = {"KulmanError": "scales", **dict.fromkeys(("chart", "load_task", "sheet", "solve", "sweep"), "variants")}
+_HOMES = {
+    "KulmanError": "scales",
+    **dict.fromkeys(("chart", "check", "load_task", "sheet", "solve", "sweep"), "variants"),
+}
 
 
 def __getattr__(name: str) -> Any:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import errno
 import os
-import re
 import sys
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -17,7 +16,6 @@ from . import __version__
 from .scales.choices import HANDS, SIZES
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import system_language
-from .scales.numbers import quote
 from .variants.options import (
     Word,
     count,
@@ -25,8 +23,15 @@ from .variants.options import (
     example,
     files_out,
     given,
+    of_check,
     of_task,
 )
+from .variants.usage import Group, usage_error
+
+if TYPE_CHECKING:
+    from .variants.marking.answers import Answers
+    from .variants.marking.checks import Check
+    from .variants.marking.result import Result
 
 INTERRUPTED, CLOSED = 130, 1
 
@@ -42,7 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if sys.stdout is not None:  # as it is where nothing reads our output: started without a console, or `>&-`
             sys.stdout.flush()
     except click.UsageError as error:
-        status = _refuse(_usage_error(error))
+        status = _refuse(usage_error(error))
     except KulmanError as error:
         status = _refuse(error)
     except (KeyboardInterrupt, click.Abort):
@@ -70,40 +75,7 @@ def _lost_output(problem: OSError) -> int:
     return _refuse(InputError("output-broken", reason=problem.strerror or ""))
 
 
-def _usage_error(error: click.UsageError) -> InputError:
-    """Return click's error as one of ours, which has a message in every language."""
-    command = error.ctx.command_path if error.ctx else "kulman"
-    if isinstance(error, click.NoSuchOption):
-        text, like = quote(error.option_name), next(iter(error.possibilities or ()), None)
-        if like:
-            return InputError("cli-option-unknown-like", text=text, like=like)
-        return InputError("cli-option-unknown", text=text, command=command)
-    if isinstance(error, click.BadOptionUsage):
-        return InputError("cli-option-value", text=quote(error.option_name), command=command)
-    if isinstance(error, click.MissingParameter) and error.param is not None:
-        name = error.param.human_readable_name if isinstance(error.param, click.Argument) else error.param.opts[0]
-        return InputError("cli-missing", text=name, command=command)
-    extra = re.search(r"unexpected extra arguments? \((.*)\)", error.message, re.DOTALL)
-    if extra:
-        return InputError("cli-extra", text=quote(extra[1]), command=command)
-    return InputError("cli-usage", text=quote(error.message), command=command)
-
-
-class _Group(click.Group):
-    """The commands; a wrong one is refused with the one that was meant."""
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Find the command that `args` begin with."""
-        if args and not args[0].startswith("-") and self.get_command(ctx, args[0]) is None:
-            from .scales.names import unknown
-
-            raise unknown("cli-command-unknown", args[0], self.list_commands(ctx))
-        return super().resolve_command(ctx, args)
-
-
-@click.group(cls=_Group, invoke_without_command=True, epilog=example("kulman solve nau-slider-crank -v 3"))
+@click.group(cls=Group, invoke_without_command=True, epilog=example("kulman solve nau-slider-crank -v 3"))
 @click.version_option(__version__, message="%(version)s")
 @click.pass_context
 def commands(ctx: click.Context) -> None:
@@ -342,48 +314,77 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     )
 )
 @of_task
-@click.argument("answers", nargs=-1)
-@click.option("--form", metavar="FILE", help="Write an empty form, .csv or .xlsx; with --roster that of a class.")
-@click.option(
-    "--preset",
-    type=Word(*HANDS),
-    default="normal",
-    show_default=True,
-    help="What may be missed by hand.",
-)
-@click.option("--verdict-only", "own", is_flag=True, help="For the student: right or wrong, and no right numbers.")
-@click.option("--rubric", metavar="FILE", help="Weights, worths, tolerances: a small TOML file.")
-@click.option("--roster", metavar="FILE", help="Students with their variants, record books, own data: .csv or .xlsx.")
-@click.option(
-    "--digits",
-    metavar="N",
-    default="1",
-    show_default=True,
-    callback=count,
-    help="How many last digits of the record book give the variant, where the roster has none.",
-)
-@click.option("--out", "folder", metavar="FOLDER", help="Reports on every student, .html and .txt.")
-@click.option("--moodle", metavar="FILE", help="Grades for Moodle, .csv.")
-@click.option("--jobs", metavar="N", default="0", callback=count, help="Processes; as many as cores when left out.")
-@click.option(
-    "-o",
-    "--output",
-    "files",
-    metavar="FILE",
-    multiple=True,
-    callback=files_out(".marking.reports"),
-    help="Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx. Repeatable.",
-)
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object (of one student).")
-def check(task: str, answers: tuple[str, ...], lang: str | None, **options: Any) -> None:
+@of_check
+def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[str, str], **options: Any) -> None:
     """Mark ANSWERS to TASK: files with one student's answers or a class's, a folder of them, or a pattern.
 
     The variant is that of the roster, of -v, or what the file says. The word `printed` stands for the answers that the
     source of a bundled task prints.
     """
-    from .variants.marking.command import run
+    from . import variants
 
-    run(task, answers, language=lang or system_language(), warn=lambda error: _warn([error]), **options)
+    shown = {name: options.pop(name) for name in ("files", "folder", "moodle", "jobs", "as_json")}
+    form = options.pop("form")
+    if form is None and not answers:
+        raise InputError("check-nothing")
+    asked = variants.check(task, set=settings, lang=lang or system_language(), **options)
+    if form is not None:
+        click.echo(str(asked.write_form(form)))
+    if answers:
+        _mark(asked, asked.read(*answers, warn=lambda error: _warn([error])), **shown)
+
+
+def _mark(
+    asked: Check, found: list[Answers], files: tuple[Path, ...], folder: str | None, moodle: Path | None, **how: Any
+) -> None:
+    """Mark one student, or a class: to files, and to the console."""
+    from .variants.marking.reports import REPORTS
+
+    reports = [file for file in files if file.suffix.lower() in REPORTS]
+    alone = len(found) == 1 and folder is None and moodle is None and len(reports) == len(files)
+    if not alone and (how["as_json"] or reports):
+        raise InputError("check-class")
+    if alone:
+        _mark_one(asked, found[0], files, how["as_json"])
+    else:
+        results = _mark_class(asked, found, folder, how["jobs"] or None)
+        _print_class(asked, found, results, files, moodle)
+    for path in (*files, *filter(None, (folder, moodle))):
+        click.echo(str(path))
+
+
+def _mark_one(asked: Check, answers: Answers, files: tuple[Path, ...], as_json: bool) -> None:
+    """Mark one student: the report to files, else to the console."""
+    from .variants.marking.filing import write_reports
+    from .variants.marking.report_json import to_json
+    from .variants.marking.report_text import report_text
+
+    told = asked.mark(answers)
+    if as_json:
+        _print_json(to_json(told, asked.rubric))
+    elif not files:
+        click.echo(report_text(told), nl=False)
+    write_reports(told, files)
+
+
+def _mark_class(asked: Check, found: list[Answers], folder: str | None, jobs: int | None) -> list[Result]:
+    """Mark a class; a console shows how far it is."""
+    if sys.stderr is None or not sys.stderr.isatty():
+        return asked.mark_all(found, folder, jobs=jobs)
+    with click.progressbar(length=len(found), file=sys.stderr) as bar:
+        return asked.mark_all(found, folder, bar.update, jobs)
+
+
+def _print_class(
+    asked: Check, found: list[Answers], results: list[Result], files: tuple[Path, ...], moodle: Path | None
+) -> None:
+    """Write the tables of a class, and print a line per student."""
+    from .variants.marking.class_table import class_lines
+    from .variants.marking.filing import write_tables
+
+    write_tables(asked, results, found, files, moodle)
+    for line in class_lines(results, asked.request.language):
+        click.echo(line)
 
 
 @commands.command(epilog=example("kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk"))

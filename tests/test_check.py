@@ -11,10 +11,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from kulman import cli, load_task, sheet, solve
+from kulman import check, cli, load_task, sheet, solve
 from kulman.plans.hand import PRESETS
 from kulman.scales.errors import LANGUAGES, InputError
-from kulman.variants.marking.command import Check, mark_alone, prepare
+from kulman.variants.marking.checks import Check
 from kulman.variants.marking.keyed import asked_of
 from kulman.variants.marking.reading import read_answers
 from kulman.variants.marking.report_html import report_html
@@ -323,6 +323,30 @@ def test_a_sheet_bears_the_id_that_its_form_asks_for(tmp_path: Path, norm: str) 
     assert f"Sheet id: {sheet_id(load_task(TASK), '3')}" in (tmp_path / "sheet.svg").read_text(encoding="utf-8")
 
 
+def test_answers_are_marked_from_python_without_a_word(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    asked, done = check(TASK, "example", own=True, lang="en"), list[int]()
+    files = [answers(tmp_path), answers(tmp_path, {"a_B": 295.3}, name="b.csv")]
+
+    report = asked.mark(asked.read(files[0])[0])
+    results = asked.mark_all(asked.read(*files), tmp_path / "reports", done.append, jobs=1)
+
+    assert report.own
+    assert report.marked.marking.first_wrong is None
+    assert results[0].mark == report.marked.mark
+    assert (results[1].mark or 0.0) < report.marked.mark
+    assert sum(done) == len(list((tmp_path / "reports").glob("*.html"))) == 2
+    assert capsys.readouterr() == ("", "")
+
+
+def test_only_a_file_among_others_may_be_unreadable(tmp_path: Path) -> None:
+    asked, told = check(TASK, "example"), list[str]()
+    files = [answers(tmp_path), str(tmp_path / "none.csv")]
+
+    assert len(asked.read(*files, warn=lambda error: told.append(error.key))) == len(told) == 1
+    with pytest.raises(InputError):
+        asked.read(*files)
+
+
 NUMBERS = st.sampled_from(("", "0", "-1", "3", "1e30", "1e-30", "0,05", "80", "сто"))
 CELLS = st.tuples(NUMBERS, NUMBERS, NUMBERS, st.sampled_from(("", "+", "-", "90", "?")))
 
@@ -332,34 +356,21 @@ CELLS = st.tuples(NUMBERS, NUMBERS, NUMBERS, st.sampled_from(("", "+", "-", "90"
 @given(st.data())
 def test_whatever_numbers_come_they_are_marked(tmp_path: Path, task: str, data: st.DataObject) -> None:
     """Zeros, nonsense, and values that make the construction impossible."""
-    check = prepared(task)
-    names = data.draw(st.lists(st.sampled_from(sorted(check.asked.quantities)), min_size=3, unique=True))
+    asked = prepared(task)
+    names = data.draw(st.lists(st.sampled_from(sorted(asked.asked.quantities)), min_size=3, unique=True))
     rows = [f"{name};{';'.join(data.draw(CELLS))}\n" for name in names]
     file = tmp_path / "any.csv"
     file.write_text(f"quantity;mm;mu;value;direction\nV_A;;;4;\n{''.join(rows)}", encoding="utf-8")
 
-    found = mark_alone(check, read_answers(file, check.asked)[0])
+    found = asked.mark(read_answers(file, asked.asked)[0])
 
     assert 0.0 <= found.marked.mark <= 100.0
     assert report_html(found).endswith("</html>\n")
     assert report_text(found)
-    json.dumps(to_json(found, check.rubric), allow_nan=False)
+    json.dumps(to_json(found, asked.rubric), allow_nan=False)
 
 
 @cache
 def prepared(task: str) -> Check:
     """Return a task about to be marked."""
-    return prepare(
-        task,
-        None,
-        settings={},
-        only=None,
-        scales={},
-        notation=None,
-        language="en",
-        preset="normal",
-        rubric=None,
-        roster=None,
-        digits=1,
-        own=False,
-    )
+    return check(task)

@@ -15,14 +15,12 @@ from pathlib import Path
 import openpyxl
 import pytest
 
-from kulman import cli
+from kulman import check, cli
 from kulman.tests.marking_cases import answer, key, students
 from kulman.variants.marking import class_run
 from kulman.variants.marking.answers import Answers
 from kulman.variants.marking.class_run import Job, mark_class, slug
-from kulman.variants.marking.command import prepare
 from kulman.variants.marking.flags import Measured, shared, too_exact
-from kulman.variants.marking.intake import read_all
 from kulman.variants.marking.result import Result
 
 TASK = "nau-slider-crank"
@@ -63,39 +61,11 @@ def class_file(tmp_path: Path, count: int, seed: int = 1, drawn: bool = True) ->
 
 
 def job(folder: Path | None = None) -> Job:
-    check = prepare(
-        TASK,
-        None,
-        settings={},
-        only=None,
-        scales={},
-        notation=None,
-        language="en",
-        preset="normal",
-        rubric=None,
-        roster=None,
-        digits=1,
-        own=False,
-    )
-    return Job(check.request, check.rubric, folder=None if folder is None else str(folder))
+    return Job(check(TASK), None if folder is None else str(folder))
 
 
 def handed_in(file: Path) -> list[Answers]:
-    check = prepare(
-        TASK,
-        None,
-        settings={},
-        only=None,
-        scales={},
-        notation=None,
-        language="en",
-        preset="normal",
-        rubric=None,
-        roster=None,
-        digits=1,
-        own=False,
-    )
-    return read_all([str(file)], TASK, check.asked, lambda error: None)
+    return check(TASK).read(str(file))
 
 
 def test_a_class_gets_tables_reports_and_grades(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

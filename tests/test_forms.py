@@ -15,11 +15,11 @@ import xlsxwriter
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from kulman import check
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.scales.packaged import packaged
 from kulman.variants.marking.answers import Answers, Asked
 from kulman.variants.marking.cells_out import csv_bytes, harmless, xlsx_bytes
-from kulman.variants.marking.command import prepare, write_form
 from kulman.variants.marking.grid import letters, read_grid
 from kulman.variants.marking.keyed import asked_of
 from kulman.variants.marking.reading import read_answers
@@ -51,22 +51,7 @@ def messages(answers: Answers) -> list[str]:
 
 def form(tmp_path: Path, name: str, language: str, task: str = "nau-slider-crank") -> Path:
     """Write an empty form."""
-    check = prepare(
-        task,
-        None,
-        settings={},
-        only=None,
-        scales={},
-        notation=None,
-        language=language,
-        preset="normal",
-        rubric=None,
-        roster=None,
-        digits=1,
-        own=False,
-    )
-    write_form(check, tmp_path / name)
-    return tmp_path / name
+    return check(task, lang=language).write_form(tmp_path / name)
 
 
 @pytest.mark.parametrize("kind", ["", "mistakes."])

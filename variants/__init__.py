@@ -4,14 +4,22 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .charts import chart as chart
+    from .marking.checks import check as check
     from .reader import load_task as load_task
     from .sheets import sheet as sheet
     from .solution import solve as solve
     from .sweeps import sweep as sweep
 
-__all__ = ["chart", "load_task", "sheet", "solve", "sweep"]
+__all__ = ["chart", "check", "load_task", "sheet", "solve", "sweep"]
 
-_HOMES = {"chart": "charts", "load_task": "reader", "sheet": "sheets", "solve": "solution", "sweep": "sweeps"}
+_HOMES = {
+    "chart": "charts",
+    "check": "marking.checks",
+    "load_task": "reader",
+    "sheet": "sheets",
+    "solve": "solution",
+    "sweep": "sweeps",
+}
 
 
 def __getattr__(name: str) -> Any:

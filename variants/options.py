@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from ..scales.choices import HANDS
 from ..scales.errors import LANGUAGES, InputError
 from ..scales.numbers import quote
 
@@ -124,3 +125,64 @@ def count(ctx: click.Context, param: click.Parameter, value: str) -> int:
 def count_if_given(ctx: click.Context, param: click.Parameter, value: str | None) -> int | None:
     """Read a whole number where there is one."""
     return None if value is None else count(ctx, param, value)
+
+
+def moodle_out(ctx: click.Context, param: click.Parameter, value: str | None) -> Path | None:
+    """Refuse, before any work, a file that Moodle would not read, or that cannot be written."""
+    from ..drawing.writers import check_outputs
+
+    if value is None:
+        return None
+    check_outputs(Path(value), known=(".csv",))
+    return Path(value)
+
+
+def of_check(command: Command) -> Command:
+    """Add what is said of answers to be marked."""
+    options = (
+        click.argument("answers", nargs=-1),
+        click.option(
+            "--form", metavar="FILE", help="Write an empty form, .csv or .xlsx; with --roster that of a class."
+        ),
+        click.option(
+            "--preset",
+            type=Word(*HANDS),
+            default="normal",
+            show_default=True,
+            help="What may be missed by hand.",
+        ),
+        click.option(
+            "--verdict-only", "own", is_flag=True, help="For the student: right or wrong, and no right numbers."
+        ),
+        click.option("--rubric", metavar="FILE", help="Weights, worths, tolerances: a small TOML file."),
+        click.option(
+            "--roster", metavar="FILE", help="Students with their variants, record books, own data: .csv or .xlsx."
+        ),
+        click.option(
+            "--digits",
+            metavar="N",
+            default="1",
+            show_default=True,
+            callback=count,
+            help="How many last digits of the record book give the variant, where the roster has none.",
+        ),
+        click.option("--out", "folder", metavar="FOLDER", help="Reports on every student, .html and .txt."),
+        click.option("--moodle", metavar="FILE", callback=moodle_out, help="Grades for Moodle, .csv."),
+        click.option(
+            "--jobs", metavar="N", default="0", callback=count, help="Processes; as many as cores when left out."
+        ),
+        click.option(
+            "-o",
+            "--output",
+            "files",
+            metavar="FILE",
+            multiple=True,
+            callback=files_out(".marking.reports"),
+            help="Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx. "
+            "Repeatable.",
+        ),
+        click.option("--json", "as_json", is_flag=True, help="Print one JSON object (of one student)."),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command

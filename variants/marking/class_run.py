@@ -21,13 +21,11 @@ from ...drawing.writers import write_whole
 from ...scales.errors import KulmanError
 from ..shelf import bundled_text
 from .answers import Answers
-from .keyed import Request
+from .checks import Check
 from .marked import Desk
 from .report import report
 from .reports import REPORTS, report_bytes
 from .result import Result, failed, result_of
-from .roster import Roster
-from .rubric import Rubric
 from .wording import texts
 
 TOGETHER = 8  # students that a process is given at once
@@ -39,20 +37,16 @@ Advance = Callable[[int], None]
 class Job:
     """What is done for every student of a class: how answers are marked, and where reports go, if anywhere."""
 
-    request: Request
-    rubric: Rubric
-    roster: Roster | None = None
-    digits: int = 1
-    own: bool = False
+    check: Check
     folder: str | None = None
-    kinds: tuple[str, ...] = tuple(REPORTS)
 
     def digest(self) -> str:
         """Return what tells this job from any that would mark or say something else."""
-        task, request = self.request.task, self.request
+        check, request = self.check, self.check.request
+        task = request.task
         text = Path(task.file).read_text(encoding="utf-8") if task.file else bundled_text(task.id)
         parts = (__version__, text, request.variant, request.settings, request.only, request.scales, request.notation)
-        own = (request.language, self.rubric, self.digits, self.own, self.kinds)
+        own = (request.language, check.rubric, check.digits, check.own, tuple(REPORTS))
         return _digest(repr((parts, own)))
 
 
@@ -106,7 +100,7 @@ def _done(job: Job, answers: Sequence[Answers], todo: list[int], jobs: int) -> I
         pieces = [piece for piece in pieces if not finished.issuperset(piece)]
         if not pieces:
             return
-    desk = _desk(job)
+    desk = Desk(job.check)
     for piece in pieces:
         yield piece, _marked(job, desk, [(number, answers[number]) for number in piece])
 
@@ -141,7 +135,7 @@ def _begin(job: Job) -> None:
     parent = multiprocessing.parent_process()
     if parent is not None:
         Thread(target=_end_with, args=(parent,), daemon=True).start()
-    _OWN.append((job, _desk(job)))
+    _OWN.append((job, Desk(job.check)))
 
 
 def _end_with(parent: BaseProcess) -> None:
@@ -153,17 +147,13 @@ def _piece(students: list[tuple[int, Answers]]) -> list[Result]:
     return _marked(*_OWN[-1], students)
 
 
-def _desk(job: Job) -> Desk:
-    return Desk(job.request, job.rubric, job.roster, job.digits)
-
-
 def _marked(job: Job, desk: Desk, students: list[tuple[int, Answers]]) -> list[Result]:
     return [mark_one(job, desk, number, student) for number, student in students]
 
 
 def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     """Mark a student and write the reports; answers that cannot be marked are a result, too."""
-    language = job.request.language
+    language = job.check.request.language
     try:
         marked = desk.mark(answers)
     except KulmanError as error:
@@ -172,10 +162,10 @@ def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     if job.folder is None:
         return result
     flags = [texts(language)["flag.exact"]] if result.exact else []
-    said = report(marked, job.rubric, language, job.own, flags)
+    said = report(marked, job.check.rubric, language, job.check.own, flags)
     stem = f"{number + 1:03d}-{slug(result.who.student or Path(answers.source).stem)}"
-    names = tuple(f"{stem}{kind}" for kind in job.kinds)
-    for kind, name in zip(job.kinds, names, strict=True):
+    names = tuple(f"{stem}{kind}" for kind in REPORTS)
+    for kind, name in zip(REPORTS, names, strict=True):
         write_whole(Path(job.folder) / name, report_bytes(said, kind))
     return replace(result, reports=names)
 
@@ -194,7 +184,7 @@ class Journal:
 
     def __init__(self, folder: Path, job: Job) -> None:
         self.path, self.folder, self.job = folder / ".kulman-check.jsonl", folder, job.digest()
-        self.roster = job.roster
+        self.roster = job.check.roster
         self.before: dict[str, Result] = {}
         with suppress(FileNotFoundError):
             for line in self.path.read_text(encoding="utf-8").splitlines():

@@ -79,3 +79,18 @@ def summary(results: Sequence[Result], language: str) -> str:
     marks = [result.mark for result in results if result.mark is not None]
     mean = sum(marks) / len(marks) if marks else 0.0
     return said["class.summary"].format(n=len(results), marked=len(marks), mean=f"{mean:.1f}")
+
+
+def class_lines(results: Sequence[Result], language: str) -> Iterator[str]:
+    """Go through what is printed of a class: a line per student, then the whole."""
+    width = max((len(_called(result)) for result in results), default=0)
+    for result, flags in zip(results, flags_of(results, language), strict=True):
+        mark = "–" if result.mark is None else f"{result.mark:g}"
+        told = [result.first and texts(language)["class.feedback_first"].format(symbol=result.first)]
+        told += [", ".join(result.mistakes), *flags, *(result.notes if result.mark is None else ())]
+        yield f"{_called(result):{width}}  {mark:>5}  {'  '.join(filter(None, told))}".rstrip()
+    yield summary(results, language)
+
+
+def _called(result: Result) -> str:
+    return result.who.student or result.source

@@ -11,10 +11,10 @@ from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ..case import Settings
 from .answers import Answers
+from .checks import Check
 from .form import is_asked
-from .keyed import Keyed, Request, keyed
-from .roster import Entry, Roster, variant_of_book
-from .rubric import Rubric
+from .keyed import Keyed, keyed
+from .roster import Entry, variant_of_book
 from .sheet_id import same_id, variant_of_id
 
 
@@ -42,8 +42,8 @@ class Marked:
 class Desk:
     """Where answers are marked: keys are made once for each variant with its data."""
 
-    def __init__(self, request: Request, rubric: Rubric, roster: Roster | None = None, digits: int = 1) -> None:
-        self.request, self.rubric, self.roster, self.digits = request, rubric, roster, digits
+    def __init__(self, check: Check) -> None:
+        self.check = check
         self._keys: dict[tuple[object, ...], Keyed] = {}
 
     def keyed(self, variant: str, settings: Settings) -> Keyed:
@@ -52,7 +52,7 @@ class Desk:
         if name not in self._keys:
             if len(self._keys) >= 32:
                 self._keys.pop(next(iter(self._keys)))
-            self._keys[name] = keyed(self.request, variant, settings, self.rubric)
+            self._keys[name] = keyed(self.check.request, variant, settings, self.check.rubric)
         return self._keys[name]
 
     def mark(self, answers: Answers) -> Marked:
@@ -63,7 +63,7 @@ class Desk:
         InputError, PositionError
             The student's variant or data have no answer key.
         """
-        entry = self.roster.find(answers.who) if self.roster else None
+        entry = self.check.roster.find(answers.who) if self.check.roster else None
         variant, notes = self._variant(answers, entry)
         key = self.keyed(variant, entry.settings if entry else {})
         notes += self._sheet(answers, key)
@@ -74,15 +74,15 @@ class Desk:
             explanation = explain(key.book, marking)
             marking, candidates = explanation.marking, explanation.candidates
         lines = self._counted(marking, answers)
-        marks = self.rubric.mark(lines)
+        marks = self.check.rubric.mark(lines)
         all_notes = (*answers.problems, *notes)
         return Marked(answers, entry, key, marking, candidates, lines, marks, all_notes)
 
     def _variant(self, answers: Answers, entry: Entry | None) -> tuple[str, list[KulmanError]]:
         """Return the variant that a student has, by roster, file or record book; and what contradicts it."""
-        task, said = self.request.task, answers.about.get("variant", "")
+        task, said = self.check.request.task, answers.about.get("variant", "")
         notes: list[KulmanError] = []
-        if self.roster is not None and entry is None:
+        if self.check.roster is not None and entry is None:
             notes.append(InputError("marked-stranger", text=quote(answers.who.student or answers.source)))
         other = answers.about.get("task", "")
         if other and other != task.id:
@@ -90,10 +90,10 @@ class Desk:
         book = answers.who.book or (entry.who.book if entry else "")
         found = entry.variant if entry else ""
         if not found and entry and book:
-            found = variant_of_book(task, book, self.digits)
-        found = found or self.request.variant or (said if said in task.variants else "")
+            found = variant_of_book(task, book, self.check.digits)
+        found = found or self.check.request.variant or (said if said in task.variants else "")
         if not found and book:
-            found = variant_of_book(task, book, self.digits)
+            found = variant_of_book(task, book, self.check.digits)
         found = found or next(iter(task.variants))
         if said and said != found:
             notes.append(InputError("marked-variant", text=quote(said), variant=found))
@@ -104,14 +104,14 @@ class Desk:
         written = answers.about.get("sheet", "")
         if not written or same_id(written, key.sheet):
             return []
-        other = variant_of_id(self.request.task, written)
+        other = variant_of_id(self.check.request.task, written)
         if other is not None:
             return [InputError("marked-sheet-variant", text=quote(written), variant=other, own=key.solution.variant)]
         return [InputError("marked-sheet", text=quote(written), variant=key.solution.variant)]
 
     def _counted(self, marking: Marking, answers: Answers) -> tuple[Line, ...]:
         """Return the lines that count: those of the rubric, else those of the class's columns, else all."""
-        names = self.rubric.asked or answers.columns
+        names = self.check.rubric.asked or answers.columns
         if names:
             return tuple(line for line in marking.lines if line.name in names)
         questions = marking.key.questions

@@ -1,0 +1,168 @@
+"""A task about to be marked: what is asked, how answers are marked, for whom; empty forms out, marks back."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ...scales.arguments import of_kind
+from ...scales.errors import KulmanError
+from ..arguments import by_name, plans_wanted
+from ..case import Settings
+from ..reader import load_task
+from ..task import Task
+from .answers import Answers, Asked
+from .keyed import Request, asked_of
+from .roster import Roster, read_roster
+from .rubric import Rubric, read_rubric
+
+if TYPE_CHECKING:
+    from .report import Report
+    from .result import Result
+
+PathLike = str | os.PathLike[str]
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """How the answers to a task are marked; `own` makes reports for students, without right numbers."""
+
+    request: Request
+    rubric: Rubric
+    asked: Asked
+    roster: Roster | None = None
+    digits: int = 1
+    own: bool = False
+
+    def write_form(self, file: PathLike) -> Path:
+        """Write the empty form, .csv or .xlsx: of one student, or with a roster of the whole class.
+
+        Raises
+        ------
+        InputError
+            A kind of file that is no form, or a place where none can be written.
+        """
+        from .filing import write_form
+
+        return write_form(self, file)
+
+    def read(self, *names: str, warn: Callable[[KulmanError], None] | None = None) -> list[Answers]:
+        """Read the answers in files, folders, patterns.
+
+        Parameters
+        ----------
+        warn : callable, optional
+            Told of each file that cannot be read, if others are; without it such a file raises its error.
+
+        Raises
+        ------
+        InputError
+            Nothing can be read.
+        """
+        from .intake import read_all
+
+        return read_all(names, self.request.task.id, self.asked, _refuse if warn is None else warn)
+
+    def mark(self, answers: Answers) -> Report:
+        """Mark one student.
+
+        Raises
+        ------
+        InputError, PositionError
+            The variant or its data have no answer key.
+        """
+        from .filing import mark_alone
+
+        return mark_alone(self, answers)
+
+    def mark_all(
+        self,
+        answers: Sequence[Answers],
+        folder: PathLike | None = None,
+        advance: Callable[[int], None] | None = None,
+        jobs: int | None = None,
+    ) -> list[Result]:
+        """Mark a class, in its order.
+
+        Parameters
+        ----------
+        folder : str or PathLike, optional
+            Where reports on every student go, .html and .txt.
+        advance : callable, optional
+            Told how many students more are done.
+        jobs : int, optional
+            Processes; as many as there are cores when left out.
+
+        Raises
+        ------
+        InputError
+            A report cannot be written.
+        """
+        from .filing import mark_all
+
+        return mark_all(self, answers, folder, advance or (lambda done: None), jobs)
+
+
+def _refuse(error: KulmanError) -> None:
+    raise error
+
+
+def check(
+    task: PathLike | Task,
+    variant: str | None = None,
+    *,
+    set: Settings | None = None,
+    only: str | Iterable[str] | None = None,
+    scales: Settings | None = None,
+    preset: str = "normal",
+    rubric: PathLike | None = None,
+    roster: PathLike | None = None,
+    digits: int = 1,
+    own: bool = False,
+    notation: str | None = None,
+    lang: str | None = None,
+) -> Check:
+    """Make ready to mark the answers to a task.
+
+    Parameters
+    ----------
+    task, set, only, scales, notation, lang
+        As for `solve`.
+    variant : str, optional
+        That of all answers; without it the roster, the record book or the answers say which.
+    preset : str
+        What may be missed by hand: `cad`, `careful`, `normal`, `lenient`.
+    rubric, roster : str or PathLike, optional
+        Files with weights, worths, tolerances; and with the students of a class.
+    digits : int
+        How many last digits of the record book give the variant, where the roster has none.
+    own : bool
+        Make reports for students, in which no right number stands.
+
+    Raises
+    ------
+    InputError
+        Task, roster or rubric cannot be read, or name what there is not.
+
+    >>> from kulman import check
+    >>> asked = check("nau-slider-crank", "example", lang="en")
+    >>> [asked.mark(answers).marked.mark for answers in asked.read("printed")]
+    [65.8]
+    """
+    found = task if isinstance(task, Task) else load_task(task)
+    if variant is not None:
+        found.variant(variant)
+    of_kind("digits", digits, (int,), "int")
+    plans = None if only is None else plans_wanted(only, found.plans)
+    language = "en" if lang is None else lang
+    request = Request(found, variant or "", by_name("set", set), plans, by_name("scales", scales), notation, language)
+    asked = asked_of(request.solution(variant or next(iter(found.variants)), {}))
+    if plans is not None:
+        whole = asked_of(replace(request, only=None).solution(variant or next(iter(found.variants)), {}))
+        asked = replace(asked, others=frozenset(whole.names).difference(asked.names))
+    marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked)
+    students = None if roster is None else read_roster(os.fspath(roster), found)
+    return Check(request, marking, asked, students, digits, own)

@@ -1,0 +1,42 @@
+"""What click complains of, as errors of ours, which have a message in every language."""
+
+from __future__ import annotations
+
+import re
+
+import click
+
+from ..scales.errors import InputError
+from ..scales.names import unknown
+from ..scales.numbers import quote
+
+
+def usage_error(error: click.UsageError) -> InputError:
+    """Return click's error as one of ours, which has a message in every language."""
+    command = error.ctx.command_path if error.ctx else "kulman"
+    if isinstance(error, click.NoSuchOption):
+        text, like = quote(error.option_name), next(iter(error.possibilities or ()), None)
+        if like:
+            return InputError("cli-option-unknown-like", text=text, like=like)
+        return InputError("cli-option-unknown", text=text, command=command)
+    if isinstance(error, click.BadOptionUsage):
+        return InputError("cli-option-value", text=quote(error.option_name), command=command)
+    if isinstance(error, click.MissingParameter) and error.param is not None:
+        name = error.param.human_readable_name if isinstance(error.param, click.Argument) else error.param.opts[0]
+        return InputError("cli-missing", text=name, command=command)
+    extra = re.search(r"unexpected extra arguments? \((.*)\)", error.message, re.DOTALL)
+    if extra:
+        return InputError("cli-extra", text=quote(extra[1]), command=command)
+    return InputError("cli-usage", text=quote(error.message), command=command)
+
+
+class Group(click.Group):
+    """The commands; a wrong one is refused with the one that was meant."""
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command that `args` begin with."""
+        if args and not args[0].startswith("-") and self.get_command(ctx, args[0]) is None:
+            raise unknown("cli-command-unknown", args[0], self.list_commands(ctx))
+        return super().resolve_command(ctx, args)
