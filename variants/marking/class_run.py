@@ -26,7 +26,6 @@ from .marked import Desk
 from .report import report
 from .reports import REPORTS, report_bytes
 from .result import Result, failed, result_of
-from .wording import texts
 
 TOGETHER = 8  # students that a process is given at once
 ALONE = 16  # students for whom no process is started
@@ -161,8 +160,7 @@ def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     result = result_of(marked, language)
     if job.folder is None:
         return result
-    flags = [texts(language)["flag.exact"]] if result.exact else []
-    said = report(marked, job.check.rubric, language, job.check.own, flags)
+    said = report(marked, job.check.rubric, language, job.check.own, result.flags(language))
     stem = f"{number + 1:03d}-{slug(result.who.student or Path(answers.source).stem)}"
     names = tuple(f"{stem}{kind}" for kind in REPORTS)
     for kind, name in zip(REPORTS, names, strict=True):

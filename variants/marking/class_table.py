@@ -18,7 +18,7 @@ WHO = ("student", "group", "book", "number", "email")
 def flags_of(results: Sequence[Result], language: str) -> list[list[str]]:
     """Return for each student what a teacher should check: too exact segments, and those shared with another one."""
     said = texts(language)
-    found = [[said["flag.exact"]] if result.exact else [] for result in results]
+    found = [result.flags(language) for result in results]
     for pair in shared([result.segments for result in results]):
         for one, other in ((pair.first, pair.second), (pair.second, pair.first)):
             name = results[other].who.student or results[other].source

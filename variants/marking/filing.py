@@ -14,7 +14,6 @@ from .cells_out import csv_bytes, table_bytes
 from .checks import Check
 from .class_run import Advance, Job, mark_class
 from .class_table import class_rows, moodle_rows
-from .flags import too_exact
 from .form import class_header, form_rows
 from .grid import SUFFIXES
 from .marked import Desk
@@ -70,9 +69,7 @@ def mark_alone(check: Check, answers: Answers) -> Report:
     """
     marked = Desk(check).mark(answers)
     language = check.request.language
-    exact = too_exact(result_of(marked, language).segments)
-    flags = [texts(language)["flag.exact"]] if exact else []
-    return report(marked, check.rubric, language, check.own, flags)
+    return report(marked, check.rubric, language, check.own, result_of(marked, language).flags(language))
 
 
 def write_reports(found: Report, files: Sequence[Path]) -> None:

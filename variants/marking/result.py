@@ -12,6 +12,7 @@ from ...scales.errors import KulmanError
 from .answers import Answers, Who
 from .flags import Measured, measured, too_exact
 from .marked import Marked
+from .wording import texts
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +31,10 @@ class Result:
     exact: bool = False
     segments: Mapping[str, Measured] = field(default_factory=dict)
     reports: tuple[str, ...] = ()
+
+    def flags(self, language: str) -> list[str]:
+        """Return what a teacher should check of this student alone."""
+        return [texts(language)["flag.exact"]] if self.exact else []
 
     def to_json(self) -> dict[str, Any]:
         """Return the result as plain data."""
