@@ -21,7 +21,20 @@ from .student import follow
 
 __all__ = ["CLEAR", "Line", "Marking", "Verdict", "behind", "first_wrong", "judge", "mark"]
 
-UNITS = tuple(10.0**power for power in (-6, -3, -2, -1, 1, 2, 3, 6))  # what a unit may be wrong by
+DECIMALS = tuple(10.0**power for power in (-3, -2, -1, 1, 2, 3))  # mm, cm, dm
+ANGLES = tuple(
+    x for times in (180.0 / math.pi, 30.0 / math.pi) for x in (times, 1.0 / times)
+)  # degrees, turns a minute
+UNITS = {
+    "m": DECIMALS,
+    "m/s": DECIMALS,
+    "m/s^2": DECIMALS,
+    "N": (1e-6, 1e-3, 0.1, 10.0, 1e3, 1e6),  # kN, MPa in what it comes from, cm on the plan
+    "N*m": (1e-6, *DECIMALS, 1e6),
+    "rad/s": ANGLES,
+    "rad/s^2": (*ANGLES[:2], *(x * x for x in ANGLES[2:])),
+}  # by what factors a value is wrong when only its unit is
+SAME = 0.03  # part of a value by which a factor may miss: wide tolerances of short vectors let any factor fit
 AGREE = 0.05  # part by which segments of one plan may differ in the scale that they show
 SHOWN = 5.0  # mm from which a segment shows to which scale its plan is drawn
 CLEAR = 2.0  # tolerances from which an error is more than a slip of the hand
@@ -114,7 +127,8 @@ class _Marker:
         drawn = {}
         for plan, names in by_plan.items():
             written = next((mu for name in names if (mu := self.mus[name])), None) or self._from_pairs(names)
-            shown = [self._drawn_to(name) for name in names if abs(self.answers[name].mm or 0.0) >= SHOWN]
+            long = [name for name in names if abs(self.answers[name].mm or 0.0) >= SHOWN and not self._is_arm(name)]
+            shown = [self._drawn_to(name) for name in long]
             if _agree(shown):
                 self.true[plan] = median(shown)
             mu = written or self.true.get(plan) or self._drawn_to(names[0])
@@ -174,12 +188,15 @@ class _Marker:
     def _verdict(self, name: str, value: Any) -> _Held:
         answer = self.answers[name]
         held = self._held(self.ways[name], name, value)
+        clear = held.miss.off > CLEAR and held.miss.about == SIZE
+        if clear and self._is_unit(name, value):
+            return held._replace(verdict=Verdict.SCALE)
         if answer.value is not None and (instead := measured(answer, self.mus[name])):
             agrees = any(abs(x - abs(answer.value)) <= self._slack(name, x) for x in instead)
             by_mm = self._held(readings(answer, instead), name, value).verdict
             if not agrees and held.verdict.passed is not by_mm.passed:
                 return held._replace(verdict=Verdict.ARITHMETIC)
-        if held.miss.off > CLEAR and held.miss.about == SIZE and self._is_scale(name, value):
+        if clear and self._is_scale(name, value):
             return held._replace(verdict=Verdict.SCALE)
         return held
 
@@ -211,16 +228,31 @@ class _Marker:
             allowed *= abs(value) / size
         return miss(way, value, allowed, self.key.angles.get(name, math.pi))
 
+    def _is_unit(self, name: str, value: Any) -> bool:
+        """Whether a line is right in another unit that its quantity may have."""
+        units = UNITS.get(self.key.questions[name].unit, ())
+        return self._fits(
+            name, value, [x * unit for x in values_of(self.answers[name], self.mus[name]) for unit in units]
+        )
+
     def _is_scale(self, name: str, value: Any) -> bool:
-        """Whether only a unit, the convention of the scale factor or the scale itself makes a line wrong."""
+        """Whether only the convention of the scale factor, or the scale itself, makes a line wrong."""
+        answer, others = self.answers[name], list(measured(self.answers[name], self.mus[name]))
+        true = self.true.get(self.key.questions[name].plan)
+        if true is not None and answer.mm and not self._is_arm(name):
+            others.append(answer.mm * true)
+        return self._fits(name, value, others)
+
+    def _is_arm(self, name: str) -> bool:
+        """Whether a segment hangs on the direction of a force, and shows no scale when that is wrong."""
+        return self.key.questions[name].step.verb == "arm"
+
+    def _fits(self, name: str, value: Any, others: Iterable[float]) -> bool:
+        """Whether a line would pass with one of other values, and that in a few parts of a hundred."""
         if abs(self.key[name]) <= self.key.allowed[name]:
             return False  # anything is nothing in some unit
-        answer, mu = self.answers[name], self.mus[name]
-        others = [x * unit for x in values_of(answer, mu) for unit in UNITS] + list(measured(answer, mu))
-        true = self.true.get(self.key.questions[name].plan)
-        if true is not None and answer.mm:
-            others.append(answer.mm * true)
-        return any(self._held(readings(answer, (x,)), name, value).verdict.passed for x in others)
+        held = ((abs(x), self._held(readings(self.answers[name], (x,)), name, value)) for x in others)
+        return any(h.verdict.passed and abs(x - abs(h.against)) <= SAME * abs(h.against) for x, h in held)
 
 
 def _off(held: _Held) -> float:
