@@ -194,6 +194,41 @@ def test_wrong_units_and_scales_are_told_from_wrong_segments() -> None:
     assert verdicts(mark(EXAMPLE, [inverted]), "V_B") == ["scale"]
 
 
+@pytest.mark.parametrize(("name", "factor"), [("a_BA_n", 0.064), ("omega_2", 5.39), ("omega_2", 10.0)])
+def test_a_factor_that_no_unit_of_the_quantity_has_is_wrong(name: str, factor: float) -> None:
+    assert verdicts(mark(EXAMPLE, [Answer(name, value=factor * size(name))]), name) == ["wrong"]
+
+
+@pytest.mark.parametrize(
+    ("names", "factor"),
+    [
+        pytest.param(("V_A", "V_B"), 1e3, id="mm/s"),
+        pytest.param(("h_21",), 1e3, id="mm"),
+        pytest.param(("omega_2", "epsilon_2"), 180.0 / math.pi, id="degrees"),
+        pytest.param(("omega_1",), 30.0 / math.pi, id="rpm"),
+    ],
+)
+def test_another_unit_of_a_right_value_is_no_slip_of_arithmetic(names: tuple[str, ...], factor: float) -> None:
+    mus = {name: MUS.get(EXAMPLE.questions[name].plan) for name in names}
+    answers = [
+        Answer(name, mm=size(name) / mu if (mu := mus[name]) else None, mu=mu, value=factor * size(name))
+        for name in names
+    ]
+
+    assert verdicts(mark(EXAMPLE, answers), *names)[0] == "scale"
+    assert mark(EXAMPLE, answers[-1:])[names[-1]].verdict is Verdict.SCALE
+
+
+def test_a_calculated_part_may_miss_what_it_is_calculated_from_may_and_its_marks() -> None:
+    mu = MUS["acceleration"]
+    calculated = 2.0 * EXAMPLE.allowed["V_BA"] / size("V_BA") * size("a_BA_n")
+
+    allowed = EXAMPLE.allowed["a_BA_n"]
+
+    assert allowed <= 1.1 * math.hypot(calculated, 0.7 * mu)
+    assert allowed < EXAMPLE.tolerance.mm * mu
+
+
 def test_values_near_zero_have_the_millimetres_and_not_a_part() -> None:
     solution_key = key("scheme-09-shaper")
     mu = solution_key.paper.mus["forces_2"]

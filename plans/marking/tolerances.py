@@ -31,8 +31,9 @@ def tolerances(
     lines whose meeting is read, the worst of those behind the segment's ends on its own plan. The tilt is what the
     longest segment of the plan misses at its end when its direction misses, by the degrees of the preset and by what
     the marks at the ends of a short link do to its direction: a short side closes a plan of long vectors no better. Of
-    an arm it is that of the way to the point of the force. A calculated quantity inherits what the segments in it may
-    miss; data have none.
+    an arm it is that of the way to the point of the force. A part that is calculated and laid off (a_BA_n) misses no
+    more than its calculation and its two marks, where that is less. A calculated quantity inherits what the segments
+    in it may miss; data have none.
 
     Parameters
     ----------
@@ -67,7 +68,8 @@ class _Rule:
             mu, sine = self._mu(step.operands[0]), min(self.flat.get(mark, 1.0) for mark in step.operands)
             slant = max(self.slants.get(mark, 0.0) for mark in step.operands)
             least = self._tilt(self.longest.get(step.plan, 0.0), slant) / sine
-            return max(self.most.of_segment(abs(values[step.name]) / mu, sine) * mu, least)
+            drawn = max(self.most.of_segment(abs(values[step.name]) / mu, sine) * mu, least)
+            return min(drawn, self._laid_off(step, mu))
         if step.verb == "moment":
             force, at, about = step.operands
             mu, size = self._mu(at), abs(values[force])
@@ -80,6 +82,14 @@ class _Rule:
             return self._inherited(step)
         is_point = step.verb in POINTS and "." not in step.name
         return self.most.mm * self._mu(step.name) / self.flat[step.name] if is_point else 0.0
+
+    def _laid_off(self, step: Step, mu: float) -> float:
+        """Return what a part may miss that is calculated, laid off and read: as it is calculated, and its two marks."""
+        calculated = self.allowed.get(f"_{step.name}")
+        if calculated is None:
+            return math.inf
+        least = self.most.part * abs(self.values[step.name])
+        return float(max(least, math.hypot(calculated, MARKS * self.most.mm * mu)))
 
     def slant(self, step: Step) -> float:
         """Return by how much directions behind a mark miss because links are short on paper, radians."""
