@@ -32,3 +32,29 @@ def test_columns_that_changed_places_are_put_back_by_scale_factors_in_rows_of_th
     assert (found.lines["a_A"].mm, found.lines["a_A"].value) == (pytest.approx(50.0), None)
     assert (found.lines["V_S2"].mm, found.lines["V_S2"].value) == (None, pytest.approx(3.26))
     assert "each other's place" in found.problems[0].text("en")
+
+
+SCALED = "mu_a;;1,07;;;\na_A;80;;856;;\na_BA_n;4,4;;47,4;;\na_BA_t;69,9;;748;;\na_BA;70,1;;750;;\na_S2;59;;631;;\n"
+
+
+@pytest.mark.parametrize("asked", [(), ("a_BA", "a_S2")])
+def test_a_scale_factor_written_wrongly_in_its_row_counts_once(tmp_path: Path, asked: tuple[str, ...]) -> None:
+    rubric = tmp_path / "rubric.toml"
+    rubric.write_text(f"asked = {list(asked)}\n", encoding="utf-8")
+    answers = read(tmp_path, SCALED, "3")
+
+    report = check(TASK, "3", lang="en", rubric=rubric).mark(answers)
+
+    faulty = [(line.name, str(line.verdict)) for line in report.marked.marking.lines if line.verdict.faulty]
+    assert faulty == [((*asked, "a_A")[0], "scale")]
+    assert report.again == ("μ_a: too small by the factor 10; your segments and values fit 10.7 (m/s²)/mm",)
+    assert report.candidates == ()
+
+
+def test_values_that_do_not_come_from_segments_blame_no_scale_factor(tmp_path: Path) -> None:
+    right_scale = SCALED.replace("1,07", "10,7").replace("856", "85,6").replace("47,4", "4,74")
+    tenths = right_scale.replace("748", "74,8").replace("750", "75").replace("631", "63,1")
+
+    marked = check(TASK, "3", lang="en").mark(read(tmp_path, tenths, "3")).marked
+
+    assert marked.misfits == {}

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from ...plans.marking.answers import Answer
 from ...plans.marking.verdicts import Line, Marking, Verdict, mark
@@ -14,6 +15,7 @@ from .answers import Answers
 from .checks import Check
 from .form import is_asked
 from .keyed import Keyed, keyed
+from .misfits import Misfit, counted_once, misfits
 from .roster import Entry, variant_of_book
 from .sheet_id import same_id, variant_of_id
 
@@ -22,7 +24,8 @@ from .sheet_id import same_id, variant_of_id
 class Marked:
     """A student's answers, marked.
 
-    `lines` are those that count; `notes` say what was odd: cells that could not be read, another variant, another id.
+    `lines` are those that count; `notes` say what was odd: cells that could not be read, another variant, another id;
+    `misfits` are scale factors written wrongly, each by the line at which it counts.
     """
 
     answers: Answers
@@ -33,6 +36,7 @@ class Marked:
     lines: tuple[Line, ...]
     mark: float
     notes: tuple[KulmanError, ...]
+    misfits: Mapping[str, Misfit] = field(default_factory=dict)
 
     def count(self, verdict: Verdict) -> int:
         """Return how many lines have a verdict."""
@@ -67,16 +71,18 @@ class Desk:
         variant, notes = self._variant(answers, entry)
         key = self.keyed(variant, entry.settings if entry else {})
         notes += self._sheet(answers, key)
-        given, undefined = _given(answers, key)
+        found = tuple(misfits(answers, key.key, key.solution.solved.scale_of_plan))
+        given, undefined = _given(answers, key, {misfit.symbol: misfit.fits for misfit in found})
         notes += undefined
         marking, candidates = mark(key.key, given), tuple[Candidate, ...]()
         if marking.first_wrong is not None:
             explanation = explain(key.book, marking)
             marking, candidates = explanation.marking, explanation.candidates
+        marking, borne = counted_once(marking, found, {line.name for line in self._counted(marking, answers)})
         lines = self._counted(marking, answers)
         marks = self.check.rubric.mark(lines)
         all_notes = (*answers.problems, *notes)
-        return Marked(answers, entry, key, marking, candidates, lines, marks, all_notes)
+        return Marked(answers, entry, key, marking, candidates, lines, marks, all_notes, borne)
 
     def _variant(self, answers: Answers, entry: Entry | None) -> tuple[str, list[KulmanError]]:
         """Return the variant that a student has, by roster, file or record book; and what contradicts it."""
@@ -118,8 +124,11 @@ class Desk:
         return tuple(line for line in marking.lines if line.answer is not None or is_asked(questions[line.name]))
 
 
-def _given(answers: Answers, key: Keyed) -> tuple[list[Answer], list[KulmanError]]:
-    """Return the answers for marking, each with the scale factor of its plan; and those that have no right value."""
+def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[list[Answer], list[KulmanError]]:
+    """Return the answers for marking, each with the scale factor of its plan; and those that have no right value.
+
+    Where a factor is written wrongly in its row, `fits` has the one that the answers were worked out with.
+    """
     given, notes = [], list[KulmanError]()
     for line in answers.lines.values():
         question = key.key.questions.get(line.name)
@@ -127,8 +136,7 @@ def _given(answers: Answers, key: Keyed) -> tuple[list[Answer], list[KulmanError
             notes.append(InputError("marked-undefined", place=line.place, text=line.name))
             continue
         symbol = key.solution.solved.scale_of_plan.get(question.plan, "")
-        mu = line.mu or answers.scales.get(symbol)
-        given.append(
-            Answer(line.name, line.mm, None if mu is None else mu.value, line.value, line.direction, line.sense)
-        )
+        written = line.mu or answers.scales.get(symbol)
+        mu = None if written is None else fits.get(symbol, written.value) if line.mu is None else line.mu.value
+        given.append(Answer(line.name, line.mm, mu, line.value, line.direction, line.sense))
     return given, notes

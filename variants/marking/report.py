@@ -12,10 +12,11 @@ from ...plans.marking.verdicts import Line, Verdict, behind
 from ...plans.mistakes.rules import Broken
 from ...scales.units import format_unit
 from .marked import Marked
+from .misfits import Misfit
 from .rubric import Rubric
 from .wording import letter, mistake_texts, plain, texts
 
-DIGITS = 4
+DIGITS, SCALE_DIGITS = 4, 3
 ROUNDING, TOLD = 1e-9, 0.2  # parts of a tolerance: what is nothing, and what is worth telling
 SHOWN_CANDIDATES = 3
 AGAIN = {
@@ -137,8 +138,22 @@ class _Teller:
     def again(self) -> Iterator[str]:
         """Go through what to look at again, the first wrong step first."""
         for line in self.marked.marking.lines:
-            if line.verdict.faulty:
+            misfit = self.marked.misfits.get(line.name)
+            if misfit is not None:
+                yield self._scale(misfit)
+            if line.verdict.faulty and not (misfit and line.verdict is Verdict.SCALE):
                 yield self.hint(line)
+
+    def _scale(self, misfit: Misfit) -> str:
+        """Return what is wrong with a scale factor that stands in its own row."""
+        si, display = self.marked.keyed.asked.scales[misfit.symbol], self.words.display
+        unit = format_unit(f"({display.unit(si)})/mm", self.language)
+        ratio = misfit.written / misfit.fits
+        return self.said["again.large" if ratio > 1.0 else "again.small"].format(
+            symbol=plain(self.words.symbol(misfit.symbol)),
+            times=self.words.short(max(ratio, 1.0 / ratio), 2),
+            fits=f"{self.words.short(display.value(misfit.fits, si), SCALE_DIGITS)} {unit}",
+        )
 
     def hint(self, line: Line) -> str:
         """Return what to look at again because of a line, without saying what would be right."""
