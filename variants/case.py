@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ..drawing.linkages.scene import Given
+from ..drawing.words import Words
 from ..plans.exact import SMALL
 from ..plans.linkages.chain import require_couplers
 from ..plans.linkages.solved import Solved, scale_symbols, solve_linkage
@@ -52,6 +53,17 @@ class Case:
     def display(self) -> Display:
         """The units of results: those of the task, but SI where forces are wanted."""
         return Display(paper=self.task.display.paper) if WITH_FORCES.intersection(self.plans) else self.task.display
+
+    def words(self, lang: str | None = None, notation: str | None = None) -> Words:
+        """Return the words of results in their units: English ones and the task's notation where none is said.
+
+        Raises
+        ------
+        InputError
+            There is no such language or notation.
+        """
+        words = Words.of("en" if lang is None else lang, self.task.notation if notation is None else notation)
+        return words.showing(self.display)
 
     @property
     def warnings(self) -> tuple[InputError, ...]:

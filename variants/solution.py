@@ -245,9 +245,8 @@ def solve(
     """
     case = solve_case(task, variant, set, only, scales)
     solved = case.solved
-    words = Words.of("en" if lang is None else lang, case.task.notation if notation is None else notation)
-    words = words.showing(case.display)
-    by_plan = _scales(case, words if lang else Words.of("uk", case.task.notation).showing(case.display), format)
+    words = case.words(lang, notation)
+    by_plan = _scales(case, words if lang else case.words("uk"), format)
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
     found = _conditions(solved) if condition else {}
