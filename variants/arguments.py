@@ -1,4 +1,4 @@
-"""Settings and plans that callers of the Python API hand over: told apart, or refused in one line."""
+"""Settings, names and numbers that callers of the Python API hand over: told apart, or refused in one line."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from typing import Any
 
 from ..plans.linkages.chain import PLANS
 from ..scales.arguments import of_kind
+from ..scales.errors import InputError
 from ..scales.names import unknown
+from ..scales.numbers import quote
 
 
 def by_name(name: str, value: Mapping[str, Any] | None) -> dict[str, Any]:
@@ -20,6 +22,41 @@ def by_name(name: str, value: Mapping[str, Any] | None) -> dict[str, Any]:
     return dict(value)
 
 
+def names_of(
+    argument: str, value: str | Iterable[str | int] | None, kinds: tuple[type, ...] = (str,)
+) -> tuple[str, ...]:
+    """Return names that are given each alone or several with commas between; none for None.
+
+    Raises
+    ------
+    InputError
+        The value, or one of several, is of no kind of names; `kinds` are those of one.
+    """
+    if value is None:
+        return ()
+    of_kind(argument, value, (str, Iterable), "list[str]")
+    items = (value,) if isinstance(value, str) else tuple(value)
+    for item in items:
+        of_kind(argument, item, kinds, "list[str]")
+    return tuple(dict.fromkeys(one.strip() for item in items for one in str(item).split(",") if one.strip()))
+
+
+def positions_of(argument: str, value: int) -> int:
+    """Return a number of positions or sections of a cycle.
+
+    Raises
+    ------
+    InputError
+        There is no cycle of so many.
+    """
+    from ..plans.linkages.cycle import FEWEST, MOST  # brings numpy, which most commands do without
+
+    of_kind(argument, value, (int,), "int")
+    if not FEWEST <= value <= MOST:
+        raise InputError("positions-number", n=quote(value), least=FEWEST, most=MOST)
+    return value
+
+
 def plans_wanted(value: str | Iterable[str] | None, all_of_them: tuple[str, ...]) -> tuple[str, ...]:
     """Return the plans that `only` names, each alone or several with commas between; `all_of_them` for none.
 
@@ -30,11 +67,7 @@ def plans_wanted(value: str | Iterable[str] | None, all_of_them: tuple[str, ...]
     """
     if value is None:
         return all_of_them
-    of_kind("only", value, (str, Iterable), "list[str]")
-    items = (value,) if isinstance(value, str) else tuple(value)
-    for item in items:
-        of_kind("only", item, (str,), "list[str]")
-    plans = tuple(plan.strip() for item in items for plan in item.split(","))
+    plans = names_of("only", value)
     for plan in plans:
         if plan not in PLANS:
             raise unknown("plan-unknown", plan, PLANS)

@@ -13,7 +13,7 @@ from typing import Any
 from ..drawing.words import Words
 from ..drawing.writers import WRITERS, Files, page_files, save_all
 from ..plans.graphs import Diagrams
-from ..plans.linkages.cycle import FEWEST, MOST, Cycle, cycle
+from ..plans.linkages.cycle import Cycle, cycle
 from ..plans.linkages.diagrams import diagrams
 from ..plans.linkages.mechanism import Driver
 from ..scales.arguments import of_kind
@@ -21,6 +21,7 @@ from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import Unit, parse, unit
+from .arguments import names_of, positions_of
 from .case import Case, Settings, solve_case
 from .columns import letters
 from .sheets import Sheet, cycle_sheet
@@ -75,9 +76,7 @@ class Sweep:
         sections : int
             Sections of the cycle for the chords.
         """
-        of_kind("sections", sections, (int,), "int")
-        _count(sections)
-        return diagrams(self.cycle, str(of), sections)
+        return diagrams(self.cycle, str(of), positions_of("sections", sections))
 
     def table(self, language: str | None = None) -> str:
         """Return the main columns position by position, then dead positions, strokes, extremes and what has no plan."""
@@ -197,7 +196,7 @@ def sweep(
     >>> round(swept.cycle.motions[0].travel.length, 6)
     0.1
     """
-    of_kind("positions", positions, (int,), "int")
+    positions_of("positions", positions)
     case = solve_case(task, variant, set, only, scales)
     words = Words.of("en" if lang is None else lang, case.task.notation if notation is None else notation)
     chosen = _chosen(case.task, points)
@@ -206,26 +205,13 @@ def sweep(
         raise InputError("sweep-end")
     values = case.task.values(case.variant, case.settings)
     plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
-    done = cycle(case.task.mechanism, values, plans, _count(positions), first, last)
+    done = cycle(case.task.mechanism, values, plans, positions, first, last)
     return Sweep(case, done, chosen, words.showing(case.display))
-
-
-def _count(positions: int) -> int:
-    """Refuse a number of positions or sections that makes no cycle."""
-    if not FEWEST <= positions <= MOST:
-        raise InputError("positions-number", n=quote(positions), least=FEWEST, most=MOST)
-    return positions
 
 
 def _chosen(task: Task, points: str | Iterable[str] | None) -> tuple[str, ...]:
     """Return the points and links that are asked for, each named alone or several with commas between."""
-    if points is None:
-        return ()
-    of_kind("points", points, (str, Iterable), "list[str]")
-    items = (points,) if isinstance(points, str) else tuple(points)
-    for item in items:
-        of_kind("points", item, (str, int), "list[str]")
-    chosen = tuple(one.strip() for item in items for one in str(item).split(",") if one.strip())
+    chosen = names_of("points", points, (str, int))
     known = (*letters(task.mechanism), *(str(link.number) for link in task.mechanism.links))
     for one in chosen:
         if one not in known:
