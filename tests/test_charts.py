@@ -71,6 +71,24 @@ def test_the_picture_of_accuracy_names_what_it_shows(tmp_path: Path, capsys: pyt
     assert [label for label in ("Velocities", "Forces", "float32", "hand: A4", "Python 3") if label not in text] == []
 
 
+@pytest.mark.usefixtures("quick")
+def test_a_hand_stands_above_the_times_of_the_others() -> None:
+    found = chart(TASK, chart="accuracy", positions=6, lang="uk")
+    entries = found["accuracy"].contest.entries  # type: ignore[union-attr]
+
+    axes = found["accuracy"].figure(found.words).axes
+
+    bands = [one for one in axes if [text for text in one.texts if text.get_text() == "рука: A4"]]
+    times = [one for one in axes if one.get_ylabel() == "час на положення, с"]
+    assert len(bands) == len(times) == len({entry.kind for entry in entries})
+    for band, field in zip(bands, times, strict=True):
+        assert not [*band.get_yticks()]
+        assert band.get_position().y0 == pytest.approx(field.get_position().y1)
+        assert band.get_xlim() == field.get_xlim()
+        assert "розширена" in [text.get_text() for text in field.texts]
+    assert any("«звичайна»" in text.get_text().replace("\n", " ") for one in axes for text in one.texts)
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_pictures_speak_every_language(language: str, tmp_path: Path) -> None:
     words = {
@@ -285,3 +303,21 @@ def test_no_file_is_written_when_one_cannot_be(tmp_path: Path) -> None:
         found.save(tmp_path / "a.csv", tmp_path / "b.csv")
 
     assert [path.name for path in tmp_path.iterdir()] == ["b-depth.csv"]
+
+
+@pytest.mark.parametrize(
+    ("asked", "unused"),
+    [
+        (["--chart", "depth", "--quantities", "V_B", "--hand", "cad"], ["quantities", "hand"]),
+        (["--chart", "depth", "--tolerance", "5"], []),
+        (["--chart", "stability", "--quantities", "V_B", "--tolerance", "5"], ["tolerance"]),
+        (["--chart", "stability,depth", "--quantities", "V_B", "--tolerance", "5"], []),
+    ],
+)
+def test_what_changes_nothing_on_a_chart_is_said(
+    asked: list[str], unused: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    status, _, said = run([*asked, "--positions", "12", "--lang", "en"], capsys)
+
+    assert status == 0
+    assert [line.split("'")[1] for line in said.splitlines() if "changes nothing" in line] == unused

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,12 +16,13 @@ from ..drawing.words import Words
 from ..drawing.writers import save_all
 from ..plans.hand import preset
 from ..plans.linkages.chain import with_needs
-from ..plans.linkages.cycle import FEWEST, MOST, Cycle, cycle
+from ..plans.linkages.cycle import Cycle, cycle
 from ..scales.arguments import of_kind
 from ..scales.errors import InputError, KulmanError, PositionError
 from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import parse, unit
+from .arguments import names_of, positions_of
 from .case import Case, Settings, solve_case
 from .chart_accuracy import AccuracyChart, accuracy_chart
 from .chart_data import Scene
@@ -37,6 +38,8 @@ POSITIONS = {"accuracy": 36, "stability": 360, "depth": 360}
 SUFFIXES = (*PICTURES, ".csv")
 PAGED = ".pdf"  # one file holds all pictures
 TOLERANCE = 1.0  # per cent
+HAND = "normal"
+USED_BY = {"quantities": ("accuracy", "stability"), "hand": ("accuracy", "stability"), "tolerance": ("depth",)}
 Chart = AccuracyChart | StabilityChart | DepthChart
 
 
@@ -44,7 +47,7 @@ Chart = AccuracyChart | StabilityChart | DepthChart
 class Charts:
     """Charts of one variant of a task, by name: `accuracy`, `stability`, `depth`.
 
-    `warnings` say which chart has been left out, and why.
+    `warnings` say which chart has been left out, and why, and what changes nothing on those that are wanted.
     """
 
     case: Case
@@ -121,7 +124,7 @@ def chart(
     positions: int | None = None,
     quantities: str | Iterable[str] | None = None,
     tolerance: str | float = TOLERANCE,
-    hand: str = "normal",
+    hand: str = HAND,
     notation: str | None = None,
     lang: str | None = None,
 ) -> Charts:
@@ -159,19 +162,27 @@ def chart(
     ('F_i2', 'M_i2', 'F_i3')
     """
     case = solve_case(task, variant, set, only, scales)
-    names, wanted = _names("chart", chart), _names("quantities", quantities)
+    names, wanted = names_of("chart", chart), names_of("quantities", quantities)
     for name in names:
         if name not in CHARTS:
             raise unknown("chart-unknown", name, CHARTS)
     if positions is not None:
-        of_kind("positions", positions, (int,), "int")
-        if not FEWEST <= positions <= MOST:
-            raise InputError("positions-number", n=quote(positions), least=FEWEST, most=MOST)
+        positions_of("positions", positions)
     most = _per_cent(tolerance)
     words = Words.of("en" if lang is None else lang, case.task.notation if notation is None else notation)
     of_kind("hand", hand, (str,), "str")
     preset(hand)
-    return _made(Scene(case, words.showing(case.display), hand), names, wanted, positions, most)
+    scene = Scene(case, words.showing(case.display), hand)
+    unused = tuple(_unused(names, {"quantities": bool(wanted), "hand": hand != HAND, "tolerance": most != TOLERANCE}))
+    found = _made(scene, names, wanted, positions, most)
+    return replace(found, warnings=unused + found.warnings)
+
+
+def _unused(names: tuple[str, ...], asked: dict[str, bool]) -> Iterator[InputError]:
+    """Go through the arguments that change nothing on any of the charts that are named."""
+    for argument, wanted in asked.items():
+        if wanted and names and not any(name in USED_BY[argument] for name in names):
+            yield InputError("chart-unused", name=argument, charts=", ".join(names))
 
 
 def _per_cent(tolerance: str | float) -> float:
@@ -185,17 +196,6 @@ def _per_cent(tolerance: str | float) -> float:
     if not (math.isfinite(most) and most >= 0.0):
         raise LocatedError("tolerance", InputError("negative", text=quote(tolerance)))
     return most
-
-
-def _names(argument: str, value: str | Iterable[str] | None) -> tuple[str, ...]:
-    """Return names that are given each alone or several with commas between."""
-    if value is None:
-        return ()
-    of_kind(argument, value, (str, Iterable), "list[str]")
-    items = (value,) if isinstance(value, str) else tuple(value)
-    for item in items:
-        of_kind(argument, item, (str,), "list[str]")
-    return tuple(dict.fromkeys(one.strip() for item in items for one in item.split(",") if one.strip()))
 
 
 def _made(
