@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from ...plans.linkages.contest import CHORDS, DIFFERENCES, EXTENDED, HAND, NEWTON, PLAN, SINGLE, Contest, Entry
 from ..words import Words
-from .lettering import Box, Label, put
+from .lettering import Label, put
 from .paper import BLACK, GREY, SMALL, TEXT, box, page
 
 if TYPE_CHECKING:
@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FIELDS = ((24.0, 116.0), (164.0, 116.0), (24.0, 25.0), (164.0, 25.0))  # left and bottom of four fields, mm
-SIZE = (126.0, 74.0)
+SIZE = (126.0, 60.0)
+BAND, PAPER = 14.0, 3.2  # mm above a field with bars of the hand, which has no time; a row of it
+RING = 10.0  # pixels around the middle of a ring that stay free of labels
 LARGEST = 3.0  # error beyond which a method means nothing
 
 
@@ -61,10 +63,11 @@ def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: s
             field(figure, place, contest, kind.name, words) for kind, place in zip(contest.kinds, FIELDS, strict=False)
         ]
         _align(shown)
-        for axes, kind in zip(shown, contest.kinds, strict=True):
+        for axes, kind, place in zip(shown, contest.kinds, FIELDS, strict=False):
+            _hands(axes, place, [e for e in contest.of(kind.name) if e.method == HAND and e.error], words)
             letter(axes, contest, kind.name, words)
         left, bottom = FIELDS[len(shown)]
-        _key(box(figure, left, bottom - 8.0, SIZE[0], SIZE[1] + 8.0), words, hand, contest, turns)
+        _key(box(figure, left, bottom - 8.0, SIZE[0], SIZE[1] + BAND + 8.0), words, hand, contest, turns)
 
     return page(title, note, draw)
 
@@ -74,7 +77,7 @@ def field(figure: Figure, place: tuple[float, float], contest: Contest, kind: st
     axes = box(figure, *place, *SIZE)
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_title(words[f"chart.kind.{kind}"], loc="left", pad=4.0)
+    axes.set_title(words[f"chart.kind.{kind}"], loc="left", pad=4.0 + BAND * 72.0 / 25.4)
     axes.grid(True)
     axes.set_axisbelow(True)
     for method, look in LOOKS.items():
@@ -120,7 +123,7 @@ def _align(fields: Sequence[Axes]) -> None:
     lefts = [axes.get_xlim()[0] for axes in fields]
     for axes in fields:
         axes.set_xlim(10.0 ** math.floor(math.log10(min(lefts))), 10.0)
-        axes.set_ylim(10.0 ** math.floor(math.log10(min(lows))), 10.0 ** math.ceil(math.log10(max(highs)) + 0.8))
+        axes.set_ylim(10.0 ** math.floor(math.log10(min(lows))), 10.0 ** math.ceil(math.log10(max(highs))))
         axes.xaxis.set_major_locator(LogLocator(100.0, numticks=20))
         axes.xaxis.set_minor_locator(NullLocator())
         axes.yaxis.set_major_locator(LogLocator(10.0, numticks=20))
@@ -129,21 +132,33 @@ def _align(fields: Sequence[Axes]) -> None:
 
 
 def letter(axes: Axes, contest: Contest, kind: str, words: Words) -> None:
-    """Draw the hand, and put a label beside every point."""
+    """Put a label beside every point, of steps beside the best and every second one."""
     entries = contest.of(kind)
-    taken = _hands(axes, [e for e in entries if e.method == HAND and e.error], words)
+    named = {SINGLE: "chart.float32", EXTENDED: "chart.extended"}
+    rings = axes.transData.transform([(e.error or 0.0, e.seconds or 0.0) for e in contest.front(kind)] or [(1.0, 1.0)])
     labels, points = [], []
     for method, look in LOOKS.items():
-        for entry in drawable(entries, method):
+        shown = drawable(entries, method)
+        for entry in shown:
             points.append((entry.error or 0.0, entry.seconds or 0.0))
-            named = method in (SINGLE, EXTENDED)
-            text = method.removeprefix(f"{PLAN}-").replace("single", "float32") if named else setting(entry)
-            labels.append(Label(*points[-1], text, _side(entry, entries, look), named))
+            text = words[named[method]] if method in named else setting(entry)
+            if method != DIFFERENCES or _stated(entry, shown):
+                labels.append(Label(*points[-1], text, _side(entry, entries, look), method in named))
+    taken = [(x - RING, y - RING, x + RING, y + RING) for x, y in rings.tolist()]
+    taken += [(x, y - 2.0, end, y + 2.0) for (x, y), (end, _) in pairwise(rings.tolist())]  # the line between them
     put(axes, labels, points, taken)
+
+
+def _stated(entry: Entry, steps: Sequence[Entry]) -> bool:
+    """Tell whether a step is the best one, or an even number of powers of ten away from it."""
+    best = min(steps, key=lambda e: e.error or 0.0)
+    return round(math.log10(float(entry.setting) / float(best.setting))) % 2 == 0
 
 
 def _side(entry: Entry, entries: Iterable[Entry], look: Look) -> tuple[float, float]:
     """Return the side of a point for its label: steps so small that rounding counts stand above the others."""
+    if entry.method == PLAN:  # large batches cost about the same: their labels stand on either side
+        return (1, 0) if round(math.log10(float(entry.setting))) % 2 else (-1, 0)
     if entry.method != DIFFERENCES:
         return look.prefer
     best = min(drawable(entries, DIFFERENCES), key=lambda e: e.error or 0.0)
@@ -162,36 +177,34 @@ def setting(entry: Entry) -> str:
     return f"$10^{{{round(power)}}}$".replace("-", "−") if entry.setting != 1 else "1"
 
 
-def _hands(axes: Axes, entries: Sequence[Entry], words: Words) -> list[Box]:
-    """Draw for every paper a bar from the typical to the worst error; papers of one scale share it."""
-    renderer: Any = axes.figure.canvas.get_renderer()  # type: ignore[attr-defined]
-    across, taken = axes.get_xaxis_transform(), list[Box]()
-    ordered = sorted(entries, key=lambda e: (-(e.error or 0.0), e.typical or 0.0))
-    for number, (_, group) in enumerate(groupby(ordered, key=lambda e: (e.typical, e.error))):
-        same = list(group)
-        low, high, height = same[0].typical or 0.0, same[0].error or 0.0, 0.955 - 0.065 * number
-        axes.plot([low, high], [height] * 2, transform=across, marker="|", ms=6.0, color=BLACK, lw=2.2, zorder=4)
-        axes.plot([high] * 2, [0.0, height], transform=across, color=GREY, lw=0.6, ls=(0, (8, 2)), zorder=1)
-        papers = ", ".join(str(e.setting) for e in same)
-        text = axes.text(
-            low / 1.6,
-            height,
-            f"{words['chart.hand']}: {papers}",
-            fontsize=SMALL,
-            transform=across,
-            va="center",
-            ha="right",
-        )
-        extent = text.get_window_extent(renderer)
-        taken.append((extent.x0, extent.y0, extent.x1 + 30.0, extent.y1))
-    return taken
+def _hands(axes: Axes, place: tuple[float, float], entries: Sequence[Entry], words: Words) -> None:
+    """Draw a bar for every paper above a field, from the typical to the worst error: a hand has no time."""
+    if not entries:
+        return
+    left, bottom = place
+    band = box(axes.figure, left, bottom + SIZE[1], SIZE[0], BAND)  # type: ignore[arg-type]
+    band.set_xscale("log")
+    band.set_ylim(BAND, 0.0)
+    band.set_yticks([])
+    band.set_xticks(axes.get_xticks(), minor=False)
+    band.set_xlim(axes.get_xlim())
+    band.minorticks_off()
+    band.tick_params(bottom=False, labelbottom=False)
+    band.grid(True)
+    band.set_axisbelow(True)
+    first = (BAND - PAPER * (len(entries) - 1)) / 2.0
+    for row, entry in enumerate(entries):
+        low, high, y = entry.typical or 0.0, entry.error or 0.0, first + PAPER * row
+        band.plot([low, high], [y, y], marker="|", ms=5.0, color=BLACK, lw=2.0, zorder=4)
+        said = f"{words['chart.hand']}: {entry.setting}"
+        band.text(low / 1.6, y, said, fontsize=SMALL, va="center", ha="right")
 
 
 def _key(axes: Axes, words: Words, hand: str, contest: Contest, turns: bool) -> None:
     """Say what markers and numbers mean."""
     axes.set_axis_off()
     axes.set_xlim(0.0, 126.0)
-    axes.set_ylim(83.0, 0.0)
+    axes.set_ylim(SIZE[1] + BAND + 8.0, 0.0)
     present = {entry.method for entry in contest.entries}
     rows = [(look, look.words) for method, look in LOOKS.items() if method in present and method != EXTENDED]
     y = 6.0
@@ -202,12 +215,13 @@ def _key(axes: Axes, words: Words, hand: str, contest: Contest, turns: bool) -> 
         axes.plot(5.0, y, look.marker, ms=4.2, mfc=face, mec=BLACK, mew=0.9)
         axes.text(13.0, y, words[f"chart.key.{text}"], va="center", fontsize=TEXT)
         y += 6.5
+    axes.plot([0.0, 5.0, 10.0], [y] * 3, color=BLACK, lw=0.5)
     axes.plot(5.0, y, "o", ms=9.5, mfc="none", mec=BLACK, mew=0.7)
     axes.text(13.0, y, words["chart.key.front"], va="center", fontsize=TEXT)
     if HAND in present:
         y += 8.0
         axes.plot([1.0, 9.0], [y] * 2, marker="|", ms=6.0, color=BLACK, lw=2.2)
-        _wrapped(axes, 13.0, y, words["chart.key.hand"].format(hand=hand))
+        _wrapped(axes, 13.0, y, words["chart.key.hand"].format(hand=words[f"hand.{hand}"]))
 
 
 def _wrapped(axes: Axes, x: float, y: float, text: str) -> None:
