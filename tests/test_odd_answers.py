@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from kulman import check
+from kulman.tests.marking_cases import key, right_answers
 from kulman.variants.marking.answers import Answers
 
 TASK = "nau-slider-crank"
@@ -32,6 +33,23 @@ def test_columns_that_changed_places_are_put_back_by_scale_factors_in_rows_of_th
     assert (found.lines["a_A"].mm, found.lines["a_A"].value) == (pytest.approx(50.0), None)
     assert (found.lines["V_S2"].mm, found.lines["V_S2"].value) == (None, pytest.approx(3.26))
     assert "each other's place" in found.problems[0].text("en")
+
+
+def rows_of(variant: str) -> str:
+    """Return the right answers to a variant, as rows of a form; a vector's sense is not said."""
+    given = right_answers(key(TASK, variant), directions=False)
+    return "".join(f"{one.name};;;{abs(one.value or 0.0):.4g};;\n" for one in given)
+
+
+@pytest.mark.parametrize(("rows", "flags"), [("5", ("the answers fit variant 5",)), ("3", ())])
+def test_answers_to_another_variant_are_told(tmp_path: Path, rows: str, flags: tuple[str, ...]) -> None:
+    answers = read(tmp_path, rows_of(rows), "3")
+
+    report = check(TASK, "3", lang="en").mark(answers)
+    own = check(TASK, "3", lang="en", own=True).mark(answers)
+
+    assert report.flags == flags
+    assert own.flags == ()
 
 
 SCALED = "mu_a;;1,07;;;\na_A;80;;856;;\na_BA_n;4,4;;47,4;;\na_BA_t;69,9;;748;;\na_BA;70,1;;750;;\na_S2;59;;631;;\n"

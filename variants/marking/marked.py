@@ -13,11 +13,14 @@ from ...scales.numbers import quote
 from ..case import Settings
 from .answers import Answers
 from .checks import Check
+from .elsewhere import fits_other
 from .form import is_asked
 from .keyed import Keyed, keyed
 from .misfits import Misfit, counted_once, misfits
 from .roster import Entry, variant_of_book
 from .sheet_id import same_id, variant_of_id
+
+KEPT = 32  # answer keys
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +28,8 @@ class Marked:
     """A student's answers, marked.
 
     `lines` are those that count; `notes` say what was odd: cells that could not be read, another variant, another id;
-    `misfits` are scale factors written wrongly, each by the line at which it counts.
+    `misfits` are scale factors written wrongly, each by the line at which it counts; `fits` is another variant that
+    the answers fit, if any.
     """
 
     answers: Answers
@@ -37,6 +41,7 @@ class Marked:
     mark: float
     notes: tuple[KulmanError, ...]
     misfits: Mapping[str, Misfit] = field(default_factory=dict)
+    fits: str = ""
 
     def count(self, verdict: Verdict) -> int:
         """Return how many lines have a verdict."""
@@ -54,7 +59,7 @@ class Desk:
         """Return the key of a variant; the last few are kept."""
         name = (variant, *sorted(settings.items()))
         if name not in self._keys:
-            if len(self._keys) >= 32:
+            if len(self._keys) >= KEPT:
                 self._keys.pop(next(iter(self._keys)))
             self._keys[name] = keyed(self.check.request, variant, settings, self.check.rubric)
         return self._keys[name]
@@ -69,7 +74,8 @@ class Desk:
         """
         entry = self.check.roster.find(answers.who) if self.check.roster else None
         variant, notes = self._variant(answers, entry)
-        key = self.keyed(variant, entry.settings if entry else {})
+        settings = entry.settings if entry else {}
+        key = self.keyed(variant, settings)
         notes += self._sheet(answers, key)
         found = tuple(misfits(answers, key.key, key.solution.solved.scale_of_plan))
         given, undefined = _given(answers, key, {misfit.symbol: misfit.fits for misfit in found})
@@ -82,7 +88,12 @@ class Desk:
         lines = self._counted(marking, answers)
         marks = self.check.rubric.mark(lines)
         all_notes = (*answers.problems, *notes)
-        return Marked(answers, entry, key, marking, candidates, lines, marks, all_notes, borne)
+        fits = fits_other(marking, given, self._others(variant), lambda other: self.keyed(other, settings).key)
+        return Marked(answers, entry, key, marking, candidates, lines, marks, all_notes, borne, fits)
+
+    def _others(self, variant: str) -> list[str]:
+        """Return the other variants, as many as there are keys kept."""
+        return [other for other in self.check.request.task.variants if other != variant][: KEPT - 1]
 
     def _variant(self, answers: Answers, entry: Entry | None) -> tuple[str, list[KulmanError]]:
         """Return the variant that a student has, by roster, file or record book; and what contradicts it."""

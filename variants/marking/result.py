@@ -31,10 +31,13 @@ class Result:
     exact: bool = False
     segments: Mapping[str, Measured] = field(default_factory=dict)
     reports: tuple[str, ...] = ()
+    fits: str = ""
 
     def flags(self, language: str) -> list[str]:
         """Return what a teacher should check of this student alone."""
-        return [texts(language)["flag.exact"]] if self.exact else []
+        said = texts(language)
+        found = [said["flag.exact"]] if self.exact else []
+        return [*found, said["flag.variant"].format(variant=self.fits)] if self.fits else found
 
     def to_json(self) -> dict[str, Any]:
         """Return the result as plain data."""
@@ -90,6 +93,7 @@ def result_of(marked: Marked, language: str, reports: tuple[str, ...] = ()) -> R
         too_exact(segments),
         segments,
         reports,
+        marked.fits,
     )
 
 
