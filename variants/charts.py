@@ -61,7 +61,7 @@ class Charts:
 
     def table(self, language: str | None = None) -> str:
         """Return all charts as text."""
-        words = self.words if language is None else Words.of(language, self.case.task.notation)
+        words = self.words if language is None else self.case.words(language)
         parts = (f"{words[f'chart.{name}']}\n\n{chart.table(words)}" for name, chart in self.charts.items())
         return "\n\n\n".join(parts)
 
@@ -169,10 +169,10 @@ def chart(
     if positions is not None:
         positions_of("positions", positions)
     most = _per_cent(tolerance)
-    words = Words.of("en" if lang is None else lang, case.task.notation if notation is None else notation)
+    words = case.words(lang, notation)
     of_kind("hand", hand, (str,), "str")
     preset(hand)
-    scene = Scene(case, words.showing(case.display), hand)
+    scene = Scene(case, words, hand)
     unused = tuple(_unused(names, {"quantities": bool(wanted), "hand": hand != HAND, "tolerance": most != TOLERANCE}))
     found = _made(scene, names, wanted, positions, most)
     return replace(found, warnings=unused + found.warnings)

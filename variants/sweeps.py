@@ -137,9 +137,7 @@ class Sweep:
         return f"<pre>{escape(self.table())}</pre>"
 
     def _words(self, language: str | None) -> Words:
-        if language is None:
-            return self.words
-        return Words.of(language, self.task.notation).showing(self.words.display)
+        return self.words if language is None else self.case.words(language)
 
 
 def _csv_file(sweep: Sweep) -> bytes:
@@ -198,7 +196,7 @@ def sweep(
     """
     positions_of("positions", positions)
     case = solve_case(task, variant, set, only, scales)
-    words = Words.of("en" if lang is None else lang, case.task.notation if notation is None else notation)
+    words = case.words(lang, notation)
     chosen = _chosen(case.task, points)
     first, last = (_place(case.task, *item) for item in (("start", start), ("end", end)))
     if last is not None and isinstance(case.task.mechanism.driver, Driver):
@@ -206,7 +204,7 @@ def sweep(
     values = case.task.values(case.variant, case.settings)
     plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
     done = cycle(case.task.mechanism, values, plans, positions, first, last)
-    return Sweep(case, done, chosen, words.showing(case.display))
+    return Sweep(case, done, chosen, words)
 
 
 def _chosen(task: Task, points: str | Iterable[str] | None) -> tuple[str, ...]:
