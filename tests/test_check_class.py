@@ -110,13 +110,17 @@ def test_a_file_that_cannot_be_read_does_not_stop_the_others(
     class_file(tmp_path, 2).rename(folder / "good.csv")
     (folder / "bad.csv").write_bytes(b"\0\0")
     (folder / "~$open.xlsx").write_bytes(b"x")
+    marks = tmp_path / "marks.csv"
 
-    status, out, err = run(capsys, str(folder), "--lang", "en")
+    status, out, err = run(capsys, str(folder), "-o", str(marks), "--lang", "en")
 
     assert status == 0
     assert err.count("\n") == 1
     assert "bad.csv: not a text" in err
-    assert "marked: 2" in out
+    assert "students: 3, marked: 2" in out
+    bad = next(row for row in csv.reader(marks.read_text(encoding="utf-8-sig").splitlines()) if "bad.csv" in row[-2])
+    assert bad[-3].startswith("not read: ")
+    assert bad[7] == ""
 
 
 def test_a_pattern_names_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from ...plans.quantities import Quantity
 from ...scales.display import Display
+from ...scales.errors import KulmanError
 from ..task import LocatedError
 
 
@@ -67,7 +68,8 @@ class Answers:
     """All answers of one student; `about` is what the file says of task, variant and sheet id, as written.
 
     `problems` are cells that could not be read; what stands beside them is marked all the same. `columns` are the
-    quantities that a class was asked, nothing for a form of one's own.
+    quantities that a class was asked, nothing for a form of one's own. `unread` is why a file could not be read, which
+    is a student without a mark, not one who has handed in nothing.
     """
 
     source: str
@@ -77,6 +79,7 @@ class Answers:
     scales: Mapping[str, Mu]
     problems: tuple[LocatedError, ...] = ()
     columns: tuple[str, ...] = ()
+    unread: KulmanError | None = None
 
     @property
     def empty(self) -> bool:

@@ -55,7 +55,8 @@ class Check:
         Parameters
         ----------
         warn : callable, optional
-            Told of each file that cannot be read, if others are; without it such a file raises its error.
+            Told of each file that cannot be read, if there are others; it then has answers with `unread`, no mark
+            and a row in the tables. Without it such a file raises its error.
 
         Raises
         ------

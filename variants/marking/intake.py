@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
-from .answers import Answers, Asked
+from .answers import Answers, Asked, Who
 from .grid import SUFFIXES
 from .reading import read_answers
 
@@ -55,7 +55,7 @@ def _is_answers(path: Path) -> bool:
 
 
 def read_all(names: Sequence[str], task: str, asked: Asked, warn: Callable[[KulmanError], None]) -> list[Answers]:
-    """Read all answers; a file that cannot be read is told of, and those beside it are marked.
+    """Read all answers; a file that cannot be read is told of and has its place, and those beside it are marked.
 
     Raises
     ------
@@ -70,6 +70,7 @@ def read_all(names: Sequence[str], task: str, asked: Asked, warn: Callable[[Kulm
             if len(inside) == 1:
                 raise
             warn(error)
+            found.append(Answers(file, Who(), {}, {}, {}, unread=error))
             continue
         found += [replace(one, source=PRINTED) for one in read] if file == _printed(task) else read
     return found

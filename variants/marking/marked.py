@@ -70,8 +70,10 @@ class Desk:
         Raises
         ------
         InputError, PositionError
-            The student's variant or data have no answer key.
+            The student's variant or data have no answer key, or the file could not be read.
         """
+        if answers.unread is not None:
+            raise answers.unread
         entry = self.check.roster.find(answers.who) if self.check.roster else None
         variant, notes = self._variant(answers, entry)
         settings = entry.settings if entry else {}

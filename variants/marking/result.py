@@ -99,5 +99,7 @@ def result_of(marked: Marked, language: str, reports: tuple[str, ...] = ()) -> R
 
 def failed(answers: Answers, error: KulmanError, language: str) -> Result:
     """Return what is kept of a student whose answers cannot be marked."""
-    notes = (*(problem.text(language) for problem in answers.problems), error.text(language))
+    reason = error.text(language)
+    told = texts(language)["class.unread"].format(reason=reason) if answers.unread else reason
+    notes = (*(problem.text(language) for problem in answers.problems), told)
     return Result(answers.source, answers.who, notes=notes)
