@@ -67,8 +67,10 @@ def plans_wanted(value: str | Iterable[str] | None, all_of_them: tuple[str, ...]
     """
     if value is None:
         return all_of_them
-    plans = names_of("only", value)
-    for plan in plans:
+    of_kind("only", value, (str, Iterable), "list[str]")
+    items = (value,) if isinstance(value, str) else tuple(value)
+    plans = names_of("only", items)
+    for plan in plans or items[:1]:
         if plan not in PLANS:
             raise unknown("plan-unknown", plan, PLANS)
     return plans or all_of_them
