@@ -6,18 +6,19 @@ import math
 import random
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import pytest
 
+from kulman.plans.exact import run
 from kulman.plans.hand import preset
 from kulman.plans.marking.answers import Answer
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.marking.verdicts import Verdict, mark
 from kulman.plans.mistakes.book import Book, Signature, book, broken, signature
-from kulman.plans.mistakes.explaining import Explanation, explain
+from kulman.plans.mistakes.explaining import Candidate, Explanation, explain
 from kulman.plans.shaky import Paper
-from kulman.tests.marking_cases import LINKAGES, key, mistakes, moves, planted, right_answers
+from kulman.tests.marking_cases import LINKAGES, answer, key, mistakes, moves, planted, right_answers
 from kulman.tests.mechanisms import SEED
 from kulman.tests.test_mistakes import (
     LEVER,
@@ -108,6 +109,74 @@ def test_the_sense_tells_them_apart() -> None:
 
     assert "M12" in first.ids
     assert "M09" not in {one.mistake for one in first.mistakes if one.how == "angle"}
+
+
+EXAMPLE = "nau-slider-crank"
+
+
+def instead(**factors: float) -> Explanation:
+    """Explain right answers of which some are so many times too large."""
+    right = right_answers(key(EXAMPLE))
+    answers = [replace(a, value=(a.value or 0.0) * factors.get(a.name, 1.0)) for a in right]
+    return explain(mistakes(EXAMPLE), mark(key(EXAMPLE), answers))
+
+
+@pytest.mark.parametrize(
+    ("id", "factors"),
+    [
+        pytest.param("M01", {"omega_1": 30.0 / math.pi}, id="rpm in one row"),
+        pytest.param("M05", dict.fromkeys(("omega_2", "epsilon_2"), 180.0 / math.pi), id="degrees"),
+        pytest.param("M06", dict.fromkeys(("V_A", "V_BA", "V_B", "V_S2"), 1e3), id="mm/s"),
+        pytest.param("M06", {"h_21": 1e3}, id="an arm in mm"),
+    ],
+)
+def test_a_mistake_after_which_right_values_were_taken_is_named(id: str, factors: dict[str, float]) -> None:
+    explanation = instead(**factors)
+
+    assert id in explanation.candidates[0].ids
+    assert set(explanation.candidates[0].explained) >= set(list(factors)[:1])
+
+
+def test_the_line_of_a_velocity_along_the_link_is_named_from_the_lines_of_its_plan() -> None:
+    broken_plan = next(s for s in mistakes(EXAMPLE).signatures if s.broken.mistake == "M25")
+    wrong = ("V_BA", "V_B", "V_S2", "omega_2")
+    answers = {a.name: a for a in right_answers(key(EXAMPLE))}
+    answers |= {name: answer(name, broken_plan.values[name]) for name in wrong}
+
+    explanation = explain(mistakes(EXAMPLE), mark(key(EXAMPLE), answers.values()))
+
+    assert "M25" in explanation.candidates[0].ids
+
+
+@pytest.mark.parametrize("degrees", [60.0, -60.0, 150.0])
+def test_another_angle_of_the_crank_is_named(degrees: float) -> None:
+    of_key = key(EXAMPLE)
+    phi = of_key.paper.givens["phi"]
+    there = run(of_key.paper.program, {**of_key.paper.givens, "phi": phi + math.radians(degrees)}).values
+    answers = [answer(name, there[name]) for name in of_key.questions]
+
+    first = explain(mistakes(EXAMPLE), mark(of_key, answers)).candidates[0]
+
+    angles = [one.givens["phi"] for found in (first.mistakes, *first.same) for one in found if one.mistake == "M10"]
+    assert any(math.cos(angle - phi - math.radians(degrees)) > 1.0 - 1e-12 for angle in angles)
+
+
+def test_no_number_is_told_twice_and_no_pair_where_one_explains_as_much() -> None:
+    found = [one for task in FEW for one in _explained(task, 6)]
+
+    for candidates in found:
+        told = [(sorted(one.mistake for one in c.mistakes), sorted(c.explained)) for c in candidates]
+        assert all(told.count(one) == 1 for one in told)
+        for numbers, explained in told:
+            less = [other for other in told if set(other[0]) < set(numbers) and len(other[0]) < len(numbers)]
+            assert not any(set(explained) <= set(lines) for _, lines in less)
+
+
+def _explained(task: str, count: int) -> Iterator[tuple[Candidate, ...]]:
+    choose = random.Random(SEED)
+    for found in choose.sample(mistakes(task).signatures, count):
+        answers = planted(mistakes(task), found, choose.randrange(10**6))
+        yield explain(mistakes(task), mark(key(task), answers)).candidates
 
 
 def test_right_answers_have_no_explanation() -> None:

@@ -224,7 +224,7 @@ def test_broken_rules_of_a_slotted_lever_give_the_closed_form_and_the_printed_ra
     ],
 )
 def test_a_wrong_speed_multiplies_velocities_and_accelerations(id: str, v: float, a: float) -> None:
-    values, right = after(slider_crank(), id), slider_crank().values
+    values, right = after(slider_crank(), id, "n_1"), slider_crank().values
 
     for name in ("V_A", "V_B", "V_BA", "omega_2"):
         assert abs(values[name]) / abs(right[name]) == pytest.approx(v, rel=1e-3)
@@ -233,7 +233,7 @@ def test_a_wrong_speed_multiplies_velocities_and_accelerations(id: str, v: float
 
 
 def test_millimetres_for_metres_leave_the_rates_and_multiply_the_rest() -> None:
-    values, right = after(slider_crank(), "M06"), slider_crank().values
+    values, right = after(slider_crank(), "M06", "l"), slider_crank().values
 
     for name, factor in (("V_B", 1e3), ("a_B", 1e3), ("omega_2", 1.0), ("epsilon_2", 1.0), ("F_i2", 1e3)):
         assert abs(values[name]) / abs(right[name]) == pytest.approx(factor, rel=1e-9)

@@ -119,10 +119,33 @@ class _Search:
         if all(self._clear(c) for c, _ in found):
             found += self._pairs(off)
         ranked = sorted(found, key=lambda pair: self._rank(pair[0]))
-        if not ranked:
-            return Explanation((), self.marking)
-        candidates = _grouped(ranked, self.said)
-        return Explanation(candidates, self._carried(candidates[0]))
+        candidates = _simplest(_grouped(ranked, self.said))
+        if not candidates or candidates[0].misses > 1.0:
+            candidates = _simplest((*self._put_right(off), *candidates))
+        return Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
+
+    def _put_right(self, off: Floats) -> tuple[Candidate, ...]:
+        """Return the mistakes that explain every line that is not right, where right values were taken after them."""
+        right = self.said.misses(self.book, self.book.right[None, :], self.book.allowed[None, :])[0]
+        astray = np.flatnonzero(right > 1.0)  # not what is undefined, or not said
+        if not np.isin(self.first, astray):
+            return ()
+        means = _mean(off[:, astray])
+        fitting = [int(i) for i in np.argsort(means, kind="stable") if means[i] <= (1.0 if len(astray) > 1 else ALIKE)]
+        names = [line.name for line in self.marking.lines]
+        missed = {i: {names[j] for j in astray if off[i, j] > 1.0} for i in fitting}
+        found = [
+            Candidate(
+                (self.book.signatures[i].broken,),
+                (),
+                tuple(name for name in self.faulty if name not in missed[i]),
+                tuple(name for name in self.faulty if name in missed[i]),
+                float(means[i]),
+            )
+            for i in fitting
+            if off[i, self.first] <= 1.0
+        ]
+        return _simplest(tuple(found))[:NEAR]
 
     def _clear(self, candidate: Candidate) -> int:
         """Return how many lines stay clearly wrong."""
@@ -221,6 +244,28 @@ def _grouped(found: Iterable[tuple[Candidate, Signature]], said: _Answers) -> tu
         else:
             groups.append((candidate, row))
     return tuple(candidate for candidate, _ in groups)
+
+
+def _numbers(candidate: Candidate) -> tuple[str, ...]:
+    return tuple(sorted(one.mistake for one in candidate.mistakes))
+
+
+def _simplest(candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
+    """Leave out pairs of which one alone explains as much; put together those of one number that explain the same."""
+    found: dict[tuple[tuple[str, ...], frozenset[str]], Candidate] = {}
+    for candidate in candidates:
+        if not any(_needless(candidate, other) for other in candidates):
+            key = _numbers(candidate), frozenset(candidate.explained)
+            first = found.get(key)
+            same = () if first is None else (*first.same, candidate.mistakes, *candidate.same)
+            found[key] = candidate if first is None else replace(first, same=same)
+    return tuple(found.values())
+
+
+def _needless(candidate: Candidate, other: Candidate) -> bool:
+    """Whether another candidate explains as much with some of the same mistakes."""
+    fewer = len(other.mistakes) < len(candidate.mistakes) and set(_numbers(other)) <= set(_numbers(candidate))
+    return fewer and set(candidate.explained) <= set(other.explained)
 
 
 def _alike(row: Any, other: Any, allowed: Floats, turned: NDArray[np.bool_]) -> bool:

@@ -8,7 +8,7 @@ from functools import partial
 from itertools import combinations
 
 from ..board import POSITION, Step
-from .rules import Change, Chapter, Scene, constant, instead, operand
+from .rules import Change, Chapter, Scene, all_scaled, constant, instead, operand, scaled
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
@@ -71,6 +71,21 @@ def millimetres_for_metres(scene: Scene) -> Iterator[Change]:
     yield Change("l", {}, {name: scene.paper.givens[name] * 1000.0 for name in lengths(scene)})
 
 
+@mistake("M06")
+def arm_in_millimetres(scene: Scene) -> Iterator[Change]:
+    """One arm is left in millimetres."""
+    for step in scene.made_by("arm"):
+        yield scaled(step, 1000.0, "arm")
+
+
+@mistake("M05")
+def rates_in_degrees(scene: Scene) -> Iterator[Change]:
+    """Angular velocities and accelerations of links are given in degrees."""
+    steps = list(scene.made_by("calc", law="turning"))
+    if steps:
+        yield all_scaled("", steps, 180.0 / math.pi, "degrees")
+
+
 @mistake("M07")
 def diameter_for_radius(scene: Scene) -> Iterator[Change]:
     """The stroke, or the diameter of the crank circle, is taken for the crank, or half the crank."""
@@ -125,9 +140,15 @@ def another_zero(scene: Scene) -> Iterator[Change]:
 
 @mistake("M10")
 def another_position(scene: Scene) -> Iterator[Change]:
-    """The positions are numbered from another one: the whole plan is that of a neighbour."""
-    for how, shift in (("+30", TWELFTH), ("-30", -TWELFTH)):
-        yield from _turned(scene, how, _angle(scene) + shift)
+    """The positions are numbered from another one: the whole plan is that of another position."""
+    for number in (1, -1, 2, -2, 4, -4, 5, -5):
+        yield from _turned(scene, f"{30 * number:+}", _angle(scene) + number * TWELFTH)
+
+
+@mistake("M10")
+def other_side(scene: Scene) -> Iterator[Change]:
+    """The angle is laid off from the other end of the axis."""
+    yield from _turned(scene, "180-", math.pi - _angle(scene))
 
 
 @mistake("M11")
