@@ -73,7 +73,8 @@ def charts() -> None:
         with tempfile.TemporaryDirectory() as folder:
             run(f"kulman chart {task} --chart {name} --lang en -o chart.png", folder)
             with Image.open(Path(folder) / "chart.png") as drawn:
-                grey = drawn.convert("L").resize((1400, 990), Image.Resampling.LANCZOS)
+                size = 1400, round(1400 * drawn.height / drawn.width)
+                grey = drawn.convert("L").resize(size, Image.Resampling.LANCZOS)
                 grey.quantize(16).save(PICTURES / f"chart-{name}.png", optimize=True)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import importlib.util
 import json
+import math
 import re
 import subprocess
 import sys
@@ -13,9 +14,13 @@ from functools import partial
 from pathlib import Path
 
 import pytest
+from matplotlib.figure import Figure
 
 import kulman
 from kulman import KulmanError, cli
+from kulman.drawing.charts.depth import equal
+from kulman.drawing.charts.stability import _log, _lost, _widen
+from kulman.drawing.words import Words
 from kulman.plans.linkages import contest as contests
 from kulman.plans.linkages.contest import Effort
 from kulman.scales.errors import LANGUAGES
@@ -92,15 +97,45 @@ def test_a_hand_stands_above_the_times_of_the_others() -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_pictures_speak_every_language(language: str, tmp_path: Path) -> None:
     words = {
-        "en": ("condition K", "without $F", "tolerance 1 %", "dead: 3", "0.01"),
-        "uk": ("обумовленість K", "без $F", "допуск 1 %", "мертве: 3", "0,01"),
-        "ru": ("обусловленность K", "без $F", "допуск 1 %", "мёртвое: 3", "0,01"),
+        "en": ("condition K", "without $F", "tolerance 1 %", "dead position of link 3", "0.01"),
+        "uk": ("обумовленість K", "без $F", "допуск 1 %", "мертве положення ланки 3", "0,01"),
+        "ru": ("обусловленность K", "без $F", "допуск 1 %", "мёртвое положение звена 3", "0,01"),
     }[language]
     files = chart(TASK, chart=BOTH, positions=24, lang=language).save(tmp_path / "a.svg")
 
     text = "".join(path.read_text(encoding="utf-8") for path in files)
     assert [path.name for path in files] == ["a-stability.svg", "a-depth.svg"]
     assert [word for word in words if word not in text] == []
+
+
+def test_a_picture_of_depth_is_as_tall_as_its_rows_and_its_numbers_equally_precise() -> None:
+    heights = {}
+    for task in (TASK, "scheme-09-shaper"):
+        found = chart(task, chart="depth", positions=12, lang="en")
+        heights[task] = found["depth"].figure(found.words).get_figheight()
+    words = Words.of("en", "nau")
+
+    assert heights[TASK] < 0.75 * heights["scheme-09-shaper"]
+    assert [equal(value, words) for value in (20.0, 2.6, 0.0409, 9.999, 345.0)] == [
+        "20.0",
+        "2.60",
+        "0.0409",
+        "10.0",
+        "345",
+    ]
+
+
+@pytest.mark.parametrize(("low", "high"), [(2.1, 4.5), (0.5, 9.0), (1.2, 400.0)])
+def test_short_logarithmic_axes_name_enough_numbers(low: float, high: float) -> None:
+    axes = Figure().add_subplot()
+    axes.set_yscale("log")
+    axes.set_ylim(low, high)
+    _widen(axes)
+    _log(axes, "K")
+
+    least, most = axes.get_ylim()
+    assert len([tick for tick in axes.get_yticks() if least <= tick <= most]) >= 3
+    assert len(_lost(math.log10(least), math.log10(most))) >= 2
 
 
 def test_pictures_are_the_same_twice(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 LEFT, WIDTH, GAP = 60.0, 104.0, 15.0  # mm
-FOOT, HEAD, ROW = 30.0, 34.0, 9.0
-TALL = 210.0
+FOOT, HEAD, ROW = 46.0, 34.0, 9.0
+TALLEST = 210.0
 LEAST, MOST = 1e-3, 1e3  # per cent
 SHOWN = 3  # digits
 
@@ -25,11 +26,12 @@ SHOWN = 3  # digits
 def depth_page(found: Depth, words: Words, title: str) -> Figure:
     """Draw what simplifications cost."""
 
+    tall = min(TALLEST - FOOT - HEAD, ROW * (len(found.costs) + 1))
+    height = FOOT + tall + HEAD
+
     def draw(figure: Figure) -> None:
-        tall = min(TALL - FOOT - HEAD, ROW * (len(found.costs) + 1))
         fields = 2 if found.reaction else 1
-        bottom = TALL - HEAD - tall
-        shown = [box(figure, LEFT + i * (WIDTH + GAP), bottom, WIDTH * (3 - fields), tall) for i in range(fields)]
+        shown = [box(figure, LEFT + i * (WIDTH + GAP), FOOT, WIDTH * (3 - fields), tall, height) for i in range(fields)]
         for axes, head in zip(shown, _heads(found, words), strict=False):
             axes.set_title(head, fontsize=TEXT, loc="left", pad=5.0)
         _rows(shown[0], found.costs, [(c.balance, c.balance_rms) for c in found.costs], found.tolerance, words)
@@ -39,10 +41,10 @@ def depth_page(found: Depth, words: Words, title: str) -> Figure:
             shown[1].tick_params(labelleft=False)
         shown[0].set_yticks(range(len(found.costs)), [named(cost, words) for cost in found.costs], fontsize=TEXT)
         figure.text(
-            LEFT / 297.0, (bottom - 16.0) / TALL, verdict(found, words), fontsize=TEXT + 0.5, va="top", linespacing=1.5
+            LEFT / 297.0, (FOOT - 16.0) / height, verdict(found, words), fontsize=TEXT + 0.5, va="top", linespacing=1.5
         )
 
-    return page(title, words["chart.whole"], draw)
+    return page(title, words["chart.whole"], draw, height)
 
 
 def _heads(found: Depth, words: Words) -> Sequence[str]:
@@ -125,10 +127,10 @@ def _row(axes: Axes, row: int, most: float, mean: float, words: Words) -> None:
 
 
 def _short(value: float, words: Words) -> str:
-    return (
-        words.short(float(f"{value:.{SHOWN}g}"))
-        if value >= LEAST
-        else "0"
-        if value < 1e-12
-        else f"< {words.short(LEAST)}"
-    )
+    return equal(value, words) if value >= LEAST else "0" if value < 1e-12 else f"< {words.short(LEAST)}"
+
+
+def equal(value: float, words: Words) -> str:
+    """Return a number with all its significant digits, zeros at the end too: 2.60."""
+    power = math.floor(math.log10(abs(float(f"{value:.{SHOWN - 1}e}")))) if value else 0
+    return words.number(value, max(SHOWN - 1 - power, 0))

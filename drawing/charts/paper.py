@@ -62,24 +62,24 @@ def _styled() -> Iterator[None]:
         yield
 
 
-def page(title: str, note: str, draw: Callable[[Figure], None]) -> Figure:
-    """Return a page with its title, what `draw` draws between, and a note at its foot."""
+def page(title: str, note: str, draw: Callable[[Figure], None], height: float = HEIGHT) -> Figure:
+    """Return a page, `height` mm tall, with its title, what `draw` draws between, and a note at its foot."""
     with _styled():
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
-        figure = Figure(figsize=(WIDTH * MM, HEIGHT * MM), dpi=DPI)
+        figure = Figure(figsize=(WIDTH * MM, height * MM), dpi=DPI)
         FigureCanvasAgg(figure)
-        figure.text(LEFT / WIDTH, 1.0 - (TOP - 4.0) / HEIGHT, title, fontsize=TEXT + 2.5, va="center")
+        figure.text(LEFT / WIDTH, 1.0 - (TOP - 4.0) / height, title, fontsize=TEXT + 2.5, va="center")
         lines = "\n".join(line for part in note.split("\n") for line in textwrap.wrap(part, 175) or [""])
-        figure.text(LEFT / WIDTH, BOTTOM / HEIGHT, lines, fontsize=SMALL, va="center", linespacing=1.35)
+        figure.text(LEFT / WIDTH, BOTTOM / height, lines, fontsize=SMALL, va="center", linespacing=1.35)
         draw(figure)
     return figure
 
 
-def box(figure: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
-    """Return axes in a box of the page, mm."""
-    return figure.add_axes((left / WIDTH, bottom / HEIGHT, width / WIDTH, height / HEIGHT))
+def box(figure: Figure, left: float, bottom: float, width: float, height: float, tall: float = HEIGHT) -> Axes:
+    """Return axes in a box of a page `tall` mm tall, mm."""
+    return figure.add_axes((left / WIDTH, bottom / tall, width / WIDTH, height / tall))
 
 
 def saved(figures: Sequence[Figure], suffix: str) -> list[bytes]:

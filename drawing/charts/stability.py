@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -35,6 +36,9 @@ LOOKS: tuple[tuple[Any, str], ...] = (
 )
 FARTHEST = 1e3  # mm or per cent beyond which nothing is drawn
 SHOWN_DIGITS = 6
+DECADES = 1.2  # at least, of a logarithmic axis
+FEWEST_DIGITS = 3  # whole numbers of digits on the right axis; where there are fewer, halves stand between
+ROOM = 0.2  # of the axis, between special places that are named in full
 MARKED = 12  # markers along a curve
 SPOTS = {CHANGE: "chart.change", POLE: "chart.parallel", LIMIT: "chart.limit"}
 
@@ -149,11 +153,11 @@ def _curves(
 
 
 def _widen(axes: Axes) -> None:
-    """Give an axis at least one power of ten, so that it has divisions."""
+    """Give an axis at least one power of ten and a bit, so that it has divisions."""
     low, high = axes.get_ylim()
-    if high < 10.0 * low:
+    if high < 10.0**DECADES * low:
         middle = math.sqrt(low * high)
-        axes.set_ylim(middle / 10.0**0.55, middle * 10.0**0.55)
+        axes.set_ylim(middle / 10.0 ** (DECADES / 2.0), middle * 10.0 ** (DECADES / 2.0))
 
 
 def _beside(axes: Axes, ends: Mapping[str, float], looks: Mapping[str, tuple[Any, str]], words: Words) -> None:
@@ -188,13 +192,18 @@ def _beside(axes: Axes, ends: Mapping[str, float], looks: Mapping[str, tuple[Any
 def _log(axes: Axes, label: str, words: Words | None = None) -> None:
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    axes.yaxis.set_major_locator(LogLocator(10.0, subs=(1.0, 2.0, 5.0) if _decades(axes) < 2.5 else (1.0,)))
+    axes.yaxis.set_major_locator(LogLocator(10.0, subs=_steps(_decades(axes)), numticks=20))
     axes.yaxis.set_minor_formatter(NullFormatter())
     if _decades(axes) < 5.0 and words is not None:
         decimals(axes.yaxis, words)
     elif _decades(axes) < 5.0:
         axes.yaxis.set_major_formatter("{x:g}")
     _titled(axes, label)
+
+
+def _steps(decades: float) -> tuple[float, ...]:
+    """Return the numbers that a logarithmic axis names in each power of ten: the more the shorter it is."""
+    return (1.0, 2.0, 3.0, 5.0, 7.0) if decades < 1.5 else (1.0, 2.0, 5.0) if decades < 2.5 else (1.0,)
 
 
 def _titled(axes: Axes, label: str) -> None:
@@ -210,9 +219,7 @@ def _decades(axes: Axes) -> float:
 def _digits(axes: Axes, words: Words) -> None:
     """Write at the right how many digits are left."""
     low, high = (math.log10(y) for y in axes.get_ylim())
-    whole = [k for k in range(math.ceil(low), math.floor(high) + 1) if k >= 0]
-    whole = whole[:: math.ceil(len(whole) / SHOWN_DIGITS) or 1]
-    for k in whole:
+    for k in _lost(low, high):
         axes.text(
             1.008,
             (k - low) / (high - low),
@@ -223,6 +230,17 @@ def _digits(axes: Axes, words: Words) -> None:
             style="italic",
         )
     axes.text(1.008, 1.09, words["chart.digits"], transform=axes.transAxes, fontsize=SMALL, va="bottom", style="italic")
+
+
+def _lost(low: float, high: float) -> list[float]:
+    """Return how many lost digits the axis names: whole numbers where there are enough, otherwise also halves.
+
+    >>> _lost(-0.3, 1.2), _lost(0.1, 3.4)
+    ([0.0, 0.5, 1.0], [1.0, 2.0, 3.0])
+    """
+    whole, halves = ([k / n for k in range(math.ceil(low * n), math.floor(high * n) + 1) if k >= 0] for n in (1, 2))
+    found = whole if len(whole) >= FEWEST_DIGITS else halves
+    return found[:: math.ceil(len(found) / SHOWN_DIGITS) or 1]
 
 
 def _along(axes: Axes, along: Abscissa, x: Array) -> None:
@@ -266,9 +284,10 @@ def _named(axes: Axes, spots: Sequence[Spot], along: Abscissa, words: Words) -> 
             dead.setdefault(x, []).append(spot.link or 0)
         elif words[SPOTS[spot.kind]] not in texts.setdefault(x, []):
             texts[x].append(words[SPOTS[spot.kind]])
-    for x, links in dead.items():
-        texts.setdefault(x, []).insert(0, words["chart.dead"].format(links=", ".join(map(str, links))))
     low, high = axes.get_xlim()
+    roomy = all((b - a) / (high - low) >= ROOM for a, b in pairwise(sorted({*texts, *dead})))
+    for x, links in dead.items():
+        texts.setdefault(x, []).insert(0, _dead(links, roomy, words))
     last, row = -math.inf, 0
     for x, said in sorted(texts.items()):
         row = row + 1 if (x - last) / (high - low) < 0.09 else 0
@@ -283,3 +302,8 @@ def _named(axes: Axes, spots: Sequence[Spot], along: Abscissa, words: Words) -> 
             va="bottom",
         )
         last = x
+
+
+def _dead(links: Sequence[int], roomy: bool, words: Words) -> str:
+    key = "chart.dead" if not roomy else "chart.dead_position" if len(links) == 1 else "chart.dead_positions"
+    return words[key].format(links=", ".join(map(str, links)))
