@@ -78,18 +78,23 @@ def summary(results: Sequence[Result], language: str) -> str:
     said = texts(language)
     marks = [result.mark for result in results if result.mark is not None]
     mean = sum(marks) / len(marks) if marks else 0.0
-    return said["class.summary"].format(n=len(results), marked=len(marks), mean=f"{mean:.1f}")
+    return said["class.summary"].format(n=len(results), marked=len(marks), mean=_number(f"{mean:.1f}", language))
 
 
 def class_lines(results: Sequence[Result], language: str) -> Iterator[str]:
     """Go through what is printed of a class: a line per student, then the whole."""
     width = max((len(_called(result)) for result in results), default=0)
     for result, flags in zip(results, flags_of(results, language), strict=True):
-        mark = "–" if result.mark is None else f"{result.mark:g}"
+        mark = "–" if result.mark is None else _number(f"{result.mark:g}", language)
         told = [result.first and texts(language)["class.feedback_first"].format(symbol=result.first)]
         told += [", ".join(result.mistakes), *flags, *(result.notes if result.mark is None else ())]
         yield f"{_called(result):{width}}  {mark:>5}  {'  '.join(filter(None, told))}".rstrip()
     yield summary(results, language)
+
+
+def _number(text: str, language: str) -> str:
+    """Return a number with the decimal sign of the language, as the files have it."""
+    return text if language == "en" else text.replace(".", ",")
 
 
 def _called(result: Result) -> str:
