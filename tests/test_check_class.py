@@ -85,7 +85,7 @@ def test_a_class_gets_tables_reports_and_grades(tmp_path: Path, capsys: pytest.C
     assert (status, err) == (0, "")
     assert "students: 5, marked: 5" in printed
     assert len(list(out.glob("*.html"))) == len(list(out.glob("*.txt"))) == 5
-    assert {path.name for path in out.iterdir() if path.name.startswith(".")} == set()
+    assert [path.name for path in out.iterdir() if path.name.startswith(".")] == [class_run.REPORTS_NOTED]
     sheet = openpyxl.load_workbook(tables[0]).active
     assert sheet is not None
     rows = list(sheet.iter_rows(values_only=True))
@@ -121,6 +121,19 @@ def test_a_file_that_cannot_be_read_does_not_stop_the_others(
     bad = next(row for row in csv.reader(marks.read_text(encoding="utf-8-sig").splitlines()) if "bad.csv" in row[-2])
     assert bad[-3].startswith("not read: ")
     assert bad[7] == ""
+
+
+def test_marks_on_the_screen_have_the_decimal_sign_of_the_language(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class_file(tmp_path, 2, drawn=False)
+    rubric = tmp_path / "rubric.toml"
+    rubric.write_text("out_of = 97.5\n", encoding="utf-8")
+
+    _, out, _ = run(capsys, str(tmp_path / "class.csv"), "--rubric", str(rubric), "--lang", "uk")
+
+    assert "97,5" in out
+    assert "97.5" not in out
 
 
 def test_a_pattern_names_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -184,6 +197,22 @@ def test_a_stopped_run_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.
     assert not journal.exists()
     assert results == mark_class(job(), answers, lambda number: None, jobs=1) or len(results) == 12
     assert all((folder / name).is_file() for result in results for name in result.reports)
+
+
+def test_reports_of_students_who_are_no_longer_there_are_removed(tmp_path: Path) -> None:
+    answers, folder = handed_in(class_file(tmp_path, 4)), tmp_path / "reports"
+    folder.mkdir()
+    foreign = folder / "004-Student-09.html"
+    foreign.write_text("somebody's own", encoding="utf-8")
+    mark_class(job(folder), answers, lambda number: None, jobs=1)
+    changed = folder / "004-Student-04.txt"
+    changed.write_text("with remarks", encoding="utf-8")
+
+    mark_class(job(folder), answers[:1] + answers[2:3], lambda number: None, jobs=1)
+
+    stems = {"001-Student-01.html", "001-Student-01.txt", "002-Student-03.html", "002-Student-03.txt"}
+    there = {path.name for path in folder.iterdir() if path.suffix in (".html", ".txt")}
+    assert there == {*stems, foreign.name, changed.name}
 
 
 def test_changed_answers_are_marked_again(tmp_path: Path) -> None:

@@ -29,6 +29,7 @@ from .result import Result, failed, result_of
 
 TOGETHER = 8  # students that a process is given at once
 ALONE = 16  # students for whom no process is started
+REPORTS_NOTED = ".kulman-reports.json"  # which reports of a folder are the program's own
 Advance = Callable[[int], None]
 
 
@@ -82,9 +83,11 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
             if journal:
                 journal.note(number, answers[number], result)
         advance(len(numbers))
+    results = [found[number] for number in range(len(answers))]
     if journal:
         journal.finish()
-    return [found[number] for number in range(len(answers))]
+        sweep(journal.folder, results)
+    return results
 
 
 def _done(job: Job, answers: Sequence[Answers], todo: list[int], jobs: int) -> Iterator[tuple[list[int], list[Result]]]:
@@ -175,6 +178,30 @@ def slug(name: str) -> str:
     ('О-Коннор-І-3', 'x')
     """
     return re.sub(r"[^\w]+", "-", name).strip("-_")[:60] or "x"
+
+
+def sweep(folder: Path, results: Sequence[Result]) -> None:
+    """Remove the reports that the run before has written there and this one has not; note those of this one.
+
+    Only what the note names, and only if nobody has changed it since, is removed: it is the program's own.
+    """
+    noted = folder / REPORTS_NOTED
+    before: dict[str, str] = {}
+    with suppress(OSError, ValueError, TypeError):
+        before = dict(json.loads(noted.read_text(encoding="utf-8")))
+    names = {name for result in results for name in result.reports}
+    for name, digest in before.items():
+        stale = folder / Path(name).name
+        with suppress(OSError):
+            if name not in names and stale.suffix in REPORTS and _digest_of(stale) == digest:
+                stale.unlink()
+    with suppress(OSError):  # a folder that takes no note keeps its reports
+        now = {name: _digest_of(folder / name) for name in sorted(names)}
+        write_whole(noted, (json.dumps(now, indent=0) + "\n").encode("ascii"))
+
+
+def _digest_of(file: Path) -> str:
+    return hashlib.blake2s(file.read_bytes(), digest_size=12).hexdigest()
 
 
 class Journal:
