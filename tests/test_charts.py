@@ -194,7 +194,7 @@ def test_all_rows_of_accuracy_are_in_the_csv(tmp_path: Path) -> None:
         (e.method, e.kind, e.error) for e in entries
     ]
     assert {row["method"] for row in rows} >= {"plan", "plan-single", "newton", "differences", "chords", "hand"}
-    assert all(row["seconds"] == "" for row in rows if row["method"] == "hand")
+    assert all(row["seconds [s]"] == "" for row in rows if row["method"] == "hand")
 
 
 def test_json_holds_the_charts_in_si(capsys: pytest.CaptureFixture[str]) -> None:
@@ -208,6 +208,22 @@ def test_json_holds_the_charts_in_si(capsys: pytest.CaptureFixture[str]) -> None
     assert data["stability"]["quantities"]["V_B"]["unit"] == "mm"
     assert data["depth"]["needed"] == ["F_i2", "M_i2", "F_i3"]
     assert {cost["without"] for cost in data["depth"]["costs"]} >= {"F_i2", "inertia"}
+
+
+@pytest.mark.usefixtures("quick")
+def test_places_have_units_in_csv_and_lie_within_a_turn_in_json() -> None:
+    found = chart(TASK, positions=6)
+    heads = [one.csv(found.words).decode("utf-8").split("\r\n")[0].split(",") for one in found.charts.values()]
+    data = found.to_json()
+
+    places = data["accuracy"]["places"] + data["stability"]["places"]
+    places += [
+        item["at"] for item in (*data["accuracy"]["entries"], *data["stability"]["spots"], *data["depth"]["costs"])
+    ]
+    assert all("place [deg]" in head for head in heads)
+    assert "seconds [s]" in heads[0]
+    assert "balance_max [%]" in heads[2]
+    assert all(0.0 <= place < math.tau for place in places)
 
 
 def test_a_chart_that_the_task_cannot_have_is_left_out_with_a_word(capsys: pytest.CaptureFixture[str]) -> None:

@@ -20,13 +20,14 @@ from ..plans.linkages.cycle import Cycle
 from ..plans.linkages.hand_drawn import DrawnSheet, by_hand
 from ..scales.choices import SIZES
 from ..scales.errors import InputError
-from .chart_data import Cell, Scene, aligned, as_csv, finite, place_value, short, wrapped
+from .chart_data import Cell, Scene, aligned, as_csv, finite, place_column, place_si, place_value, short, wrapped
 from .sheets import scales_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-HEAD = ("method", "setting", "kind", "error", "typical", "quantity", "place", "seconds", "at_once", "failed", "front")
+HEAD = ("method", "setting", "kind", "error", "typical", "quantity")  # errors in parts of the largest: without a unit
+TIMES = ("seconds [s]", "at_once", "failed", "front")
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -65,7 +66,7 @@ class AccuracyChart:
         """Return all entries."""
         fronts = {id(entry) for kind in self.contest.kinds for entry in self.contest.front(kind.name)}
         rows = [self._row(entry, id(entry) in fronts) for entry in self.contest.entries]
-        return as_csv(HEAD, rows, words)
+        return as_csv((*HEAD, place_column(self.cycle), *TIMES), rows, words)
 
     def _row(self, e: Entry, front: bool) -> list[Cell]:
         at = place_value(self.cycle, e.place)
@@ -77,7 +78,7 @@ class AccuracyChart:
         return {
             "machine": machine(Words.of("en", self.scene.case.task.notation)),
             "hand": self.scene.hand,
-            "places": self.contest.places.tolist(),
+            "places": [place_si(self.cycle, at) for at in self.contest.places],
             "entries": [self._item(entry) for entry in self.contest.entries],
         }
 
@@ -89,7 +90,7 @@ class AccuracyChart:
             "error": finite(entry.error),
             "typical": finite(entry.typical),
             "quantity": entry.name,
-            "at": entry.place,
+            "at": place_si(self.cycle, entry.place),
             "seconds": finite(entry.seconds),
             "at_once": entry.at_once,
             "failed": entry.failed,

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from ..drawing.words import Words
 from ..plans.hand import preset
+from ..plans.laws import TURN
 from ..plans.linkages.cycle import Cycle
 from ..scales.units import format_unit, unit
 from .case import Case
@@ -55,6 +56,16 @@ def place_head(cycle: Cycle, words: Words) -> str:
 def place_value(cycle: Cycle, at: float) -> float:
     """Return a place of the driver in the unit of `place_head`."""
     return float(round(unit("deg").from_si(at) % 360.0, 9) % 360.0 if cycle.drive.turns else at * 1e3)
+
+
+def place_column(cycle: Cycle) -> str:
+    """Return the head of a CSV's column with places of the driver."""
+    return f"place [{'deg' if cycle.drive.turns else 'mm'}]"
+
+
+def place_si(cycle: Cycle, at: float) -> float:
+    """Return a place of the driver for JSON: an angle in [0, 2 pi), or metres."""
+    return float(at % TURN % TURN) if cycle.drive.turns else float(at)  # -1e-17 % TURN is TURN
 
 
 def short(words: Words, value: float | None, digits: int = DIGITS) -> str:

@@ -10,12 +10,24 @@ from ..drawing.words import Words
 from ..plans.linkages.cycle import Cycle
 from ..plans.linkages.depth import Cost, Depth, depth
 from ..plans.quantities import unit_of
-from .chart_data import Cell, Scene, aligned, as_csv, finite, place, place_head, place_value, short
+from .chart_data import (
+    Cell,
+    Scene,
+    aligned,
+    as_csv,
+    finite,
+    place,
+    place_column,
+    place_head,
+    place_si,
+    place_value,
+    short,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-HEAD = ("without", "parts", "balance_max_%", "balance_rms_%", "reaction_max_%", "reaction_rms_%", "place")
+HEAD = ("without", "parts", "balance_max [%]", "balance_rms [%]", "reaction_max [%]", "reaction_rms [%]")
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -52,7 +64,7 @@ class DepthChart:
             [c.key, " ".join(c.parts), c.balance, c.balance_rms, c.reaction, c.reaction_rms, self._place(c)]
             for c in self.found.costs
         ]
-        return as_csv(HEAD, rows, words)
+        return as_csv((*HEAD, place_column(self.cycle)), rows, words)
 
     def _place(self, cost: Cost) -> float:
         return place_value(self.cycle, cost.place)
@@ -71,7 +83,16 @@ class DepthChart:
             "needed": list(found.needed),
             "spare": list(found.spare),
             "spare_cost": found.together.worst,
-            "costs": [_item(cost) for cost in found.costs],
+            "costs": [self._item(cost) for cost in found.costs],
+        }
+
+    def _item(self, cost: Cost) -> dict[str, Any]:
+        return {
+            "without": cost.key,
+            "parts": list(cost.parts),
+            "balance": {"max": cost.balance, "rms": cost.balance_rms},
+            "reaction": None if cost.reaction is None else {"max": cost.reaction, "rms": finite(cost.reaction_rms)},
+            "at": place_si(self.cycle, cost.place),
         }
 
     def figure(self, words: Words) -> Figure:
@@ -79,16 +100,6 @@ class DepthChart:
         from ..drawing.charts.depth import depth_page
 
         return depth_page(self.found, words, self.scene.title("chart.depth"))
-
-
-def _item(cost: Cost) -> dict[str, Any]:
-    return {
-        "without": cost.key,
-        "parts": list(cost.parts),
-        "balance": {"max": cost.balance, "rms": cost.balance_rms},
-        "reaction": None if cost.reaction is None else {"max": cost.reaction, "rms": finite(cost.reaction_rms)},
-        "at": cost.place,
-    }
 
 
 def depth_chart(scene: Scene, cycle: Cycle, tolerance: float) -> DepthChart:

@@ -18,7 +18,20 @@ from ..plans.linkages.solved import solve_linkage
 from ..plans.linkages.stability import DEAD, Stability, stability
 from ..plans.quantities import BALANCES
 from ..scales.errors import InputError
-from .chart_data import Cell, Scene, aligned, as_csv, finite, place, place_head, place_value, short, wrapped
+from .chart_data import (
+    Cell,
+    Scene,
+    aligned,
+    as_csv,
+    finite,
+    place,
+    place_column,
+    place_head,
+    place_si,
+    place_value,
+    short,
+    wrapped,
+)
 from .columns import driver_name
 
 if TYPE_CHECKING:
@@ -89,7 +102,7 @@ class StabilityChart:
     def csv(self, words: Words) -> bytes:
         """Return all positions."""
         found, names = self.found, tuple(self.found.conditions)
-        head = [place_head(self.cycle, words).replace(", ", " [") + "]", "status", "sine", "angle [deg]", "worst"]
+        head = [place_column(self.cycle), "status", "sine", "angle [deg]", "worst"]
         for name in names:
             head += [f"K_{name}", f"digits_{name}", f"miss_{name} [{'mm' if found.in_mm[name] else '%'}]"]
         rows = []
@@ -108,7 +121,7 @@ class StabilityChart:
         return {
             "hand": self.scene.hand,
             "scales": dict(self.scales),
-            "places": found.places.tolist(),
+            "places": [place_si(self.cycle, at) for at in found.places],
             "statuses": list(found.statuses),
             "sines": [finite(value) for value in found.sines],
             "worst": list(found.worst),
@@ -121,7 +134,9 @@ class StabilityChart:
                 }
                 for name in found.conditions
             },
-            "spots": [{"kind": spot.kind, "at": spot.place, "link": spot.link} for spot in found.spots],
+            "spots": [
+                {"kind": spot.kind, "at": place_si(self.cycle, spot.place), "link": spot.link} for spot in found.spots
+            ],
         }
 
     def figure(self, words: Words) -> Figure:

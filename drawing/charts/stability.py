@@ -203,7 +203,7 @@ def _log(axes: Axes, label: str, words: Words | None = None) -> None:
 
 def _steps(decades: float) -> tuple[float, ...]:
     """Return the numbers that a logarithmic axis names in each power of ten: the more the shorter it is."""
-    return (1.0, 2.0, 3.0, 5.0, 7.0) if decades < 1.5 else (1.0, 2.0, 5.0) if decades < 2.5 else (1.0,)
+    return (1.0, 2.0, 3.0, 5.0, 7.0) if decades < 1.5 else (1.0, 2.0, 5.0) if decades < 3.0 else (1.0,)
 
 
 def _titled(axes: Axes, label: str) -> None:
