@@ -88,7 +88,8 @@ class Words:
 
     def short(self, value: float, digits: int = 12) -> str:
         """Return a number as short as it is, such as a given."""
-        return self.decimal(f"{value:.{digits}g}" if 1e-4 <= abs(value) < 1e15 or value == 0 else _plain(value, digits))
+        short = 1e-4 <= abs(value) < 10.0 ** min(digits, 15) or value == 0
+        return self.decimal(f"{value:.{digits}g}" if short else _plain(value, digits))
 
     def decimal(self, text: str) -> str:
         """Write the decimal sign and the minus of the language."""
@@ -240,7 +241,7 @@ def _split(symbol: str) -> tuple[str, str]:
 
 
 def _plain(value: float, digits: int) -> str:
-    """Return a small number without an exponent."""
+    """Return a very small or a large number without an exponent."""
     decimals = min(max(digits - 1 - math.floor(math.log10(abs(value))), 0), 40)
     text = f"{value:.{decimals}f}"
     return text.rstrip("0").rstrip(".") if decimals else text

@@ -9,6 +9,7 @@ import pytest
 from kulman import check
 from kulman.tests.marking_cases import key, right_answers
 from kulman.variants.marking.answers import Answers
+from kulman.variants.marking.report_html import report_html
 
 TASK = "nau-slider-crank"
 HEAD = "величина;відрізок, мм;масштаб;значення;одиниця;напрям\n"
@@ -50,6 +51,18 @@ def test_answers_to_another_variant_are_told(tmp_path: Path, rows: str, flags: t
 
     assert report.flags == flags
     assert own.flags == ()
+
+
+def test_a_page_sets_scripts_and_writes_numbers_and_directions_in_full(tmp_path: Path) -> None:
+    rows = "V_B;;;5,6;;359,98\na_BA_n;;;9;;\nF_3;;;78612;;0\n"
+
+    page = report_html(check(TASK, "3", lang="en").mark(read(tmp_path, rows, "3")))
+
+    assert "<td>a<sup>n</sup><sub>BA</sub></td>" in page
+    assert "a^n_BA" not in page
+    assert "78610 N; 0°" in page.replace("78612", "78610")
+    assert "360°" not in page
+    assert "e+" not in page
 
 
 SCALED = "mu_a;;1,07;;;\na_A;80;;856;;\na_BA_n;4,4;;47,4;;\na_BA_t;69,9;;748;;\na_BA;70,1;;750;;\na_S2;59;;631;;\n"

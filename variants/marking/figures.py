@@ -11,11 +11,12 @@ from ...drawing.linkages.reading import read
 from ...plans.board import POSITION
 from ...plans.marking.verdicts import Line, Verdict
 from .marked import Marked
-from .wording import plain, texts
+from .wording import plain, set_scripts, texts
 
 SIZE = 150.0  # mm, of the longer side of a plan
 MARGIN = 10.0
 LEAST = 1e-9  # part of a plan's size below which a vector is a point
+RAISED, LOWERED = (f'<tspan baseline-shift="{shift}" font-size="2.5">{{}}</tspan>' for shift in ("super", "sub"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +107,7 @@ def _shape(vector: Vector, tail: complex, tip: complex, least: float) -> str:
     if vector.line is not None:
         middle = (tail + tip) / 2
         mark = " ✗" if faulty else "" if vector.line.verdict is Verdict.RIGHT else " ✓"
-        text = escape(vector.symbol) + mark
+        text = set_scripts(escape(vector.symbol), RAISED, LOWERED) + mark
         label = f'<text class="{kind}" x="{middle.real + 1:.2f}" y="{middle.imag - 1:.2f}">{text}</text>'
     line = f'<path class="{kind}" d="M{tail.real:.2f} {tail.imag:.2f}L{tip.real:.2f} {tip.imag:.2f}"/>'
     return f'{line}<path class="{kind} tip" d="{arrow}"/>{label}'

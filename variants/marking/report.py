@@ -19,6 +19,7 @@ from .wording import letter, mistake_texts, plain, texts
 DIGITS, SCALE_DIGITS = 4, 3
 ROUNDING, TOLD = 1e-9, 0.2  # parts of a tolerance: what is nothing, and what is worth telling
 SHOWN_CANDIDATES = 3
+TURNED = ("M08", "M09", "M10")  # mistakes that put the crank at another angle
 AGAIN = {
     **dict.fromkeys(("meet", "tangent"), "again.meet"),
     **dict.fromkeys(("lay", "back", "chain", "same"), "again.lay"),
@@ -189,6 +190,9 @@ class _Teller:
     def mistake(self, broken: Broken) -> str:
         """Return what was done, and where."""
         text, where = mistake_texts(self.language)[broken.mistake], self._where(broken.at)
+        angle = broken.givens.get(broken.at) if broken.mistake in TURNED else None
+        if isinstance(angle, float):
+            where = self.said["report.crank"].format(symbol=where, angle=self._degrees(angle))
         told = self.said["report.candidate"].format(text=text, at=where) if where else text
         return f"{broken.mistake}: {told}"
 
@@ -249,7 +253,7 @@ class _Teller:
         return "; ".join(parts)
 
     def _degrees(self, radians: float) -> str:
-        return f"{self.words.short(round(math.degrees(radians) % 360.0, 1), DIGITS)}°"
+        return f"{self.words.short(round(math.degrees(radians), 1) % 360.0, DIGITS)}°"
 
     def _right(self, line: Line) -> str:
         """Return the right value, and what follows from the answers before it where that is another one."""

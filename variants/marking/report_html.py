@@ -8,7 +8,7 @@ from html import escape
 from ...plans.marking.verdicts import Verdict
 from .figures import plan_figures
 from .report import Report, Row
-from .wording import texts
+from .wording import set_scripts, texts
 
 SIGNS = {Verdict.RIGHT: "✓", Verdict.CARRIED: "(✓)", Verdict.MISSING: "–"}
 STYLE = """
@@ -17,6 +17,7 @@ h1{font-size:15pt}h2{font-size:12pt;margin:6mm 0 2mm}
 table{border-collapse:collapse;width:100%}th,td{border:1px solid #888;padding:1mm 2mm;text-align:left}
 th{background:#eee}td.n{white-space:nowrap}tr.wrong td,tr.arithmetic td,tr.scale td{background:#fbe3d6}
 tr.missing td{color:#666}.first{font-weight:bold}
+sub,sup{font-size:70%;line-height:0}
 svg{width:100%;max-height:150mm;border:1px solid #ccc}svg path{fill:none;stroke-width:.5}
 svg path.right{stroke:#0072b2;stroke-dasharray:5 1.2 1 1.2;stroke-width:.8}svg path.own{stroke:#000}
 svg path.wrong{stroke:#d55e00;stroke-dasharray:2.5 1.2;stroke-width:.7}svg path.tip{stroke-dasharray:none}
@@ -40,11 +41,12 @@ def _body(report: Report, said: dict[str, str]) -> Iterator[str]:
     facts = (f"{escape(key)}: <b>{escape(value)}</b>" for key, value in report.facts)
     yield f"<p>{'; '.join(facts)}</p>"
     *lines, last = report.summary
-    yield f"<p>{'<br>'.join(map(escape, lines))}</p><p class='first'>{escape(last)}</p>"
+    yield f"<p>{'<br>'.join(map(escape, lines))}</p><p class='first'>{scripts(last)}</p>"
     for key in ("again", "candidates", "flags", "notes"):
         items: tuple[str, ...] = getattr(report, key)
         if items:
-            listed = "".join(f"<li>{escape(item)}</li>" for item in items)
+            written = scripts if key in ("again", "candidates") else escape  # the others have names of files
+            listed = "".join(f"<li>{written(item)}</li>" for item in items)
             yield f"<h2>{escape(said[f'report.{key}'])}</h2><ul>{listed}</ul>"
     for heading, rows in report.parts:
         yield f"<section><h2>{escape(heading)}</h2>{_table(report, rows, said)}</section>"
@@ -79,4 +81,15 @@ def _row(row: Row, own: bool) -> str:
         if own
         else (row.symbol, row.answer, row.right, row.tolerance, verdict, row.weight)
     )
-    return f'<tr class="{row.verdict}">{"".join(f"<td>{escape(cell)}</td>" for cell in cells)}</tr>'
+    symbol, *others = cells
+    listed = "".join(f"<td>{escape(cell)}</td>" for cell in others)
+    return f'<tr class="{row.verdict}"><td>{scripts(symbol)}</td>{listed}</tr>'
+
+
+def scripts(text: str) -> str:
+    """Return text as HTML, with true superscripts and subscripts of the symbols in it.
+
+    >>> scripts("a^n_BA < V_B"), scripts("F′_i2")
+    ('a<sup>n</sup><sub>BA</sub> &lt; V<sub>B</sub>', 'F′<sub>i2</sub>')
+    """
+    return set_scripts(escape(text), "<sup>{}</sup>", "<sub>{}</sub>")

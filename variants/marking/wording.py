@@ -7,6 +7,8 @@ import re
 from ...drawing.words import Words
 from ...scales.packaged import packaged
 
+SYMBOL = re.compile(r"([^\W\d_][′″]*)(?:\^([^\W_]+))?(?:_([^\W_]+))?(?![\w^])")
+
 
 def texts(language: str) -> dict[str, str]:
     """Return the texts of forms and reports, by key."""
@@ -22,6 +24,20 @@ def plain(markup: str) -> str:
     text = re.sub(r"\\bar\{([^{}]*)\}", r"\1", markup)
     text = re.sub(r"(?<![A-Z])([a-z]′*)_\{(\d+)\}$", r"\1\2", text)
     return re.sub(r"[{}]", "", text)
+
+
+def set_scripts(text: str, raised: str, lowered: str) -> str:
+    """Return escaped text with the scripts of its symbols in markup; {} stands for the script.
+
+    >>> set_scripts("a^n_BA &lt; V_B", "<sup>{}</sup>", "<sub>{}</sub>")
+    'a<sup>n</sup><sub>BA</sub> &lt; V<sub>B</sub>'
+    """
+
+    def written(found: re.Match[str]) -> str:
+        letter, above, below = found.groups()
+        return letter + (raised.format(above) if above else "") + (lowered.format(below) if below else "")
+
+    return SYMBOL.sub(written, text)
 
 
 def mistake_texts(language: str) -> dict[str, str]:
