@@ -97,7 +97,7 @@ class StabilityChart:
 
     def note(self, words: Words) -> str:
         """Return what the columns are."""
-        return words["chart.drawn"].format(hand=self.scene.hand)
+        return words["chart.drawn"].format(hand=words[f"hand.{self.scene.hand}"])
 
     def csv(self, words: Words) -> bytes:
         """Return all positions."""

@@ -95,7 +95,7 @@ def stability_page(
         _named(fields[0], found.spots, along, words)
         fields[-1].set_xlabel(along.label, labelpad=1.0)
 
-    return page(title, words["chart.drawn"].format(hand=hand), draw)
+    return page(title, words["chart.drawn"].format(hand=words[f"hand.{hand}"]), draw)
 
 
 def _fields(figure: Figure, count: int) -> list[Axes]:
