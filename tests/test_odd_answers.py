@@ -65,6 +65,15 @@ def test_a_page_sets_scripts_and_writes_numbers_and_directions_in_full(tmp_path:
     assert "e+" not in page
 
 
+def test_the_force_of_a_couple_and_each_of_the_two_have_symbols_of_their_own() -> None:
+    asked = check(TASK, "3", lang="en")
+
+    symbols = asked.mark(asked.read("printed")[0]).marked.keyed.symbols
+
+    couple = [symbol for name, symbol in symbols.items() if "i2_couple" in name]
+    assert sorted(couple) == ["F′_i2", "F′_i2 = F″_i2", "F″_i2"]
+
+
 SCALED = "mu_a;;1,07;;;\na_A;80;;856;;\na_BA_n;4,4;;47,4;;\na_BA_t;69,9;;748;;\na_BA;70,1;;750;;\na_S2;59;;631;;\n"
 
 

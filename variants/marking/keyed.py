@@ -75,8 +75,12 @@ class Keyed:
 
     @cached_property
     def symbols(self) -> dict[str, str]:
-        """The symbols of all quantities as plain text."""
-        return {name: plain(self.words.symbol(name)) for name in self.solution.quantities}
+        """The symbols of all quantities as plain text; a couple's force has those of both forces, as large as it is."""
+        found = {name: plain(self.words.symbol(name)) for name in self.solution.quantities}
+        for name in [name for name in found if name.endswith("_couple")]:
+            both = sorted({found[one] for one in found if one.startswith(f"{name}_")})
+            found[name] = " = ".join(both) or found[name]
+        return found
 
     def symbol(self, name: str) -> str:
         """Return the symbol of a quantity, or of a given, as plain text."""
