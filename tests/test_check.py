@@ -240,6 +240,17 @@ def test_a_rubric_sets_tolerances(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert marked(capsys, file, "--rubric", close)["verdicts"]["V_B"] == "wrong"
 
 
+def test_a_rubric_may_require_directions(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    asked = 'asked = ["V_BA", "V_B"]\ndirections = "{}"\n'
+
+    half = marked(capsys, answers(tmp_path), "--rubric", rubric(tmp_path, asked.format("required")))
+
+    assert half["mark"] == 50.0
+    assert any("no direction" in note for note in half["notes"])
+    optional = rubric(tmp_path, asked.format("optional"))
+    assert marked(capsys, answers(tmp_path), "--rubric", optional)["mark"] == 100.0
+
+
 def test_a_rubric_limits_single_quantities(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     wide = rubric(tmp_path, '[limits]\nV_BA = "50 cm/s"\n')
     file = answers(tmp_path, {"V_BA": 2.5})
@@ -258,6 +269,7 @@ def test_a_rubric_limits_single_quantities(tmp_path: Path, capsys: pytest.Captur
         ("[limits]\nV_B = '1 kg'", "limits.V_B"),
         ("[tolerance]\nmm = true", "tolerance.mm"),
         ("weights = 3", "weights"),
+        ('directions = "maybe"', "directions"),
         ("= 3", "not a rubric in TOML"),
     ],
 )
@@ -276,7 +288,7 @@ def test_printed_answers_are_marked(capsys: pytest.CaptureFixture[str], task: st
 
     found = json.loads(out)
     assert (status, err) == (0, "")
-    assert found["notes"] == []
+    assert [note for note in found["notes"] if "no direction" not in note] == []  # sources print sizes alone
     assert found["counts"]["right"] > 15
 
 

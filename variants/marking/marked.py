@@ -89,6 +89,9 @@ class Desk:
         marking, borne = counted_once(marking, found, {line.name for line in self._counted(marking, answers)})
         lines = self._counted(marking, answers)
         marks = self.check.rubric.mark(lines)
+        told = [line for line in lines if line.answer is not None and isinstance(line.right, complex)]
+        if len(told) > 1 and all(line.answer is not None and line.answer.direction is None for line in told):
+            notes.append(InputError("marked-directions"))
         all_notes = (*answers.problems, *notes)
         fits = fits_other(marking, given, self._others(variant), lambda other: self.keyed(other, settings).key)
         return Marked(answers, entry, key, marking, candidates, lines, marks, all_notes, borne, fits)

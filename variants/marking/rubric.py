@@ -10,6 +10,7 @@ from typing import Any
 
 from ...plans.hand import Tolerance, preset
 from ...plans.marking.verdicts import Line, Verdict
+from ...plans.quantities import unit_of
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
@@ -24,6 +25,9 @@ WORTH = {
     Verdict.WRONG: 0.0,
     Verdict.MISSING: 0.0,
 }
+DIRECTIONS = ("optional", "required")
+SIZE_ALONE = 0.5  # part of a line's worth where a direction or sense is required and left out
+SIGNED = ("rad/s", "rad/s^2", "N*m")  # units of scalars that have a sense
 LARGEST = 100_000  # bytes
 
 
@@ -43,6 +47,8 @@ class Rubric:
         The quantities asked; all when empty.
     limits : mapping of str to float
         Tolerances of single quantities, SI.
+    directions : str
+        Whether a line without its direction or sense is worth less: "required", or "optional".
     """
 
     tolerance: Tolerance
@@ -51,6 +57,7 @@ class Rubric:
     worth: Mapping[Verdict, float] = field(default_factory=lambda: WORTH)
     asked: tuple[str, ...] = ()
     limits: Mapping[str, float] = field(default_factory=dict)
+    directions: str = DIRECTIONS[0]
 
     def weight(self, name: str) -> float:
         """Return what a quantity weighs."""
@@ -58,9 +65,25 @@ class Rubric:
 
     def mark(self, lines: Iterable[Line]) -> float:
         """Return the mark, to a tenth."""
-        weights = [(self.weight(line.name), self.worth[line.verdict]) for line in lines]
+        weights = [(self.weight(line.name), self._worth(line)) for line in lines]
         total = sum(weight for weight, _ in weights)
         return round(self.out_of * sum(weight * worth for weight, worth in weights) / total, 1) if total else 0.0
+
+    def _worth(self, line: Line) -> float:
+        """Return what a line is worth, in parts of its weight."""
+        less = self.directions == "required" and wants_direction(line)
+        return self.worth[line.verdict] * (SIZE_ALONE if less else 1.0)
+
+
+def wants_direction(line: Line) -> bool:
+    """Whether an answer leaves out the direction of a vector, or the sense of a scalar that has one."""
+    answer = line.answer
+    if answer is None or answer.empty or not line.right:
+        return False
+    if isinstance(line.right, complex):
+        return answer.direction is None
+    signed = unit_of(line.name) in SIGNED and not (answer.value or 0.0) < 0.0
+    return signed and answer.sense is None
 
 
 def read_rubric(file: str | Path | None, preset_name: str, asked: Asked) -> Rubric:
@@ -68,6 +91,7 @@ def read_rubric(file: str | Path | None, preset_name: str, asked: Asked) -> Rubr
 
         out_of = 100
         asked = ["V_B", "omega_2", "a_B"]
+        directions = "required"
 
         [weights]
         a_B = 3
@@ -119,7 +143,7 @@ class _Reader:
 
     def rubric(self, tolerance: Tolerance) -> Rubric:
         """Return what the file says."""
-        known = ("out_of", "asked", "weights", "worth", "tolerance", "limits")
+        known = ("out_of", "asked", "weights", "worth", "tolerance", "limits", "directions")
         for key in self.raw:
             if key not in known:
                 raise self._at(key, unknown("key-unknown", key, known))
@@ -136,7 +160,15 @@ class _Reader:
             {**WORTH, **worth},
             self._names(),
             self._limits(),
+            self._directions(),
         )
+
+    def _directions(self) -> str:
+        """Return whether directions and senses are required."""
+        said = self.raw.get("directions", DIRECTIONS[0])
+        if said not in DIRECTIONS:
+            raise self._at("directions", unknown("choice-unknown", str(said), DIRECTIONS))
+        return str(said)
 
     def _names(self) -> tuple[str, ...]:
         """Return the quantities asked."""
