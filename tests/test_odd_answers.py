@@ -74,6 +74,15 @@ def test_the_force_of_a_couple_and_each_of_the_two_have_symbols_of_their_own() -
     assert sorted(couple) == ["F′_i2", "F′_i2 = F″_i2", "F″_i2"]
 
 
+def test_a_direction_in_the_place_of_a_sense_is_told(tmp_path: Path) -> None:
+    found = read(tmp_path, "omega_1;;;50;;вліво\nomega_2;;;5;;+\nV_B;;;5;;вліво\n")
+
+    assert ["omega_1" in problem.text("en") for problem in found.problems] == [True]
+    assert "a sense" in found.problems[0].text("en")
+    assert found.lines["omega_1"].direction is None
+    assert found.lines["omega_1"].value == pytest.approx(50.0)
+
+
 SCALED = "mu_a;;1,07;;;\na_A;80;;856;;\na_BA_n;4,4;;47,4;;\na_BA_t;69,9;;748;;\na_BA;70,1;;750;;\na_S2;59;;631;;\n"
 
 

@@ -113,15 +113,18 @@ class _Sheet:
             return cells.bare(text, name, self.asked) if error.key.startswith("unit-") else None
 
     def direction(self, row: int, column: int | None, name: str) -> tuple[float | None, int | None]:
-        """Read an angle or a sense."""
+        """Read an angle or a sense; an angle is none that a scalar could have."""
         text = self.grid.text(row, column)
         if text in cells.NONE - {"-", "–"}:
             return None, None
         try:
-            return cells.direction(text)
+            angle, sense = cells.direction(text)
+            if angle is not None and self.asked.quantities[name].kind == "scalar":
+                raise InputError("answer-sense", text=quote(text))
         except InputError as error:
             self.refuse(row, column, name, error)
             return None, None
+        return angle, sense
 
     def add(self, line: Line, row: int, column: int | None) -> None:
         """Keep a line that says anything, the first of each name."""
