@@ -293,7 +293,7 @@ def sweep(
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> None:
     """Measure TASK over its cycle: speed against accuracy, stability, and which parts of the model it needs."""
-    from .variants.charts import chart as measured
+    from .variants.charts.charts import chart as measured
 
     language = options.pop("lang") or system_language()
     found = measured(task, set=settings, lang=language, **options)

@@ -19,7 +19,7 @@ def kulman(which: str, count: int, motion: bool, **lengths: float) -> Motion:
     """The general engine: structure, constructions, batch."""
     import numpy as np
 
-    from kulman.plans.batch import batch
+    from kulman.plans.boards.batch import batch
     from kulman.plans.linkages.chain import construct
 
     values = {"l_AD": FRAME, "l_AB": CRANK, "l_BC": ROD, "l_DC": ROCKER, **lengths}

@@ -76,7 +76,7 @@ def status(index: int) -> str:
     """Return the status that Kulman gave to a position of its last run."""
     if not CODES:
         return ""
-    from kulman.plans.exact import STATUSES
+    from kulman.plans.boards.exact import STATUSES
 
     return f", status {STATUSES[CODES[-1][index]]}"
 

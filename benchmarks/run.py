@@ -69,7 +69,7 @@ def million() -> None:
     import numpy as np
     from by_hand import four_bar_motion, slider_crank_moment
 
-    from kulman.plans.batch import batch, settle_heap
+    from kulman.plans.boards.batch import batch, settle_heap
     from kulman.plans.linkages.chain import construct
     from kulman.plans.linkages.givens import board_givens
     from kulman.variants import load_task
@@ -108,11 +108,11 @@ def main() -> None:
     from by_hand import slider_crank_moment
 
     import kulman
-    from kulman.plans.exact import run
-    from kulman.plans.hand import preset
+    from kulman.plans.boards.exact import run
+    from kulman.plans.hands.hand import preset
+    from kulman.plans.hands.shaky import Paper, draw
     from kulman.plans.linkages.chain import construct
     from kulman.plans.linkages.givens import board_givens
-    from kulman.plans.shaky import Paper, draw
 
     versions = f"Python {sys.version.split()[0]}, numpy {np.__version__}, {os.cpu_count()} cores"
     print(f"{versions}; processor time, the shortest of {RUNS} runs\n")

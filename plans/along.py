@@ -8,9 +8,9 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .batch import ArrayBoard
 from .board import Program, Step
-from .exact import STATUSES, ExactBoard, Status
+from .boards.batch import ArrayBoard
+from .boards.exact import STATUSES, ExactBoard, Status
 
 Array = NDArray[np.float64]
 Result = TypeVar("Result")

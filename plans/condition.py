@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 
 from .board import Program
-from .dual import Dual, root, slopes_of, value_of
-from .exact import ExactBoard
+from .boards.dual import Dual, root, slopes_of, value_of
+from .boards.exact import ExactBoard
 from .laws import cross, dot
-from .worth import references, results, worst_behind
+from .references import references, results, worst_behind
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from typing import Any
 from mpmath import mp, mpf
 
 from kulman.plans.board import Program
-from kulman.plans.fifty_digits import FiftyDigits
+from kulman.plans.boards.fifty_digits import FiftyDigits
 from kulman.plans.linkages.solved import Solved
 
 DIGITS = 100

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kulman.plans.batch import batch
 from kulman.plans.board import Program
+from kulman.plans.boards.batch import batch
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute

@@ -9,14 +9,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kulman.plans.hand import preset
-from kulman.plans.linkages import contest as contests
-from kulman.plans.linkages.contest import Contest, Effort, Entry, contest, places_of, truth
-from kulman.plans.linkages.cycle import Cycle, cycle
-from kulman.plans.linkages.hand_drawn import DrawnSheet, by_hand
-from kulman.plans.linkages.rivals import Rivals, kinds_of
+from kulman.plans.hands.hand import preset
+from kulman.plans.linkages.accuracy import comparison as contests
+from kulman.plans.linkages.accuracy.comparison import Contest, Effort, Entry, contest, places_of, truth
+from kulman.plans.linkages.accuracy.hand_drawn import DrawnSheet, by_hand
+from kulman.plans.linkages.accuracy.methods import Rivals, kinds_of
+from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.solved import solve_linkage
-from kulman.plans.worth import references
+from kulman.plans.references import references
 from kulman.variants.reader import load_task
 
 LITTLE = Effort((1, 10), 20)

@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman.plans.exact import run
+from kulman.plans.boards.exact import run
+from kulman.plans.linkages.accuracy.closure import Closure
+from kulman.plans.linkages.accuracy.comparison import places_of
+from kulman.plans.linkages.accuracy.contours import Pose
+from kulman.plans.linkages.accuracy.methods import Newton, Rivals, groups
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.closure import Closure
-from kulman.plans.linkages.contest import places_of
-from kulman.plans.linkages.contours import Pose
-from kulman.plans.linkages.cycle import Cycle, cycle
+from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
-from kulman.plans.linkages.rivals import Newton, Rivals, groups
 from kulman.tests.dyads import random_dyads
 from kulman.tests.linkages import (
     four_bar,

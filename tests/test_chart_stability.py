@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from kulman import solve
-from kulman.plans.hand import preset
-from kulman.plans.linkages.cycle import Cycle, cycle
-from kulman.plans.linkages.stability import CHANGE, DEAD, LIMIT, Stability, spots, stability
+from kulman.plans.hands.hand import preset
+from kulman.plans.linkages.accuracy.stability import CHANGE, DEAD, LIMIT, Stability, spots, stability
+from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.tests.linkages import four_bar, four_bar_values, slider_crank, slider_crank_values
 from kulman.variants.reader import load_task
 

@@ -21,11 +21,11 @@ from kulman import KulmanError, cli
 from kulman.drawing.charts.depth import equal
 from kulman.drawing.charts.stability import _log, _lost, _widen
 from kulman.drawing.words import Words
-from kulman.plans.linkages import contest as contests
-from kulman.plans.linkages.contest import Effort
+from kulman.plans.linkages.accuracy import comparison as contests
+from kulman.plans.linkages.accuracy.comparison import Effort
 from kulman.scales.errors import LANGUAGES
-from kulman.variants import charts
-from kulman.variants.charts import chart
+from kulman.variants.charts import charts
+from kulman.variants.charts.charts import chart
 
 TASK = "nau-slider-crank"
 BOTH = ("stability", "depth")
@@ -42,7 +42,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     little = partial(charts.accuracy_chart, effort=Effort((1, 10), 20))
     monkeypatch.setattr(charts, "accuracy_chart", little)
     monkeypatch.setattr(contests, "ROUNDS", 1)
-    monkeypatch.setattr("kulman.variants.chart_accuracy.SIZES", ("A4",))
+    monkeypatch.setattr("kulman.variants.charts.accuracy.SIZES", ("A4",))
 
 
 def run(arguments: list[str], capsys: pytest.CaptureFixture[str], task: str = TASK) -> tuple[int, str, str]:
@@ -331,7 +331,7 @@ def test_what_the_document_shows_is_what_is_printed(tmp_path: Path) -> None:
 
 def test_tables_need_no_picture() -> None:
     code = (
-        "import sys\nfrom kulman.variants.charts import chart\n"
+        "import sys\nfrom kulman.variants.charts.charts import chart\n"
         f"found = chart('{TASK}', chart='stability,depth', positions=6)\nfound.table(), found.to_json()\n"
         "print([name for name in ('matplotlib', 'mpmath', 'reportlab') if name in sys.modules])"
     )

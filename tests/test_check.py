@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from kulman import check, cli, load_task, sheet, solve
-from kulman.plans.hand import PRESETS
+from kulman.plans.hands.hand import PRESETS
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.marking.checks import Check
 from kulman.variants.marking.keyed import asked_of
@@ -22,7 +22,7 @@ from kulman.variants.marking.report_json import to_json
 from kulman.variants.marking.report_text import report_text
 from kulman.variants.marking.roster import read_roster, variant_of_book
 from kulman.variants.marking.rubric import read_rubric
-from kulman.variants.marking.sheet_id import same_id, sheet_id, variant_of_id
+from kulman.variants.sheet_id import same_id, sheet_id, variant_of_id
 
 TASK = "nau-slider-crank"
 HEAD = "task;nau-slider-crank\nvariant;example\n{about}quantity;mm;mu;value;unit;direction\n"

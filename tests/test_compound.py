@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from kulman.plans.batch import batch
+from kulman.plans.boards.batch import batch
 from kulman.plans.linkages.chain import construct, hinged
 from kulman.plans.linkages.compound import PARTS, Coupler
 from kulman.plans.linkages.givens import board_givens

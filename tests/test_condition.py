@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 
 from kulman import solve
+from kulman.plans.boards.exact import run
 from kulman.plans.condition import conditions, derivatives
-from kulman.plans.exact import run
-from kulman.plans.linkages.accuracy import conditions_of, signs, varied
+from kulman.plans.linkages.accuracy.conditions import conditions_of, signs, varied
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import solve_linkage
-from kulman.plans.worth import references, results
+from kulman.plans.references import references, results
 from kulman.tests.fifty_digits import differences
 from kulman.tests.mechanisms import SEED, general_slider_crank, nau_slider_crank, nau_values, one_of
 from kulman.tests.mechanisms import random_slider_cranks as random_cranks

@@ -8,11 +8,11 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from kulman.plans.linkages.cycle import Cycle, cycle, stroke_of
-from kulman.plans.linkages.limits import Arc, limiting_places, reach
+from kulman.plans.linkages.cycles.cycle import Cycle, cycle, stroke_of
+from kulman.plans.linkages.cycles.limits import Arc, limiting_places, reach
+from kulman.plans.linkages.cycles.strokes import OutputMotion
 from kulman.plans.linkages.mechanism import Mechanism, Stroke
 from kulman.plans.linkages.solved import solve_linkage
-from kulman.plans.linkages.strokes import OutputMotion
 from kulman.scales.errors import InputError
 
 from .linkages import (

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from kulman.plans.linkages.cycle import cycle
-from kulman.plans.linkages.limits import reach
+from kulman.plans.linkages.cycles.cycle import cycle
+from kulman.plans.linkages.cycles.limits import reach
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Mechanism, Prismatic, Revolute, Start, Stroke
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.scales.errors import InputError

@@ -14,7 +14,12 @@ from kulman.cli import commands
 from kulman.drawing.words import notations
 from kulman.plans.linkages.chain import PLANS
 from kulman.scales.packaged import packaged
-from kulman.variants import checks, checks_driver, checks_givens, checks_loads, checks_mechanism, reader
+from kulman.variants import reader
+from kulman.variants.checks import basics as checks
+from kulman.variants.checks import driver as checks_driver
+from kulman.variants.checks import givens as checks_givens
+from kulman.variants.checks import loads as checks_loads
+from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
 

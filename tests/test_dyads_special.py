@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kulman.plans.batch import batch
-from kulman.plans.exact import STATUSES
+from kulman.plans.boards.batch import batch
+from kulman.plans.boards.exact import STATUSES
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute

@@ -10,14 +10,14 @@ from dataclasses import dataclass, replace
 
 import pytest
 
-from kulman.plans.exact import run
-from kulman.plans.hand import preset
+from kulman.plans.boards.exact import run
+from kulman.plans.hands.hand import preset
+from kulman.plans.hands.shaky import Paper
 from kulman.plans.marking.answers import Answer
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.marking.verdicts import Verdict, mark
 from kulman.plans.mistakes.book import Book, Signature, book, broken, signature
 from kulman.plans.mistakes.explaining import Candidate, Explanation, explain
-from kulman.plans.shaky import Paper
 from kulman.tests.marking_cases import LINKAGES, answer, key, mistakes, moves, planted, right_answers
 from kulman.tests.mechanisms import SEED
 from kulman.tests.test_mistakes import (

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from kulman.plans.graphs import chords, differentiate, middles, pole_distance
-from kulman.plans.linkages.cycle import cycle
-from kulman.plans.linkages.diagrams import diagrams
+from kulman.plans.linkages.cycles.cycle import cycle
+from kulman.plans.linkages.cycles.diagrams import diagrams
 from kulman.plans.linkages.field import velocities, velocity_field
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import solve_linkage

@@ -139,4 +139,4 @@ def test_nothing_heavy_is_loaded(code: str) -> None:
 
 
 def test_heavy_package_is_noticed() -> None:
-    assert loaded("import kulman.plans.batch") == {"numpy"}
+    assert loaded("import kulman.plans.boards.batch") == {"numpy"}

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman.plans.batch import batch
+from kulman.plans.boards.batch import batch
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import (

@@ -11,7 +11,7 @@ from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
-from kulman.variants.sweeps import sweep
+from kulman.variants.sweeps.sweeps import sweep
 from kulman.variants.task import Task
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "docs" / "examples"

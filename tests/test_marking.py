@@ -13,7 +13,7 @@ import pytest
 
 import kulman.plans.marking
 import kulman.plans.mistakes
-from kulman.plans.hand import preset
+from kulman.plans.hands.hand import preset
 from kulman.plans.marking.answers import Answer
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.marking.verdicts import Marking, Verdict, mark

@@ -12,13 +12,13 @@ from typing import Any
 import pytest
 
 from kulman import solve
-from kulman.plans.exact import run
+from kulman.plans.boards.exact import run
+from kulman.plans.hands.shaky import Paper
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Mechanism, Prismatic, Revolute
 from kulman.plans.mistakes.book import CHAPTERS, MISTAKES, broken
 from kulman.plans.mistakes.rules import Broken, Scene, breaks
-from kulman.plans.shaky import Paper
 from kulman.tests.marking_cases import mistakes
 from kulman.tests.mechanisms import ORIGIN
 

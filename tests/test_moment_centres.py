@@ -12,14 +12,14 @@ import pytest
 
 from kulman import sheet, solve
 from kulman.plans.board import Program, Step
-from kulman.plans.errors import sensitivities
-from kulman.plans.exact import SMALL, run
-from kulman.plans.hand import preset
+from kulman.plans.boards.exact import SMALL, run
+from kulman.plans.hands.hand import preset
+from kulman.plans.hands.sensitivities import sensitivities
+from kulman.plans.hands.shaky import Paper
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.moment_centres import TWICE, sines_of, with_moment_centres
+from kulman.plans.linkages.dyads.moment_centres import TWICE, sines_of, with_moment_centres
 from kulman.plans.linkages.solved import Solved, solve_linkage
-from kulman.plans.shaky import Paper
-from kulman.plans.worth import references
+from kulman.plans.references import references
 from kulman.tests.dyads import random_dyads
 from kulman.tests.linkage_cases import Linkage
 from kulman.tests.linkage_points import linkage_faults

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman.plans.batch import batch
-from kulman.plans.exact import STATUSES, run
+from kulman.plans.boards.batch import batch
+from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.givens import board_givens
 from kulman.tests.mechanisms import SEED, Solved, general_slider_crank, one_of, random_slider_cranks, solved
 

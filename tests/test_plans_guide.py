@@ -15,7 +15,7 @@ import math
 
 import pytest
 
-from kulman.plans.exact import ExactBoard, run
+from kulman.plans.boards.exact import ExactBoard, run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.structure import analyse

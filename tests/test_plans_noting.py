@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman.plans.arithmetic import Real, Tape, Vector
-from kulman.plans.batch import ArrayBoard, batch
 from kulman.plans.board import Program, Step
-from kulman.plans.chunks import Chunks, Store
-from kulman.plans.exact import run
+from kulman.plans.boards.arithmetic import Real, Tape, Vector
+from kulman.plans.boards.batch import ArrayBoard, batch
+from kulman.plans.boards.chunks import Chunks, Store
+from kulman.plans.boards.exact import run
 from kulman.plans.laws import LAWS, cross, dot
 
 ARRAYS = {name: np.array(values) for name, values in {"x": [3.0, -2.0, 0.5], "y": [7.0, 0.25, -8.0]}.items()}

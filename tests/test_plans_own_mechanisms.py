@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from kulman.plans.batch import batch
-from kulman.plans.exact import run
+from kulman.plans.boards.batch import batch
+from kulman.plans.boards.exact import run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Link, Load, Mechanism, Prismatic, Revolute

@@ -8,9 +8,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from kulman.plans.batch import ArrayBoard
-from kulman.plans.exact import ExactBoard
-from kulman.plans.protractor import FARTHEST, MARKS, graduation
+from kulman.plans.boards.batch import ArrayBoard
+from kulman.plans.boards.exact import ExactBoard
+from kulman.plans.boards.protractor import FARTHEST, MARKS, graduation
 
 
 def turn(angle: float) -> complex:

@@ -8,7 +8,7 @@ import pytest
 from mpmath import mp, mpf
 
 from kulman.plans.board import Program
-from kulman.plans.exact import ExactBoard, run
+from kulman.plans.boards.exact import ExactBoard, run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman.plans.batch import ArrayBoard
 from kulman.plans.board import Program
-from kulman.plans.exact import STATUSES, ExactBoard, run
+from kulman.plans.boards.batch import ArrayBoard
+from kulman.plans.boards.exact import STATUSES, ExactBoard, run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.tests.mechanisms import (

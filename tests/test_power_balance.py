@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from kulman.plans.batch import batch
 from kulman.plans.board import Program
+from kulman.plans.boards.batch import batch
 from kulman.plans.linkages.chain import construct, moving_bodies
+from kulman.plans.linkages.cycles.swept import swept
 from kulman.plans.linkages.mechanism import FORCE, Driver, Link, Mechanism
-from kulman.plans.linkages.swept import swept
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
 from kulman.variants.task import Task

@@ -17,16 +17,16 @@ from mpmath import mp
 
 from kulman import solve
 from kulman.plans.board import Program
+from kulman.plans.boards.exact import run
+from kulman.plans.boards.fifty_digits import DIGITS, fifty_digits
 from kulman.plans.condition import derivatives
-from kulman.plans.exact import run
-from kulman.plans.fifty_digits import DIGITS, fifty_digits
 from kulman.plans.laws import LAWS, TURN
-from kulman.plans.linkages.accuracy import signs
+from kulman.plans.linkages.accuracy.conditions import signs
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.limits import Reach, reach_of
-from kulman.plans.linkages.strokes import output_motions
-from kulman.plans.linkages.swept import Swept, swept
-from kulman.plans.worth import references, results
+from kulman.plans.linkages.cycles.limits import Reach, reach_of
+from kulman.plans.linkages.cycles.strokes import output_motions
+from kulman.plans.linkages.cycles.swept import Swept, swept
+from kulman.plans.references import references, results
 from kulman.tests.dyads import random_dyads
 from kulman.tests.mechanisms import one_of
 from kulman.variants.shelf import bundled

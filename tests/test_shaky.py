@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 
 from kulman import solve
 from kulman.plans.board import Program
-from kulman.plans.errors import sensitivities
-from kulman.plans.exact import run
-from kulman.plans.hand import PRESETS, Hand, preset
-from kulman.plans.linkages.accuracy import paper_of
+from kulman.plans.boards.exact import run
+from kulman.plans.hands.hand import PRESETS, Hand, preset
+from kulman.plans.hands.sensitivities import sensitivities
+from kulman.plans.hands.shaky import Paper, draw
+from kulman.plans.hands.spread import drawn
+from kulman.plans.hands.tolerances import failing
+from kulman.plans.linkages.accuracy.conditions import paper_of
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
-from kulman.plans.marking.tolerances import failing
-from kulman.plans.shaky import Paper, draw
-from kulman.plans.spread import drawn
-from kulman.plans.worth import references, results
+from kulman.plans.references import references, results
 from kulman.tests.mechanisms import (
     SEED,
     Solved,

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from kulman.plans.batch import batch
-from kulman.plans.hand import Hand
+from kulman.plans.boards.batch import batch
+from kulman.plans.hands.hand import Hand
+from kulman.plans.hands.shaky import Paper, draw
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
-from kulman.plans.shaky import Paper, draw
 from kulman.tests.dyads import random_dyads
 from kulman.tests.mechanisms import SEED
 from kulman.tests.triads import random_triads

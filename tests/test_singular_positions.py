@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 from kulman import cli
-from kulman.plans.batch import batch
-from kulman.plans.exact import STATUSES
-from kulman.plans.fifty_digits import fifty_digits
-from kulman.plans.linkages.accuracy import conditions_of
+from kulman.plans.boards.batch import batch
+from kulman.plans.boards.exact import STATUSES
+from kulman.plans.boards.fifty_digits import fifty_digits
+from kulman.plans.linkages.accuracy.conditions import conditions_of
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.solved import Solved, solve_linkage
-from kulman.plans.worth import references
+from kulman.plans.references import references
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.both_sides import Limit, limits
 from kulman.tests.singular_cases import CASES

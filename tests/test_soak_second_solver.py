@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from kulman.plans.exact import run
+from kulman.plans.boards.exact import run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.tests.mechanisms import general_slider_crank, one_of, random_slider_cranks

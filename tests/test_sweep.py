@@ -15,7 +15,7 @@ import pytest
 import kulman
 from kulman import KulmanError, cli
 from kulman.scales.errors import LANGUAGES
-from kulman.variants.sweeps import Sweep
+from kulman.variants.sweeps.sweeps import Sweep
 
 TASK = "nau-slider-crank"
 SHORT_ROD = ["--set", "l_AB=20"]  # cannot reach the guide all round

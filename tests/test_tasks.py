@@ -9,8 +9,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from kulman.plans.batch import batch
-from kulman.plans.exact import STATUSES, run
+from kulman.plans.boards.batch import batch
+from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import FRAME, STROKE, WORKING, Driver, Mechanism, Prismatic, Revolute

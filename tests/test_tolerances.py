@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from kulman import solve
-from kulman.plans.hand import PRESETS, Hand, Tolerance, preset
-from kulman.plans.linkages.accuracy import paper_of
-from kulman.plans.marking.tolerances import failing, tolerances
-from kulman.plans.shaky import Paper
-from kulman.plans.spread import drawn
+from kulman.plans.hands.hand import PRESETS, Hand, Tolerance, preset
+from kulman.plans.hands.shaky import Paper
+from kulman.plans.hands.spread import drawn
+from kulman.plans.hands.tolerances import failing, tolerances
+from kulman.plans.linkages.accuracy.conditions import paper_of
 from kulman.scales.errors import InputError
 from kulman.tests.mechanisms import SEED
 from kulman.variants.solution import Solution

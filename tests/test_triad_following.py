@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman.plans.batch import batch
-from kulman.plans.exact import STATUSES, run
+from kulman.plans.boards.batch import batch
+from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Mechanism, Prismatic, Revolute, SlidingDriver, Start
 from kulman.plans.linkages.solved import Solved, solve_linkage
-from kulman.plans.linkages.triad_following import Follower, followed
-from kulman.plans.linkages.triad_special_points import with_special_points
+from kulman.plans.linkages.triads.following import Follower, followed
+from kulman.plans.linkages.triads.special_points import with_special_points
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.presses import ORIGIN, PRESS, RAM, RAM_VALUES, VALUES, press, two_presses
 

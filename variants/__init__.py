@@ -3,22 +3,22 @@
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .charts import chart as chart
+    from .charts.charts import chart as chart
     from .marking.checks import check as check
     from .reader import load_task as load_task
     from .sheets import sheet as sheet
     from .solution import solve as solve
-    from .sweeps import sweep as sweep
+    from .sweeps.sweeps import sweep as sweep
 
 __all__ = ["chart", "check", "load_task", "sheet", "solve", "sweep"]
 
 _HOMES = {
-    "chart": "charts",
+    "chart": "charts.charts",
     "check": "marking.checks",
     "load_task": "reader",
     "sheet": "sheets",
     "solve": "solution",
-    "sweep": "sweeps",
+    "sweep": "sweeps.sweeps",
 }
 
 

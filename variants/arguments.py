@@ -49,7 +49,7 @@ def positions_of(argument: str, value: int) -> int:
     InputError
         There is no cycle of so many.
     """
-    from ..plans.linkages.cycle import FEWEST, MOST  # brings numpy, which most commands do without
+    from ..plans.linkages.cycles.cycle import FEWEST, MOST  # brings numpy, which most commands do without
 
     of_kind(argument, value, (int,), "int")
     if not FEWEST <= value <= MOST:

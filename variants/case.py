@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 from ..drawing.linkages.scene import Given
 from ..drawing.words import Words
-from ..plans.exact import SMALL
+from ..plans.boards.exact import SMALL
 from ..plans.linkages.chain import require_couplers
 from ..plans.linkages.solved import Solved, scale_symbols, solve_linkage
-from ..plans.worth import pins_together, point_of
+from ..plans.references import pins_together, point_of
 from ..scales.arguments import of_kind
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
 from ..scales.display import Display
@@ -77,7 +77,7 @@ class Case:
         said = {"point": point, "angle": f"{math.degrees(math.asin(sine)):.3g}", "loss": _short(1.0 / sine)}
         if self.solved.status != "ill-conditioned":
             return (InputError("small-angle", **said),)
-        from ..plans.linkages.accuracy import worst_condition  # needs numpy, and few positions need it
+        from ..plans.linkages.accuracy.conditions import worst_condition  # needs numpy, and few positions need it
 
         quantity, condition = worst_condition(self.solved)
         said |= {"quantity": quantity, "condition": _short(condition)}

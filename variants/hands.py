@@ -11,12 +11,12 @@ from typing import Any
 
 from ..drawing.words import Words
 from ..plans.board import Program, Step
-from ..plans.expectations import DRAWINGS, SEED, Expectation, as_data, expectations
-from ..plans.hand import PRESETS, Hand, Tolerance, preset
+from ..plans.hands.expectations import DRAWINGS, SEED, Expectation, as_data, expectations
+from ..plans.hands.hand import PRESETS, Hand, Tolerance, preset
+from ..plans.hands.shaky import Paper
+from ..plans.hands.spread import Spread
 from ..plans.linkages.guides import guide_letters
 from ..plans.quantities import Quantity
-from ..plans.shaky import Paper
-from ..plans.spread import Spread
 from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.numbers import quote

@@ -23,13 +23,13 @@ from ..scales.display import AS_INSIDE, LENGTHS, METRE, PAPER, Display
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote
-from .checks import Checker, EnoughError, Field, array_of, as_is, label, one_of, record, text
-from .checks_givens import Settings, read_choices, read_givens, read_variants
-from .checks_loads import diagrams_in_order
-from .checks_mechanism import read_mechanism
-from .checks_names import Names
-from .checks_start import started
-from .checks_structure import branched, needless_branches, place_of
+from .checks.basics import Checker, EnoughError, Field, array_of, as_is, label, one_of, record, text
+from .checks.givens import Settings, read_choices, read_givens, read_variants
+from .checks.loads import diagrams_in_order
+from .checks.mechanism import read_mechanism
+from .checks.names import Names
+from .checks.start import started
+from .checks.structure import branched, needless_branches, place_of
 from .shelf import bundled, bundled_text
 from .task import WITH_FORCES, Bound, Given, LocatedError, Task
 from .toml_places import Path, Places

@@ -23,11 +23,11 @@ from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.scale import Scale
 from .case import Case, Settings, solve_case
-from .marking.sheet_id import sheet_id
+from .sheet_id import sheet_id
 from .task import Task
 
 if TYPE_CHECKING:
-    from ..plans.linkages.cycle import Cycle
+    from ..plans.linkages.cycles.cycle import Cycle
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -202,7 +202,7 @@ def _cycle(case: Case) -> Cycle | None:
     """Return the whole cycle where the task draws it; drawing a single position does not import it."""
     if "cycle" not in case.plans:
         return None
-    from ..plans.linkages.cycle import cycle
+    from ..plans.linkages.cycles.cycle import cycle
 
     values = case.task.values(case.variant, case.settings)
     return cycle(case.solved.mechanism, values, ("position", "velocity", "acceleration"))

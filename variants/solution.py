@@ -21,7 +21,7 @@ from .task import Task
 
 if TYPE_CHECKING:
     from ..plans.condition import Condition
-    from ..plans.hand import Hand
+    from ..plans.hands.hand import Hand
     from .hands import Drawing
 
 ROUNDING = 1e-14  # part of the largest quantity of a unit
@@ -268,7 +268,7 @@ def _scales(case: Case, words: Words, format: str | None) -> Mapping[str, Scale]
 
 
 def _drawing(solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:
-    from ..plans.shaky import Paper
+    from ..plans.hands.shaky import Paper
     from .hands import drawing, hand_of
 
     hand_of(hand)  # a wrong one is refused in any position
@@ -279,6 +279,6 @@ def _drawing(solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> D
 
 
 def _conditions(solved: Solved) -> dict[str, Condition]:
-    from ..plans.linkages.accuracy import conditions_of  # needs numpy, which a plain solution does without
+    from ..plans.linkages.accuracy.conditions import conditions_of  # needs numpy, which a plain solution does without
 
     return conditions_of(solved)

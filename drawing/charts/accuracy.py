@@ -8,7 +8,17 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from ...plans.linkages.contest import CHORDS, DIFFERENCES, EXTENDED, HAND, NEWTON, PLAN, SINGLE, Contest, Entry
+from ...plans.linkages.accuracy.comparison import (
+    CHORDS,
+    DIFFERENCES,
+    EXTENDED,
+    HAND,
+    NEWTON,
+    PLAN,
+    SINGLE,
+    Contest,
+    Entry,
+)
 from ..words import Words
 from .lettering import Label, put
 from .paper import BLACK, GREY, SMALL, TEXT, box, page

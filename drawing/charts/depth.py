@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ...plans.linkages.depth import Cost, Depth
+from ...plans.linkages.accuracy.depth import Cost, Depth
 from ...plans.quantities import unit_of
 from ...scales.units import format_unit
 from ..words import Words

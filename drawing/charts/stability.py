@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...plans.exact import SMALL as SMALL_SINE
+from ...plans.boards.exact import SMALL as SMALL_SINE
 from ...plans.laws import TURN
-from ...plans.linkages.limits import Arc
-from ...plans.linkages.stability import CHANGE, DEAD, DIGITS, LIMIT, POLE, Spot, Stability
+from ...plans.linkages.accuracy.stability import CHANGE, DEAD, DIGITS, LIMIT, POLE, Spot, Stability
+from ...plans.linkages.cycles.limits import Arc
 from ..words import Words
 from .paper import BLACK, GREY, LIGHT, SMALL, TEXT, box, decimals, mathtext, page
 

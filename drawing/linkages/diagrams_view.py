@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...plans.graphs import Diagrams, pole_distance
-from ...plans.linkages.cycle import Cycle
-from ...plans.linkages.diagrams import diagrams
-from ...plans.linkages.strokes import OutputMotion
+from ...plans.linkages.cycles.cycle import Cycle
+from ...plans.linkages.cycles.diagrams import diagrams
+from ...plans.linkages.cycles.strokes import OutputMotion
 from ...scales.scale import Scale, rounded, steps
 from ..diagram import Axis, Field, axes, curve
 from ..shapes import Circle, Group, Line, Pen, Polyline

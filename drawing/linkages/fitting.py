@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from ...plans.linkages.slider_runs import Runs, slider_runs
+from ...plans.linkages.cycles.slider_runs import Runs, slider_runs
 from ...plans.linkages.solved import Solved
 from ...scales.choices import SIZES
 from ...scales.choose import UNITS, Choosers, CrankScale, Fixed
@@ -25,7 +25,7 @@ from .scene import Given, Scene
 from .views import Figure, figures
 
 if TYPE_CHECKING:
-    from ...plans.linkages.cycle import Cycle
+    from ...plans.linkages.cycles.cycle import Cycle
 
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 FORCES_ONLY = 3

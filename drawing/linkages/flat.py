@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 
 from ...plans.board import POSITION
-from ...plans.exact import ILL, SMALL
-from ...plans.worth import intersections, pins_together, point_of
+from ...plans.boards.exact import ILL, SMALL
+from ...plans.references import intersections, pins_together, point_of
 from .scene import Scene
 
 LARGE = 1e4  # above it a number is written with a power of ten
@@ -24,7 +24,7 @@ def said_flat(scene: Scene, plan: str) -> Iterator[str]:
     here = {mark: sine for mark, sine in intersections(solved.program, solved.sines).items() if _plan(mark) == plan}
     mark, sine = min(here.items(), key=lambda item: item[1], default=("", 1.0))
     if 0.0 < sine < ILL:
-        from ...plans.linkages.accuracy import worst_condition  # needs numpy, and few positions need it
+        from ...plans.linkages.accuracy.conditions import worst_condition  # needs numpy, and few positions need it
 
         quantity, condition = worst_condition(solved, plan)
         said = _meeting(scene, mark, sine)

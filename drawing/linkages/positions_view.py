@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...plans.laws import dot
-from ...plans.linkages.cycle import Cycle
+from ...plans.linkages.cycles.cycle import Cycle
+from ...plans.linkages.cycles.strokes import Dead, OutputMotion
 from ...plans.linkages.mechanism import FRAME, Driver, Prismatic
 from ...plans.linkages.solved import solve_linkage
-from ...plans.linkages.strokes import Dead, OutputMotion
 from ..shapes import Circle, Line, Pen, Polyline
 from ..symbols import slider_up
 from ..view import Canvas, View

@@ -26,7 +26,7 @@ from .structure_text import structure_block
 from .tables import Part, givens_table, results_parts, results_table
 
 if TYPE_CHECKING:
-    from ...plans.linkages.cycle import Cycle
+    from ...plans.linkages.cycles.cycle import Cycle
 
 
 @dataclass(frozen=True, slots=True)

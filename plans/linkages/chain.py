@@ -31,7 +31,14 @@ NEEDS = {
 }
 Attached = list[tuple[ModuleType, AssurGroup]]
 # modules with the constructions of each kind, which a mechanism without such a group does without
-CONSTRUCTIONS = {"RRR": "rrr", "RRP": "rrp", "RPR": "rpr", "PRP": "prp", "RPP": "rpp", "III": "triad"}
+CONSTRUCTIONS = {
+    "RRR": "dyads.rrr",
+    "RRP": "dyads.rrp",
+    "RPR": "dyads.rpr",
+    "PRP": "dyads.prp",
+    "RPP": "dyads.rpp",
+    "III": "triads.triad",
+}
 DRIVERS: dict[type, str] = {Driver: "driver", SlidingDriver: "sliding_driver"}
 
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from ..board import Board, Program
-from . import rrp, rrr
+from .dyads import rrp, rrr
 from .mechanism import FRAME, ZERO, Mechanism, Revolute
 from .parts import AssurGroup, Bodies, Body, Span
 

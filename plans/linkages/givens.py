@@ -28,7 +28,7 @@ def board_givens(
         A load diagram whose places decrease, or an output without a stroke.
     """
     if mechanism.starts and follow:
-        from .triad_following import followed  # which needs numpy, and few mechanisms need it
+        from .triads.following import followed  # which needs numpy, and few mechanisms need it
 
         values = {**values, **followed(mechanism, values)}
     for diagram in mechanism.diagrams:

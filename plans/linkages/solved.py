@@ -9,14 +9,14 @@ from typing import Any
 
 from ...scales.errors import PositionError
 from ..board import POSITION, Program
-from ..exact import Status, Trouble, run
+from ..boards.exact import Status, Trouble, run
 from ..quantities import Quantity, quantities, shown_on
 from . import compound
 from .chain import USUAL, construct, hinged
+from .dyads.moment_centres import with_moment_centres
 from .givens import board_givens
 from .guides import guide_letters
 from .mechanism import ZERO, Mechanism, Prismatic, SlidingDriver
-from .moment_centres import with_moment_centres
 from .structure import TRIAD, Structure
 
 # which operands of a step are pins that must not coincide
@@ -85,7 +85,7 @@ class Solved:
             return PositionError("singular-triad", status_word="singular", link=link, legs=legs)
         given = {name: value for name, value in self.values.items() if isinstance(value, float)}
         gap = f"{trouble.gap * 1e3:.4g}"
-        from .triad_following import Follower
+        from .triads.following import Follower
 
         limits = Follower(self.mechanism, given).limits()
         if limits is None:
@@ -98,7 +98,7 @@ class Solved:
     def _apart(self, trouble: Trouble) -> PositionError:
         """Return by how much the links miss each other, and the places of the driver at which they just meet."""
         given = {name: value for name, value in self.values.items() if isinstance(value, float)}
-        from .limits import limiting_places
+        from .cycles.limits import limiting_places
 
         limits = limiting_places(self.mechanism, given)
         gap = f"{trouble.gap * 1e3:.4g}"
@@ -169,8 +169,8 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     """
     near, plans = dict[str, Any](), tuple(plans)
     if mechanism.starts:  # groups of class III need arrays, and so numpy, on the way from their start
-        from .triad_following import followed
-        from .triad_special_points import with_special_points
+        from .triads.following import followed
+        from .triads.special_points import with_special_points
 
         near = followed(mechanism, values)
         mechanism = with_special_points(mechanism, values, near)

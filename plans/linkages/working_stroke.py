@@ -13,7 +13,7 @@ from ...scales.errors import InputError
 from ..board import Board
 from .mechanism import BOTH, FRAME, STROKE, ZERO, Mechanism, Pair, Prismatic, Revolute
 from .parts import Bodies, Body, Span
-from .triad_parts import start_names
+from .triads.parts import start_names
 
 BEGIN, END = "_stroke_begin", "_stroke_end"
 PART, RATE, CHANGE = "_stroke_part", "_stroke_rate", "_stroke_change"
@@ -106,7 +106,7 @@ def stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterabl
 
     `motion` names the values on which its motion depends.
     """
-    from .strokes import stroke_of  # which sweeps constructions, and these read loads over the stroke
+    from .cycles.strokes import stroke_of  # which sweeps constructions, and these read loads over the stroke
 
     assert mechanism.stroke is not None
     sense, driver_at = mechanism.stroke.sense, mechanism.driver.coordinate

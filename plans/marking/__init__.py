@@ -4,8 +4,8 @@ The construction is run again with what the student has said. No files, no langu
 who read forms and write reports build on the functions here.
 
     >>> from kulman import solve
-    >>> from kulman.plans.hand import preset
-    >>> from kulman.plans.linkages.accuracy import paper_of
+    >>> from kulman.plans.hands.hand import preset
+    >>> from kulman.plans.linkages.accuracy.conditions import paper_of
     >>> from kulman.plans.marking.answers import Answer
     >>> from kulman.plans.marking.key import answer_key
     >>> from kulman.plans.marking.verdicts import Verdict, mark

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..board import POSITION, Step
-from ..exact import run
-from ..hand import Tolerance
+from ..boards.exact import run
+from ..hands.hand import Tolerance
+from ..hands.shaky import Paper
+from ..hands.tolerances import same_plan, tolerances
 from ..quantities import POINTS, shown_on, unit_of
-from ..shaky import Paper
-from ..worth import results, worst_behind
-from .tolerances import same_plan, tolerances
+from ..references import results, worst_behind
 
 ROUNDED = 0.005  # part of a value by which three digits are rounded
 COARSER = 2.0  # how much coarser than ours a student's own scale may be for its millimetres to count

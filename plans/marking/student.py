@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ..board import Program
-from ..exact import NAN, ExactBoard
+from ..boards.exact import NAN, ExactBoard
 from .answers import Said
 
 LAID = ("lay", "back")

@@ -1,8 +1,8 @@
 """Mistakes: constructions with one rule broken, and which of them explain a student's answers.
 
     >>> from kulman import solve
-    >>> from kulman.plans.hand import preset
-    >>> from kulman.plans.linkages.accuracy import paper_of
+    >>> from kulman.plans.hands.hand import preset
+    >>> from kulman.plans.linkages.accuracy.conditions import paper_of
     >>> from kulman.plans.marking.answers import Answer
     >>> from kulman.plans.marking.key import answer_key
     >>> from kulman.plans.marking.verdicts import mark

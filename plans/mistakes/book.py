@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..exact import SMALL, ExactBoard
+from ..boards.exact import SMALL, ExactBoard
+from ..hands.shaky import Paper
+from ..hands.tolerances import tolerances
 from ..marking.key import Key
-from ..marking.tolerances import tolerances
-from ..shaky import Paper
 from . import acceleration, forces, inputs, lever, reading, velocity
 from .rules import Broken, Mistake, Scene, breaks
 

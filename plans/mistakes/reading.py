@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from ..board import POSITION, Step
-from ..exact import run
+from ..boards.exact import run
 from .inputs import TWELFTH, angle_of_driver
 from .rules import Change, Chapter, Scene, all_scaled, constant, scaled
 

@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Any
 
 from ..board import Program, Step
-from ..shaky import Paper
+from ..hands.shaky import Paper
 
 
 @dataclass(frozen=True)

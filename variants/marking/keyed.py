@@ -8,16 +8,16 @@ from functools import cached_property
 
 from ...drawing.linkages.letters import lettered
 from ...drawing.words import Words
-from ...plans.linkages.accuracy import paper_of
+from ...plans.linkages.accuracy.conditions import paper_of
 from ...plans.marking.key import Key, answer_key
 from ...plans.mistakes.book import Book, book
 from ..case import Settings
+from ..sheet_id import sheet_id
 from ..solution import Solution, solve
 from ..task import Task
 from .answers import Asked
 from .form import Section, sections
 from .rubric import Rubric
-from .sheet_id import sheet_id
 from .wording import plain
 
 

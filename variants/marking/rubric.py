@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ...plans.hand import Tolerance, preset
+from ...plans.hands.hand import Tolerance, preset
 from ...plans.marking.verdicts import Line, Verdict
 from ...plans.quantities import unit_of
 from ...scales.errors import InputError

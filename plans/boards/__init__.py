@@ -1,0 +1,1 @@
+"""Boards that numbers are made on: one position or many, in other precisions, with derivatives."""

@@ -1,0 +1,342 @@
+"""The exact board: the steps on Python floats and complex numbers, for one position; `batch` has arrays for many.
+
+Both do the same operations in the same order, only ones that are rounded alike everywhere (no product of two complex
+numbers, which numpy fuses; no modulus by `hypot`): N positions at once equal one at a time to the last bit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from ..board import Program
+from ..laws import LAWS, cross, dot
+from .protractor import COARSE, FARTHEST, FINE, MARKS, PER_RADIAN, ROUND, TURN, graduation
+from .template import CLOSED, FOLDED, TemplateBoard
+
+SINGULAR = 1e-13  # sine of the angle of two lines below which they count as parallel
+SMALL = math.sin(math.radians(20.0))  # sine of an angle at which lines meet so flatly that a drawing loses much
+ILL = 1e-3  # sine below which three digits and more are lost: the position is called ill-conditioned
+TANGENT = 4 * 2.0**-52  # part of r^2 within which an arc touches a line
+
+Status = Literal["ok", "ill-conditioned", "singular", "no-assembly"]
+STATUSES: tuple[Status, ...] = ("ok", "ill-conditioned", "singular", "no-assembly")
+NAN = float("nan")
+
+
+@dataclass(frozen=True, slots=True)
+class Trouble:
+    """Where a construction fails: the step's name, its sine (of two lines) or its gap in metres (of an arc)."""
+
+    status: Status
+    name: str
+    sine: float = 0.0
+    gap: float = 0.0
+
+
+POLE = 0j
+RIGHT = 2.0**-50  # component of a unit direction that is rounding: the direction is at a multiple of 90 degrees
+
+
+class ExactBoard(TemplateBoard):
+    """One position on Python numbers: `values` by name, and `trouble`, the first step that cannot be done.
+
+    What hangs on a failed step becomes NaN; what does not is computed all the same. The thresholds go with the
+    precision of the numbers.
+    """
+
+    parallel, touching, closed, folded = SINGULAR, TANGENT, CLOSED, FOLDED
+
+    def __init__(self, givens: Mapping[str, Any]) -> None:
+        super().__init__()
+        self.values: dict[str, Any] = {"zero": 0.0, "one": 1.0, **givens}
+        self.sines: dict[str, float] = {}
+        self.trouble: Trouble | None = None
+        self._name = ""
+        self._operands: tuple[str, ...] = ()
+        self._sine_of: dict[tuple[str, str], Any] = {}
+
+    def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
+        """Do the step with numbers."""
+        self.perform(self.operation(verb, law), name, operands)
+
+    def operation(self, verb: str, law: str) -> Callable[..., Any]:
+        """Return what computes a step."""
+        operate: Callable[..., Any] = LAWS[law] if law else getattr(self, "_" + verb)
+        return operate
+
+    def perform(self, operate: Callable[..., Any], name: str, operands: tuple[str, ...]) -> None:
+        """Make `name` with the operation of a step."""
+        values = self.values
+        self._name, self._operands = name, operands
+        value = operate(*[values[operand] for operand in operands])
+        if type(value) is not complex:
+            value += 0.0  # zero has no sign
+        elif value is not POLE:
+            value += POLE
+        values[name] = value
+
+    def follow(self, program: Program) -> None:
+        """Do all steps of a program: what `step` does with each, without looking operations up again and again."""
+        values = self.values
+        operations: dict[tuple[str, str], Callable[..., Any]] = {}
+        for step, taken in program.prepared:
+            key = step.verb, step.law
+            operate = operations.get(key)
+            if operate is None:
+                operate = operations[key] = self.operation(*key)
+            self._name, self._operands = step.name, step.operands
+            value = operate(*(taken(values) if taken else [values[operand] for operand in step.operands]))
+            if type(value) is not complex:
+                value += 0.0
+            elif value is not POLE:
+                value += POLE
+            values[step.name] = value
+
+    # What differs between one position and many.
+
+    @staticmethod
+    def _sqrt(square: Any) -> Any:
+        return math.sqrt(square) if square >= 0.0 else NAN
+
+    @staticmethod
+    def _complex(real: Any, imag: Any) -> Any:
+        return complex(real, imag)
+
+    def _near(self, angle: Any) -> Any:
+        """Return an angle without the full turns that only cost digits."""
+        if abs(angle) < FARTHEST:
+            return angle
+        return math.fmod(angle, TURN) if math.isfinite(angle) else NAN
+
+    def _graduation(self, rounded: Any) -> tuple[Any, Any]:
+        """Return cosine and sine of a whole number of the protractor's marks, to which `ROUND` is added."""
+        if rounded != rounded:
+            return NAN, NAN
+        cosines, sines = graduation()
+        mark = int(rounded - ROUND) % MARKS
+        return cosines[mark], sines[mark]
+
+    def _upright(self, component: Any) -> Any:
+        """Return a component of a unit direction without the rounding at a multiple of 90 degrees."""
+        return 0.0 if abs(component) <= RIGHT else component
+
+    def _fail(self, status: Status, sine: float = 0.0, gap: float = 0.0) -> None:
+        if self.trouble is None:
+            self.trouble = Trouble(status, self._name, sine, gap)
+
+    def _lines_sine(self, sine: Any) -> Any:
+        """Note the sine of two lines; parallel lines do not meet."""
+        self.sines[self._name] = abs(sine)
+        if abs(sine) < self.parallel:
+            self._fail("singular", sine)
+            return NAN
+        return sine
+
+    def _half_chord(self, radius: Any, distance: Any, first: Any, second: Any) -> Any:
+        """Half the chord that a circle cuts from a line at `distance` from its centre, factored, not to cancel."""
+        square = (radius - distance) * (radius + distance)
+        return self._sqrt(self._reaches(square, radius, distance, first.real, first.imag, second.real, second.imag))
+
+    def _reaches(self, square: Any, radius: Any, distance: Any, *places: Any) -> Any:
+        """Return the square of the half chord; an arc that does not reach the line cuts no chord.
+
+        One that crosses it by no more than rounding touches it: there is no angle to draw anything with. The distance
+        is rounded as the coordinates of the `places` are from which it comes.
+        """
+        touching = self.touching * radius * (radius + sum(map(abs, places)))
+        if square < -touching:
+            self._fail("no-assembly", gap=distance - radius)
+            return NAN
+        square = 0.0 if square <= touching else square
+        self.sines[self._name] = math.sqrt(square) / radius if radius else 0.0
+        return square
+
+    def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, *places: Any) -> Any:
+        """Return Heron's product, factored, not to cancel; arcs that do not meet make no triangle.
+
+        Links in line but for rounding are in line, and pins together but for rounding coincide.
+        """
+        rounded = self.touching * (total + sum(map(abs, places)))
+        double = first * second * 2.0
+        touching = rounded * double
+        if product < -touching * total:
+            self._fail("no-assembly", gap=max(base - total, abs(first - second) - base))
+            return NAN
+        if base <= rounded:
+            self._fail("singular")
+            return NAN
+        product = 0.0 if product <= touching * base else product
+        self.sines[self._name] = math.sqrt(product) / double
+        return product
+
+    def _apart(self, distance: Any) -> Any:
+        """Two joints that coincide settle no direction."""
+        if distance == 0.0:
+            self._fail("singular")
+            return NAN
+        return distance
+
+    def _clear(self, distance: Any, size: Any) -> Any:
+        """Return the distance of two joints, which must not be rounding beside the whole mechanism."""
+        if distance <= self.parallel * size:
+            self._fail("singular")
+            return NAN
+        if distance < ILL * size:
+            self.sines[self._name] = min(self.sines[self._name], float(distance / size))
+        return distance
+
+    def _divisor(self, size: Any) -> Any:
+        """Return a size to divide by: one in the place of zero, where what is divided is known to fail."""
+        return size or 1.0
+
+    def _bears(self, size: Any, moment: Any) -> Any:
+        """Return the size of a force to divide its moment by; a moment without a force is a couple: it has no arm."""
+        if size == 0.0:
+            return 1.0 if moment == 0.0 else NAN
+        return size
+
+    def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
+        """Return the determinant of the legs that hold a template: they must reach it, and must not concur."""
+        self.sines[self._name] = abs(determinant)
+        if astray == 0.0 and abs(determinant) < self.folded:
+            self._fail("singular", determinant)
+            return NAN
+        if not (astray == 0.0 and apart <= self.closed):
+            self._fail("no-assembly", gap=astray or missing)
+            return NAN
+        return determinant
+
+    # The verbs, the same for one and for many.
+
+    def _place(self, x: Any, y: Any) -> Any:
+        return POLE if _is_zero(x) and _is_zero(y) else self._complex(x, y)
+
+    def _pole(self) -> Any:
+        return POLE
+
+    def _turn(self, angle: Any) -> Any:
+        angle = self._near(angle)
+        rounded = angle * PER_RADIAN + ROUND
+        marks = rounded - ROUND
+        rest = (angle - marks * COARSE) - marks * FINE
+        cosine, sine = self._graduation(rounded)
+        square = rest * rest
+        less = square * (square * (1.0 / 24.0) - 0.5)  # cosine of the rest, less one
+        more = rest + (rest * square) * (square * (1.0 / 120.0) - (1.0 / 6.0))  # its sine
+        x, y = cosine + (cosine * less - sine * more), sine + (sine * less + cosine * more)
+        return self._complex(self._upright(x), self._upright(y))
+
+    def _direction(self, start: Any, end: Any, length: Any) -> Any:
+        return (end - start) * (1.0 / length)
+
+    def _normal(self, vector: Any) -> Any:
+        return vector * 1j
+
+    def _lay(self, start: Any, direction: Any, length: Any) -> Any:
+        return self._chain(start, direction * length)
+
+    def _back(self, start: Any, direction: Any, length: Any) -> Any:
+        return self._chain(start, direction * -length)
+
+    def _chain(self, start: Any, vector: Any) -> Any:
+        return vector if start is POLE else start + vector
+
+    def _meet(self, p: Any, u: Any, q: Any, w: Any) -> Any:
+        # plans of velocities and accelerations meet along the same two directions
+        key = self._operands[1], self._operands[3]
+        sine = self._sine_of.get(key)
+        if sine is None:
+            sine = self._sine_of[key] = self._lines_sine(cross(u, w))
+        found = self._chain(p, u * (cross(self._read(p, q), w) / sine))
+        if q is POLE:  # however far the way was, the point lies on the line through the pole to its own last digit
+            return found - (w * 1j) * cross(w, found)
+        return found
+
+    def _arc(self, centre: Any, radius: Any, q: Any, w: Any, side: Any) -> Any:
+        to_centre = self._read(q, centre)
+        half = self._half_chord(radius, abs(cross(w, to_centre)), centre, q)
+        return self._chain(q, w * (dot(w, to_centre) + side * half))
+
+    def _arcs(self, first: Any, radius: Any, second: Any, other: Any, side: Any) -> Any:
+        between = self._read(first, second)
+        square = dot(between, between)
+        total, product = heron(radius, other, base := self._sqrt(square))
+        places = first.real, first.imag, second.real, second.imag
+        root = self._sqrt(self._assembles(product, radius, other, base, total, *places))
+        half = 0.5 / self._divisor(square)  # parts of the way between the centres: along it, and across
+        along, across = (square + (radius - other) * (radius + other)) * half, side * root * half
+        return self._chain(first, between * along + (between * 1j) * across)
+
+    def _tangent(self, centre: Any, point: Any, offset: Any, side: Any, size: Any) -> Any:
+        between = self._read(centre, point)
+        distance = self._distance(centre, point)
+        part = side * self._half_chord(distance, abs(offset), centre, point)
+        inverse = 1.0 / self._clear(distance, size)
+        along = between * inverse
+        return along * (part * inverse) - (along * 1j) * (offset * inverse)
+
+    def _incline(self, direction: Any, slope: Any) -> Any:
+        return direction * slope.real + (direction * 1j) * slope.imag
+
+    def _decline(self, direction: Any, slope: Any) -> Any:
+        return direction * slope.real - (direction * 1j) * slope.imag
+
+    def _measure(self, start: Any, end: Any) -> Any:
+        between = self._read(start, end)
+        return self._apart(self._sqrt(dot(between, between)))
+
+    def _distance(self, start: Any, end: Any) -> Any:
+        between = self._read(start, end)
+        return self._sqrt(dot(between, between))
+
+    def _angle(self, first: Any, second: Any) -> Any:
+        import numpy as np  # its arc tangent may differ from the C library's in the last bit, as its cosine
+
+        angle = np.arctan2(cross(first, second), dot(first, second))
+        return angle if np.ndim(angle) else float(angle)
+
+    def _similar(self, start: Any, end: Any, along: Any, across: Any) -> Any:
+        base = self._read(start, end)
+        return self._chain(start, base * along + (base * 1j) * across)
+
+    def _divide(self, start: Any, end: Any, part: Any, whole: Any) -> Any:
+        return start + (end - start) * (part / whole)
+
+    def _same(self, mark: Any) -> Any:
+        return mark
+
+    def _read(self, tail: Any, tip: Any) -> Any:
+        return tip if tail is POLE else tip - tail
+
+    def _moment(self, force: Any, at: Any, about: Any) -> Any:
+        return cross(self._read(about, at), force)
+
+    def _arm(self, moment: Any, force: Any) -> Any:
+        return abs(moment) / self._bears(self._sqrt(dot(force, force)), moment)
+
+    @property
+    def status(self) -> Status:
+        """Status of the position."""
+        if self.trouble is not None:
+            return self.trouble.status
+        return "ill-conditioned" if min(self.sines.values(), default=1.0) < ILL else "ok"
+
+
+def heron(first: Any, second: Any, base: Any) -> tuple[Any, Any]:
+    """Return the sum of two sides, and 16 times the squared area of the triangle on `base`."""
+    total, between = first + second, first - second
+    return total, (total + base) * (total - base) * (base + between) * (base - between)
+
+
+def _is_zero(value: Any) -> bool:
+    return isinstance(value, float) and value == 0.0
+
+
+def run(program: Program, givens: Mapping[str, Any]) -> ExactBoard:
+    """Run `program` for one position; `givens` are floats in SI."""
+    board = ExactBoard(givens)
+    board.follow(program)
+    return board

@@ -1,0 +1,1 @@
+"""Drawing by hand: what a hand misses, what that makes of each quantity, what may be let pass."""

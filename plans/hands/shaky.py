@@ -1,0 +1,326 @@
+"""The shaky hand: the construction drawn N times over, each mark, line and reading a little off, as on paper.
+
+Errors are millimetres of paper, so that the scale factor of each plan says what they are worth; directions err by
+degrees. An error belongs to an act of the hand: a line that lies on the paper already does not err again when a length
+is laid off along it, and one that is drawn elsewhere parallel to it does. What is calculated, the data, and drawings of
+a link alone (which only give numbers) have no error. What is read is what the steps after it start from.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, Protocol
+
+import numpy as np
+
+from ..board import POSITION, Program
+from ..boards.batch import ArrayBoard
+from ..laws import dot
+from .hand import Hand
+
+ZERO = "zero"
+Shape = int | tuple[int, ...]
+Operate = Callable[..., Any]
+
+
+class Errors(Protocol):
+    """Where errors come from: a generator of numpy, or what takes its place."""
+
+    def standard_normal(self, size: Shape, /) -> Any:
+        """Return an array of errors in standard deviations."""
+
+
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """A construction as it is drawn.
+
+    Parameters
+    ----------
+    program : Program
+        Its steps.
+    givens : mapping
+        The data, SI: numbers, or arrays that broadcast against the shape of the drawings.
+    mus : mapping of str to float
+        Scale factors by plan, value in SI per mm.
+    """
+
+    program: Program
+    givens: Mapping[str, Any]
+    mus: Mapping[str, Any]
+
+
+class ShakyBoard(ArrayBoard):
+    """Many drawings of one construction, in an array of `shape`; at steps that are not in `only` the hand is exact.
+
+    `erred` names for each error, in order, the step at which it was made; `missed` the names that hang on an error.
+    """
+
+    def __init__(
+        self, paper: Paper, hand: Hand, random: Errors, shape: Shape, only: Collection[str] | None = None
+    ) -> None:
+        super().__init__(paper.givens, 0)
+        self.codes = np.zeros(shape, np.int8)
+        self.erred: list[str] = []
+        self.missed: set[str] = set()
+        self._hand, self._mus, self._random, self._only = hand, paper.mus, random, only
+        self._steps = {step.name: step for step in paper.program}
+        self._drawn = frozenset(name for step in paper.program if step.verb != "calc" for name in step.operands)
+
+    def operation(self, verb: str, law: str) -> Operate:
+        """Return what does a step, with the errors of a hand."""
+        exact = super().operation(verb, law)
+        shaky = SHAKY.get(verb)
+        return exact if shaky is None else partial(shaky, self, exact)
+
+    def perform(self, operate: Operate, name: str, operands: tuple[str, ...]) -> None:
+        """Make `name` with the operation of a step; note what hangs on an error."""
+        super().perform(operate, name, operands)
+        if not self.missed.isdisjoint(operands):
+            self.missed.add(name)
+
+    # Errors: numbers of the standard normal distribution, times what the hand and the scale make of them.
+
+    def _error(self, size: Any) -> Any:
+        """Return an error of this step for every drawing, zero for a hand that never errs so."""
+        if (np.ndim(size) == 0 and not size) or (self._only is not None and self._name not in self._only):
+            return 0.0
+        self.missed.add(self._name)
+        self.erred.append(self._name)
+        return self._random.standard_normal(self.codes.shape) * size
+
+    def _point(self, mark: str) -> Any:
+        """Return the error of a mark, or of a line's distance from it, on the plan of `mark`."""
+        return self._error(self._hand.point * self._mu(mark))
+
+    def _reading(self, mark: str) -> Any:
+        return self._error(self._hand.reading * self._mu(mark))
+
+    def _direction_error(self) -> Any:
+        return self._error(math.radians(self._hand.direction))
+
+    def _mu(self, mark: str) -> Any:
+        return self._mus[mark.rpartition(".")[0] or POSITION]
+
+    def _off(self, mark: Any, name: str) -> Any:
+        """Miss a mark in both coordinates."""
+        x, y = self._point(name), self._point(name)
+        return mark if _none(x) and _none(y) else mark + self._complex(x, y)
+
+    def _swung(self, direction: Any) -> Any:
+        """Miss a direction."""
+        return swung(direction, self._direction_error())
+
+    def _aside(self, mark: Any, direction: Any, name: str) -> Any:
+        """Draw a line along `direction` a little aside of the mark."""
+        error = self._point(name)
+        return mark if _none(error) else mark + (direction * 1j) * error
+
+    # What is on the paper, and what is not.
+
+    def _first(self, mark: str) -> str:
+        """Return the mark itself of one that has several letters."""
+        step = self._steps.get(mark)
+        while step is not None and step.verb == "same":
+            mark = step.operands[0]
+            step = self._steps.get(mark)
+        return mark
+
+    def _apart_by_name(self, first: str, second: str) -> bool:
+        return self._first(first) != self._first(second)
+
+    def _is_made_by(self, name: str, verb: str) -> bool:
+        return name in self._steps and self._steps[name].verb == verb
+
+    def _aside_of_paper(self, name: str) -> bool:
+        """Whether a name is a mark or a direction on a drawing of a link alone."""
+        return name.startswith("_") and not (name in self._steps and "." in name)
+
+    def _lies_there(self, direction: str) -> bool:
+        """Whether a line of this direction lies on the plan already: only directions of links do, on the mechanism."""
+        return "." not in self._name and not self._is_made_by(direction, "normal")
+
+    # Templates: Newton's method looks at the paths of all legs at once.
+
+    def _lay_template(self, names: tuple[str, ...], marks: tuple[Any, ...]) -> Any:
+        """Lay a template on arcs and lines each of which misses a little, the same for all its points."""
+        if names not in self._templates:
+            missed = list(marks)
+            for leg in (5, 9, 13):  # of each: joint, start, radius, direction
+                if names[leg + 2] == ZERO:
+                    missed[leg + 1] = self._aside(missed[leg + 1], missed[leg + 3], POSITION)
+                else:
+                    missed[leg + 2] = missed[leg + 2] + self._point(POSITION)
+            marks = tuple(missed)
+        return super()._lay_template(names, marks)
+
+
+def _none(error: Any) -> bool:
+    return isinstance(error, float) and error == 0.0
+
+
+def swung(direction: Any, angle: Any) -> Any:
+    """Return a direction turned by a small angle, the very same for none."""
+    if _none(angle):
+        return direction
+    return direction * np.cos(angle) + (direction * 1j) * np.sin(angle)
+
+
+# The verbs as a hand does them: (board, the exact operation, operands).
+
+
+def _place(b: ShakyBoard, exact: Operate, x: Any, y: Any) -> Any:
+    mark, name = exact(x, y), b._name
+    if name.startswith("_") or b._operands == (ZERO, ZERO):  # a place on a drawing of the link alone; the origin
+        return mark
+    return b._off(mark, name)
+
+
+def _turn(b: ShakyBoard, exact: Operate, angle: Any) -> Any:
+    """Lay off an angle; the edge of the sheet is there, and a direction that only a calculation needs is not drawn."""
+    direction = exact(angle)
+    drawn = b._operands != (ZERO,) and b._name in b._drawn and not b._name.startswith("_")
+    return b._swung(direction) if drawn else direction
+
+
+def _incline(b: ShakyBoard, exact: Operate, direction: Any, slope: Any) -> Any:
+    """Lay off an angle from a line; along the line itself there is none to lay off."""
+    found, of = exact(direction, slope), b._steps.get(b._operands[1])
+    parallel = of is not None and of.verb == "turn" and of.operands == (ZERO,)
+    return found if parallel or b._name.startswith("_") else b._swung(found)
+
+
+def _direction(b: ShakyBoard, exact: Operate, start: Any, end: Any, length: Any) -> Any:
+    """Lay the ruler on two marks; their distance as it is drawn is not that of the data."""
+    found = exact(start, end, length)
+    if b.missed.isdisjoint(b._operands):
+        return found
+    return found * (1.0 / np.sqrt(dot(found, found)))
+
+
+def _normal(b: ShakyBoard, exact: Operate, vector: Any) -> Any:
+    """Turn a whole plan, mark by mark; the normal to a line is only drawn where it is needed."""
+    found = exact(vector)
+    return b._off(b._swung(found), b._name) if "." in b._operands[0] else found
+
+
+def _lay(b: ShakyBoard, exact: Operate, start: Any, direction: Any, length: Any) -> Any:
+    if not b._lies_there(b._operands[1]):
+        direction = b._swung(direction)
+    return b._off(exact(start, direction, length), b._name)
+
+
+def _chain(b: ShakyBoard, exact: Operate, start: Any, vector: Any) -> Any:
+    return b._off(exact(start, b._swung(vector)), b._name)
+
+
+def _meet(b: ShakyBoard, exact: Operate, p: Any, u: Any, q: Any, w: Any) -> Any:
+    u, w = b._swung(u), b._swung(w)
+    p, q = b._aside(p, u, b._name), b._aside(q, w, b._name)
+    b._sine_of = {}  # each crossing has lines of its own
+    return exact(p, u, q, w)
+
+
+def _arc(b: ShakyBoard, exact: Operate, centre: Any, radius: Any, q: Any, w: Any, side: Any) -> Any:
+    w = b._swung(w)
+    centre, q = b._off(centre, b._name), b._aside(q, w, b._name)
+    return exact(centre, radius + b._reading(b._name), q, w, side)
+
+
+def _arcs(b: ShakyBoard, exact: Operate, first: Any, radius: Any, second: Any, other: Any, side: Any) -> Any:
+    radius, other = radius + b._reading(b._name), other + b._reading(b._name)
+    return exact(b._off(first, b._name), radius, b._off(second, b._name), other, side)
+
+
+def _tangent(b: ShakyBoard, exact: Operate, centre: Any, point: Any, offset: Any, *rest: Any) -> Any:
+    """Lay the ruler on a mark and on the circle, or on another mark where the circle has no radius."""
+    if b._operands[2] != ZERO:
+        offset = offset + b._reading(b._name)
+    return exact(b._off(centre, b._name), b._off(point, b._name), offset, *rest)
+
+
+def _mark(b: ShakyBoard, exact: Operate, *operands: Any) -> Any:
+    return b._off(exact(*operands), b._name)
+
+
+def _similar(b: ShakyBoard, exact: Operate, start: Any, end: Any, along: Any, across: Any) -> Any:
+    """Draw a similar figure: its side is there, the line to the third point is not."""
+    arm = exact(start, end, along, across) - start
+    error = b._direction_error()
+    found = exact(start, end, along, across) if _none(error) else start + swung(arm, error)
+    return b._off(found, b._name)
+
+
+def _measure(b: ShakyBoard, exact: Operate, start: Any, end: Any) -> Any:
+    found, (first, second) = exact(start, end), b._operands
+    if all(b._aside_of_paper(mark) for mark in (first, second)) or not b._apart_by_name(first, second):
+        return found
+    return abs(found + b._reading(first))
+
+
+def _angle(b: ShakyBoard, exact: Operate, first: Any, second: Any) -> Any:
+    return exact(first, second) + b._direction_error()
+
+
+def _read(b: ShakyBoard, exact: Operate, tail: Any, tip: Any) -> Any:
+    """Read a vector, its length and its direction: the tip is seen a little off, seen from the tail."""
+    found, (first, second) = exact(tail, tip), b._operands
+    if not b._apart_by_name(first, second):
+        return found
+    x, y = b._reading(first), b._reading(first)
+    return found if _none(x) and _none(y) else found + b._complex(x, y)
+
+
+def _moment(b: ShakyBoard, exact: Operate, force: Any, at: Any, about: Any) -> Any:
+    """Draw the force's line through its point, parallel to the plan, and read the arm from the other point."""
+    _, mark, centre = b._operands
+    if not b._apart_by_name(mark, centre):
+        return exact(force, at, about)
+    found = exact(b._swung(force), at, about)
+    beside, read = b._point(mark), b._reading(mark)
+    return found if _none(beside) and _none(read) else found + np.sqrt(dot(force, force)) * (beside + read)
+
+
+SHAKY: Mapping[str, Operate] = {
+    "place": _place,
+    "turn": _turn,
+    "incline": _incline,
+    "decline": _incline,
+    "direction": _direction,
+    "normal": _normal,
+    "lay": _lay,
+    "back": _lay,
+    "chain": _chain,
+    "meet": _meet,
+    "arc": _arc,
+    "arcs": _arcs,
+    "tangent": _tangent,
+    "template": _mark,
+    "divide": _mark,
+    "similar": _similar,
+    "measure": _measure,
+    "distance": _measure,
+    "angle": _angle,
+    "read": _read,
+    "moment": _moment,
+}
+
+
+def draw(
+    paper: Paper, hand: Hand, random: Errors, drawings: Shape = 1000, only: Collection[str] | None = None
+) -> ShakyBoard:
+    """Draw a construction so many times with a shaky hand.
+
+    Parameters
+    ----------
+    random : Errors
+        A `numpy.random.Generator`: the same seed draws the same.
+    only : collection of str, optional
+        Names of the only steps at which the hand errs; all when left out.
+    """
+    board = ShakyBoard(paper, hand, random, drawings, only)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        paper.program.run(board)
+    return board

@@ -1,0 +1,1 @@
+"""How accurate plans are: conditions, stability, other methods beside them, what a model needs."""

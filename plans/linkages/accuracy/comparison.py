@@ -1,0 +1,295 @@
+"""Speed against accuracy: the rivals over the cycle of one mechanism, their errors beside fifty digits, their times.
+
+The error of a quantity counts in parts of the largest vector of its plan, of a number that no plan shows in parts of
+its unit's largest over the cycle; of a method the worst one counts, over all quantities of a kind and all positions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...boards.exact import run
+from ...boards.precision import run_in
+from ...references import plans_of, references
+from ..cycles.cycle import Cycle
+from .methods import Kind, Newton, Rivals, Values, Way, kinds_of
+
+Array = NDArray[Any]
+Clock = Callable[[], float]  # seconds
+SINGLE, EXTENDED = "plan-single", "plan-extended"
+PLAN, NEWTON, DIFFERENCES, CHORDS, HAND = "plan", "newton", "differences", "chords", "hand"
+TOLERANCES = (1e-1, 1e-2, 1e-4, 1e-8)
+STEPS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
+SECTIONS = (12, 24, 48, 96, 192, 384)
+ROUNDS = 3  # runs of a piece of work
+ENOUGH = 0.05  # seconds of work that need no repeating
+LONG = 1.0  # seconds that are too many
+
+
+@dataclass(frozen=True, slots=True)
+class Effort:
+    """What times are measured on: the sizes of batches of plans, and the positions at once of all other methods."""
+
+    batches: tuple[int, ...] = (1, 10, 100, 1_000, 10_000, 100_000, 1_000_000)
+    at_once: int = 10_000
+
+
+FULL = Effort()
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One method with its setting, for quantities of one kind.
+
+    Parameters
+    ----------
+    method : str
+        `plan`, `plan-single`, `plan-extended`, `newton`, `differences`, `chords` or `hand`.
+    setting : float or str
+        Positions in a batch, tolerance, step (rad), sections of the cycle, or the paper on which a hand draws.
+    error, typical : float or None
+        The worst error over all positions and quantities; the median over positions of the worst quantity.
+    name, place : str, float
+        The quantity and the place of the driver where the error is worst.
+    seconds : float or None
+        Processor time per position; None for a hand.
+    at_once : int
+        Positions in a batch.
+    failed : float
+        Part of the positions where the method gives nothing.
+    """
+
+    method: str
+    setting: float | str
+    kind: str
+    error: float | None
+    typical: float | None
+    name: str
+    place: float
+    seconds: float | None
+    at_once: int
+    failed: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contest:
+    """Speed against accuracy of all methods: `places` of the driver at which they were compared."""
+
+    kinds: tuple[Kind, ...]
+    places: Array
+    entries: tuple[Entry, ...]
+    effort: Effort = FULL
+
+    def of(self, kind: str) -> tuple[Entry, ...]:
+        """Return the entries for one kind of quantities."""
+        return tuple(entry for entry in self.entries if entry.kind == kind)
+
+    def front(self, kind: str) -> tuple[Entry, ...]:
+        """Return the entries that no other beats in both speed and accuracy, the slowest first."""
+        timed = [e for e in self.of(kind) if e.seconds is not None and e.error is not None]
+        found: list[Entry] = []
+        for entry in sorted(timed, key=lambda e: (e.seconds, e.error)):
+            if not found or (entry.error or 0.0) < (found[-1].error or 0.0):
+                found.append(entry)
+        return tuple(reversed(found))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Truth:
+    """What fifty digits give for quantities, as sums of two long numbers, and the sizes beside which errors count."""
+
+    high: Mapping[str, Array]
+    low: Mapping[str, Array]
+    sizes: Mapping[str, Array]
+
+    def errors(self, found: Values) -> dict[str, Array]:
+        """Return the errors of values in parts of their sizes, shape (N,)."""
+        return {
+            name: np.abs((np.asarray(value, np.clongdouble) - self.high[name]) - self.low[name]).astype(float)
+            * (1.0 / self.sizes[name])
+            for name, value in found.items()
+        }
+
+
+def places_of(cycle: Cycle, count: int) -> Array:
+    """Return so many places of the driver, half a step off the ends of the cycle, where loads may jump."""
+    low, high = cycle.range.low, cycle.range.high
+    return low + (high - low) * ((np.arange(count) + 0.5) / count)
+
+
+def truth(cycle: Cycle, places: Array, names: Sequence[str]) -> Truth:
+    """Run a program with fifty digits at all places that have plans; elsewhere there are NaN."""
+    program = cycle.program.needed_for(names)
+    givens = cycle.drive.givens(cycle.givens, places, cycle.program)
+    shape = len(places)
+    high, low, sizes = ({name: np.full(shape, np.nan, kind) for name in names} for kind in (complex, complex, float))
+    for i in range(shape):
+        here = one_of(givens, i)
+        board = run(cycle.program, here)
+        if board.trouble is not None:
+            continue
+        exact, size = run_in(program, here, "fifty"), references(cycle.program, board.values)
+        for name in names:
+            high[name][i] = complex(exact[name])
+            low[name][i] = complex(exact[name] - high[name][i])
+            sizes[name][i] = size[name]
+    return Truth(high, low, {name: beside(cycle, name, sizes[name]) for name in names})
+
+
+def beside(cycle: Cycle, name: str, sizes: Array) -> Array:
+    """Return the sizes beside which errors count: of a number that no plan shows the largest over the cycle."""
+    if name not in plans_of(cycle.program):
+        sizes = np.where(np.isnan(sizes), np.nan, np.nanmax(sizes, initial=0.0))
+    found: Array = np.where(sizes > 0.0, sizes, np.nan)
+    return found
+
+
+def one_of(givens: Mapping[str, Any], position: int) -> dict[str, float]:
+    """Return the givens of one of many positions."""
+    return {name: float(value[position] if np.ndim(value) else value) for name, value in givens.items()}
+
+
+def timed(work: Callable[[], object], clock: Clock) -> float:
+    """Return what a piece of work takes by a clock, seconds: the shortest of some runs."""
+    best, total = float("inf"), 0.0
+    for _ in range(ROUNDS):
+        start = clock()
+        work()
+        spent = clock() - start
+        best, total = min(best, spent), total + spent
+        if total > ENOUGH * ROUNDS:
+            break
+    return best
+
+
+def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (), effort: Effort = FULL) -> Contest:
+    """Let all methods but the hand, which `hand_drawn` adds, compete over a cycle.
+
+    Parameters
+    ----------
+    positions : int
+        At how many places of the driver errors are looked at.
+    clock : function
+        Returns seconds, best those of the processor: `time.process_time`.
+    names : iterable of str
+        Quantities wanted; all that can be compared when empty.
+    effort : Effort
+        On what times are measured.
+    """
+    rivals, places = Rivals.of(cycle), places_of(cycle, positions)
+    found: list[Entry] = []
+    kinds = kinds_of(cycle, names)
+    newton = Newton(rivals)
+    for kind in kinds:
+        race = _Race(rivals, kind, places, truth(cycle, places, kind.names), effort, clock)
+        found += race.plans()
+        if kind.name != "forces":
+            found += race.others(newton)
+    return Contest(kinds, places, tuple(found), effort)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Race:
+    """The methods on quantities of one kind."""
+
+    rivals: Rivals
+    kind: Kind
+    places: Array
+    truth: Truth
+    effort: Effort
+    clock: Clock
+
+    def plans(self) -> Iterator[Entry]:
+        """Go through plans: in batches of all sizes, then in other precisions."""
+        names, rivals = self.kind.names, self.rivals
+        errors = self.truth.errors(rivals.plan(self.places, names))
+        spent = 0.0
+        for size in self.effort.batches:
+            if spent * size > LONG * 10.0:  # groups of class III are followed at length
+                break
+            spent = self._one_by_one() if size == 1 else self._time(rivals.plan, size)
+            yield self.entry(PLAN, size, errors, spent, size)
+        size = min(self.effort.at_once, max(int(LONG / spent), 100))
+        precisions = {SINGLE: "single"}
+        if np.finfo(np.longdouble).eps < np.finfo(float).eps:  # not so on every machine
+            precisions[EXTENDED] = "extended"
+        for method, precision in precisions.items():
+
+            def way(places: Array, wanted: Sequence[str], precision: str = precision) -> Values:
+                return rivals.plan(places, wanted, precision)
+
+            errors = self.truth.errors(way(self.places, names))
+            yield self.entry(method, size, errors, self._time(way, size), size)
+
+    def others(self, newton: Newton) -> Iterator[Entry]:
+        """Go through the methods that are no plans."""
+        names, rivals = self.kind.names, self.rivals
+        ways = [(NEWTON, tolerance, newton.way(tolerance)) for tolerance in TOLERANCES]
+        ways += [(DIFFERENCES, step, rivals.differences(step)) for step in STEPS]
+        sizes: dict[str, int] = {}
+        for method, setting, way in ways:
+            errors = self.truth.errors(way(self.places, names))
+            size = sizes.setdefault(method, self._affordable(way))
+            yield self.entry(method, setting, errors, self._time(way, size), size)
+        for sections in SECTIONS:
+            errors = self.truth.errors(rivals.chords(sections)(self.places, names))
+            spent = timed(partial(rivals.chords_of_cycle, sections, names), self.clock) / sections
+            yield self.entry(CHORDS, sections, errors, spent, sections)
+
+    def _affordable(self, way: Way) -> int:
+        """Return how many positions at once a method is timed at."""
+        few = 100
+        spent = timed(lambda: way(places_of(self.rivals.cycle, few), self.kind.names), self.clock)
+        return self.effort.at_once if spent * self.effort.at_once / few < LONG * 10.0 else few
+
+    def _time(self, way: Way, size: int) -> float:
+        places = places_of(self.rivals.cycle, size)
+        return timed(lambda: way(places, self.kind.names), self.clock) / size
+
+    def _one_by_one(self) -> float:
+        """Return the time of one position on Python numbers."""
+        cycle = self.rivals.cycle
+        program = cycle.program.needed_for(self.kind.names)
+        givens = cycle.drive.givens(cycle.givens, self.places, cycle.program)
+        each = [one_of(givens, i) for i in range(len(self.places))]
+        return timed(lambda: [run(program, here) for here in each], self.clock) / len(each)
+
+    def entry(
+        self, method: str, setting: float, errors: Mapping[str, Array], seconds: float | None, at_once: int
+    ) -> Entry:
+        """Sum up the errors of a method."""
+        found = summed(method, setting, self.kind, self.places, errors)
+        return replace(found, seconds=seconds, at_once=at_once)
+
+
+def summed(
+    method: str,
+    setting: float | str,
+    kind: Kind,
+    places: Array,
+    errors: Mapping[str, Array],
+) -> Entry:
+    """Return the worst and the typical error of a method, whose time is not known."""
+    table = np.stack([errors[name] for name in kind.names])
+    filled = np.where(np.isnan(table), -1.0, table)
+    worst = filled.max(axis=0)
+    row, column = np.unravel_index(np.argmax(filled), filled.shape)
+    there = worst >= 0.0
+    return Entry(
+        method,
+        setting,
+        kind.name,
+        float(filled[row, column]) if there.any() else None,
+        float(np.median(worst[there])) if there.any() else None,
+        kind.names[row],
+        float(places[column]),
+        None,
+        1,
+        float(1.0 - there.mean()),
+    )

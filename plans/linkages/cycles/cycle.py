@@ -1,0 +1,239 @@
+"""The whole cycle of a mechanism: a full turn of its crank, or the stroke of a sliding driver.
+
+Every position is computed at the place of the driver that it has, phi_0 + k * step, never from the one before: the
+assembly that the task names is kept, and an error of one position stays in it.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....scales.errors import InputError
+from ...board import Program
+from ...boards.batch import batch
+from ...boards.exact import STATUSES
+from ...extremes import Extreme, extremes
+from ...laws import TURN, dot
+from ...quantities import quantities
+from ..chain import USUAL, construct
+from ..mechanism import Mechanism
+from ..structure import Structure
+from .limits import Arc, Reach, reach_of
+from .strokes import Output, OutputMotion, Travel, measured, output_motions, outputs, stroke_of, zero_position
+from .swept import Swept, swept
+from .undetermined import NEAR_LIMIT, strike_out, undetermined_at
+
+__all__ = ["Arc", "Cycle", "Extreme", "Travel", "cycle", "stroke_of"]
+Array = NDArray[Any]
+VANISHES = 1e-9  # part of the largest magnitude below which the smallest is zero
+BESIDE_CHANGE = 1e-4  # radians from a change point within which velocities are lost in rounding: it goes as 1 / angle^2
+FEW = 2000  # positions up to which preparing a batch takes longer than running it
+FEWEST, MOST = 3, 100_000  # positions of a cycle
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cycle:
+    """N positions of a mechanism over its cycle.
+
+    Attributes
+    ----------
+    angles : float64 array of shape (N,)
+        Angles of the crank, rad, or travels of a sliding driver, m, in the sense in which it moves.
+    times : float64 array of shape (N,)
+        Seconds from the first position, at constant speed of the driver.
+    values : mapping of str to array of shape (N,)
+        Every quantity and every lettered point; float64 scalars, complex128 vectors and points, NaN where a position
+        fails.
+    codes : int8 array of shape (N,)
+        Index into `STATUSES`.
+    reach : Reach
+        Where the mechanism can be assembled: arcs apart with their limiting positions, change points.
+    motions : tuple of OutputMotion
+        Dead positions, strokes and ratios of times of the links on the frame.
+    zero : float
+        The driver's place at the zero position, where the working stroke begins.
+    """
+
+    drive: Swept
+    structure: Structure
+    program: Program
+    givens: Mapping[str, float]
+    angles: Array
+    times: Array
+    values: Mapping[str, Array]
+    codes: NDArray[np.int8]
+    reach: Reach
+    motions: tuple[OutputMotion, ...]
+    zero: float
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism; its driver's variable may have another name than in the task."""
+        return self.drive.mechanism
+
+    @property
+    def statuses(self) -> tuple[str, ...]:
+        """Status of every position."""
+        return tuple(STATUSES[code] for code in self.codes)
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Names of the quantities, points apart, in order of construction."""
+        named = quantities(self.program, defaultdict(float), {})
+        return tuple(name for name, item in named.items() if item.kind != "point")
+
+    @property
+    def outputs(self) -> tuple[Output, ...]:
+        """The links on the frame that do not drive."""
+        return tuple(motion.output for motion in self.motions)
+
+    @property
+    def speed(self) -> float:
+        """Speed of the driver, positive: rad/s or m/s."""
+        return abs(float(self.givens[self.mechanism.driver.speed]))
+
+    @property
+    def range(self) -> Arc:
+        """The driver's range: a full turn from the first position on, or the travel of a slide."""
+        if self.drive.turns:
+            return Arc(float(self.angles[0]), float(self.angles[0]) + self.drive.sense * TURN)
+        return Arc(float(self.angles[0]), float(self.angles[-1]))
+
+    def at(self, places: Array, names: Sequence[str]) -> dict[str, Array]:
+        """Return values by name for other places of the driver."""
+        return self.drive.along(self.program, self.givens, names)(places)
+
+    def extremes(self, names: Iterable[str] | None = None) -> dict[str, tuple[Extreme, Extreme]]:
+        """Return the largest and the smallest value of quantities, with the driver's places where they are.
+
+        Scalars keep their sign, of vectors the magnitude counts. What has no value anywhere is left out.
+
+        Parameters
+        ----------
+        names : iterable of str, optional
+            Without it all quantities.
+        """
+        wanted = tuple(self.quantities if names is None else names)
+        along = self.drive.along(self.program, self.givens, wanted)
+        vectors = [np.iscomplexobj(self.values[name]) for name in wanted]
+
+        def sizes(at: Array) -> Array:
+            found = along(at)
+            return np.stack(
+                [dot(found[name], found[name]) if v else found[name] for name, v in zip(wanted, vectors, strict=True)]
+            )
+
+        rows = extremes(sizes, self.reach.trimmed(BESIDE_CHANGE)) if wanted else []
+        return {
+            name: _rooted(row) if vector else row
+            for name, vector, row in zip(wanted, vectors, rows, strict=False)
+            if row is not None
+        }
+
+
+def _rooted(row: tuple[Extreme, Extreme]) -> tuple[Extreme, Extreme]:
+    """Return the extremes of a magnitude from those of its square, which is smooth where the vector vanishes."""
+    most, least = row
+    size = float(np.sqrt(most.value))
+    low = float(np.sqrt(max(least.value, 0.0)))
+    return Extreme(size, most.at), Extreme(low if low > VANISHES * size else 0.0, least.at)
+
+
+def cycle(
+    mechanism: Mechanism,
+    values: Mapping[str, float],
+    plans: Iterable[str] = USUAL,
+    positions: int = 12,
+    start: float | None = None,
+    end: float | None = None,
+) -> Cycle:
+    """Compute N positions over a full turn of the crank, or over the stroke of a sliding driver.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        Numbers of the mechanism in SI; where its driver stands does not matter.
+    plans : iterable of str
+        Plans wanted, of `chain.PLANS`.
+    positions : int
+        How many: of a turn they divide the circle evenly, the first one does not come again; of a sliding driver the
+        first and the last are the ends of its travel.
+    start : float, optional
+        Where the driver begins; without it at the zero position, where the working stroke of `mechanism.stroke` begins,
+        or at its own zero angle; a sliding driver at the end of its reach.
+    end : float, optional
+        Where a sliding driver stops; without it at the other end of its reach.
+
+    Raises
+    ------
+    InputError
+        Too few or too many positions; the output has no stroke; a sliding driver's reach has no end.
+    """
+    if not FEWEST <= positions <= MOST:
+        raise InputError("positions-number", n=positions, least=FEWEST, most=MOST)
+    drive = swept(mechanism, values)
+    reach, between = _reach(drive, values, start, end)
+    motions = output_motions(drive, values, reach)
+    zero = between.low if between else zero_position(drive, values, motions) if reach.stretches else 0.0
+    structure, program = construct(drive.mechanism, plans)
+    program = measured(program, outputs(drive.mechanism, structure))
+    places = _places(drive, zero if start is None else start, between, positions)
+    wanted = _wanted(mechanism, program, motions)
+    if positions > FEW:
+        results, codes = batch(program, drive.givens(values, places, program), wanted)
+    else:
+        results, codes = drive.along(program, values, wanted).batch(places)
+    strike_out(results, codes, program, undetermined_at(drive, reach, places))
+    speed = abs(float(values[mechanism.driver.speed]))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        times = np.abs(places - places[0]) / speed
+    return Cycle(drive, structure, program, dict(values), places, times, results, codes, reach, motions, zero)
+
+
+def _wanted(mechanism: Mechanism, program: Program, motions: Iterable[OutputMotion]) -> list[str]:
+    """Return what a cycle keeps of every position: quantities, points, the motion of the outputs."""
+    named = quantities(program, defaultdict(float), {})
+    points = [point for link in mechanism.links for point in link.points] + [*mechanism.frame_points]
+    measures = [name for motion in motions for name in motion.output.measures]
+    known = set(program.names)
+    return [name for name in dict.fromkeys((*named, *points, *measures)) if name in known]
+
+
+def _places(drive: Swept, start: float, between: Arc | None, positions: int) -> Array:
+    """Return the driver's places: around the circle in the sense of rotation, or along the travel."""
+    count: Array = np.arange(positions, dtype=float)
+    if between is None:
+        return start + drive.sense * TURN * (count / positions)
+    rounding = NEAR_LIMIT * 0.1 * (between.high - between.low)  # a limit must not lie beyond itself
+    low, high = between.low + rounding, between.high - rounding
+    low, high = (low, high) if drive.sense > 0.0 else (high, low)
+    return low + (high - low) * (count / (positions - 1))
+
+
+def _reach(
+    drive: Swept, values: Mapping[str, float], start: float | None, end: float | None
+) -> tuple[Reach, Arc | None]:
+    """Return where the mechanism can be assembled, and the range of a sliding driver."""
+    if drive.turns:
+        return reach_of(drive, values), None
+    if start is not None and end is not None:
+        between = Arc(min(start, end), max(start, end))
+        return reach_of(drive, values, between), between
+    found = reach_of(drive, values)
+    if not found.stretches:
+        return found, Arc(found.whole.low, found.whole.high)
+    parts = found.around(drive.start)
+    low = parts[0].low if start is None else start
+    high = parts[-1].high if end is None else end
+    if low <= found.whole.low or high >= found.whole.high:
+        raise InputError("travel-endless")
+    own = tuple(place for place, given in ((low, start), (high, end)) if given is None)
+    between = Arc(min(low, high), max(low, high))
+    found = reach_of(drive, values, between)
+    return replace(found, limits=found.limits + own), between

@@ -1,0 +1,296 @@
+"""Strokes of the output links: dead positions, from where to where a link moves, how long the working stroke takes.
+
+An output is a link on the frame that does not drive: a slider, whose place is its travel along the guide, or a rocker,
+whose place is its angle. It stands dead where its velocity is zero; only the geometry of the mechanism matters, so that
+the driver moves at unit speed here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....scales.errors import InputError
+from ...along import remembering
+from ...board import Program, Step
+from ...laws import TURN, inclination
+from ...zeros import Stretch, zeros
+from ..bare import at_unit_speed, without_loads
+from ..chain import construct, moving_bodies
+from ..mechanism import FRAME, ZERO, Mechanism, Prismatic
+from ..structure import Structure
+from .limits import Reach, reach_of, size_of
+from .swept import Swept, swept
+
+Array = NDArray[Any]
+INSIDE = 1e-14  # part of a stretch by which its end may lie beyond a limit of assembly, by rounding
+STILL = 1e-9  # part of the usual velocity below which an output stands still for good
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """A link on the frame: the names by which its place, velocity and acceleration are known; None for no motion.
+
+    `place` is the travel of a slider along its guide, from the point through which it passes; of a rocker it names a
+    unit direction that turns with it.
+    """
+
+    link: int
+    slides: bool
+    place: str
+    rate: str | None
+    change: str | None
+    steps: tuple[Step, ...] = ()
+
+    @property
+    def unit(self) -> str:
+        """Unit of its places: metres of a slider, radians of a rocker."""
+        return "m" if self.slides else "rad"
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """Names of its place, velocity and acceleration, as far as it moves."""
+        return tuple(name for name in (self.place, self.rate, self.change) if name)
+
+    def places(self, values: Mapping[str, Array]) -> Array:
+        """Return its places in successive positions, angles without jumps."""
+        if self.slides:
+            return values[self.place]
+        return unwound(inclination(values[self.place]))
+
+
+@dataclass(frozen=True, slots=True)
+class Travel:
+    """From where to where an output moves, metres or radians, and the places of the driver there."""
+
+    low: float
+    high: float
+    angle_low: float
+    angle_high: float
+
+    @property
+    def length(self) -> float:
+        """Length of the stroke."""
+        return self.high - self.low
+
+
+@dataclass(frozen=True, slots=True)
+class Dead:
+    """A dead position: the driver's angle (travel of a sliding driver), the output's place, and which end it is."""
+
+    angle: float
+    place: float
+    high: bool
+
+
+@dataclass(frozen=True, slots=True)
+class OutputMotion:
+    """How an output moves over the driver's range; `travel` is None when it goes round and round.
+
+    Where the driver cannot turn round, `travel` is that of the part of its range in which it stands.
+
+    `ratio` is the time of the working stroke to that of the idle one at constant speed of the crank; without a stated
+    working stroke the slower one is taken for it.
+    """
+
+    output: Output
+    dead: tuple[Dead, ...]
+    travel: Travel | None
+    ratio: float | None
+
+
+def unwound(angles: Array) -> Array:
+    """Return angles of successive positions without jumps by whole turns, those of failed positions left out."""
+    known = np.isfinite(angles)
+    out = angles.copy()
+    out[known] = np.unwrap(angles[known])
+    return out
+
+
+def outputs(mechanism: Mechanism, structure: Structure) -> tuple[Output, ...]:
+    """Return the links on the frame that do not drive, in order of attachment."""
+    bodies = moving_bodies(mechanism, structure)
+    found = []
+    for group in structure.groups:
+        for pair, before in zip(group.outer, group.before, strict=True):
+            link = next(number for number in pair.links if number in group.links)
+            if before != FRAME:
+                continue
+            if isinstance(pair, Prismatic):
+                found.append(_slider(pair, link))
+            else:
+                body = bodies[link]
+                found.append(Output(link, False, body.direction, body.omega, body.epsilon))
+    return tuple(found)
+
+
+def _slider(pair: Prismatic, link: int) -> Output:
+    """Return a slider on the frame, with steps that measure its motion along the guide."""
+    axis, start, point = f"_axis_{link}", f"_axis_{link}_start", pair.point
+    steps = (
+        Step("turn", axis, (pair.direction,)),
+        Step("place", start, pair.through),
+        Step("calc", f"_s_{link}", (axis, start, point), "along_axis"),
+        Step("calc", f"_V_{link}", (axis, "velocity.p", f"velocity.{point}"), "along_axis"),
+        Step("calc", f"_a_{link}", (axis, "acceleration.p", f"acceleration.{point}"), "along_axis"),
+    )
+    return Output(link, True, f"_s_{link}", f"_V_{link}", f"_a_{link}", steps)
+
+
+def measured(program: Program, found: Sequence[Output]) -> Program:
+    """Return a program that also measures the motion of outputs, as far as its plans go."""
+    steps = list(program.steps)
+    known = set(program.names)
+    for output in found:
+        for step in output.steps:
+            if all(operand in known or "." not in operand for operand in step.operands):
+                steps.append(step)
+    return Program(tuple(steps))
+
+
+def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> Travel:
+    """Return from where to where the output of `mechanism.stroke` moves; without it, the first that has a stroke.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        Numbers in SI; masses and loads are not needed.
+
+    Returns
+    -------
+    Travel
+        NaN all through where the mechanism cannot be assembled in any position: its plan of positions says why.
+
+    Raises
+    ------
+    InputError
+        When the link does not move to and fro on the frame.
+    """
+    drive = swept(mechanism, values)
+    found = reach_of(drive, values)
+    if not found.stretches:
+        return Travel(math.nan, math.nan, math.nan, math.nan)
+    wanted = mechanism.stroke.link if mechanism.stroke else None
+    for motion in output_motions(drive, values, found):
+        if wanted in (None, motion.output.link) and motion.travel is not None:
+            return motion.travel
+    raise InputError("stroke-none", link=FRAME if wanted is None else wanted)
+
+
+def working_sense(mechanism: Mechanism, values: Mapping[str, float]) -> float:
+    """Return the sense in which the output moves in its working stroke: +1 along its guide or counter-clockwise."""
+    sense = mechanism.stroke.sense if mechanism.stroke else ZERO
+    return 1.0 if {ZERO: 1.0, "one": 1.0, **values}[sense] >= 0.0 else -1.0
+
+
+def zero_position(drive: Swept, values: Mapping[str, float], motions: Sequence[OutputMotion]) -> float:
+    """Return where the driver stands when the working stroke begins; without a stated stroke its own zero."""
+    stroke = drive.mechanism.stroke
+    if stroke is None:
+        return 0.0
+    travel = next((motion.travel for motion in motions if motion.output.link == stroke.link), None)
+    if travel is None:
+        raise InputError("stroke-none", link=stroke.link)
+    return travel.angle_low if working_sense(drive.mechanism, values) > 0.0 else travel.angle_high
+
+
+def output_motions(drive: Swept, values: Mapping[str, float], found: Reach) -> tuple[OutputMotion, ...]:
+    """Find the dead positions of every output, its stroke and the ratio of its times.
+
+    Dead positions are zeros of the velocity, refined until they do not change: better than 1e-12 rad.
+    """
+    mechanism = at_unit_speed(without_loads(drive.mechanism))
+    structure, program = construct(mechanism, ("velocity",))
+    moved = outputs(mechanism, structure)
+    wanted = [name for output in moved for name in (output.place, output.rate) if name]
+    along = remembering(drive.along(measured(program, moved), values, wanted, mechanism=mechanism))
+    size = size_of(mechanism, values)
+    return tuple(_Ends(output, along, drive, size).motion(values, found) for output in moved)
+
+
+@dataclass(slots=True)
+class _Ends:
+    """The search for the ends of one output's strokes; `along` gives its places and velocities, `size` is a length."""
+
+    output: Output
+    along: Callable[[Array], Mapping[str, Array]]
+    drive: Swept
+    size: float
+
+    def velocity(self, at: Array) -> Array:
+        """Return the output's velocity per unit of the driver's."""
+        assert self.output.rate
+        speeds: Array = self.along(at)[self.output.rate]
+        return speeds
+
+    def motion(self, values: Mapping[str, float], found: Reach) -> OutputMotion:
+        """Find its dead positions, from where to where it moves, and the ratio of times."""
+        spots = {stretch: self._on(stretch) for stretch in found.stretches} if self.output.rate else {}
+        dead = [spot for on, _ in spots.values() for spot in on]
+        ratio = _ratio(self.output, dead, self.drive, values) if found.free else None
+        at = sorted((replace(spot, angle=self._turned(spot.angle)) for spot in dead), key=lambda spot: spot.angle)
+        return OutputMotion(self.output, tuple(at), self._travel(spots, found), ratio)
+
+    def _travel(
+        self, spots: Mapping[Stretch, tuple[list[Dead], list[tuple[float, float]]]], found: Reach
+    ) -> Travel | None:
+        """Return from where to where it moves as far as the driver can go from where it stands; None for no end."""
+        if not spots or not (any(dead for dead, _ in spots.values()) or found.apart or not found.whole.closed):
+            return None
+        joined = found.around(self.drive.start)
+        places = [(spot.place, spot.angle) for stretch in joined for spot in spots[stretch][0]]
+        places += [end for stretch in joined for end in spots[stretch][1]]
+        if not places:
+            return None
+        low, high = min(places), max(places)
+        return Travel(low[0], high[0], self._turned(low[1]), self._turned(high[1]))
+
+    def _turned(self, place: float) -> float:
+        return place % TURN if self.drive.turns else place
+
+    def _on(self, stretch: Stretch) -> tuple[list[Dead], list[tuple[float, float]]]:
+        """Return the dead positions on a stretch, and its two ends as (place, driver's place) unless it has none."""
+        speeds = np.abs(self.velocity(stretch.place(stretch.grid())))
+        usual = (self.size if self.output.slides else 1.0) / (1.0 if self.drive.turns else self.size)
+        median = np.median(speeds[np.isfinite(speeds)]) if np.isfinite(speeds).any() else 0.0
+        roots = zeros(self.velocity, stretch)[0] if median > STILL * usual else speeds[:0]
+        roots = roots[np.abs(self.velocity(roots)) <= median] if len(roots) else roots
+        places, ends = self._places(stretch, roots)
+        if not len(roots):
+            return [], ends
+        before = roots[-1] - stretch.length if stretch.closed else stretch.low
+        coming = self.velocity(0.5 * (roots + np.concatenate(([before], roots[:-1])))) > 0.0
+        return [Dead(*spot) for spot in zip(roots.tolist(), places, coming.tolist(), strict=True)], ends
+
+    def _places(self, stretch: Stretch, roots: Array) -> tuple[list[float], list[tuple[float, float]]]:
+        """Return the output's places at `roots`, and at the ends of an open stretch."""
+        ends = [] if stretch.closed else [stretch.low, stretch.high]
+        inside = [end + s * INSIDE * stretch.length for end, s in zip(ends, (1.0, -1.0), strict=False)]
+        at = np.unique(np.concatenate((stretch.place(stretch.grid()), roots, ends, inside)))
+        places = self.output.places(self.along(at))
+        known = np.flatnonzero(np.isfinite(places))
+        found = [float(places[np.searchsorted(at, root)]) for root in roots]
+        if stretch.closed or not len(known):
+            return found, []
+        return found, [(float(places[i]), float(end)) for i, end in zip((known[0], known[-1]), ends, strict=True)]
+
+
+def _ratio(output: Output, dead: Sequence[Dead], drive: Swept, values: Mapping[str, float]) -> float | None:
+    """Return the ratio of the crank's angle in the working stroke to that in the idle one."""
+    if len(dead) < 2:
+        return None
+    ordered = sorted(dead, key=lambda spot: spot.angle)
+    first = replace(ordered[0], angle=ordered[0].angle + TURN)
+    up = sum(b.angle - a.angle for a, b in pairwise([*ordered, first]) if b.high)
+    rising = up if drive.sense > 0.0 else TURN - up
+    stroke = drive.mechanism.stroke
+    if stroke is None or stroke.link != output.link:
+        return max(rising, TURN - rising) / min(rising, TURN - rising)
+    working = rising if working_sense(drive.mechanism, values) > 0.0 else TURN - rising
+    return working / (TURN - working)

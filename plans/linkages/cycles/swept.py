@@ -1,0 +1,87 @@
+"""A mechanism ready for a sweep: the driver's variable has its own name, groups of class III are followed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...along import Along
+from ...board import Program
+from ...boards.batch import ArrayBoard
+from ..givens import board_givens
+from ..mechanism import ZERO, Driver, Mechanism
+
+if TYPE_CHECKING:
+    from ..triads.following import Follower
+
+OWN = "_driver"  # the driver's variable where the mechanism has a literal in its place
+
+
+@dataclass(frozen=True, slots=True)
+class Swept:
+    """A mechanism whose driver's variable may be swept: an angle that turns round, or the travel of a slide.
+
+    `follower` knows where groups of class III lie at places of the driver.
+    """
+
+    mechanism: Mechanism
+    variable: str
+    turns: bool
+    start: float  # the variable's value as given
+    sense: float  # of the driver's motion, +1 or -1
+    follower: Follower | None = field(default=None, repr=False)
+
+    def givens(
+        self, values: Mapping[str, Any], places: Any, program: Program | None = None, mechanism: Mechanism | None = None
+    ) -> dict[str, Any]:
+        """Return the board's givens for places of the driver; `mechanism` is this one in another form."""
+        there = {
+            **values,
+            self.variable: places,
+            **(self.follower.near(np.atleast_1d(places)) if self.follower else {}),
+        }
+        return board_givens(mechanism or self.mechanism, there, program, follow=False)
+
+    def along(
+        self,
+        program: Program,
+        values: Mapping[str, Any],
+        wanted: Sequence[str],
+        board: type[ArrayBoard] = ArrayBoard,
+        mechanism: Mechanism | None = None,
+    ) -> Along:
+        """Return a program of `mechanism`, this one in any form, as a function of the driver's variable."""
+        there = {**values, self.variable: self.start}
+        givens = board_givens(mechanism or self.mechanism, there, program, follow=False)
+        return Along(program, givens, self.variable, wanted, board, self.follower.near if self.follower else None)
+
+
+def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
+    """Return `mechanism` ready for a sweep.
+
+    A literal may stand in other places too, so that the driver gets a variable of its own; a given that also stands
+    elsewhere, as the direction of a load, changes there as well. The special points of triads are made by legs that do
+    for the whole circle.
+    """
+    driver = mechanism.driver
+    turns = isinstance(driver, Driver)
+    name = driver.coordinate
+    start = float(values.get(name, 0.0))
+    sense = values.get(driver.sense, 1.0) if isinstance(driver, Driver) else values.get(driver.speed, 1.0)
+    if name == ZERO or name.startswith("_"):
+        name = OWN
+        key = "angle" if turns else "travel"
+        mechanism = replace(mechanism, driver=replace(driver, **{key: name}))  # type: ignore[arg-type]
+    follower = None
+    if mechanism.starts:  # few mechanisms have groups of class III
+        from ..triads.following import Follower, triads
+        from ..triads.special_points import with_special_points
+
+        if triads(mechanism):
+            follower = Follower(mechanism, {**values, name: start})
+            places = follower.places
+            mechanism = with_special_points(mechanism, {**values, name: places}, follower.near(places))
+    return Swept(mechanism, name, turns, start, -1.0 if sense < 0.0 else 1.0, follower)

@@ -1,0 +1,188 @@
+"""The dyad of the second kind, RRP: a connecting rod 2 and a slider 3 on a guide, which stands or moves.
+
+A is the outer revolute pair, B the inner one; u is the guide's direction. Determinant of all its problems: the sine of
+the angle between the normal to AB and u, zero when AB is normal to the guide.
+
+Source: Artobolevsky, Theory of mechanisms and machines; Kinytskyi, the same (class II, kind 2).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...board import Board
+from ..guides import Slide, place_slide, running_line, slide_of, under_acceleration, under_velocity
+from ..mechanism import ZERO, Link, Mechanism, Prismatic
+from ..parts import (
+    Bodies,
+    Body,
+    Couples,
+    Forces,
+    Passed,
+    Span,
+    answer,
+    hang,
+    measure_link,
+    moments_about,
+    move_link,
+    move_points,
+    place_link,
+    turn_with,
+)
+from ..structure import Group
+
+
+@dataclass(frozen=True, slots=True)
+class Dyad:
+    """The names that the constructions of one RRP dyad use; the slider may carry the guide itself."""
+
+    mechanism: Mechanism
+    name: str
+    rod: Link
+    slider: Link
+    guide: Prismatic
+    A: str
+    B: str
+    before: int  # the link that carries A
+    slide: Slide
+
+    @property
+    def span(self) -> Span:
+        """The rod between its pairs."""
+        return Span(self.rod, self.A, self.B)
+
+    @property
+    def AB(self) -> str:
+        """The rod by its ends."""
+        return self.span.name
+
+    @property
+    def length(self) -> str:
+        """Name of the rod's length."""
+        return self.span.length
+
+    @property
+    def u(self) -> str:
+        """Name of the guide's direction."""
+        return self.slide.u
+
+    @property
+    def spans(self) -> tuple[Span, ...]:
+        """Its links with two joints."""
+        return (self.span,)
+
+    @property
+    def bodies(self) -> tuple[Body, Body]:
+        """The links for those attached to them."""
+        return self.span.body(f"omega_{self.rod.number}", f"epsilon_{self.rod.number}"), self.slide.body
+
+    def passed(self) -> tuple[Passed, Passed]:
+        """Reactions on the links before; that on the guide is moved to B, with a couple."""
+        k, m = self.slider.number, self.slide.other
+        return (
+            Passed(f"R_{self.rod.number}{self.before}", self.before, self.A),
+            Passed(f"R_{k}{m}", m, self.B, f"M_{k}{m}"),
+        )
+
+
+def dyad(mechanism: Mechanism, group: Group, bodies: Bodies | None = None) -> Dyad:
+    """Name the parts of an RRP group; `bodies` are the links before it, wanted when the guide moves.
+
+    Raises
+    ------
+    InputError
+        When the frame is said to be the slider.
+    """
+    first, second = group.links
+    pin, guide = group.outer
+    assert isinstance(guide, Prismatic)
+    A, B = pin.point, group.inner[0].point
+    rod, slider = mechanism.link(first), mechanism.link(second)
+    on_guide = slide_of(mechanism, guide, second, B, bodies or {})
+    return Dyad(mechanism, group.name, rod, slider, guide, A, B, group.before[0], on_guide)
+
+
+def position(board: Board, d: Dyad) -> None:
+    """B is where the arc of radius AB about A crosses the line along which B runs."""
+    start = running_line(board, d.slide)
+    measure_link(board, d.span)
+    board.arc(d.B, d.A, d.length, start, d.u, d.guide.branch or "one")
+    place_link(board, d.span)
+    place_slide(board, d.slide)
+
+
+def velocity(board: Board, d: Dyad) -> None:
+    """Through a the normal to AB, through b4 (p when the guide stands) the parallel to the guide: b."""
+    a, b = d.mechanism.mark("velocity", d.A), f"velocity.{d.B}"
+    under_velocity(board, d.mechanism, d.slide)
+    board.meet(b, a, d.span.n, d.slide.mark("velocity"), d.u)
+    board.read(f"V_{d.B}{d.A}", a, b)
+    if d.slide.known is not None:
+        board.read(f"V_{d.slide.own}{d.slide.under}", d.slide.mark("velocity"), b)
+    board.read(f"V_{d.B}", "velocity.p", b)
+    _others(board, d, "velocity")
+    board.calc(f"omega_{d.rod.number}", "turning", f"V_{d.B}{d.A}", d.span.n, d.length)
+
+
+def acceleration(board: Board, d: Dyad) -> None:
+    """From a' the normal part towards A, through its end the normal to AB; the parallel to the guide gives b'.
+
+    It runs through the pole when the guide stands, otherwise through the end of the acceleration of Coriolis.
+    """
+    a, b, n = d.mechanism.mark("acceleration", d.A), f"acceleration.{d.B}", f"acceleration.n_{d.B}{d.A}"
+    part = f"a_{d.B}{d.A}_n"
+    board.calc(f"_{part}", "normal_part", f"V_{d.B}{d.A}", d.length)
+    board.back(n, a, d.span.e, f"_{part}")
+    board.read(part, a, n)
+    k = under_acceleration(board, d.mechanism, d.slide)
+    board.meet(b, n, d.span.n, k, d.u)
+    board.read(f"a_{d.B}{d.A}_t", n, b)
+    board.read(f"a_{d.B}{d.A}", a, b)
+    if d.slide.known is not None:
+        board.read(f"a_{d.slide.own}{d.slide.under}_r", k, b)
+    board.read(f"a_{d.B}", "acceleration.p", b)
+    _others(board, d, "acceleration")
+    board.calc(f"epsilon_{d.rod.number}", "turning", f"a_{d.B}{d.A}_t", d.span.n, d.length)
+
+
+def _others(board: Board, d: Dyad, plan: str) -> None:
+    """Mark the other points of both links; the slider turns like the guide."""
+    move_link(board, d.mechanism, d.span, plan)
+    if d.slide.known is not None:
+        turn_with(board, d.slide.body, d.slide.known, plan)
+    move_points(board, d.mechanism, d.slide.body, plan, (d.B,))
+
+
+def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
+    """Force plans of the group and of the rod; `loads` are (force, point) and `couples` moments, by link.
+
+    R_12^t from the moments of the rod about B; the chain R_12^t, loads of the slider, loads of the rod; through its
+    beginning the parallel to AB, through its end the normal to the guide.
+    """
+    i, j, k, m = d.before, d.rod.number, d.slider.number, d.slide.other
+    moments = moments_about(board, loads[j], j, d.B)
+    # R^t stands at A on the arm l_AB and turns about B against the sense in which it points along the normal
+    board.calc(f"_R_{i}{j}_t", "moment_equation", d.length, *moments, *couples[j])
+
+    plan = f"forces_{d.name}"
+    hung = [force for force, _ in (*loads[k], *loads[j])]
+    board.pole(f"{plan}.0")
+    board.lay(f"{plan}.1", f"{plan}.0", d.span.n, f"_R_{i}{j}_t")
+    board.read(f"R_{i}{j}_t", f"{plan}.0", f"{plan}.1")
+    last, closing = hang(board, plan, hung, 1), f"{plan}.{len(hung) + 2}"
+    board.meet(closing, last, f"n_{d.u}", f"{plan}.0", d.span.e)
+    board.read(f"R_{m}{k}", last, closing)
+    board.read(f"R_{i}{j}_n", closing, f"{plan}.0")
+    board.read(f"R_{i}{j}", closing, f"{plan}.1")
+
+    own = f"forces_{j}"
+    board.pole(f"{own}.0")
+    board.chain(f"{own}.1", f"{own}.0", f"R_{i}{j}")
+    board.read(f"R_{k}{j}", hang(board, own, [force for force, _ in loads[j]], 1), f"{own}.0")
+    answer(board, "R", (i, j), (k, j), (m, k))
+
+    # the guide's reaction stands where it balances the moments of the slider's loads about B
+    board.calc(f"_M_{k}", "sum", ZERO, *moments_about(board, loads[k], k, d.B), *couples[k])
+    board.calc(f"M_{m}{k}", "opposite", f"_M_{k}")
+    board.step("arm", f"h_{m}{k}", f"M_{m}{k}", f"R_{m}{k}")
+    answer(board, "M", (m, k))

@@ -1,0 +1,1 @@
+"""Groups of class III: their construction, and how they are followed through the cycle."""

@@ -1,0 +1,1 @@
+"""Charts of a task: speed against accuracy, stability, depth of the model."""

@@ -1,0 +1,116 @@
+"""What all charts share: the case, its cycle, its words, how rows become a table and a CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import textwrap
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from ...drawing.words import Words
+from ...plans.hands.hand import preset
+from ...plans.laws import TURN
+from ...plans.linkages.cycles.cycle import Cycle
+from ...scales.units import format_unit, unit
+from ..case import Case
+from ..sweeps.columns import driver_name
+
+Cell = str | float | int | None
+DIGITS = 3
+LINE = 110  # characters
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """The case of a chart, its words, and the name of the hand that draws."""
+
+    case: Case
+    words: Words
+    hand: str
+
+    def __post_init__(self) -> None:
+        """Refuse a hand that nobody knows."""
+        preset(self.hand)
+
+    def title(self, key: str) -> str:
+        """Return the title of a chart."""
+        task = self.case.task
+        of = self.words["chart.variant"].format(title=task.title[self.words.language], variant=self.case.variant)
+        return f"{self.words[key]}. {of}"
+
+
+def place(cycle: Cycle, words: Words, at: float) -> str:
+    """Return a place of the driver with its unit, an angle within a turn."""
+    if cycle.drive.turns:
+        return f"{words.number(round(math.degrees(at) % 360.0, 2) % 360.0, 2)}°"
+    return f"{words.short(at * 1e3, 6)} {format_unit('mm', words.language)}"
+
+
+def place_head(cycle: Cycle, words: Words) -> str:
+    """Return the name of the driver's variable with its unit."""
+    return f"{driver_name(cycle)}, {format_unit('deg' if cycle.drive.turns else 'mm', words.language)}"
+
+
+def place_value(cycle: Cycle, at: float) -> float:
+    """Return a place of the driver in the unit of `place_head`."""
+    return float(round(unit("deg").from_si(at) % 360.0, 9) % 360.0 if cycle.drive.turns else at * 1e3)
+
+
+def place_column(cycle: Cycle) -> str:
+    """Return the head of a CSV's column with places of the driver."""
+    return f"place [{'deg' if cycle.drive.turns else 'mm'}]"
+
+
+def place_si(cycle: Cycle, at: float) -> float:
+    """Return a place of the driver for JSON: an angle in [0, 2 pi), or metres."""
+    return float(at % TURN % TURN) if cycle.drive.turns else float(at)  # -1e-17 % TURN is TURN
+
+
+def short(words: Words, value: float | None, digits: int = DIGITS) -> str:
+    """Return a number for a table, small ones with a power of ten; a dash for none."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    if value and not 1e-4 <= abs(value) < 1e6:
+        return words.decimal(f"{value:.{digits - 1}e}")
+    return words.short(value, digits)
+
+
+def aligned(rows: Sequence[Sequence[str]], left: int = 1) -> str:
+    """Return rows as lines, so many columns to the left, the others to the right."""
+    widths = [max(len(row[i]) for row in rows if i < len(row)) for i in range(max(map(len, rows)))]
+
+    def cell(text: str, i: int) -> str:
+        return f"{text:{widths[i]}}" if i < left else f"{text:>{widths[i]}}"
+
+    return "\n".join("  ".join(cell(text, i) for i, text in enumerate(row)).rstrip() for row in rows)
+
+
+def wrapped(text: str) -> str:
+    """Return a note as lines of a table's width."""
+    return textwrap.fill(text, LINE)
+
+
+def as_csv(head: Sequence[str], rows: Iterable[Sequence[Cell]], words: Words) -> bytes:
+    """Return rows as CSV, numbers in full precision: as spreadsheets of the language read it."""
+    comma = words.language != "en"
+    stream = io.StringIO(newline="")
+    writer = csv.writer(stream, delimiter=";" if comma else ",", lineterminator="\r\n")
+    writer.writerow(head)
+    writer.writerows([_plain(value, comma) for value in row] for row in rows)
+    return stream.getvalue().encode("utf-8-sig" if comma else "utf-8")
+
+
+def _plain(value: Cell, comma: bool) -> str:
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        return ""
+    if not isinstance(value, float):
+        return str(value)
+    text = repr(float(value) + 0.0)
+    return text.replace(".", ",") if comma else text
+
+
+def finite(value: float | None) -> float | None:
+    """Return a number for JSON, None for what is not one."""
+    return None if value is None or not math.isfinite(value) else float(value) + 0.0

@@ -1,0 +1,164 @@
+"""Checking what a task file holds: faults are collected with their places, not raised one at a time."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ...scales.errors import InputError
+from ...scales.names import cyrillic, latin, unknown
+from ...scales.numbers import quote
+from ..task import LocatedError
+from ..toml_places import Path, Places
+
+MOST_FAULTS = 1000  # nobody reads more of them, and a file of a megabyte may hold a million
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+
+
+class EnoughError(Exception):
+    """There are so many faults that looking for more helps nobody."""
+
+
+@dataclass(slots=True)
+class Checker:
+    """The faults of one file so far."""
+
+    file: str
+    places: Places
+    faults: list[tuple[int, int, InputError]] = field(default_factory=list)
+    unread: set[str] = field(default_factory=set)  # givens and diagrams at fault: that others name them is no fault
+
+    def fault(self, path: Path, error: InputError) -> None:
+        """Note `error` at `path`; the keys of the path go before its message."""
+        line, column = self.places[path]
+        keys = ".".join(str(part) for part in path if isinstance(part, str))
+        place = f"{self.file}:{line}:{column}"
+        self.faults.append((line, column, LocatedError(f"{place}: {quote(keys)}" if keys else place, error)))
+        if len(self.faults) >= MOST_FAULTS:
+            raise EnoughError
+
+    def twice(self, path: Path, name: object, first: Path) -> None:
+        """Note that `name` stands at `path` again, after it stood at `first`."""
+        self.fault(path, InputError("id-twice", name=name, line=self.places[first][0]))
+
+    def wrong_type(self, path: Path, expected: str) -> None:
+        """Note that the value at `path` is not of the `expected` kind, a key of a message."""
+        self.fault(path, InputError(expected))
+
+
+Read = Callable[[Checker, Path, Any], Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """How a key is read, and whether it must be there."""
+
+    read: Read
+    required: bool = True
+
+
+def record(checker: Checker, path: Path, raw: object, fields: Mapping[str, Field]) -> dict[str, Any]:
+    """Read a table with fixed keys; a key that is missing, unknown or unreadable is a fault and left out."""
+    if not isinstance(raw, dict):
+        checker.wrong_type(path, "type-table")
+        return {}
+    missing = [name for name, wanted in fields.items() if wanted.required and name not in raw]
+    for name in raw:
+        if name not in fields:
+            error = unknown("key-unknown", name, fields)
+            checker.fault((*path, name), error)
+            # A misspelt key is one fault, not an unknown key and a missing one.
+            missing = [other for other in missing if other != error.data.get("like")]
+    for name in missing:
+        checker.fault(path, InputError("key-missing", name=name))
+    read = {name: wanted.read(checker, (*path, name), raw[name]) for name, wanted in fields.items() if name in raw}
+    return {name: value for name, value in read.items() if value is not None}
+
+
+def as_is(checker: Checker, path: Path, raw: object) -> Any:
+    """Leave a value to be read later, by its own reader."""
+    return raw
+
+
+def text(checker: Checker, path: Path, raw: object) -> str | None:
+    """Read a string that is not blank."""
+    if isinstance(raw, str) and raw.strip():
+        return raw
+    checker.wrong_type(path, "type-text")
+    return None
+
+
+def name(checker: Checker, path: Path, raw: object) -> str | None:
+    """Read a name: an ASCII letter, then letters, digits and underscores."""
+    if isinstance(raw, str) and NAME.fullmatch(raw):
+        return raw
+    if isinstance(raw, str) and NAME.fullmatch(latin(raw)):
+        checker.fault(path, cyrillic(raw))
+    else:
+        checker.fault(path, InputError("type-name", text=quote(raw)))
+    return None
+
+
+def label(checker: Checker, path: Path, raw: object) -> str | None:
+    """Read an id of a task or variant: something to type on a command line."""
+    if isinstance(raw, str) and re.fullmatch(r"\w[\w.-]*", raw):
+        return raw
+    checker.wrong_type(path, "type-id")
+    return None
+
+
+def link_number(checker: Checker, path: Path, raw: object) -> int | None:
+    """Read the number of a link, 0 for the frame."""
+    if isinstance(raw, int) and not isinstance(raw, bool) and 0 <= raw < 100:
+        return raw
+    checker.wrong_type(path, "type-link-number")
+    return None
+
+
+def array_of(read: Read, length: int | None = None) -> Read:
+    """Return a reader of arrays: of `length` items, or of any number but none."""
+
+    def read_array(checker: Checker, path: Path, raw: object) -> tuple[Any, ...] | None:
+        if not isinstance(raw, list) or (len(raw) != length if length else not raw):
+            checker.fault(path, InputError("type-array", n=length or "1, 2, …"))
+            return None
+        items = tuple(read(checker, (*path, i), item) for i, item in enumerate(raw))
+        return None if None in items else items
+
+    return read_array
+
+
+def one_of(key: str, known: Callable[[], tuple[str, ...]]) -> Read:
+    """Return a reader of a word out of `known`; `key` is the message for another."""
+
+    def read_word(checker: Checker, path: Path, raw: object) -> str | None:
+        if not isinstance(raw, str):
+            checker.wrong_type(path, "type-text")
+        elif raw not in known():
+            checker.fault(path, unknown(key, raw, known()))
+        else:
+            return raw
+        return None
+
+    return read_word
+
+
+def rows(checker: Checker, path: Path, raw: object) -> list[tuple[Path, object]]:
+    """Return the tables of an array of tables with their paths."""
+    if not isinstance(raw, list) or not raw:
+        checker.wrong_type(path, "type-tables")
+        return []
+    return [((*path, i), row) for i, row in enumerate(raw)]
+
+
+def on_link(
+    checker: Checker, path: Path, key: str, point: str, number: int, links: Mapping[int, Mapping[str, object]]
+) -> None:
+    """Check that `point`, named by `key`, is lettered on link `number`."""
+    if number not in links:
+        at = (*path, "links") if (*path, "links") in checker.places else (*path, "link")
+        checker.fault(at, unknown("link-unknown", str(number), map(str, links)))
+    elif point not in links[number]:
+        checker.fault((*path, key), unknown("point-unknown", point, links[number], link=number))

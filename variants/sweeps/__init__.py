@@ -1,0 +1,1 @@
+"""A task over its whole cycle: columns, tables, data, files."""

@@ -1,0 +1,242 @@
+"""A task over the whole cycle: columns of numbers, dead positions, strokes, extremes, as a table, CSV or JSON."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from ...drawing.words import Words
+from ...drawing.writers import WRITERS, Files, page_files, save_all
+from ...plans.graphs import Diagrams
+from ...plans.linkages.cycles.cycle import Cycle, cycle
+from ...plans.linkages.cycles.diagrams import diagrams
+from ...plans.linkages.mechanism import Driver
+from ...scales.arguments import of_kind
+from ...scales.errors import InputError, PositionError
+from ...scales.names import unknown
+from ...scales.numbers import quote
+from ...scales.units import Unit, parse, unit
+from ..arguments import names_of, positions_of
+from ..case import Case, Settings, solve_case
+from ..sheets import Sheet, cycle_sheet
+from ..task import LocatedError, Task
+from .columns import letters
+from .data import as_json
+from .table import as_chords, as_csv, as_table
+
+SECTIONS = 12
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Sweep:
+    """The whole cycle of one variant of a task.
+
+    `cycle` holds positions, values and statuses as arrays in SI; `chosen` are the points and links that were asked for;
+    `words` are those of the table and the CSV.
+    """
+
+    case: Case
+    cycle: Cycle
+    chosen: tuple[str, ...]
+    words: Words
+
+    @property
+    def task(self) -> Task:
+        """The task."""
+        return self.case.task
+
+    @property
+    def variant(self) -> str:
+        """The variant."""
+        return self.case.variant
+
+    @property
+    def status(self) -> str:
+        """`ok` when some position has its plans, otherwise the status of all."""
+        statuses = self.cycle.statuses
+        return min(statuses, key=("ok", "ill-conditioned", "singular", "no-assembly").index)
+
+    @property
+    def reason(self) -> PositionError | None:
+        """Why no position at all can be assembled, or None."""
+        return None if self.cycle.reach.stretches else self.case.solved.error()
+
+    def diagrams(self, of: str | int, sections: int = SECTIONS) -> Diagrams:
+        """Return travel, velocity and acceleration of a point or a link, by plans and by chords.
+
+        Parameters
+        ----------
+        of : str or int
+            A point's letter, or the number of a link.
+        sections : int
+            Sections of the cycle for the chords.
+        """
+        return diagrams(self.cycle, str(of), positions_of("sections", sections))
+
+    def table(self, language: str | None = None) -> str:
+        """Return the main columns position by position, then dead positions, strokes, extremes and what has no plan."""
+        return as_table(self.cycle, self.chosen, self._words(language))
+
+    def chords(self, of: str | int, language: str | None = None) -> str:
+        """Return a table of the velocities and accelerations of a point or a link by plans and by chords."""
+        return as_chords(self.diagrams(of, len(self.cycle.angles)), str(of), self._words(language))
+
+    def csv(self, language: str | None = None) -> str:
+        """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
+        return as_csv(self.cycle, self.chosen, self._words(language))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what `kulman sweep --json` prints: everything in SI."""
+        head = {"task": self.task.id, "variant": self.variant, "status": self.status}
+        return head | as_json(self.cycle, self.chosen)
+
+    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
+        """Write the sweep to each of `paths`; the suffix says how.
+
+        Returns
+        -------
+        list of Path
+            The files written.
+
+        Raises
+        ------
+        InputError
+            An unknown suffix, two outputs of one name, or a file that cannot be written: then none is.
+        """
+        drawn = cache(self.drawn)  # once for all files, and only where one of them shows it
+
+        def files(path: Path) -> Files:
+            saver = SAVERS.get(path.suffix.lower())
+            return page_files(drawn().pages, path) if saver is None else [(path, saver(self))]
+
+        return save_all(paths, SUFFIXES, files)
+
+    def drawn(self) -> Sheet:
+        """Return the sheet with the plan of positions and the diagrams by plans and by chords.
+
+        Raises
+        ------
+        PositionError
+            The position that the task itself names has no plan.
+        """
+        return cycle_sheet(self.case, self.cycle, self.words)
+
+    def __repr__(self) -> str:
+        """Return task, variant and the number of positions."""
+        return f"<Sweep {self.task.id} {self.variant}: {self.status}, {len(self.cycle.angles)} positions>"
+
+    def _repr_html_(self) -> str:
+        """Show the table in a notebook."""
+        from html import escape
+
+        return f"<pre>{escape(self.table())}</pre>"
+
+    def _words(self, language: str | None) -> Words:
+        return self.words if language is None else self.case.words(language)
+
+
+def _csv_file(sweep: Sweep) -> bytes:
+    """Return the CSV as bytes; spreadsheets know UTF-8 by the mark at its beginning, English ones need none."""
+    return sweep.csv().encode("utf-8" if sweep.words.language == "en" else "utf-8-sig")
+
+
+SAVERS: dict[str, Callable[[Sweep], bytes]] = {".csv": _csv_file}
+SUFFIXES = (*SAVERS, *WRITERS)
+
+
+def sweep(
+    task: str | os.PathLike[str] | Task,
+    variant: str | None = None,
+    *,
+    set: Settings | None = None,
+    only: str | Iterable[str] | None = None,
+    scales: Settings | None = None,
+    positions: int = 12,
+    points: str | Iterable[str] | None = None,
+    start: str | float | None = None,
+    end: str | float | None = None,
+    notation: str | None = None,
+    lang: str | None = None,
+) -> Sweep:
+    """Solve one variant of a task over its whole cycle.
+
+    Parameters
+    ----------
+    task, variant, set, only, scales, notation, lang
+        As for `solve`.
+    positions : int
+        How many positions: they divide the circle of the crank evenly.
+    points : str or iterable of str, optional
+        Letters of points and numbers of links, `"B,S2,3"`: only their columns are shown.
+    start : str or number, optional
+        Where the driver begins: a quantity, or a number in the unit of the task's own given. Without it the crank
+        begins where the working stroke begins, if the task names its output, otherwise at zero.
+    end : str or number, optional
+        Where a sliding driver stops; without `start` and `end` it moves as far as the links let it.
+
+    Returns
+    -------
+    Sweep
+        Also when some positions, or all, have no plan: each has its status.
+
+    Raises
+    ------
+    InputError
+        As for `solve`; also a number of positions that makes no cycle, and an unknown point.
+
+    >>> from kulman import sweep
+    >>> swept = sweep("nau-slider-crank", "example")
+    >>> round(swept.cycle.motions[0].travel.length, 6)
+    0.1
+    """
+    positions_of("positions", positions)
+    case = solve_case(task, variant, set, only, scales)
+    words = case.words(lang, notation)
+    chosen = _chosen(case.task, points)
+    first, last = (_place(case.task, *item) for item in (("start", start), ("end", end)))
+    if last is not None and isinstance(case.task.mechanism.driver, Driver):
+        raise InputError("sweep-end")
+    values = case.task.values(case.variant, case.settings)
+    plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
+    done = cycle(case.task.mechanism, values, plans, positions, first, last)
+    return Sweep(case, done, chosen, words)
+
+
+def _chosen(task: Task, points: str | Iterable[str] | None) -> tuple[str, ...]:
+    """Return the points and links that are asked for, each named alone or several with commas between."""
+    chosen = names_of("points", points, (str, int))
+    known = (*letters(task.mechanism), *(str(link.number) for link in task.mechanism.links))
+    for one in chosen:
+        if one not in known:
+            raise unknown("motion-unknown", one, known)
+    return chosen
+
+
+def _place(task: Task, name: str, value: str | float | None) -> float | None:
+    """Return a place of the driver in SI; a number without a unit is in that of the task's given."""
+    if value is None:
+        return None
+    of_kind(name, value, (str, int, float), "str | float")
+    own = _own_unit(task)
+    try:
+        if isinstance(value, str):
+            return parse(value, own, own)
+        if not math.isfinite(value):
+            raise InputError("number-bad", text=quote(value))
+    except InputError as error:
+        raise LocatedError(name, error) from error
+    return own.to_si(float(value))
+
+
+def _own_unit(task: Task) -> Unit:
+    """Return the unit of the given that says where the driver stands."""
+    driver = task.mechanism.driver
+    given = task.givens.get(driver.coordinate)
+    if given is not None and given.unit is not None:
+        return given.unit
+    return unit("deg" if isinstance(driver, Driver) else "mm")
