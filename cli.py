@@ -243,7 +243,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
     "files",
     metavar="FILE",
     multiple=True,
-    callback=files_out(".sweeps"),
+    callback=files_out(".sweeps.sweeps"),
     help="Where to: all columns to a .csv, the drawing to .svg, .pdf, .png. Repeatable.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
@@ -287,7 +287,7 @@ def sweep(
     "files",
     metavar="FILE",
     multiple=True,
-    callback=files_out(".charts"),
+    callback=files_out(".charts.charts"),
     help="Where to: pictures to .svg, .pdf, .png, rows to .csv; of several charts x-accuracy.svg, ... Repeatable.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")

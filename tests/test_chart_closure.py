@@ -11,7 +11,7 @@ from kulman.plans.boards.exact import run
 from kulman.plans.linkages.accuracy.closure import Closure
 from kulman.plans.linkages.accuracy.comparison import places_of
 from kulman.plans.linkages.accuracy.contours import Pose
-from kulman.plans.linkages.accuracy.methods import Newton, Rivals, groups
+from kulman.plans.linkages.accuracy.methods import Newton, Rivals, kinds_of
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.givens import board_givens
@@ -49,7 +49,7 @@ def differences(found: Any, exact: Any) -> float:
 def both(whole: Cycle, tolerance: float) -> tuple[Any, Any]:
     """Return motion by Newton's method and by plans, half a step off the ends of the cycle."""
     rivals, places = Rivals.of(whole), places_of(whole, 24)
-    names = [name for group in groups(whole) if group.kind in MOTION for name in group.names]
+    names = [name for kind in kinds_of(whole) if kind.name in MOTION for name in kind.names]
     return Newton(rivals).way(tolerance)(places, names), rivals.plan(places, names)
 
 
