@@ -39,7 +39,8 @@ def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
     figures = _mechanism(canvas, scene, numbers)
     points = [At(scene, c, point, "V") for c in couplers for point in c.letters]
     busy = _busy(scene, points, figures)
-    for hinge in dict.fromkeys(c.hinge for c in couplers):
+    shown = {at.point for at in points}  # a hinge may be a point of another coupler, which shows its velocity
+    for hinge in dict.fromkeys(c.hinge for c in couplers if c.hinge not in shown):
         moved = shifted_vector(scene.vector(f"V_{hinge}", "velocity.p", f"velocity.{hinge}"), scene.mm(hinge))
         _vector(canvas, scene, moved)
         busy.append((moved.tail, moved.tip))
