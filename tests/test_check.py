@@ -367,7 +367,7 @@ CELLS = st.tuples(NUMBERS, NUMBERS, NUMBERS, st.sampled_from(("", "+", "-", "90"
 
 
 @pytest.mark.parametrize("task", ["nau-slider-crank", "scheme-19-scotch-yoke"])
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.data())
 def test_whatever_numbers_come_they_are_marked(tmp_path: Path, task: str, data: st.DataObject) -> None:
     """Zeros, nonsense, and values that make the construction impossible."""

@@ -43,6 +43,7 @@ def test_commands_of_the_guide_print_what_it_shows(tmp_path: Path) -> None:
     assert refresh.refreshed(text, str(tmp_path)) == text
 
 
+@pytest.mark.soak
 def test_every_line_of_the_sources_is_marked_as_the_document_says() -> None:
     assert module("seeds_tables").filled(SEEDS) == SEEDS
 
