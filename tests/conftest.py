@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from kulman.tests.mechanisms import SEED, Solved, general_slider_crank, random_slider_cranks, solved
+from kulman.tests.support.mechanisms import SEED, Solved, general_slider_crank, random_slider_cranks, solved
 
 
 @pytest.fixture(

@@ -1,0 +1,290 @@
+"""Laws of mechanics over random slider-cranks in one array: rigid links, similarity, equilibrium, power, scaling."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from kulman.tests.support.mechanisms import (
+    GENERAL_LENGTHS,
+    SEED,
+    Solved,
+    general_slider_crank,
+    random_slider_cranks,
+    solved,
+)
+
+RELATIVE = 1e-11
+LOADS = {
+    1: (("F_i1", "A"), ("F_1", "A")),
+    2: (("F_i2", "S2"), ("F_C", "C"), ("F_B", "B")),
+    3: (("F_i3", "B"), ("F_3", "B")),
+}
+REACTIONS = {1: (("R_01", "O"), ("R_21", "A")), 2: (("R_12", "A"), ("R_32", "B")), 3: (("R_23", "B"), ("R_03", "B"))}
+# in the laws of a scaled mechanism lengths, loads and moments of inertia grow by k, k and k^2
+POWERS = {"omega": 0, "epsilon": 0, "e": 0, "n": 0, "u": 0, "delta": 0, "M": 2}
+
+
+def dot(u: Any, w: Any) -> Any:
+    return (np.conj(u) * w).real
+
+
+def cross(u: Any, w: Any) -> Any:
+    return (np.conj(u) * w).imag
+
+
+def vanish(value: Any, *parts: Any) -> bool:
+    """Return whether `value` is zero beside the parts of which it is the remainder."""
+    return bool(np.all(np.abs(value) <= RELATIVE * sum(np.abs(part) for part in parts)))
+
+
+def test_no_random_mechanism_fails(cranks: Solved) -> None:
+    assert not cranks.codes.any()
+    assert all(np.isfinite(array).all() for array in cranks.results.values())
+
+
+def test_crank_keeps_its_length_and_angle(cranks: Solved) -> None:
+    crank = cranks["A"] - cranks["O"]
+
+    expected = cranks["l_OA"] * np.exp(1j * cranks["phi"])
+
+    assert vanish(cranks["O"] - (cranks["x_O"] + 1j * cranks["y_O"]), cranks["O"])
+    assert vanish(crank - expected, cranks["A"], cranks["O"])
+
+
+def test_rod_keeps_its_length_and_its_points(cranks: Solved) -> None:
+    rod = cranks["B"] - cranks["A"]
+
+    assert vanish(np.abs(rod) - cranks["l_AB"], rod, cranks["A"], cranks["B"])
+    for point, length in (("S2", "l_AS2"), ("C", "l_AC")):
+        assert vanish(
+            cranks[point] - cranks["A"] - rod * cranks[length] / cranks["l_AB"], rod, cranks["A"], cranks["B"]
+        )
+
+
+def test_slider_keeps_its_offset_to_the_left_of_the_guide(cranks: Solved) -> None:
+    u = np.exp(1j * cranks["gamma"])
+    from_guide = cranks["B"] - (cranks["x_g"] + 1j * cranks["y_g"])
+
+    assert vanish(cross(u, from_guide) - cranks["e"], from_guide, cranks["A"])
+
+
+def test_slider_stands_on_the_side_that_its_branch_names(cranks: Solved) -> None:
+    along = dot(np.exp(1j * cranks["gamma"]), cranks["B"] - cranks["A"])
+
+    assert np.array_equal(np.sign(along), cranks["branch_B"])
+
+
+def test_crank_pin_moves_on_its_circle_in_the_sense_of_rotation(cranks: Solved) -> None:
+    crank, omega = cranks["A"] - cranks["O"], cranks["n_1"] * cranks["sense_1"]
+
+    assert np.array_equal(cranks["omega_1"], omega)
+    assert vanish(cranks["V_A"] - 1j * omega * crank, cranks["V_A"], omega * cranks["A"])
+    assert vanish(cranks["a_A"] + omega**2 * crank, cranks["a_A"], omega**2 * cranks["A"])
+
+
+def test_velocity_plan_keeps_the_rod_rigid_and_the_slider_on_its_guide(cranks: Solved) -> None:
+    rod, u = cranks["B"] - cranks["A"], np.exp(1j * cranks["gamma"])
+
+    assert vanish(dot(cranks["V_BA"], rod), np.abs(cranks["V_A"]) * np.abs(rod))
+    assert vanish(cross(u, cranks["V_B"]), cranks["V_A"])
+    assert vanish(cranks["V_A"] + cranks["V_BA"] - cranks["V_B"], cranks["V_A"], cranks["V_B"])
+    assert vanish(cranks["V_BA"] - 1j * cranks["omega_2"] * rod, cranks["V_A"])
+
+
+def test_acceleration_plan_keeps_the_rod_rigid_and_the_slider_on_its_guide(cranks: Solved) -> None:
+    rod, u, size = cranks["B"] - cranks["A"], np.exp(1j * cranks["gamma"]), np.abs(cranks["a_A"])
+    size = size + np.abs(cranks["a_BA_n"])
+
+    assert vanish(cranks["a_BA_n"] + cranks["omega_2"] ** 2 * rod, size)
+    assert np.all(dot(cranks["a_BA_n"], rod) <= 0)
+    assert vanish(dot(cranks["a_BA_t"], rod), size * np.abs(rod))
+    assert vanish(cross(u, cranks["a_B"]), size)
+    assert vanish(cranks["a_A"] + cranks["a_BA_n"] + cranks["a_BA_t"] - cranks["a_B"], size)
+    assert vanish(cranks["a_BA"] - cranks["a_BA_n"] - cranks["a_BA_t"], size)
+    assert vanish(cranks["a_BA_t"] - 1j * cranks["epsilon_2"] * rod, size)
+    assert vanish(cranks["acceleration.n_BA"] - cranks["a_A"] - cranks["a_BA_n"], size)
+
+
+@pytest.mark.parametrize("plan", ["velocity", "acceleration"])
+def test_points_of_the_rod_form_a_similar_figure_in_the_plan(cranks: Solved, plan: str) -> None:
+    a, b = cranks[f"{plan}.A"], cranks[f"{plan}.B"]
+
+    for point, length in (("S2", "l_AS2"), ("C", "l_AC")):
+        expected = a + (b - a) * cranks[length] / cranks["l_AB"]
+        assert vanish(cranks[f"{plan}.{point}"] - expected, a, b)
+        assert np.array_equal(cranks[f"{plan[0].replace('v', 'V')}_{point}"], cranks[f"{plan}.{point}"])
+
+
+def test_forces_of_inertia_oppose_the_accelerations(cranks: Solved) -> None:
+    for link, centre in ((1, "A"), (2, "S2"), (3, "B")):
+        assert vanish(cranks[f"F_i{link}"] + cranks[f"m_{link}"] * cranks[f"a_{centre}"], cranks[f"F_i{link}"])
+    assert vanish(cranks["M_i2"] + cranks["J_S2"] * cranks["epsilon_2"], cranks["M_i2"])
+
+
+def test_loads_have_their_magnitude_and_direction(cranks: Solved) -> None:
+    for load, angle in (("F_1", "F1"), ("F_C", "FC"), ("F_B", "FB"), ("F_3", "F3")):
+        expected = cranks.values[load] * np.exp(1j * cranks[f"alpha_{angle}"])
+        assert vanish(cranks.results[load] - expected, expected)
+
+
+@pytest.mark.parametrize("link", [1, 2, 3])
+def test_force_polygon_of_a_link_closes(cranks: Solved, link: int) -> None:
+    forces = [cranks[name] for name, _ in (*REACTIONS[link], *LOADS[link])]
+
+    assert vanish(sum(forces), *forces)
+
+
+@pytest.mark.parametrize("link", [1, 2, 3])
+def test_moments_of_a_link_balance_about_a_point_off_the_plan(cranks: Solved, link: int) -> None:
+    about = cranks["A"] + cranks["l_AB"] * np.exp(2.6j)  # no construction uses it
+
+    moments = [cross(cranks[at] - about, cranks[name]) for name, at in (*REACTIONS[link], *LOADS[link])]
+    moments += {1: [cranks["M_bal"]], 2: [cranks["M_i2"]], 3: []}[link]
+
+    assert vanish(sum(moments), *moments)
+
+
+def test_reactions_of_two_links_are_opposite(cranks: Solved) -> None:
+    assert np.array_equal(cranks["R_12"], -cranks["R_21"])
+    assert np.array_equal(cranks["R_23"], -cranks["R_32"])
+
+
+def test_reaction_of_the_guide_is_normal_to_it(cranks: Solved) -> None:
+    assert vanish(dot(np.exp(1j * cranks["gamma"]), cranks["R_03"]), cranks["R_32"], cranks["R_12_n"])
+
+
+def test_reaction_of_the_crank_is_resolved_along_and_across_the_rod(cranks: Solved) -> None:
+    rod, size = cranks["B"] - cranks["A"], np.abs(cranks["R_12"]) + np.abs(cranks["R_03"])
+
+    assert vanish(dot(cranks["R_12_t"], rod), size * np.abs(rod))
+    assert vanish(cross(cranks["R_12_n"], rod), size * np.abs(rod))
+    assert vanish(cranks["R_12_n"] + cranks["R_12_t"] - cranks["R_12"], size)
+
+
+def test_power_of_all_forces_and_moments_is_zero(cranks: Solved) -> None:
+    powers = [dot(cranks[name], cranks[f"V_{at}"]) for forces in LOADS.values() for name, at in forces]
+    powers += [cranks["M_i2"] * cranks["omega_2"], cranks["M_bal"] * cranks["omega_1"]]
+
+    assert vanish(sum(powers), *powers)
+
+
+def test_lever_gives_the_balancing_moment_of_the_force_plan(cranks: Solved) -> None:
+    parts = [dot(cranks[name], cranks[f"V_{at}"]) for forces in LOADS.values() for name, at in forces]
+    parts.append(cranks["M_i2"] * cranks["omega_2"])
+    size = sum(np.abs(part) for part in parts) / cranks["n_1"]
+
+    assert vanish(cranks["M_bal"] - cranks["M_bal_lever"], size)
+    assert vanish(cranks["M_bal_lever"] - cranks["F_bal"] * cranks["l_OA"], size)
+    difference = (cranks["M_bal_lever"] - cranks["M_bal"]) / cranks["M_bal_lever"] * 100
+    assert np.allclose(cranks["delta_M_bal"], difference, rtol=1e-9, atol=0)
+
+
+def test_balancing_force_stands_on_the_crank_pin_across_the_crank(cranks: Solved) -> None:
+    crank, force = cranks["A"] - cranks["O"], cranks["_F_bal"]
+    size = np.abs(force) * (np.abs(cranks["A"]) + np.abs(cranks["O"]))
+
+    assert vanish(dot(crank, force), size)
+    assert vanish(cross(crank, force) - cranks["M_bal_lever"], size)
+
+
+def test_lever_turns_the_velocity_plan_by_a_right_angle(cranks: Solved) -> None:
+    for point in ("A", "B", "C", "S2"):
+        assert np.array_equal(cranks[f"lever.{point}"], 1j * cranks[f"V_{point}"])
+
+
+@pytest.mark.parametrize("plan", ["forces_23", "forces_2", "forces_1"])
+def test_force_plan_hangs_tip_to_tail_from_its_pole(cranks: Solved, plan: str) -> None:
+    order = {
+        "forces_23": ("R_12_t", "F_i3", "F_3", "F_i2", "F_C", "F_B", "R_03"),
+        "forces_2": ("R_12", "F_i2", "F_C", "F_B"),
+        "forces_1": ("R_21", "F_i1", "F_1"),
+    }[plan]
+    sizes = [cranks[name] for name in order]
+
+    for number in range(len(order) + 1):
+        assert vanish(cranks[f"{plan}.{number}"] - sum(sizes[:number]), *sizes)
+
+
+@pytest.mark.parametrize(
+    ("arm", "force", "at", "about"),
+    [
+        pytest.param("h_2", "F_i2", "S2", "B", id="inertia force of the rod"),
+        pytest.param("h_F_C", "F_C", "C", "B", id="load on the rod"),
+        pytest.param("h_21", "R_21", "A", "O", id="reaction on the crank"),
+        pytest.param("h_F_1", "F_1", "A", "O", id="load on the crank"),
+        pytest.param("h_lever_F_i2", "F_i2", "lever.S2", "lever.p", id="inertia force on the lever"),
+        pytest.param("h_lever_F_3", "F_3", "lever.B", "lever.p", id="load on the lever"),
+        pytest.param("h_lever_M_i2_B", "F_i2_couple_B", "lever.B", "lever.p", id="couple at B on the lever"),
+        pytest.param("h_lever_M_i2_A", "F_i2_couple_A", "lever.A", "lever.p", id="couple at A on the lever"),
+    ],
+)
+def test_arm_is_the_distance_of_the_line_of_action(cranks: Solved, arm: str, force: str, at: str, about: str) -> None:
+    direction = cranks[force] / np.abs(cranks[force])
+    foot = cranks[at] - cranks[about]
+
+    assert vanish(cranks[arm] - np.abs(cross(direction, foot)), foot, cranks["A"] if "lever" not in arm else foot)
+
+
+@pytest.mark.parametrize("k", [1e-7, 1e7], ids=["0.1 um for a metre", "10,000 km for a metre"])
+def test_scaled_mechanism_moves_alike(k: float) -> None:
+    values = random_slider_cranks(SEED, 500)
+
+    small, large = solved(general_slider_crank(), values), solved(general_slider_crank(), scaled(values, k))
+
+    assert np.array_equal(small.codes, large.codes)
+    for name in quantities(small):
+        expected = small[name] * k ** power(name)
+        assert np.all(np.abs(large[name] - expected) <= 1e-10 * size(small, name) * k ** power(name)), name
+
+
+@pytest.mark.parametrize("k", [2.0**-23, 2.0**23])
+def test_mechanism_scaled_by_a_power_of_two_keeps_every_bit(k: float) -> None:
+    values = random_slider_cranks(SEED, 500)
+
+    small, large = solved(general_slider_crank(), values), solved(general_slider_crank(), scaled(values, k))
+
+    for name in quantities(small):
+        assert np.array_equal(large[name], small[name] * k ** power(name)), name
+
+
+def scaled(values: dict[str, Any], k: float) -> dict[str, Any]:
+    """Scale lengths and forces by `k` and moments of inertia by its square; masses and times stay."""
+    grown = {name: values[name] * k for name in (*GENERAL_LENGTHS, "F_1", "F_C", "F_B", "F_3")}
+    return {**values, **grown, "J_S2": values["J_S2"] * k * k}
+
+
+def quantities(mechanisms: Solved) -> list[str]:
+    return [name for name in mechanisms.program.names if not name.startswith("_") and name != "delta_M_bal"]
+
+
+def power(name: str) -> int:
+    return POWERS.get(name.partition("_")[0], 1)
+
+
+def size(mechanisms: Solved, name: str) -> Any:
+    """Return what a quantity is a remainder of."""
+    kind = name.partition("_")[0]
+    forces = sum(
+        np.abs(mechanisms[force]) for force in ("R_12_n", "R_12_t", "R_03", "F_i2", "F_i3", "F_3", "F_C", "F_B")
+    )
+    acceleration = np.abs(mechanisms["a_A"]) + np.abs(mechanisms["a_BA_n"])
+    if kind in ("M", "F", "R") or name.startswith("forces"):
+        return forces * (mechanisms["l_AB"] if kind == "M" else 1.0)
+    if kind == "h" and not name.startswith("h_lever"):
+        return np.abs(mechanisms["A"]) + np.abs(mechanisms["B"]) + np.abs(mechanisms["C"])
+    return acceleration + np.abs(mechanisms[name])
+
+
+def test_speed_turned_round_turns_velocities_and_leaves_accelerations() -> None:
+    values = random_slider_cranks(SEED, 500)
+
+    forth = solved(general_slider_crank(), values)
+    back = solved(general_slider_crank(), {**values, "sense_1": -values["sense_1"]})
+
+    for name in ("V_A", "V_B", "V_BA", "V_S2", "omega_1", "omega_2"):
+        assert np.array_equal(back[name], -forth[name])
+    for name in ("a_A", "a_B", "a_BA_n", "a_BA_t", "epsilon_2", "F_i2", "M_i2", "R_12", "R_03", "M_bal"):
+        assert np.array_equal(back[name], forth[name])

@@ -1,0 +1,150 @@
+"""The tape of a batch: what it saves, what it leaves whole, and that no bit of a result depends on it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from kulman.plans.board import Program, Step
+from kulman.plans.boards.arithmetic import Real, Tape, Vector
+from kulman.plans.boards.batch import ArrayBoard, batch
+from kulman.plans.boards.chunks import Chunks, Store
+from kulman.plans.boards.exact import run
+from kulman.plans.laws import LAWS, cross, dot
+
+ARRAYS = {name: np.array(values) for name, values in {"x": [3.0, -2.0, 0.5], "y": [7.0, 0.25, -8.0]}.items()}
+
+
+def worked_out(value: Real) -> Any:
+    """Return the numbers that a number on a tape stands for."""
+    result = np.empty(3)
+    chunks = Chunks(value.tape.entries, [Store(value.place, value.negative, result)], ARRAYS, 2)
+    for part in (slice(0, 2), slice(2, 3)):
+        chunks.do(part)
+    return result
+
+
+@pytest.fixture
+def tape() -> Tape:
+    return Tape()
+
+
+FORMULAS = {
+    "sums": lambda x, y: (x + y) - (y - x) + 2.0 + (1.0 - x) - (-y),
+    "products": lambda x, y: x * y * 3.0 * (-2.0 * x) * -y,
+    "quotients": lambda x, y: (x / y) / 3.0 + 1.0 / (y / -1.0),
+    "sizes": lambda x, y: abs(x) - abs(-y),
+    "zeros": lambda x, y: (x == 0.5) + (x - x == 0.0) + y * 0.0,
+    "orders": lambda x, y: (x > y) * 1.0 + (-x < 2.0) * 2.0 + (y >= 7.0) * 4.0 + (-y >= 0.5) * 8.0 + (x <= 3.0) * 0.5,
+    "turns": lambda x, y: x // 2.0 + y // -x,
+    "vectors": lambda x, y: dot(complex(1, 2) * x - 1j, x * complex(3, 0)) + cross(1j * y + complex(2, 1), 2j * x),
+}
+
+
+@pytest.mark.parametrize("formula", FORMULAS.values(), ids=FORMULAS)
+def test_numbers_of_a_tape_are_those_of_the_formula(tape: Tape, formula: Any) -> None:
+    noted = worked_out(formula(tape.given("x"), tape.given("y")))
+
+    assert noted.tolist() == [formula(float(x), float(y)) for x, y in zip(ARRAYS["x"], ARRAYS["y"], strict=True)]
+
+
+def test_normal_of_a_direction_is_the_turned_direction(tape: Tape) -> None:
+    x, y = tape.given("x"), tape.given("y")
+    noted = len(tape.entries)
+
+    normal = Vector(x, y) * 1j
+
+    assert len(tape.entries) == noted  # and costs nothing
+    assert worked_out(normal.real).tolist() == (-ARRAYS["y"]).tolist()
+    assert worked_out(normal.imag).tolist() == ARRAYS["x"].tolist()
+
+
+@pytest.mark.parametrize(
+    "again",
+    [
+        pytest.param(lambda x, y: (x * y, y * x), id="factors exchanged"),
+        pytest.param(lambda x, y: (x - y, y - x), id="a difference turned round"),
+        pytest.param(lambda x, y: (x * y, -x * y), id="a sign"),
+        pytest.param(lambda x, y: (x * y, (x * y) * 1.0 + 0.0), id="one and zero"),
+        pytest.param(lambda x, y: (dot(Vector(x, y), Vector(y, x)), cross(Vector(x, y), Vector(x, -y))), id="normals"),
+    ],
+)
+def test_what_is_on_the_tape_is_not_noted_again(tape: Tape, again: Any) -> None:
+    first, second = again(tape.given("x"), tape.given("y"))
+
+    assert first.place == second.place
+
+
+@pytest.mark.parametrize(
+    "look",
+    [
+        pytest.param(bool, id="truth"),
+        pytest.param(lambda x: 1.0 if x < 1.0 else 0.0, id="order"),
+        pytest.param(lambda x: max(x, 0.0), id="larger"),
+        pytest.param(math.sqrt, id="root of one number"),
+        pytest.param(np.sin, id="function of numpy"),
+        pytest.param(lambda x: Vector(x, x) * Vector(x, x), id="product of two vectors"),
+        pytest.param(lambda x: Vector(x, x) * 2j, id="product with a complex number"),
+    ],
+)
+def test_number_of_a_tape_cannot_be_looked_at(tape: Tape, look: Any) -> None:
+    with pytest.raises(TypeError):
+        look(tape.given("x"))
+
+
+STEPS = Program(
+    (
+        Step("place", "P", ("x", "y")),
+        Step("calc", "half", ("P", "y"), "whole"),
+        Step("calc", "size", ("P",), "size"),
+        Step("lay", "Q", ("P", "half", "size")),
+    )
+)
+
+
+def test_step_that_is_no_arithmetic_is_done_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(LAWS, "whole", lambda P, y: P * np.where(np.asarray(y) > 0.0, 0.5, 0.25))
+    monkeypatch.setitem(LAWS, "size", abs)
+
+    results, codes = batch(STEPS, ARRAYS, ["half", "size", "Q", "x"], 2)
+
+    for index in range(3):
+        board = run(STEPS, {name: float(array[index]) for name, array in ARRAYS.items()})
+        assert [results[name][index] for name in results] == [board.values[name] for name in results]
+    assert {name: array.dtype.kind for name, array in results.items()} == {"half": "c", "size": "f", "Q": "c", "x": "f"}
+    assert not codes.any()
+
+
+def test_error_of_a_step_without_arrays_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(LAWS, "wrong", lambda value: value + "")
+
+    with pytest.raises(TypeError):
+        batch(Program((Step("calc", "z", ("one",), "wrong"),)), ARRAYS, ["z"])
+
+
+def test_batch_leaves_no_zero_with_a_sign() -> None:
+    program = Program((Step("calc", "less", ("x",), "opposite"), Step("place", "P", ("less", "x"))))
+    zeros = {"x": np.array([0.0, -0.0, 1.0])}
+
+    results, _ = batch(program, zeros, ["less", "P", "x"])
+
+    signs = [np.signbit(part).tolist() for part in (results["less"], results["P"].real, results["P"].imag)]
+    assert signs == [[False, False, True], [False, False, True], [False] * 3]
+    assert math.copysign(1.0, run(program, {"x": 0.0}).values["less"]) == 1.0
+
+
+def test_array_board_step_by_step_gives_the_numbers_of_the_batch() -> None:
+    from kulman.tests.support.mechanisms import SEED, general_slider_crank, random_slider_cranks, solved
+
+    mechanisms = solved(general_slider_crank(), random_slider_cranks(SEED, 50))
+    board = ArrayBoard(mechanisms.values, 50)
+    board.values |= {f"|{name}|": mechanisms.values[name] for name in ("F_1", "F_C", "F_B", "F_3")}
+
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mechanisms.program.run(board)
+
+    different = [name for name in mechanisms.program.names if not np.array_equal(board.values[name], mechanisms[name])]
+    assert [name for name in different if np.ndim(board.values[name])] == []

@@ -1,0 +1,111 @@
+"""The documents cannot rot: their examples are the bundled task's own lines, and they name every key."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from kulman.cli import commands
+from kulman.drawing.words import notations
+from kulman.plans.linkages.chain import PLANS
+from kulman.scales.packaged import packaged
+from kulman.variants import reader
+from kulman.variants.checks import basics as checks
+from kulman.variants.checks import driver as checks_driver
+from kulman.variants.checks import givens as checks_givens
+from kulman.variants.checks import loads as checks_loads
+from kulman.variants.checks import mechanism as checks_mechanism
+from kulman.variants.shelf import bundled_text
+from kulman.variants.solution import solve
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+TASK_FILE = (DOCS / "task-file.md").read_text(encoding="utf-8")
+NOTATIONS = (DOCS / "notations.md").read_text(encoding="utf-8")
+TASK = "nau-slider-crank"
+
+
+EXAMPLES = sorted((DOCS / "examples").glob("*.toml"))
+
+
+def example_texts() -> list[str]:
+    """Return the task files from which the documents quote."""
+    tasks = [bundled_text(task) for task in (TASK, "scheme-20-press-automaton")]
+    return [*tasks, *(path.read_text(encoding="utf-8") for path in EXAMPLES)]
+
+
+def keys_read(text: str, monkeypatch: pytest.MonkeyPatch) -> set[str]:
+    """Return every key that the reader asks for while it reads a task file, names of its own apart."""
+    keys: set[str] = set()
+
+    def noting(checker: Any, path: Any, raw: object, fields: Mapping[str, Any]) -> dict[str, Any]:
+        keys.update(fields)
+        return checks.record(checker, path, raw, fields)
+
+    modules: tuple[ModuleType, ...] = (reader, checks_givens, checks_mechanism, checks_driver, checks_loads)
+    for module in modules:
+        monkeypatch.setattr(module, "record", noting)
+    task, faults = reader.read_text(text, "t.toml")
+    assert task is not None, faults
+    words = {word for given in task.givens.values() for word in given.choices}
+    return keys - task.givens.keys() - words
+
+
+def test_every_key_of_a_task_file_is_explained(monkeypatch: pytest.MonkeyPatch) -> None:
+    keys = {key for text in example_texts() for key in keys_read(text, monkeypatch)}
+
+    assert {"id", "link", "points", "branch", "reconstructed", "uk", "travel", "back", "gravity"} <= keys
+    explained = set(re.findall(r"`(\w+)`", TASK_FILE)) | set(re.findall(r"^(\w+) = ", TASK_FILE, re.MULTILINE))
+    assert keys - explained == set()
+
+
+def test_every_example_of_a_task_file_stands_in_a_task() -> None:
+    blocks = re.findall(r"```toml\n(.*?)```", TASK_FILE, re.DOTALL)
+
+    assert len(blocks) > 10
+    for block in blocks:
+        assert any(block in text for text in example_texts()), block
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_every_example_is_solved(path: Path) -> None:
+    solution = solve(path)
+
+    assert solution.status == "ok"
+    assert solution.checks["lever"]["ok"]
+    assert f"examples/{path.name}" in TASK_FILE
+
+
+def test_the_words_that_a_task_file_may_use_are_named() -> None:
+    assert all(f"`{name}`" in TASK_FILE for name in notations())
+    assert all(f"`{name}`" in NOTATIONS for name in notations())
+    assert all(f'"{plan}"' in TASK_FILE for plan in PLANS)
+
+
+def test_every_key_of_a_notation_is_explained() -> None:
+    keys = packaged("kulman.drawing", "notations", "nau").keys()
+
+    assert [key for key in keys if not re.search(rf"`\[?{key}(\]|\.|`)", NOTATIONS)] == []
+
+
+def test_help_names_every_notation() -> None:
+    (option,) = [p for p in commands.commands["sheet"].params if p.name == "notation"]
+
+    assert all(name in option.help for name in notations())
+
+
+def test_links_of_the_documents_lead_somewhere() -> None:
+    for path in DOCS.rglob("*.md"):
+        for target in re.findall(r"\]\(([^)#:]+)\)", path.read_text(encoding="utf-8")):
+            assert (path.parent / target).exists(), (path.name, target)
+
+
+def test_files_that_the_documents_name_exist() -> None:
+    for path in DOCS.rglob("*.md"):
+        text = path.read_text(encoding="utf-8")
+        for name in re.findall(r"`((?:scales|plans|drawing|variants|tests)/[\w/]+\.\w+)`", text):
+            assert (DOCS.parent / name).exists(), (path.name, name)

@@ -1,0 +1,47 @@
+"""The README cannot rot: its commands run, they print what it shows, its Python runs, its links lead somewhere."""
+
+import importlib.util
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+_spec = importlib.util.spec_from_file_location("refresh", ROOT / "docs" / "refresh.py")
+assert _spec is not None
+assert _spec.loader is not None
+refresh = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(refresh)
+TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+BLOCKS = refresh.BLOCK.findall(TEXT)
+
+
+@pytest.mark.parametrize("block", BLOCKS, ids=lambda block: refresh.commands(block)[0][:40])
+def test_commands_print_what_the_readme_shows(block, tmp_path):
+    printed = refresh.filled(block, str(tmp_path))
+
+    assert printed == block
+
+
+def test_every_command_of_the_program_stands_in_the_readme():
+    from kulman.cli import commands
+
+    assert BLOCKS
+    for name in commands.commands:
+        assert f"kulman {name}" in TEXT
+
+
+def test_python_of_the_readme_runs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code = "\n".join(re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)).replace("1_000_000", "1_000")
+    names: dict[str, object] = {}
+
+    exec(compile(code, "README.md", "exec"), names)
+
+    assert (tmp_path / "sheet.svg").exists() or (tmp_path / "sheet-1.svg").exists()
+    assert len(names["codes"]) == 1000
+
+
+def test_links_of_the_readme_lead_somewhere():
+    for target in re.findall(r"\]\(([^)#:]+)\)", TEXT):
+        assert (ROOT / target).exists(), target

@@ -1,0 +1,109 @@
+"""Answers that are odd as a whole: exchanged columns, a wrong scale factor, those of another variant."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from kulman import check
+from kulman.tests.support.marking_cases import key, right_answers
+from kulman.variants.marking.answers import Answers
+from kulman.variants.marking.report_html import report_html
+
+TASK = "nau-slider-crank"
+HEAD = "величина;відрізок, мм;масштаб;значення;одиниця;напрям\n"
+
+
+def read(tmp_path: Path, rows: str, variant: str = "example") -> Answers:
+    """Return the answers of a form with these rows."""
+    file = tmp_path / "answers.csv"
+    file.write_text(HEAD + rows, encoding="utf-8")
+    return check(TASK, variant).read(str(file))[0]
+
+
+def test_columns_that_changed_places_are_put_back_by_scale_factors_in_rows_of_their_own(tmp_path: Path) -> None:
+    scales, rows = "mu_V;;0,05;;;\nmu_a;;4;;;\n", "V_B;2,76;;55,2;;\nV_A;4;;80;;\nV_BA;2,1;;42;;\na_B;220;;55;;\n"
+    lone = "omega_1;;;50;;-\na_A;50;;;;\nV_S2;3,26;;;;\n"  # a value, a segment, a value
+
+    found = read(tmp_path, scales + rows + lone)
+
+    assert found.lines["V_B"].mm == pytest.approx(55.2)
+    assert found.lines["V_B"].value == pytest.approx(2.76)
+    assert (found.lines["omega_1"].mm, found.lines["omega_1"].value) == (None, pytest.approx(50.0))
+    assert (found.lines["a_A"].mm, found.lines["a_A"].value) == (pytest.approx(50.0), None)
+    assert (found.lines["V_S2"].mm, found.lines["V_S2"].value) == (None, pytest.approx(3.26))
+    assert "each other's place" in found.problems[0].text("en")
+
+
+def rows_of(variant: str) -> str:
+    """Return the right answers to a variant, as rows of a form; a vector's sense is not said."""
+    given = right_answers(key(TASK, variant), directions=False)
+    return "".join(f"{one.name};;;{abs(one.value or 0.0):.4g};;\n" for one in given)
+
+
+@pytest.mark.parametrize(("rows", "flags"), [("5", ("the answers fit variant 5",)), ("3", ())])
+def test_answers_to_another_variant_are_told(tmp_path: Path, rows: str, flags: tuple[str, ...]) -> None:
+    answers = read(tmp_path, rows_of(rows), "3")
+
+    report = check(TASK, "3", lang="en").mark(answers)
+    own = check(TASK, "3", lang="en", own=True).mark(answers)
+
+    assert report.flags == flags
+    assert own.flags == ()
+
+
+def test_a_page_sets_scripts_and_writes_numbers_and_directions_in_full(tmp_path: Path) -> None:
+    rows = "V_B;;;5,6;;359,98\na_BA_n;;;9;;\nF_3;;;78612;;0\n"
+
+    page = report_html(check(TASK, "3", lang="en").mark(read(tmp_path, rows, "3")))
+
+    assert "<td>a<sup>n</sup><sub>BA</sub></td>" in page
+    assert "a^n_BA" not in page
+    assert "78610 N; 0°" in page.replace("78612", "78610")
+    assert "360°" not in page
+    assert "e+" not in page
+
+
+def test_the_force_of_a_couple_and_each_of_the_two_have_symbols_of_their_own() -> None:
+    asked = check(TASK, "3", lang="en")
+
+    symbols = asked.mark(asked.read("printed")[0]).marked.keyed.symbols
+
+    couple = [symbol for name, symbol in symbols.items() if "i2_couple" in name]
+    assert sorted(couple) == ["F′_i2", "F′_i2 = F″_i2", "F″_i2"]
+
+
+def test_a_direction_in_the_place_of_a_sense_is_told(tmp_path: Path) -> None:
+    found = read(tmp_path, "omega_1;;;50;;вліво\nomega_2;;;5;;+\nV_B;;;5;;вліво\n")
+
+    assert ["omega_1" in problem.text("en") for problem in found.problems] == [True]
+    assert "a sense" in found.problems[0].text("en")
+    assert found.lines["omega_1"].direction is None
+    assert found.lines["omega_1"].value == pytest.approx(50.0)
+
+
+SCALED = "mu_a;;1,07;;;\na_A;80;;856;;\na_BA_n;4,4;;47,4;;\na_BA_t;69,9;;748;;\na_BA;70,1;;750;;\na_S2;59;;631;;\n"
+
+
+@pytest.mark.parametrize("asked", [(), ("a_BA", "a_S2")])
+def test_a_scale_factor_written_wrongly_in_its_row_counts_once(tmp_path: Path, asked: tuple[str, ...]) -> None:
+    rubric = tmp_path / "rubric.toml"
+    rubric.write_text(f"asked = {list(asked)}\n", encoding="utf-8")
+    answers = read(tmp_path, SCALED, "3")
+
+    report = check(TASK, "3", lang="en", rubric=rubric).mark(answers)
+
+    faulty = [(line.name, str(line.verdict)) for line in report.marked.marking.lines if line.verdict.faulty]
+    assert faulty == [((*asked, "a_A")[0], "scale")]
+    assert report.again == ("μ_a: too small by the factor 10; your segments and values fit 10.7 (m/s²)/mm",)
+    assert report.candidates == ()
+
+
+def test_values_that_do_not_come_from_segments_blame_no_scale_factor(tmp_path: Path) -> None:
+    right_scale = SCALED.replace("1,07", "10,7").replace("856", "85,6").replace("47,4", "4,74")
+    tenths = right_scale.replace("748", "74,8").replace("750", "75").replace("631", "63,1")
+
+    marked = check(TASK, "3", lang="en").mark(read(tmp_path, tenths, "3")).marked
+
+    assert marked.misfits == {}

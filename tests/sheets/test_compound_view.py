@@ -1,0 +1,218 @@
+"""Figures of compound motion, read back from the drawn sheet: vectors at the points, construction lines, insets."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import pytest
+
+from kulman import sheet, solve
+from kulman.plans.linkages.chain import hinged
+from kulman.plans.linkages.compound import PARTS, Coupler
+from kulman.scales.errors import InputError
+from kulman.tests.support.overlaps import overlaps, thin_faults
+from kulman.tests.support.readback import Sheet, Stroke, Vec, View, angle, parallel, read
+from kulman.variants.solution import Solution
+
+NEAR = 0.01  # mm
+MORE = ["scheme-08-planer", "scheme-09-shaper", "scheme-13-toggle-press", "scheme-15-lever-shears", "nau-slider-crank"]
+TASKS = ["bertyaev-six-bar", "scheme-03-crank-rocker", *(pytest.param(task, marks=pytest.mark.soak) for task in MORE)]
+LANGUAGES = ["uk", *(pytest.param(lang, marks=pytest.mark.soak) for lang in ("ru", "en"))]
+
+
+@lru_cache(maxsize=8)
+def drawn(task: str, lang: str = "uk", format: str | None = None) -> Sheet:
+    found = sheet(task, lang=lang, only="compound", format=format)
+    return read(*(found.svg(page + 1) for page in range(len(found.pages))))
+
+
+@lru_cache(maxsize=8)
+def solved(task: str) -> Solution:
+    return solve(task, only="compound")
+
+
+def couplers(task: str) -> tuple[Coupler, ...]:
+    found = solved(task).solved
+    return hinged(found.mechanism, found.structure)
+
+
+def view(task: str, name: str) -> View:
+    return next(v for page in drawn(task).pages for v in page.all if v.name == name)
+
+
+def figures(task: str) -> list[tuple[View, Coupler, str, str]]:
+    """Return the view, the coupler, the point and the kind, V or a, of every construction."""
+    points = [(c, point) for c in couplers(task) for point in c.letters]
+    velocity = [(view(task, "compound_velocity"), c, point, "V") for c, point in points]
+    return velocity + [(view(task, f"compound_a_{c.letters[point]}"), c, point, "a") for c, point in points]
+
+
+def large(view: View, name: str) -> Vec:
+    """Return the vector of the figure itself, not of an inset."""
+    return view.vector(name)
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_every_vector_measures_what_it_says(task: str) -> None:
+    for page in drawn(task).pages:
+        for v in (v for view in page.all for v in view.vectors):
+            item = solved(task)[v.quantity]
+            assert item.value == pytest.approx(v.value, rel=1e-9, abs=1e-300)
+            assert abs(v.span) * v.mu == pytest.approx(v.value, abs=NEAR * v.mu)
+            assert abs(v.span - complex(item.x or 0.0, item.y or 0.0) / v.mu) < NEAR
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_parts_hang_on_one_another_from_the_point_to_the_total(task: str) -> None:
+    for figure, c, point, kind in figures(task):
+        letter = c.letters[point]
+        parts = [large(figure, f"{kind}_{letter}_{part}") for part in PARTS[kind]]
+        total = large(figure, f"{kind}_{point}")
+        place = total.tail
+
+        for part in parts:
+            assert abs(part.tail - place) < NEAR
+            place = part.tip
+        assert abs(place - total.tip) < NEAR
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_vectors_stand_at_their_points_of_the_mechanism(task: str) -> None:
+    for figure, c, point, kind in figures(task):
+        rings = {ring.path[-1][1]: ring.centre for ring in figure.rings if ring.path}
+        start = large(figure, f"{kind}_{point}").tail
+
+        assert min(abs(start - ring.centre) for ring in figure.rings) < NEAR
+        at_pivot = rings[c.pivot]
+        link = solved(task).solved.point(point) - solved(task).solved.point(c.pivot)
+        assert abs(angle(start - at_pivot, link)) < 0.01
+
+
+def lines_of(figure: View, plan: str) -> list[Stroke]:
+    return [s for s in figure.strokes if s.role == "construction" and s.name.startswith(f"{plan}_")]
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_closing_lines_run_past_the_point_that_they_find(task: str) -> None:
+    for figure, c, point, kind in figures(task):
+        lines = lines_of(figure, f"{kind}_at_{c.letters[point]}")
+        if point != c.span.end or c.closing is None:
+            assert lines == []
+            continue
+        total = large(figure, f"{kind}_{point}").tip
+        along = [c.span.n, c.closing.direction]
+        assert len(lines) == 2
+        for line, direction in zip(lines, along, strict=True):
+            a, b = line.points[0], line.points[-1]
+            assert line.dashed
+            u = solved(task).solved.point(direction)
+            assert parallel(b - a, u) or parallel(a - b, u)
+            assert abs(((total - a) / (b - a)).imag) * abs(b - a) < NEAR
+            assert abs(b - total) > 3.0
+
+
+@pytest.mark.parametrize("task", ["bertyaev-six-bar", "scheme-03-crank-rocker"])
+def test_what_is_too_short_stands_enlarged_in_an_inset(task: str) -> None:
+    figure = view(task, "compound_a_B")
+    short, long = ("a_B_t", "a_B_rn") if task == "bertyaev-six-bar" else ("a_B_n", "a_B_k")
+
+    coarse = figure.vector(short)
+    (fine,) = [v for inset in figure.insets for v in inset.vectors if v.quantity == short]
+
+    assert abs(coarse.span) < 5.0 < abs(fine.span)
+    assert coarse.mu / fine.mu == pytest.approx(round(coarse.mu / fine.mu))
+    assert not [v for inset in figure.insets for v in inset.vectors if v.quantity == long]
+    assert [s for s in figure.strokes if s.role == "window"]
+    assert [s for inset in figure.insets for s in inset.strokes if s.role == "inset"]
+
+
+def test_inset_names_its_own_scale_factor() -> None:
+    insets = view("bertyaev-six-bar", "compound_a_B").insets
+    texts = [text.string for inset in insets for text in inset.texts]
+
+    assert any(text.startswith("I:") and "0,08" in text for text in texts)
+
+
+def test_zero_vector_is_a_point_and_is_said() -> None:
+    figure = view("bertyaev-six-bar", "compound_a_B")
+
+    assert abs(large(figure, "a_B_et").span) < NEAR
+    assert any("= 0" in text.string for text in figure.texts)
+
+
+def test_instant_centres_stand_on_rays_normal_to_the_velocities() -> None:
+    figure = view("bertyaev-six-bar", "compound_velocity")
+    rays = [s for s in figure.strokes if s.role == "ray"]
+
+    assert sorted(ray.name for ray in rays) == ["P_2_A", "P_2_B", "P_4_C", "P_4_D"]
+    for ray in rays:
+        v = large(figure, f"V_{ray.name[-1]}")
+        way = ray.points[-1] - ray.points[0]
+        assert abs(abs(angle(way, v.span)) - 90.0) < 0.01
+    places = {ring.path[-1][1]: ring.centre for ring in figure.rings if ring.path}
+    scale = 0.005
+    O = places["O"]
+    for P in ("P_2", "P_4"):
+        assert abs((places[P] - O) * scale - solved("bertyaev-six-bar").solved.point(P)) < NEAR * scale
+
+
+@pytest.mark.parametrize(
+    ("phi", "said", "rays"),
+    [
+        pytest.param(89.0, "beyond the drawing", [], id="far away"),
+        pytest.param(90.0, "does not turn", [], id="nowhere"),
+        pytest.param(0.0, "", ["P_2_A"], id="in the slider's pin"),
+    ],
+)
+def test_instant_centre_of_special_positions(phi: float, said: str, rays: list[str]) -> None:
+    found = sheet("nau-slider-crank", "example", lang="en", only="compound", set={"phi": phi})
+    velocity = next(v for v in read(found.svg()).pages[0].all if v.name == "compound_velocity")
+
+    assert [s.name for s in velocity.strokes if s.role == "ray"] == rays
+    assert any(said in text.string for text in velocity.texts)
+
+
+def test_senses_of_turning_are_those_of_the_rates() -> None:
+    """The tip of each arc lies ahead of its middle in the sense of the rate."""
+    figure = view("bertyaev-six-bar", "compound_velocity")
+    arcs = {s.path[-1][1]: s for s in figure.strokes if s.arc and s.path and s.path[-1][0] == "arrow"}
+
+    assert {"omega_1", "omega_2", "omega_3", "omega_4", "omega_r_2", "omega_r_4"} == {*arcs}
+    for name, stroke in arcs.items():
+        assert stroke.arc is not None
+        assert math.copysign(1.0, stroke.arc[2]) == math.copysign(1.0, solved("bertyaev-six-bar").solved.values[name])
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_nothing_touches_on_the_sheet_of_the_seed(lang: str) -> None:
+    found = sheet("bertyaev-six-bar", lang=lang)
+    page = read(*(found.svg(number + 1) for number in range(len(found.pages))))
+
+    assert overlaps(page) == []
+    assert [t.string for p in page.pages for v in p.all if "compound" in v.name for t, _ in thin_faults(v)] == []
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_nothing_touches_on_other_sheets(task: str) -> None:
+    assert overlaps(drawn(task)) == []
+
+
+def test_equations_have_their_numbers_in_centimetres() -> None:
+    lines = [t.string for page in drawn("bertyaev-six-bar").pages for v in page.all for t in v.texts]
+
+    assert any("15·0,17453/0,056027 = 46,73 см" in line for line in lines)
+    assert any(line.startswith("OB = 20,362·5 = 101,8 см") for line in lines)
+    assert any("0,17453 − 0,23056 = −0,05603 рад/с" in line for line in lines)
+
+
+def test_mechanism_without_couplers_is_refused() -> None:
+    with pytest.raises(InputError) as raised:
+        sheet("scheme-19-scotch-yoke", only="compound")
+
+    assert raised.value.key == "no-coupler"
+
+
+def test_smaller_format_takes_coarser_scales() -> None:
+    assert len(drawn("scheme-03-crank-rocker", format="A3").pages) > 1
+    assert overlaps(drawn("scheme-03-crank-rocker", format="A3")) == []
