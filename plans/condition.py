@@ -16,7 +16,7 @@ import numpy as np
 
 from .board import Program
 from .boards.dual import Dual, root, slopes_of, value_of
-from .boards.exact import ExactBoard
+from .boards.exact import PlainBoard
 from .laws import cross, dot
 from .references import references, results, worst_behind
 
@@ -29,17 +29,12 @@ class Condition:
     sine: float
 
 
-class DualBoard(ExactBoard):
+class DualBoard(PlainBoard):
     """One position with its derivatives by the givens that are dual numbers."""
-
-    def perform(self, operate: Any, name: str, operands: tuple[str, ...]) -> None:
-        """Make `name` with the operation of a step."""
-        self._name, self._operands = name, operands
-        self.values[name] = operate(*[self.values[operand] for operand in operands])
 
     @staticmethod
     def _sqrt(square: Any) -> Any:
-        return root(square) if isinstance(square, Dual) else ExactBoard._sqrt(square)
+        return root(square) if isinstance(square, Dual) else PlainBoard._sqrt(square)
 
     @staticmethod
     def _complex(real: Any, imag: Any) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..board import Program
-from .exact import ILL, NAN, RIGHT, STATUSES, ExactBoard, Status, run
+from .exact import ILL, NAN, RIGHT, STATUSES, PlainBoard, Status, run
 from .protractor import FARTHEST, MARKS, TURN, graduation
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ CHUNK = 8192
 _CODE = {status: code for code, status in enumerate(STATUSES)}
 
 
-class ArrayBoard(ExactBoard):
+class ArrayBoard(PlainBoard):
     """N positions on arrays of shape (N,): a status per position in `codes`, NaN only where a position fails."""
 
     def __init__(self, givens: Mapping[str, Any], size: int) -> None:
@@ -31,12 +31,6 @@ class ArrayBoard(ExactBoard):
         """Begin with other positions; the status of each goes into `codes`."""
         self.values, self.codes, self._sine_of = dict(givens), codes, {}
         self.lift_templates()
-
-    def perform(self, operate: Callable[..., Any], name: str, operands: tuple[str, ...]) -> None:
-        """Make `name` with the operation of a step."""
-        values = self.values
-        self._name, self._operands = name, operands
-        values[name] = operate(*[values[operand] for operand in operands])
 
     @staticmethod
     def _sqrt(square: Any) -> Any:

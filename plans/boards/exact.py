@@ -325,6 +325,16 @@ class ExactBoard(TemplateBoard):
         return "ill-conditioned" if min(self.sines.values(), default=1.0) < ILL else "ok"
 
 
+class PlainBoard(ExactBoard):
+    """A board of other numbers than Python's, which are kept as the operations give them, zeros with their signs."""
+
+    def perform(self, operate: Callable[..., Any], name: str, operands: tuple[str, ...]) -> None:
+        """Make `name` with the operation of a step."""
+        values = self.values
+        self._name, self._operands = name, operands
+        values[name] = operate(*[values[operand] for operand in operands])
+
+
 def heron(first: Any, second: Any, base: Any) -> tuple[Any, Any]:
     """Return the sum of two sides, and 16 times the squared area of the triangle on `base`."""
     total, between = first + second, first - second

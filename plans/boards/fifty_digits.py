@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from ..board import Program
-from .exact import NAN, ExactBoard
+from .exact import NAN, PlainBoard
 
 DIGITS = 50
 CORRECTIONS = 12  # of a template: five reach 16 digits from where it lies about, seven more any number
 
 
-class FiftyDigits(ExactBoard):
+class FiftyDigits(PlainBoard):
     """One position on numbers of mpmath, in whatever precision it works."""
 
     corrections = CORRECTIONS
-
-    def perform(self, operate: Callable[..., Any], name: str, operands: tuple[str, ...]) -> None:
-        """Make `name` with the operation of a step."""
-        self._name, self._operands = name, operands
-        self.values[name] = operate(*[self.values[operand] for operand in operands])
 
     @staticmethod
     def _sqrt(square: Any) -> Any:
