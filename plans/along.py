@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .board import Program, Step
-from .boards.batch import ArrayBoard
+from .boards.arrays import ArrayBoard
 from .boards.exact import STATUSES, ExactBoard, Status
 
 Array = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""The exact board: the steps on Python floats and complex numbers, for one position; `batch` has arrays for many.
+"""The exact board: the steps on Python floats and complex numbers, for one position; `arrays` has the board for many.
 
 Both do the same operations in the same order, only ones that are rounded alike everywhere (no product of two complex
 numbers, which numpy fuses; no modulus by `hypot`): N positions at once equal one at a time to the last bit.

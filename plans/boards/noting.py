@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .arithmetic import Real, Tape, Vector
+from .arrays import ArrayBoard
 from .exact import ExactBoard
+from .graduation import cosine_of, mark_of, sine_of
 from .protractor import FARTHEST
-
-if TYPE_CHECKING:
-    from .batch import ArrayBoard
 
 
 class NotingBoard(ExactBoard):
@@ -83,8 +82,6 @@ class NotingBoard(ExactBoard):
     def _graduation(self, rounded: Any) -> tuple[Any, Any]:
         if not isinstance(rounded, Real):
             return super()._graduation(rounded)
-        from .batch import cosine_of, mark_of, sine_of
-
         mark = self.tape.fill(mark_of, rounded)
         return self.tape.fill(cosine_of, mark), self.tape.fill(sine_of, mark)
 

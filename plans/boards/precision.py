@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from ..board import Program
 from .arithmetic import Real, Vector
-from .batch import CHUNK, ArrayBoard, batch, noted
+from .arrays import ArrayBoard
+from .batch import CHUNK, batch, noted
 from .exact import RIGHT, SINGULAR, TANGENT, run
 from .fifty_digits import fifty_digits
 from .noting import NotingBoard
@@ -94,21 +95,7 @@ def batch_in(
 ) -> tuple[dict[str, NDArray[Any]], NDArray[np.int8]]:
     """Run `program` for N positions in a precision: `single`, `double` or `extended`.
 
-    Parameters
-    ----------
-    givens : mapping of str to float or float64 array of shape (N,)
-        Values in SI; at least one array.
-    wanted : sequence of str
-        Names to keep; steps that they do not need are not done.
-    chunk : int
-        Positions at a time.
-
-    Returns
-    -------
-    results : dict of str to array of shape (N,)
-        Of the precision's real type for scalars, of its complex type for vectors and points.
-    codes : int8 array of shape (N,)
-        Index into `STATUSES`.
+    Parameters and results are those of `batch`, with the results of the precision's own types.
     """
     if precision == "double":
         return batch(program, givens, wanted, chunk)

@@ -17,7 +17,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..board import POSITION, Program
-from ..boards.batch import ArrayBoard
+from ..boards.arrays import ArrayBoard
 from ..laws import dot
 from .hand import Hand
 

@@ -11,7 +11,7 @@ import pytest
 
 from kulman import load_task, solve
 from kulman.plans.board import POSITION, Program
-from kulman.plans.boards.batch import ArrayBoard
+from kulman.plans.boards.arrays import ArrayBoard
 from kulman.plans.boards.exact import ExactBoard, run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens

@@ -10,7 +10,8 @@ import pytest
 
 from kulman.plans.board import Program, Step
 from kulman.plans.boards.arithmetic import Real, Tape, Vector
-from kulman.plans.boards.batch import ArrayBoard, batch
+from kulman.plans.boards.arrays import ArrayBoard
+from kulman.plans.boards.batch import batch
 from kulman.plans.boards.chunks import Chunks, Store
 from kulman.plans.boards.exact import run
 from kulman.plans.laws import LAWS, cross, dot

@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from kulman.plans.boards.batch import ArrayBoard
+from kulman.plans.boards.arrays import ArrayBoard
 from kulman.plans.boards.exact import ExactBoard
 from kulman.plans.boards.protractor import FARTHEST, MARKS, graduation
 

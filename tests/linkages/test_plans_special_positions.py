@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.board import Program
-from kulman.plans.boards.batch import ArrayBoard
+from kulman.plans.boards.arrays import ArrayBoard
 from kulman.plans.boards.exact import STATUSES, ExactBoard, run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...along import remembering
-from ...boards.batch import ArrayBoard
+from ...boards.arrays import ArrayBoard
 from ...boards.exact import TANGENT
 from ...laws import TURN
 from ...zeros import Stretch, zeros

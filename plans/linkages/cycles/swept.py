@@ -10,7 +10,7 @@ import numpy as np
 
 from ...along import Along
 from ...board import Program
-from ...boards.batch import ArrayBoard
+from ...boards.arrays import ArrayBoard
 from ..givens import board_givens
 from ..mechanism import ZERO, Driver, Mechanism
 
