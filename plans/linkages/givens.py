@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ..board import Program
@@ -10,7 +10,8 @@ from .bare import without_loads
 from .chain import construct
 from .loads import in_order
 from .mechanism import Mechanism
-from .working_stroke import END, stroke_ends
+from .triads.parts import start_names
+from .working_stroke import BEGIN, END
 
 
 def board_givens(
@@ -37,4 +38,26 @@ def board_givens(
     if program is None or END not in program.needs or END in values:
         return {**values, **sizes}
     _, motion = construct(without_loads(mechanism), ("velocity",))
-    return {**values, **sizes, **stroke_ends(mechanism, values, motion.needs)}
+    return {**values, **sizes, **_stroke_ends(mechanism, values, motion.needs)}
+
+
+def _stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterable[str]) -> dict[str, Any]:
+    """Find the ends of the working stroke: once where only the driver moves, else for every mechanism of the arrays.
+
+    `motion` names the values on which its motion depends.
+    """
+    from .cycles.strokes import stroke_of  # which needs numpy, and givens of its own for the sweep
+
+    assert mechanism.stroke is not None
+    sense, driver_at = mechanism.stroke.sense, mechanism.driver.coordinate
+    followed = {name for start in mechanism.starts for name in start_names(start.link)}
+    stated = {name for start in mechanism.starts for name in (start.x, start.y, start.angle, start.driver)}
+    needed = {name: values[name] for name in {*motion, sense, *stated} & values.keys() - {driver_at} - followed}
+    size = max((len(value) for value in needed.values() if getattr(value, "ndim", 0)), default=0)
+    found = []
+    for row in range(size or 1):
+        one = {name: float(value[row] if getattr(value, "ndim", 0) else value) for name, value in needed.items()}
+        travel = stroke_of(mechanism, {**one, driver_at: 0.0})
+        found.append((travel.low, travel.high) if one.get(sense, 1.0) > 0.0 else (travel.high, travel.low))
+    begin, end = zip(*found, strict=True)
+    return {BEGIN: [*begin], END: [*end]} if size else {BEGIN: begin[0], END: end[0]}

@@ -5,15 +5,14 @@ The ends of the working stroke are givens of the board: metres of a slider along
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, assert_never
+from typing import assert_never
 
 from ...scales.errors import InputError
 from ..board import Board
 from .mechanism import BOTH, FRAME, STROKE, ZERO, Mechanism, Pair, Prismatic, Revolute
 from .parts import Bodies, Body, Span
-from .triads.parts import start_names
 
 BEGIN, END = "_stroke_begin", "_stroke_end"
 PART, RATE, CHANGE = "_stroke_part", "_stroke_rate", "_stroke_change"
@@ -99,25 +98,3 @@ def _rocks(board: Board, moving: Moving, body: Body) -> str:
     board.calc(RATE, "same_turning", body.omega or ZERO)
     board.calc(CHANGE, "same_turning", body.epsilon or ZERO)
     return moving.turning
-
-
-def stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterable[str]) -> dict[str, Any]:
-    """Find the ends of the working stroke: once where only the driver moves, else for every mechanism of the arrays.
-
-    `motion` names the values on which its motion depends.
-    """
-    from .cycles.strokes import stroke_of  # which sweeps constructions, and these read loads over the stroke
-
-    assert mechanism.stroke is not None
-    sense, driver_at = mechanism.stroke.sense, mechanism.driver.coordinate
-    followed = {name for start in mechanism.starts for name in start_names(start.link)}
-    stated = {name for start in mechanism.starts for name in (start.x, start.y, start.angle, start.driver)}
-    needed = {name: values[name] for name in {*motion, sense, *stated} & values.keys() - {driver_at} - followed}
-    size = max((len(value) for value in needed.values() if getattr(value, "ndim", 0)), default=0)
-    found = []
-    for row in range(size or 1):
-        one = {name: float(value[row] if getattr(value, "ndim", 0) else value) for name, value in needed.items()}
-        travel = stroke_of(mechanism, {**one, driver_at: 0.0})
-        found.append((travel.low, travel.high) if one.get(sense, 1.0) > 0.0 else (travel.high, travel.low))
-    begin, end = zip(*found, strict=True)
-    return {BEGIN: [*begin], END: [*end]} if size else {BEGIN: begin[0], END: end[0]}
