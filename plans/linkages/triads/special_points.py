@@ -38,7 +38,7 @@ def with_special_points(
     values : mapping of str to float or float64 array of shape (N,)
         Its numbers in SI, for one position or for many: of these the worst one counts.
     near : mapping, optional
-        What `triad_following.followed` gives for them, where it is known already.
+        What `following.followed` gives for them, where it is known already.
     enough : float
         The first two legs whose sines are nowhere below are taken, so that one position is constructed like another;
         without such ones the best two.
