@@ -37,6 +37,12 @@ def notations() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in (home(__package__) / "notations").iterdir()))
 
 
+def _texts(language: str) -> dict[str, str]:
+    if language not in LANGUAGES:
+        raise InputError("language", language=language, known=", ".join(LANGUAGES))
+    return packaged(__package__, "texts", language)
+
+
 @dataclass(frozen=True, slots=True)
 class Words:
     """Texts, numbers and symbols for a sheet in `language` and `notation`.
@@ -65,11 +71,20 @@ class Words:
         InputError
             When there is no such language or notation.
         """
-        if language not in LANGUAGES:
-            raise InputError("language", language=language, known=", ".join(LANGUAGES))
+        texts = _texts(language)
         if notation not in notations():
             raise unknown("notation-unknown", notation, notations())
-        return cls(language, packaged(__package__, "texts", language), packaged(__package__, "notations", notation))
+        return cls(language, texts, packaged(__package__, "notations", notation))
+
+    def speaking(self, language: str) -> Words:
+        """Return the words in another language, of the same notation.
+
+        Raises
+        ------
+        InputError
+            When there is no such language.
+        """
+        return replace(self, language=language, texts=_texts(language))
 
     def showing(self, display: Display) -> Words:
         """Return the words for results in the units of `display`."""

@@ -138,9 +138,7 @@ class Solution:
         return [_without_rounding(quantity, largest[quantity.unit]) for quantity in self.quantities.values()]
 
     def _words(self, language: str | None) -> Words:
-        if language is None:
-            return self.words
-        return Words.of(language, self.task.notation).showing(self.words.display)
+        return self.words if language is None else self.words.speaking(language)
 
     def table(self, language: str | None = None) -> str:
         """Return the quantities as a readable table: name, value, unit, components, segment in mm.

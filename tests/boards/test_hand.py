@@ -189,6 +189,17 @@ def test_the_table_says_it_in_every_language(language: str) -> None:
     assert all(decimal in row for row in rows if row and row.split()[0] in ("V_E", "R_05"))
 
 
+def test_a_table_in_another_language_keeps_the_notation() -> None:
+    wanted = {"only": "acceleration", "hand": "normal", "notation": "bertyaev"}  # without primes
+    solution = solve("nau-slider-crank", "3", **wanted)
+
+    table = solution.drawn("ru")
+
+    assert table == solve("nau-slider-crank", "3", lang="ru", **wanted).drawn()
+    assert "′" not in table
+    assert "′" in solve("nau-slider-crank", "3", **wanted | {"notation": "nau"}).drawn("ru")
+
+
 def test_conditions_stand_beside_what_the_hand_makes() -> None:
     solution = solve("nau-slider-crank", "3", only="velocity", hand="careful", condition=True)
 

@@ -105,9 +105,7 @@ class AccuracyChart:
         return accuracy_page(self.contest, words, title, "\n".join(self.notes(words)), self.scene.hand, turns)
 
 
-def accuracy_chart(
-    scene: Scene, cycle: Cycle, positions: int, names: Sequence[str], effort: Effort = FULL
-) -> AccuracyChart:
+def accuracy_chart(scene: Scene, cycle: Cycle, names: Sequence[str], effort: Effort = FULL) -> AccuracyChart:
     """Let all methods compete.
 
     Raises
@@ -115,7 +113,7 @@ def accuracy_chart(
     InputError
         With the key `chart-no-rivals`: nothing that is wanted can be compared.
     """
-    found = contest(cycle, positions, time.process_time, names, effort)
+    found = contest(cycle, len(cycle.angles), time.process_time, names, effort)
     if not found.kinds:
         raise InputError("chart-no-rivals")
     hands = tuple(_hands(scene, cycle, found))

@@ -14,7 +14,6 @@ from ...drawing.charts.paper import SUFFIXES as PICTURES
 from ...drawing.charts.paper import saved
 from ...drawing.words import Words
 from ...drawing.writers import save_all
-from ...plans.hands.hand import preset
 from ...plans.linkages.chain import with_needs
 from ...plans.linkages.cycles.cycle import Cycle, cycle
 from ...scales.arguments import of_kind
@@ -61,7 +60,7 @@ class Charts:
 
     def table(self, language: str | None = None) -> str:
         """Return all charts as text."""
-        words = self.words if language is None else self.case.words(language)
+        words = self.words if language is None else self.words.speaking(language)
         parts = (f"{words[f'chart.{name}']}\n\n{chart.table(words)}" for name, chart in self.charts.items())
         return "\n\n\n".join(parts)
 
@@ -171,7 +170,6 @@ def chart(
     most = _per_cent(tolerance)
     words = case.words(lang, notation)
     of_kind("hand", hand, (str,), "str")
-    preset(hand)
     scene = Scene(case, words, hand)
     unused = tuple(_unused(names, {"quantities": bool(wanted), "hand": hand != HAND, "tolerance": most != TOLERANCE}))
     found = _made(scene, names, wanted, positions, most)
@@ -224,7 +222,7 @@ def _made(
 
 def _one(name: str, scene: Scene, whole: Cycle, wanted: tuple[str, ...], tolerance: float) -> Chart:
     if name == "accuracy":
-        return accuracy_chart(scene, whole, len(whole.angles), wanted)
+        return accuracy_chart(scene, whole, wanted)
     if name == "stability":
         return stability_chart(scene, whole, wanted)
     return depth_chart(scene, whole, tolerance)

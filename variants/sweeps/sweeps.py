@@ -137,7 +137,7 @@ class Sweep:
         return f"<pre>{escape(self.table())}</pre>"
 
     def _words(self, language: str | None) -> Words:
-        return self.words if language is None else self.case.words(language)
+        return self.words if language is None else self.words.speaking(language)
 
 
 def _csv_file(sweep: Sweep) -> bytes:
