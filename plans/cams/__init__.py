@@ -1,0 +1,1 @@
+"""Cams: their laws of motion, smallest sizes and profiles."""

@@ -1,0 +1,106 @@
+"""A disk cam as data: its followers, the laws of their motion, the senses; all numbers by name.
+
+The numbers come separately, in SI, under the names of `VALUES`, so that one cam serves a variant, a sweep and a batch.
+Everything else is a word. A field may also hold the name of a given that is a choice between words: `chosen` puts the
+word of a variant in its place, and only then is the cam one that can be solved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+ROLLER, PLATE, ROCKER = FOLLOWERS = ("roller", "plate", "rocker")
+LAWS = (
+    "uniform",
+    "constant",
+    "falling",
+    "sawtooth",
+    "cosine",
+    "sine",
+    "trapezoid",
+    "modified-trapezoid",
+    "modified-sine",
+    "polynomial-345",
+    "polynomial-4567",
+)
+RISE = "rise"  # the fall has the law of the rise
+MIRROR, SAME = ORDERS = ("mirror", "same")
+CCW, CW = ROTATIONS = ("ccw", "cw")
+ONE_SIDED, TWO_SIDED = LIMITS = ("one-sided", "two-sided")
+POINTS, PIECES = CURVES = ("points", "pieces")
+DIAGRAMS, SIZES, PROFILE, PRESSURE = PLANS = ("diagrams", "sizes", "profile", "pressure")
+SECTIONS = 12  # of a phase, at least: what a student can draw, and enough for a smooth curve
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A law of one's own: `values` at the parts `at` of the phase, which run from 0 to 1.
+
+    Of kind `points` the values are travels, in any unit, joined by a smooth curve; of kind `pieces` they are the
+    analogue of acceleration, in any unit, joined by straight lines, which jump where two places are equal.
+    """
+
+    name: str
+    kind: str
+    at: tuple[float, ...]
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Cam:
+    """A disk cam that turns with `omega` and lifts its followers after one law of motion.
+
+    Parameters
+    ----------
+    followers : tuple of str
+        Of `FOLLOWERS`: the same motion may be that of several cams, each with a follower of its own.
+    law : str
+        The law of the rise: one of `LAWS`, or the name of one of `curves`.
+    law_fall : str
+        The law of the fall likewise, or `rise`.
+    fall : {"mirror", "same"}
+        Whether the fall runs through its law backwards in time, or in the same order.
+    rotation : {"ccw", "cw"}
+        Sense in which the cam turns.
+    limits : {"one-sided", "two-sided"}
+        Whether the pressure angle is limited only where the cam pushes, or to both sides.
+    sections : int
+        Into how many sections a phase is divided at least.
+    curves : tuple of Curve
+        Laws of one's own.
+    """
+
+    followers: tuple[str, ...]
+    law: str
+    law_fall: str = RISE
+    fall: str = MIRROR
+    rotation: str = CCW
+    limits: str = ONE_SIDED
+    sections: int = SECTIONS
+    curves: tuple[Curve, ...] = ()
+
+    def chosen(self, words: Mapping[str, str]) -> Cam:
+        """Return the cam with the words of a variant in the place of the names of the choices."""
+        fields = ("law", "law_fall", "fall", "rotation", "limits")
+        found = {field: words[name] for field in fields if (name := getattr(self, field)) in words}
+        return replace(self, **found) if found else self
+
+    @property
+    def sense(self) -> int:
+        """+1 when the cam turns counter-clockwise, else -1."""
+        return 1 if self.rotation == CCW else -1
+
+    @property
+    def two_sided(self) -> bool:
+        """Whether the pressure angle is limited to both sides."""
+        return self.limits == TWO_SIDED
+
+    @property
+    def falls_by(self) -> str:
+        """The law of the fall."""
+        return self.law if self.law_fall == RISE else self.law_fall
+
+    def curve(self, law: str) -> Curve | None:
+        """Return the law of one's own of this name, None for one of `LAWS`."""
+        return next((curve for curve in self.curves if curve.name == law), None)
