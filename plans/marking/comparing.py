@@ -34,15 +34,15 @@ def miss(said: Said, value: Any, allowed: float, angle: float = math.pi) -> Miss
     if isinstance(value, complex):
         return _of_vector(said, value, allowed, angle)
     right = abs(said.size - abs(value)) if said.size is not None else 0.0
-    off = _ratio(right, allowed)
+    off = ratio(right, allowed)
     if said.sign is None:
         return Miss(off, SIZE)
-    turned = _ratio(abs((abs(value) if said.size is None else said.size) * said.sign - value), allowed)
+    turned = ratio(abs((abs(value) if said.size is None else said.size) * said.sign - value), allowed)
     return Miss(turned, DIRECTION if off <= 1.0 < turned else SIZE)
 
 
 def _of_vector(said: Said, value: complex, allowed: float, angle: float) -> Miss:
-    size = 0.0 if said.size is None else _ratio(abs(said.size - abs(value)), allowed)
+    size = 0.0 if said.size is None else ratio(abs(said.size - abs(value)), allowed)
     if said.direction is None or abs(value) <= allowed:
         return Miss(size, SIZE)
     most = max(angle, math.asin(allowed / abs(value)))
@@ -50,5 +50,6 @@ def _of_vector(said: Said, value: complex, allowed: float, angle: float) -> Miss
     return Miss(turned, DIRECTION) if turned > size else Miss(size, SIZE)
 
 
-def _ratio(missed: float, allowed: float) -> float:
+def ratio(missed: float, allowed: float) -> float:
+    """Return a difference in tolerances; where nothing is allowed any difference is too much."""
     return missed / allowed if allowed else 0.0 if not missed else NEVER

@@ -13,8 +13,9 @@ from typing import Any, NamedTuple
 
 from ...scales.names import unknown
 from ..board import Step
+from ..hands.tolerances import MARKS
 from .answers import Answer, Said, known, measured, readings, values_of
-from .comparing import NEVER, SIZE, Miss, miss
+from .comparing import NEVER, SIZE, Miss, miss, ratio
 from .key import Key, Question
 from .lines import Line, Marking, Verdict
 from .student import follow
@@ -131,7 +132,7 @@ class _Marker:
             shown = [self._drawn_to(name) for name in long]
             if _agree(shown):
                 self.true[plan] = median(shown)
-            mu = written or self.true.get(plan) or self._drawn_to(names[0])
+            mu = written or self.true.get(plan) or self._likeliest(names)
             self.mus.update({name: mu for name in names if not self.mus[name]})
             drawn[plan] = _nearest(mu, self.key.paper.mus.get(plan, mu))
         if redraw:
@@ -140,9 +141,22 @@ class _Marker:
     def _drawn_to(self, name: str) -> float:
         return float(abs(self.key[name])) / abs(self.answers[name].mm or 1.0)
 
+    def _likeliest(self, names: list[str]) -> float:
+        """Return the scale, of those that single segments show, at which most are right, and miss least."""
+
+        def misses(mu: float) -> float:
+            missed = ((abs((self.answers[n].mm or 0.0) * mu - abs(self.key[n])), self.key.allowed[n]) for n in names)
+            return sum(min(ratio(off, allowed), 1.0) ** 2 for off, allowed in missed)
+
+        return min((self._drawn_to(name) for name in names), key=misses)
+
     def _from_pairs(self, names: list[str]) -> float | None:
-        """Return the scale factor by which students went on from millimetres to values."""
-        found = [abs(a.value / a.mm) for a in (self.answers[name] for name in names) if a.value and a.mm]
+        """Return the scale factor by which students went on from millimetres to values, also to those of opposites."""
+        questions = self.key.questions.values()
+        opposite = {q.step.operands[0]: q.name for q in questions if q.step.law == "opposite"}
+        pairs = [(self.answers[name], self.answers.get(opposite.get(name, ""))) for name in names]
+        values = [(own.mm, own.value or (other and other.value)) for own, other in pairs]
+        found = [abs(value / mm) for mm, value in values if value and mm]
         return median(found) if found else None
 
     def lines(self) -> Iterator[Line]:
@@ -226,7 +240,13 @@ class _Marker:
         size, allowed = abs(self.key[name]), self.key.allowed[name]
         if size and abs(value) > size:
             allowed *= abs(value) / size
+        if self.answers[name].value is None and self.key.questions[name].step.verb == "calc":
+            allowed = math.hypot(allowed, self._marks(name))
         return miss(way, value, allowed, self.key.angles.get(name, math.pi))
+
+    def _marks(self, name: str) -> float:
+        """Return what two marks miss of a vector that is calculated, laid off, and told by its millimetres alone."""
+        return MARKS * self.key.tolerance.mm * float(self.key.paper.mus.get(self.key.questions[name].plan, 0.0))
 
     def _is_unit(self, name: str, value: Any) -> bool:
         """Whether a line is right in another unit that its quantity may have."""

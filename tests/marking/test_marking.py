@@ -18,7 +18,7 @@ from kulman.plans.marking.answers import Answer
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.marking.verdicts import Marking, Verdict, mark
 from kulman.scales.errors import InputError
-from kulman.tests.support.marking_cases import LINKAGES, key, paper, right_answers, students
+from kulman.tests.support.marking_cases import LINKAGES, in_millimetres, key, paper, right_answers, students
 from kulman.tests.support.mechanisms import SEED
 
 TASK = "nau-slider-crank"
@@ -55,6 +55,33 @@ def test_answers_of_honest_hands_are_right(task: str, count: int, directions: bo
 
     passed = np.mean([line.verdict.passed for line in lines])
     assert passed >= 0.97
+
+
+NO_SCALES = ["madi-four-bar", "scheme-13-toggle-press", "scheme-16-hay-baler", "scheme-20-press-automaton"]
+
+
+@pytest.mark.parametrize("everything", [False, True], ids=["drawn", "all vectors"])
+def test_millimetres_of_honest_hands_are_right_without_scale_factors(everything: bool) -> None:
+    lines = [
+        line
+        for task in NO_SCALES
+        for answers in students(key(task), paper(task), 4, SEED, directions=False)
+        for line in mark(key(task), in_millimetres(key(task), answers, everything)).answered
+    ]
+
+    assert any(line.answer and line.answer.mm for line in lines)
+    assert np.mean([line.verdict.passed for line in lines]) >= 0.97
+
+
+def test_a_weight_that_is_measured_may_miss_what_two_marks_do() -> None:
+    of, name = key("scheme-13-toggle-press"), "G_5"
+    mu, right = of.paper.mus[of.questions[name].plan], abs(of[name])
+
+    measured = [Answer(name, mm=right / mu + off, mu=mu) for off in (0.5, 1.5)]
+    calculated = Answer(name, mm=right / mu + 0.5, mu=mu, value=right + 0.5 * mu)
+
+    found = [verdicts(mark(of, [one]), name)[0] for one in (*measured, calculated)]
+    assert found == ["right", "wrong", "wrong"]
 
 
 @pytest.mark.parametrize("package", [kulman.plans.marking, kulman.plans.mistakes], ids=["marking", "mistakes"])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -69,6 +69,21 @@ def students(of: Key, drawing: Paper, count: int, seed: int, directions: bool = 
     read = {name: np.broadcast_to(board.values[name], (count,)).tolist() for name in of.questions}
     for i in range(count):
         yield [answer(name, row[i], directions) for name, row in read.items() if row[i] == row[i]]
+
+
+def in_millimetres(of: Key, answers: Iterable[Answer], everything: bool) -> list[Answer]:
+    """Return answers that say of vectors and arms their segments alone, no scale factor and no value.
+
+    Where not `everything` is measured, vectors that are calculated and laid off keep their values.
+    """
+    found = []
+    for one in answers:
+        question = of.questions[one.name]
+        mu, measured = of.paper.mus.get(question.plan), question.step.verb in ("read", "arm")
+        if mu and (measured or (everything and question.vector)):
+            one = replace(one, mm=round((one.value or 0.0) / mu, 1), value=None)
+        found.append(one)
+    return found
 
 
 def moves(of: Key, found: Signature, directions: bool = True) -> dict[str, float]:
