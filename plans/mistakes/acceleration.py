@@ -24,8 +24,8 @@ from .velocity import (
     along_links,
     drive,
     middle,
-    mirrored,
     other_end,
+    other_side,
     rate_from,
     rates,
 )
@@ -239,7 +239,7 @@ def point_wrong(scene: Scene) -> Iterator[Change]:
     for how, found in (
         ("end", other_end(scene, ACCELERATION)),
         ("middle", middle(scene, ACCELERATION)),
-        ("mirrored", mirrored(scene, ACCELERATION)),
+        ("mirrored", other_side(scene, ACCELERATION)),
     ):
         yield from (replace(change, how=how) for change in found)
 

@@ -11,10 +11,11 @@ from .rules import (
     Change,
     Chapter,
     Scene,
-    aside,
+    all_scaled,
     constant,
     instead,
     length_of,
+    nothing,
     operand,
     opposed,
     reversed_,
@@ -69,16 +70,10 @@ def force_left_out(scene: Scene) -> Iterator[Change]:
         yield Change(force, gone, {}, "polygon")
         made = scene.steps[force]
         if made.verb == "calc":
-            nothing = (replace(made, name=aside(force)), Step("calc", force, ("zero", aside(force)), "along"))
-            yield Change(force, {force: nothing}, {}, "everywhere")
+            yield Change(force, {force: nothing(made)}, {}, "everywhere")
     weights = list(scene.made_by("calc", law="weight"))
     if len(weights) > 1:
-        yield Change("G", {s.name: (instead_zero(s)) for s in weights}, {}, "all")
-
-
-def instead_zero(step: Step) -> tuple[Step, ...]:
-    """Return the steps that make nothing of what one step makes."""
-    return replace(step, name=aside(step.name)), Step("calc", step.name, ("zero", aside(step.name)), "along")
+        yield Change("G", {step.name: nothing(step) for step in weights}, {}, "all")
 
 
 @mistake("M59")
@@ -136,8 +131,7 @@ def mass_and_weight(scene: Scene) -> Iterator[Change]:
         steps = list(scene.made_by("calc", law=law))
         yield from (scaled(step, factor) for step in steps)
         if len(steps) > 1:
-            right = [(step.name, scaled(step, factor)) for step in steps]
-            yield Change(law, {n: c.steps[n] for n, c in right}, {constant(factor): factor}, "all")
+            yield all_scaled(law, steps, factor, "all")
 
 
 @mistake("M64")
@@ -258,7 +252,7 @@ def from_driver_end(scene: Scene) -> Iterator[Change]:
     driver = next((s.operands[1] for s in reversed(list(scene.made_by("chain", plan=FORCES)))), "")
     for step in passed(scene):
         if step.name != driver:
-            yield Change(step.name, {step.name: instead_zero(step)}, {})
+            yield Change(step.name, {step.name: nothing(step)}, {})
 
 
 @mistake("M73")
@@ -272,7 +266,7 @@ def reaction_along_guide(scene: Scene) -> Iterator[Change]:
     for step in scene.made_by("arm"):
         made = scene.steps[step.operands[0]]
         if made.name.startswith("M_") and made.verb == "calc" and scene.values[made.name]:
-            yield Change(made.name, {made.name: instead_zero(made)}, {}, "moment")
+            yield Change(made.name, {made.name: nothing(made)}, {}, "moment")
 
 
 def closing(scene: Scene) -> Iterator[Step]:

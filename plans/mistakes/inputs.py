@@ -8,7 +8,7 @@ from functools import partial
 from itertools import combinations
 
 from ..board import POSITION, Step
-from .rules import Change, Chapter, Scene, all_scaled, constant, instead, operand, scaled
+from .rules import Change, Chapter, Scene, all_scaled, constant, instead, mirrored, operand, scaled
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
@@ -155,14 +155,7 @@ def other_side(scene: Scene) -> Iterator[Change]:
 def other_assembly(scene: Scene) -> Iterator[Change]:
     """A dyad is put together on the other side."""
     for step in scene.made_by("arc", "arcs", "tangent"):
-        name = f"_other_{step.operands[-1]}"
-        opposite = Step("calc", name, (step.operands[-1],), "opposite")
-        yield Change(step.name, {step.name: (opposite, instead_last(step, name))}, {})
-
-
-def instead_last(step: Step, name: str) -> Step:
-    """Return a step with another last operand."""
-    return Step(step.verb, step.name, operand(step, len(step.operands) - 1, name), step.law)
+        yield mirrored(step, len(step.operands) - 1)
 
 
 @mistake("M12")
@@ -182,10 +175,7 @@ def offset_lost(scene: Scene) -> Iterator[Change]:
 
 def _offset_at(step: Step, place: int) -> Iterator[Change]:
     yield instead(step, f"none {place}", operands=operand(step, place, "zero"))
-    name = f"_other_{step.operands[place]}"
-    other = Step("calc", name, (step.operands[place],), "opposite")
-    moved = Step(step.verb, step.name, operand(step, place, name))
-    yield Change(step.name, {step.name: (other, moved)}, {}, f"side {place}")
+    yield mirrored(step, place, f"side {place}")
 
 
 @mistake("M13")

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..board import POSITION, Step
-from .forces import instead_zero
-from .rules import Change, Chapter, Scene, instead, opposed, scaled
+from .rules import Change, Chapter, Scene, instead, nothing, opposed, scaled
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
@@ -68,7 +67,7 @@ def couples(scene: Scene) -> list[Step]:
 def moment_missing(scene: Scene) -> Iterator[Change]:
     """A moment is missing on the lever, or hangs there as it is, without ab / AB."""
     for step in couples(scene):
-        yield Change(step.name, {step.name: instead_zero(step)}, {}, "none")
+        yield Change(step.name, {step.name: nothing(step)}, {}, "none")
         length = scene.values.get(step.operands[1])
         speed = _relative(scene, step)
         if step.law == "couple" and speed and length:

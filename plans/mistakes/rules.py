@@ -181,6 +181,20 @@ def opposed(step: Step, how: str = "") -> Change:
     return Change(step.name, {step.name: reversed_(step)}, {}, how)
 
 
+def nothing(step: Step) -> tuple[Step, ...]:
+    """Return the steps that make nothing of what one step makes."""
+    right = aside(step.name)
+    return replace(step, name=right), Step("calc", step.name, ("zero", right), "along")
+
+
+def mirrored(step: Step, place: int, how: str = "") -> Change:
+    """Do one step with the opposite of an operand."""
+    right = step.operands[place]
+    other = f"_other_{right}"
+    turned = replace(step, operands=operand(step, place, other))
+    return Change(step.name, {step.name: (Step("calc", other, (right,), "opposite"), turned)}, {}, how)
+
+
 def with_sign(step: Step, size: tuple[Step, ...], value: Any, how: str = "") -> Change:
     """Make the scalar of a step anew, its size by other steps (the last one makes it), with the sign of `value`."""
     sense = constant(-1.0 if value < 0.0 else 1.0)

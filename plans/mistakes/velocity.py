@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..board import Step
-from .rules import Change, Chapter, Scene, aside, constant, instead, length_of, operand, opposed, with_sign
+from .rules import Change, Chapter, Scene, aside, constant, instead, length_of, mirrored, operand, opposed, with_sign
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
@@ -148,12 +148,9 @@ def middle(scene: Scene, plan: str) -> Iterator[Change]:
             yield Change(step.name, {step.name: (middle,)}, {half: 0.5})
 
 
-def mirrored(scene: Scene, plan: str) -> Iterator[Change]:
+def other_side(scene: Scene, plan: str) -> Iterator[Change]:
     """Draw a similar figure on the other side: against the order of the letters."""
-    for step in scene.made_by("similar", plan=plan):
-        other = f"_other{step.operands[3]}"
-        opposite = Step("calc", other, (step.operands[3],), "opposite")
-        yield Change(step.name, {step.name: (opposite, replace(step, operands=operand(step, 3, other)))}, {})
+    yield from (mirrored(step, 3) for step in scene.made_by("similar", plan=plan))
 
 
 @mistake("M30")
@@ -171,7 +168,7 @@ def point_in_middle(scene: Scene) -> Iterator[Change]:
 @mistake("M32")
 def triangle_mirrored(scene: Scene) -> Iterator[Change]:
     """The similar triangle is mirrored."""
-    yield from mirrored(scene, VELOCITY)
+    yield from other_side(scene, VELOCITY)
 
 
 @mistake("M33")
@@ -215,6 +212,4 @@ def same_side(scene: Scene) -> Iterator[Change]:
             yield instead(step, operands=operand(step, 2, part.removeprefix("_minus_")))
     for step in scene.made_by("similar", plan=VELOCITY):
         if step.operands[0].endswith(".p") and scene.values[step.operands[2]] < 0.0:
-            other = f"_other{step.operands[2]}"
-            opposite = Step("calc", other, (step.operands[2],), "opposite")
-            yield Change(step.name, {step.name: (opposite, replace(step, operands=operand(step, 2, other)))}, {})
+            yield mirrored(step, 2)
