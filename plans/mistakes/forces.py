@@ -124,10 +124,17 @@ def force_at_wrong_point(scene: Scene) -> Iterator[Change]:
         yield Change(step.name, {step.name: (point, moved)}, {half: 0.5}, "middle")
 
 
+def free_fall(scene: Scene) -> float:
+    """Return the acceleration of free fall: that of the weights, or the usual one where nothing weighs anything."""
+    given = (step.operands[1] for step in scene.made_by("calc", law="weight"))
+    return float(next((scene.paper.givens[name] for name in given if scene.is_given(name)), G))
+
+
 @mistake("M63")
 def mass_and_weight(scene: Scene) -> Iterator[Change]:
     """The weight stands for the mass in inertia forces, or the mass for the weight."""
-    for law, factor in (("inertia_force", G), ("weight", 1.0 / G)):
+    fall = free_fall(scene)
+    for law, factor in (("inertia_force", fall), ("weight", 1.0 / fall)):
         steps = list(scene.made_by("calc", law=law))
         yield from (scaled(step, factor) for step in steps)
         if len(steps) > 1:

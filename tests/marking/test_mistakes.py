@@ -323,6 +323,8 @@ def test_inertia_broken_gives_what_the_list_says() -> None:
     weight = after(where, "M63", at="G_2")
     assert abs(weight["G_2"]) == pytest.approx(2.0, rel=1e-12)
     assert abs(after(where, "M63", at="F_i2")["F_i2"]) == pytest.approx(9.81 * abs(right["F_i2"]), rel=1e-12)
+    lighter = Scene(replace(where.paper, givens={**where.paper.givens, "g": 1.62}), where.values)
+    assert abs(after(lighter, "M63", at="G_2")["G_2"]) == pytest.approx(2.0, rel=1e-12)  # whatever the task's g
     for at, point in (("A", right["A"]), ("middle", (right["A"] + right["B"]) / 2)):
         moved = after(where, "M62", how=at)
         arm = cross(complex(point) - complex(right["S2"]), complex(right["F_i2"]))
