@@ -30,13 +30,18 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Input
     names, text = list(known), str(asked)
     if text != latin(text) in names:
         return cyrillic(text)
-    turned = [name for name in names if sorted(name) == sorted(text)]  # l_BA for l_AB
-    like = turned[:1] if 2 < len(text) < 100 else []
-    like = like or difflib.get_close_matches(text, names, n=1, cutoff=0.6) if 2 < len(text) < 100 else []
-    if like:
+    if like := _meant(text, names):
         return InputError(f"{key}-like", text=quote(text), like=like[0], **data)
     shown = textwrap.shorten(", ".join(names), LONGEST, placeholder=" …")
     return InputError(key, text=quote(text), known=shown or "—", **data)
+
+
+def _meant(text: str, names: list[str]) -> list[str]:
+    """Return the names that were most likely meant, the best one first."""
+    if not 2 < len(text) < 100:
+        return []
+    turned = [name for name in names if sorted(name) == sorted(text)]  # l_BA for l_AB
+    return turned or difflib.get_close_matches(text, names, n=1, cutoff=0.6)
 
 
 def latin(text: str) -> str:
