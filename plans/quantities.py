@@ -28,6 +28,7 @@ UNITS = {
     "delta": "%",
 }
 BALANCES = ("M_bal", "M_bal_lever", "F_bal", "F_bal_lever")  # what balances the driver: by plans, by the lever
+RESULTS = ("read", "calc", "arm", "distance", "measure")  # verbs that make quantities
 POINTS = ("place", "lay", "back", "arc", "arcs", "meet", "divide", "similar", "template", "same")
 
 
@@ -93,7 +94,7 @@ def quantities(program: Program, values: Mapping[str, Any], lengths: Mapping[str
     for step in program:
         if step.name.startswith("_") or "." in step.name:
             continue
-        if step.verb in ("read", "calc", "arm", "distance", "measure"):
+        if step.verb in RESULTS:
             found[step.name] = _quantity(step.name, values[step.name])
         elif step.verb in POINTS:
             point = values[step.name]

@@ -7,9 +7,8 @@ from typing import Any
 
 from .board import POSITION, Program, Step
 from .boards.exact import ILL
-from .quantities import POINTS, shown_on, unit_of
+from .quantities import POINTS, RESULTS, shown_on, unit_of
 
-RESULTS = ("read", "calc", "arm", "distance", "measure")
 MEETING = ("meet", "arc", "arcs", "tangent")
 PER_CENT = 100.0
 

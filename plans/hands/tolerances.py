@@ -11,7 +11,7 @@ import numpy as np
 
 from ..board import POSITION, Step
 from ..laws import LAWS, dot
-from ..quantities import POINTS
+from ..quantities import POINTS, RESULTS
 from ..references import results, worst_behind
 from .hand import Tolerance
 from .shaky import Paper
@@ -93,7 +93,7 @@ class _Rule:
 
     def slant(self, step: Step) -> float:
         """Return by how much directions behind a mark miss because links are short on paper, radians."""
-        if step.verb in (*READ, "calc", "moment", "arm"):
+        if step.verb in (*RESULTS, "moment"):
             return 0.0
         if step.verb == "direction" and not step.name.startswith("_"):
             length = abs(self.values[step.operands[2]])
@@ -157,7 +157,7 @@ def failing(drawn: Drawn, allowed: Mapping[str, float]) -> dict[str, float]:
     found = {}
     for step in results(drawn.paper.program):
         values, exact = drawn[step.name], drawn.exact[step.name]
-        if step.verb in (*READ, "calc", "arm"):
+        if step.verb in RESULTS:
             square = dot(values, values) if np.iscomplexobj(values) else None
             miss = abs(values - exact) if square is None else abs(np.sqrt(square) - abs(exact))
         else:
