@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ....scales.errors import InputError
 from ...board import Program, Step
+from ...boards.exact import STATUSES
 from ...laws import dot
 from ...quantities import BALANCES
 from ..cycles.cycle import Cycle
@@ -110,9 +111,9 @@ class Model:
     def _values(self, parts: Collection[str]) -> dict[str, Array]:
         cycle, wanted = self._cycle, (self.balance, *self.reactions)
         program = without(cycle.program, parts)
-        codes = cycle.codes > 1  # singular and apart: no plan to compare
+        lost = cycle.codes >= STATUSES.index("singular")  # or apart: no plan to compare
         found = cycle.drive.along(program, cycle.givens, wanted)(cycle.angles)
-        return {name: np.where(codes, np.nan, value) for name, value in found.items()}
+        return {name: np.where(lost, np.nan, value) for name, value in found.items()}
 
     def cost(self, key: str, parts: Iterable[str]) -> Cost:
         """Return what leaving out `parts` changes."""
