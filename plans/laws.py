@@ -190,3 +190,17 @@ LAWS: dict[str, Law] = {
     # difference of two values in per cent of the first
     "difference": lambda value, other: (value - other) / (value + (value == 0.0)) * 100.0,  # two zeros do not differ
 }
+
+
+def define(**laws: Law) -> None:
+    """Add the laws of a subject of its own to the table.
+
+    Raises
+    ------
+    ValueError
+        A law of this name is there already.
+    """
+    twice = LAWS.keys() & laws.keys()
+    if twice:
+        raise ValueError(f"laws defined twice: {', '.join(sorted(twice))}")
+    LAWS.update(laws)

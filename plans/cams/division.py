@@ -1,0 +1,36 @@
+"""How the turn of a cam is divided for its drawing: section lines, numbered from the start of the rise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+
+@dataclass(frozen=True, slots=True)
+class Division:
+    """Numbers of section lines: the rise runs from 0 to `top`, the upper dwell to `leave`, the fall to `last`.
+
+    The lower dwell is the rest of the turn; nothing changes in it, so that it has no sections. `jumps` are the lines
+    within a phase at which the acceleration jumps.
+    """
+
+    top: int
+    leave: int
+    last: int
+    jumps: tuple[int, ...] = ()
+
+    @property
+    def lines(self) -> range:
+        """All section lines."""
+        return range(self.last + 1)
+
+    @property
+    def sections(self) -> range:
+        """All sections; each has the number of the line at its end."""
+        return range(1, self.last + 1)
+
+    def pieces(self, phase: str) -> tuple[range, ...]:
+        """Return the lines of the `rise` or the `fall`, between jumps: of each piece both ends are among them."""
+        begin, end = (0, self.top) if phase == "rise" else (self.leave, self.last)
+        ends = sorted({begin, *(line for line in self.jumps if begin < line < end), end})
+        return tuple(range(a, b + 1) for a, b in pairwise(ends))

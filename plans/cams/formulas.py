@@ -1,0 +1,82 @@
+"""The laws of calculation of cams: how drawn lengths, scale factors and sizes follow from one another.
+
+Lengths on paper are metres of paper; scale factors are values in SI per millimetre.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..laws import define, dot
+
+MM = 1e3  # millimetres in a metre of paper
+
+
+def _angle(opposite: Any, adjacent: Any) -> Any:
+    import numpy as np
+
+    found = np.arctan2(opposite, adjacent)
+    return found if np.ndim(found) else float(found)
+
+
+def _touching(slope: Any, side: Any, *coordinates: Any) -> Any:
+    """Return where a line that touches a smooth curve from the side +1 or -1 of the abscissas meets their axis.
+
+    Along the line the abscissa grows by `slope` times the ordinate. `coordinates` are the abscissas of the points, then
+    their ordinates; the curve through the outermost point and its neighbours is a parabola.
+    """
+    import numpy as np
+
+    half = len(coordinates) // 2
+    pairs = zip(coordinates[:half], coordinates[half:], strict=True)
+    out = np.stack(np.broadcast_arrays(*(side * (x - slope * y) for x, y in pairs)))
+    most = np.max(out, axis=0)
+    if half > 2:
+        middle = np.clip(np.argmax(out, axis=0), 1, half - 2)[np.newaxis]
+        before, here, after = (np.take_along_axis(out, middle + k, axis=0)[0] for k in (-1, 0, 1))
+        bend, rise = 2.0 * here - before - after, 0.5 * (after - before)
+        inside = np.abs(rise) < bend  # else the outermost point is an end of the curve
+        most = np.where(inside, here + 0.5 * rise * rise / np.where(inside, bend, 1.0), most)
+    return most * side if np.ndim(most) else float(most) * side
+
+
+def _outermost(side: Any, *places: Any) -> Any:
+    import numpy as np
+
+    most = np.max(np.stack(np.broadcast_arrays(*(side * place for place in places))), axis=0)
+    return most * side if np.ndim(most) else float(most) * side
+
+
+define(
+    # A_2 = A_1 * u / (1 - u): both lobes have the same area
+    second_amplitude=lambda amplitude, u: amplitude * u / (1.0 - u),
+    # x = phi / mu_phi
+    on_axis=lambda angle, mu: angle / (mu * MM),
+    # an ordinate of the given diagram is a part of its amplitude
+    part_of_amplitude=lambda amplitude, part: amplitude * part,
+    # greatest ordinates of the curves drawn after a law: parts of A * x / H_a and of A * x^2 / (H_a * H_v)
+    first_integral=lambda part, amplitude, length, pole: part * amplitude * length / pole,
+    second_integral=lambda part, amplitude, length, pole, other: part * amplitude * length * length / (pole * other),
+    # mu = value / mm
+    scale_factor=lambda value, length: value / (length * MM),
+    # mu_ds = mu_s / (mu_phi * H_v), mu_d2s = mu_ds / (mu_phi * H_a)
+    derived_scale=lambda mu, mu_axis, pole: mu / (mu_axis * pole * MM),
+    # mu_v = omega * mu_ds, mu_a = omega^2 * mu_d2s
+    speed_scale=lambda omega, mu: omega * mu,
+    acceleration_scale=lambda omega, mu: omega * omega * mu,
+    # value = mm * mu
+    to_scale=lambda mu, length: mu * length * MM,
+    ordinate_to_scale=lambda mu, up, segment: dot(up, segment) * mu * MM,
+    # tg nu = mu_s / mu_ds
+    transfer_angle=_angle,
+    # a size of a mechanism is proportional to the travel
+    part_of_travel=lambda travel, part: travel * part,
+    # where a tangent of a given direction meets the axis: of every smooth piece, and of the whole curve
+    touching=_touching,
+    outermost=_outermost,
+    # the abscissa of the S-ds/dphi diagram points to where the instant centre lies
+    turned_with=lambda analogue, sense: analogue * sense,
+    negative=lambda value: -value,
+    # R = |ds/dphi|max + 5..8 mm, r_0 = r_0min + rho_min
+    enlarged=lambda size, margin: size + margin,
+)

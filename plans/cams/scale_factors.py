@@ -1,0 +1,50 @@
+"""Scale factors of the three diagrams: from the stroke that the last curve reaches back to the first one.
+
+Each stands twice: after the exact curve of the law, and, with `_chord`, after the curve of chords as it is drawn.
+"""
+
+from __future__ import annotations
+
+from ..board import Board
+from .division import Division
+from .integration import TRAVEL, VELOCITY, foot
+
+
+def amplitudes(board: Board) -> None:
+    """Calculate the greatest ordinates of the exact curves on paper, and how the two lobes differ."""
+    board.calc("A_2_drawn", "second_amplitude", "A_1_drawn", "u")
+    board.calc("_x_rise", "on_axis", "phi_rise", "mu_phi")
+    board.calc("_V_max", "first_integral", "_part_v", "A_1_drawn", "_x_rise", "H_a")
+    board.calc("_S_max", "second_integral", "_part_s", "A_1_drawn", "_x_rise", "H_a", "H_v")
+
+
+def exact_factors(board: Board) -> None:
+    """Calculate the scale factors, and with them what the exact curves show."""
+    _factors(board, "_S_max", "")
+    board.calc("A_1", "to_scale", "mu_d2s", "A_1_drawn")
+    board.calc("A_2", "to_scale", "mu_d2s", "A_2_drawn")
+    board.calc("ds_max", "to_scale", "mu_ds", "_V_max")
+    board.calc("s_max", "to_scale", "mu_s", "_S_max")
+    board.calc("v_max", "to_scale", "mu_v", "_V_max")
+    board.calc("a_max", "to_scale", "mu_a", "_A_max")
+
+
+def chord_factors(board: Board, division: Division, fastest: int) -> None:
+    """Measure the curves of chords: the stroke, the greatest velocity, by how much they do not close."""
+    top, last = division.top, division.last
+    board.distance("S_max_chord", foot(TRAVEL, top), f"{TRAVEL}.{top}")
+    board.distance("V_max_chord", foot(VELOCITY, fastest), f"{VELOCITY}.{fastest}")
+    board.distance("v_close", foot(VELOCITY, last), f"{VELOCITY}.{last}")
+    board.distance("s_close", foot(TRAVEL, last), f"{TRAVEL}.{last}")
+    _factors(board, "S_max_chord", "_chord")
+    board.calc("ds_max_chord", "to_scale", "mu_ds_chord", "V_max_chord")
+
+
+def _factors(board: Board, height: str, after: str) -> None:
+    board.calc(f"mu_s{after}", "scale_factor", "h", height)
+    board.calc(f"mu_ds{after}", "derived_scale", f"mu_s{after}", "mu_phi", "H_v")
+    board.calc(f"mu_d2s{after}", "derived_scale", f"mu_ds{after}", "mu_phi", "H_a")
+    board.calc(f"mu_v{after}", "speed_scale", "omega", f"mu_ds{after}")
+    board.calc(f"mu_a{after}", "acceleration_scale", "omega", f"mu_d2s{after}")
+    board.calc(f"nu{after}", "transfer_angle", f"mu_s{after}", f"mu_ds{after}")
+    board.calc(f"nu_a{after}", "transfer_angle", f"mu_ds{after}", f"mu_d2s{after}")

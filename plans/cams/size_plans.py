@@ -1,0 +1,106 @@
+"""The plans from which the smallest sizes are read: the travel over its analogues, in equal scales.
+
+`sizes` shows S over ds/dphi: a point for every section line, from the curves of chords. On each limit a tangent runs at
+the permitted transmission angle from `T_rise`, `T_fall` on the axis; where they meet, in `A`, a cam's centre has the
+limits on both sides. `C` is the centre of the smallest cam, `0` the lowest place of the roller's centre.
+
+`plate_sizes` shows S over d2s/dphi2; a tangent at 45 degrees to the negative branch meets the axis of travels in `T`.
+
+Sources: Artobolevsky, Theory of mechanisms and machines (S-ds/dphi diagram); Geronimus (tangent at 45 degrees).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ..board import Board
+from .division import Division
+from .integration import RIGHT, TRAVEL, UP, VELOCITY, foot
+
+SIZES, PLATE_SIZES = "sizes", "plate_sizes"
+OUTWARDS = {"rise": 1, "fall": -1}  # to which side of the abscissas a phase lies when the cam turns counter-clockwise
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A limit of the pressure angle: in which phase, and whether where the cam pushes or to the other side, too."""
+
+    phase: str
+    pushing: bool = True
+
+    @property
+    def name(self) -> str:
+        """The name in marks: `rise`, or `rise_back` for the other side."""
+        return self.phase if self.pushing else f"{self.phase}_back"
+
+    def side(self, sense: int) -> int:
+        """Return the side of the abscissas, +1 or -1, on which its tangent lies."""
+        return OUTWARDS[self.phase] * sense * (1 if self.pushing else -1)
+
+
+def ordinates(board: Board, division: Division) -> None:
+    """Read the curves of chords on every section line, as values."""
+    for i in division.lines:
+        for plan, name, mu in ((VELOCITY, "_ds", "mu_ds_chord"), (TRAVEL, "_s", "mu_s_chord")):
+            board.read(f"{name}_segment{i}", foot(plan, i), f"{plan}.{i}")
+            board.calc(f"{name}{i}_drawn", "ordinate_to_scale", mu, UP, f"{name}_segment{i}")
+
+
+def roller_sizes(board: Board, division: Division, limits: Iterable[Limit], corner: tuple[Limit, Limit]) -> None:
+    """Draw S over ds/dphi, the limit tangents, and a cam's centre where the two of `corner` meet."""
+    board.pole(f"{SIZES}.0")
+    for i in division.lines:
+        board.calc(f"_x{i}_drawn", "turned_with", f"_ds{i}_drawn", "_sense")
+        if i:
+            board.place(f"{SIZES}.{i}", f"_x{i}_drawn", f"_s{i}_drawn")
+    for limit in limits:
+        slope, side, at = (f"_{word}_{limit.name}" for word in ("slope", "side", "touch"))
+        pieces = division.pieces(limit.phase)
+        for k, piece in enumerate(pieces):
+            coordinates = (*(f"_x{i}_drawn" for i in piece), *(f"_s{i}_drawn" for i in piece))
+            board.calc(f"{at}{k}", "touching", slope, side, *coordinates)
+        board.calc(at, "outermost", side, *(f"{at}{k}" for k in range(len(pieces))))
+        board.place(f"{SIZES}.T_{limit.name}", at, "zero")
+        board.turn(f"_tangent_{limit.name}", f"_inclination_{limit.name}")
+    lines = [operand for limit in corner for operand in (f"{SIZES}.T_{limit.name}", f"_tangent_{limit.name}")]
+    board.meet(f"{SIZES}.A", *lines)
+    board.distance("r_0_tangents", f"{SIZES}.0", f"{SIZES}.A")
+    board.read("_centre", f"{SIZES}.0", f"{SIZES}.A")
+    board.calc("e_tangents", "component", RIGHT, "_centre")
+
+
+def smallest_roller_cam(board: Board) -> None:
+    """Mark the centre of the smallest cam that the exact curves permit."""
+    board.calc("e", "part_of_travel", "h", "_e_part")
+    board.calc("s_0", "part_of_travel", "h", "_s_0_part")
+    board.calc("_below", "negative", "s_0")
+    board.pole(f"{SIZES}.0")
+    board.place(f"{SIZES}.C", "e", "_below")
+    board.distance("r_0", f"{SIZES}.0", f"{SIZES}.C")
+
+
+def plate_sizes(board: Board, division: Division) -> None:
+    """Draw S over d2s/dphi2 and the tangent at 45 degrees to its negative branch."""
+    board.pole(f"{PLATE_SIZES}.0")
+    for i in division.lines:
+        for end in ("before", "after"):  # where it jumps, the two ends of a line across
+            board.calc(f"_d2s{i}_{end}", "part_of_amplitude", "A_1", f"_part{i}_{end}")
+            board.place(f"{PLATE_SIZES}.{i}_{end}", f"_d2s{i}_{end}", f"_s{i}_drawn")
+    places: list[str] = []
+    for phase in OUTWARDS:
+        for k, piece in enumerate(division.pieces(phase)):
+            ends = ["after", *["before"] * (len(piece) - 1)]
+            xs = [f"_d2s{i}_{end}" for i, end in zip(piece, ends, strict=True)]
+            places.append(f"_touch_plate_{phase}{k}")
+            board.calc(places[-1], "touching", "_minus_one", "_minus_one", *xs, *(f"_s{i}_drawn" for i in piece))
+    board.calc("_touch_plate", "outermost", "_minus_one", *places)
+    board.place(f"{PLATE_SIZES}.T", "zero", "_touch_plate")
+    board.distance("r_0_flat_tangent", f"{PLATE_SIZES}.0", f"{PLATE_SIZES}.T")
+
+
+def smallest_plate_cam(board: Board) -> None:
+    """Calculate the smallest cam for a plate, its margin, and the plate."""
+    board.calc("r_0_flat_min", "part_of_travel", "h", "_r_0_flat_part")
+    board.calc("r_0_flat", "enlarged", "r_0_flat_min", "rho_flat")
+    board.calc("R_plate", "enlarged", "ds_max", "margin")
