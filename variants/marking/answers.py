@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -9,6 +10,8 @@ from ...plans.quantities import Quantity
 from ...scales.display import Display
 from ...scales.errors import KulmanError
 from ..task import LocatedError
+
+WHO = ("student", "group", "book", "number", "email")
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +24,11 @@ class Who:
     number: str = ""
     email: str = ""
 
+    @classmethod
+    def of(cls, about: Mapping[str, str]) -> Who:
+        """Return the student of whom a file says so."""
+        return cls(*(about.get(key, "") for key in WHO))
+
 
 @dataclass(frozen=True, slots=True)
 class Mu:
@@ -31,6 +39,15 @@ class Mu:
 
     value: float
     sure: bool = False
+
+    @property
+    def ways(self) -> tuple[float, ...]:
+        """The factor as value per mm, in each way in which it may be meant."""
+        return (self.value,) if self.sure else (self.value, 1.0 / self.value)
+
+    def nearest(self, ours: float) -> float:
+        """Return the factor in the way that is nearer to ours in ratio."""
+        return min(self.ways, key=lambda way: abs(math.log(way / ours)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,13 +6,12 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from ...plans.marking.verdicts import Verdict
+from .answers import WHO
 from .cells_out import Cell
 from .flags import shared
 from .result import Result
 from .roster import Entry
 from .wording import mistake_texts, texts
-
-WHO = ("student", "group", "book", "number", "email")
 
 
 def flags_of(results: Sequence[Result], language: str) -> list[list[str]]:

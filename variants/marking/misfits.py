@@ -49,18 +49,13 @@ def _misfit(symbol: str, lines: list[Line], mu: Mu, key: Key) -> Misfit | None:
     shown = [abs(line.value or 0.0) / (line.mm or 1.0) for line in lines]
     fits = median(shown)
     agree = sum(abs(one - fits) <= NEAR * fits for one in shown)
-    if agree < max(FEWEST, MOST * len(lines)) or any(abs(way - fits) <= 2.0 * NEAR * fits for way in _ways(mu)):
+    if agree < max(FEWEST, MOST * len(lines)) or any(abs(way - fits) <= 2.0 * NEAR * fits for way in mu.ways):
         return None
-    written = min(_ways(mu), key=lambda way: abs(math.log(way / fits)))
+    written = mu.nearest(fits)
     nearer = [_values_are_nearer(line, written, key) for line in lines]
     if sum(nearer) < MOST * len(lines):
         return None
     return Misfit(symbol, written, fits, tuple(line.name for line in lines))
-
-
-def _ways(mu: Mu) -> tuple[float, ...]:
-    """Return a factor as value per mm, in each way in which it may be meant."""
-    return (mu.value,) if mu.sure else (mu.value, 1.0 / mu.value)
 
 
 def _values_are_nearer(line: Line, mu: float, key: Key) -> bool:

@@ -137,7 +137,7 @@ class _Sheet:
 
     def answers(self, source: str, about: Mapping[str, str], columns: tuple[str, ...] = ()) -> Answers:
         """Return what has been read."""
-        who = Who(*(about.get(key, "") for key in ("student", "group", "book", "number", "email")))
+        who = Who.of(about)
         return Answers(source, who, about, self.lines, self.scales, tuple(self.problems), columns)
 
 

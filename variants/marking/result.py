@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -69,9 +68,7 @@ def students_scales(marked: Marked) -> dict[str, float]:
         symbol = "" if question is None else marked.keyed.solution.solved.scale_of_plan.get(question.plan, "")
         mu = line.mu or answers.scales.get(symbol)
         if question is not None and mu is not None and question.plan in found:
-            ours = key.paper.mus[question.plan]
-            ways = (mu.value,) if mu.sure else (mu.value, 1.0 / mu.value)
-            found[question.plan] = min(ways, key=lambda way: abs(math.log(way / ours)))
+            found[question.plan] = mu.nearest(key.paper.mus[question.plan])
     return found
 
 

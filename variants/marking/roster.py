@@ -102,8 +102,7 @@ def _entry(grid: Grid, row: int, about: Mapping[str, int], givens: Mapping[int, 
                 task.givens[name].read(settings[name])
             except InputError as error:
                 raise LocatedError(f"{grid.place(row, column)}, {name}", error) from error
-    who = Who(*(said.get(key, "") for key in ("student", "group", "book", "number", "email")))
-    return Entry(who, variant, settings, grid.place(row))
+    return Entry(Who.of(said), variant, settings, grid.place(row))
 
 
 def variant_of_book(task: Task, book: str, digits: int = 1) -> str:

@@ -70,8 +70,7 @@ def _agrees(line: Line, mu: Mu) -> bool:
     """Whether millimetres times the scale factor, or over it, are the value."""
     assert line.mm is not None
     assert line.value is not None
-    ways = (line.mm * mu.value,) if mu.sure else (line.mm * mu.value, line.mm / mu.value)
-    return any(abs(way - abs(line.value)) <= NEAR * abs(line.value) for way in ways)
+    return any(abs(line.mm * way - abs(line.value)) <= NEAR * abs(line.value) for way in mu.ways)
 
 
 def _exchanged(line: Line, asked: Asked) -> Line:
