@@ -84,6 +84,26 @@ def test_a_form_can_be_read_in_the_language_it_is_written_in(tmp_path: Path, nam
     assert {*asked} == {name for name in ASKED.names if "_couple_" not in name}
 
 
+@pytest.mark.parametrize(
+    ("task", "told"),
+    [
+        ("bertyaev-six-bar", {"mu_a": "M_a", "mu_a_B": "M_a (B)"}),
+        ("madi-four-bar", {"mu_F_23": "μ_p (2, 3)", "mu_F_1": "μ_p (1)"}),
+        ("scheme-15-lever-shears", {"h_G_4": "h_G4", "h_lever_G_4": "h_G4 (lever)", "F_i4_couple": "F′_i4 = F″_i4"}),
+    ],
+)
+def test_no_two_lines_of_a_form_look_alike(tmp_path: Path, task: str, told: dict[str, str]) -> None:
+    grid = read_grid(form(tmp_path, "form.csv", "en", task))
+    header = next(number for number, row in enumerate(grid.rows) if row[0] == "quantity")
+    rows = [[cell for cell in row if cell] for row in grid.rows[header + 1 :]]
+    headings = [row[0] for row in rows if len(row) == 1]
+    labels = {row[0]: row[1] for row in rows if len(row) > 1}
+
+    assert len(set(headings)) == len(headings) > 1
+    assert len(set(labels.values())) == len(labels) > 20
+    assert told.items() <= labels.items()
+
+
 def test_an_empty_form_is_told_to_be_empty(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="the form is empty"):
         read_answers(form(tmp_path, "form.xlsx", "uk"), ASKED)

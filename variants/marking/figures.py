@@ -48,7 +48,7 @@ def _heading(marked: Marked, plan: str, said: Mapping[str, str]) -> str:
         driver = str(marked.keyed.solution.solved.structure.driver)
         return said["heading.driver"] if links == driver else said[key].format(links=", ".join(links), link=links)
     if plan.startswith("V_at_"):
-        return said["heading.compound_velocity"]
+        return f"{said['heading.compound_velocity']}: {plan.removeprefix('V_at_')}"
     if plan.startswith("a_at_"):
         return said["heading.compound_acceleration"].format(point=plan.removeprefix("a_at_"))
     return said[f"heading.{plan}"]

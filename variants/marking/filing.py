@@ -40,7 +40,7 @@ def write_form(check: Check, file: str | os.PathLike[str]) -> Path:
         bold, frozen = [0], 1
     else:
         about = {"task": task.id, "variant": check.request.variant}
-        rows = list(form_rows(key.solution.solved, key.parts, key.asked, key.solution.words, about))
+        rows = list(form_rows(key, about))
         columns = texts(language)["column.name"]
         frozen = next(number for number, row in enumerate(rows) if row[0] == columns) + 1
         bold = [

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from ...drawing.linkages.letters import lettered
 from ...drawing.linkages.reading import read
 from ...drawing.words import Words
 from ...plans.board import POSITION
-from ...plans.linkages.solved import Solved
+from ...plans.linkages.solved import SolvedLinkage
 from ...plans.marking.key import Question
 from ...scales.units import format_unit
-from .answers import Asked
 from .wording import letter, plain, texts
+
+if TYPE_CHECKING:
+    from .keyed import Keyed
 
 ASKED_ABOUT = ("task", "variant", "sheet", "student", "group", "book")
 COLUMNS = ("name", "symbol", "vector", "mm", "mu", "value", "unit", "direction")
@@ -30,7 +32,7 @@ class Section:
     questions: tuple[Question, ...]
 
 
-def sections(solved: Solved, questions: Iterable[Question], words: Words) -> list[Section]:
+def sections(solved: SolvedLinkage, questions: Iterable[Question], words: Words) -> list[Section]:
     """Return the questions plan by plan, in order of construction."""
     by_key: dict[str, list[Question]] = {}
     current = ""
@@ -57,12 +59,14 @@ def drawn(question: Question) -> bool:
     return question.vector or question.step.verb in ("read", "arm", "measure", "distance")
 
 
-def _section(solved: Solved, question: Question, current: str) -> str:
+def _section(solved: SolvedLinkage, question: Question, current: str) -> str:
     """Return the section of a question."""
     head, plan = question.name.partition("_")[0], question.plan
     if plan == "lever" or current == "lever":
         return "lever"
-    if plan.startswith(("V_at_", "a_at_")):
+    if plan.startswith("V_at_"):  # those of all points are one drawing
+        return "V_at_"
+    if plan.startswith("a_at_"):
         return plan
     if head == "l" and plan == POSITION:
         return "position"
@@ -83,35 +87,33 @@ def _heading(key: str, words: Words) -> str:
     if kind == "forces":
         many = len(rest) > 1
         return words["heading.group_forces"].format(links=", ".join(rest)) if many else words["heading.driver"]
-    if kind.startswith("V_at_"):
+    if kind == "V_at_":
         return words["heading.compound_velocity"]
     if kind.startswith("a_at_"):
         return words["heading.compound_acceleration"].format(point=kind.removeprefix("a_at_"))
     return words[f"heading.{kind}"]
 
 
-def form_rows(
-    solved: Solved, parts: Iterable[Section], asked: Asked, words: Words, about: Mapping[str, str]
-) -> Iterator[tuple[str, ...]]:
+def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
     """Go through the rows of an empty form; `about` is what is known of the sheet already."""
+    asked, words = keyed.asked, keyed.words
     said = texts(words.language)
-    words = lettered(words, solved)
     for key in ASKED_ABOUT:
         yield (said[f"about.{key}"], about.get(key, ""))
     yield (said["form.hint"],)
     yield tuple(said[f"column.{column}"] for column in COLUMNS)
-    letters = vector_letters(solved, words)
-    for part in parts:
+    letters = vector_letters(keyed.solution.solved, words)
+    for part in keyed.parts:
         yield (plain(part.heading),)
-        for symbol in part.scales:
-            unit = _written(f"({asked.display.unit(asked.scales[symbol])})/{asked.display.paper}", words)
-            yield (symbol, plain(words.symbol(symbol)), "", "", "", "", unit)
+        for name in part.scales:
+            unit = _written(f"({asked.display.unit(asked.scales[name])})/{asked.display.paper}", words)
+            yield (name, keyed.symbol(name), "", "", "", "", unit)
         for question in filter(is_asked, part.questions):
             name, unit = question.name, _written(asked.unit(question.name), words)
-            yield (name, plain(words.symbol(name)), letters.get(name, ""), "", "", "", unit)
+            yield (name, keyed.symbol(name), letters.get(name, ""), "", "", "", unit)
 
 
-def vector_letters(solved: Solved, words: Words) -> dict[str, str]:
+def vector_letters(solved: SolvedLinkage, words: Words) -> dict[str, str]:
     """Return the letters of the vector that shows a quantity on its plan: pb, ab, n_BA b."""
     reading = read(solved.program)
     plans = (plan for plan in solved.program.plans if not plan.startswith(("V_at_", "a_at_")))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -16,9 +17,9 @@ from ..sheet_id import sheet_id
 from ..solution import Solution, solve
 from ..task import Task
 from .answers import Asked
-from .form import Section, sections
+from .form import Section, is_asked, sections
 from .rubric import Rubric
-from .wording import plain
+from .wording import plain, texts
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,15 +76,30 @@ class Keyed:
 
     @cached_property
     def symbols(self) -> dict[str, str]:
-        """The symbols of all quantities as plain text; a couple's force has those of both forces, as large as it is."""
-        found = {name: plain(self.words.symbol(name)) for name in self.solution.quantities}
+        """The symbols of all quantities and scale factors as plain text, no two of a form alike.
+
+        A couple's force has the symbols of both forces, as large as it is. What the sheet tells apart by the drawing
+        where it stands has that in brackets: the links of a force plan, the point of a plan, the lever.
+        """
+        scales = [symbol for part in self.parts for symbol in part.scales]
+        found = {name: plain(self.words.symbol(name)) for name in (*self.solution.quantities, *scales)}
         for name in [name for name in found if name.endswith("_couple")]:
             both = sorted({found[one] for one in found if one.startswith(f"{name}_")})
             found[name] = " = ".join(both) or found[name]
-        return found
+        asked = [question.name for part in self.parts for question in part.questions if is_asked(question)]
+        often = Counter(found[name] for name in (*asked, *scales))
+        where = {name: self._where(name) for name in (*asked, *scales) if often[found[name]] > 1}
+        return found | {name: f"{found[name]} ({place})" for name, place in where.items() if place}
+
+    def _where(self, name: str) -> str:
+        """Return on which drawing a quantity or scale factor stands whose symbol stands on another one, too."""
+        if name.startswith("mu_"):
+            place = "".join(name.split("_")[2:])
+            return ", ".join(place) if place.isdigit() else place
+        return texts(self.words.language)["form.lever"] if name.startswith("h_lever_") else ""
 
     def symbol(self, name: str) -> str:
-        """Return the symbol of a quantity, or of a given, as plain text."""
+        """Return the symbol of a quantity, of a scale factor or of a given, as plain text."""
         return self.symbols.get(name) or plain(self.words.symbol(name))
 
 

@@ -151,7 +151,7 @@ class _Teller:
         unit = format_unit(f"({display.unit(si)})/mm", self.language)
         ratio = misfit.written / misfit.fits
         return self.said["again.large" if ratio > 1.0 else "again.small"].format(
-            symbol=plain(self.words.symbol(misfit.symbol)),
+            symbol=self.symbol(misfit.symbol),
             times=self.words.short(max(ratio, 1.0 / ratio), 2),
             fits=f"{self.words.short(display.value(misfit.fits, si), SCALE_DIGITS)} {unit}",
         )
