@@ -11,7 +11,7 @@ from ..drawing.linkages.scene import Given
 from ..drawing.words import Words
 from ..plans.boards.exact import SMALL
 from ..plans.linkages.chain import require_couplers
-from ..plans.linkages.solved import Solved, scale_symbols, solve_linkage
+from ..plans.linkages.solved import SolvedLinkage, scale_symbols, solve_linkage
 from ..plans.references import pins_together, point_of
 from ..scales.arguments import of_kind
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
@@ -34,7 +34,7 @@ class Case:
     variant: str
     settings: Settings
     plans: tuple[str, ...]
-    solved: Solved
+    solved: SolvedLinkage
     choosers: Mapping[str, Chooser]
 
     @property
@@ -117,7 +117,7 @@ def solve_case(
     return Case(found, row.id, changed, plans, solved, _choosers(found, by_name("scales", scales), solved))
 
 
-def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser]:
+def _choosers(task: Task, scales: Settings, solved: SolvedLinkage) -> dict[str, Chooser]:
     """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
     choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
     known = scale_symbols(solved.structure, solved.program)
@@ -138,7 +138,7 @@ def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser
     return choosers
 
 
-def _shown(segment: Segment, solved: Solved, name: str) -> None:
+def _shown(segment: Segment, solved: SolvedLinkage, name: str) -> None:
     """Refuse a segment, named `name`, that no plan shows."""
     if segment.quantity not in solved.values and segment.quantity not in solved.quantities:
         raise InputError("scale-segment", text=quote(name))

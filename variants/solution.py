@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..drawing.formats import format_named
 from ..drawing.linkages.ladders import first_scales
 from ..drawing.words import Words
-from ..plans.linkages.solved import Solved, disagreement
+from ..plans.linkages.solved import SolvedLinkage, disagreement
 from ..plans.quantities import Quantity, measured
 from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
@@ -39,7 +39,7 @@ class Solution:
 
     task: Task
     variant: str
-    solved: Solved
+    solved: SolvedLinkage
     quantities: Mapping[str, Quantity]
     scales: Mapping[str, Scale]
     reason: PositionError | None
@@ -265,7 +265,7 @@ def _scales(case: Case, words: Words, format: str | None) -> Mapping[str, Scale]
     return {plan: scales[plan] for plan in case.solved.scale_of_plan}  # some views are drawn larger
 
 
-def _drawing(solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:
+def _drawing(solved: SolvedLinkage, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:
     from ..plans.hands.shaky import Paper
     from .hands import drawing, hand_of
 
@@ -276,7 +276,7 @@ def _drawing(solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> D
     return drawing(Paper(solved.program, solved.givens, mus), hand)
 
 
-def _conditions(solved: Solved) -> dict[str, Condition]:
+def _conditions(solved: SolvedLinkage) -> dict[str, Condition]:
     from ..plans.linkages.accuracy.conditions import conditions_of  # needs numpy, which a plain solution does without
 
     return conditions_of(solved)

@@ -7,7 +7,7 @@ import numpy as np
 from ...plans.board import POSITION
 from ...plans.linkages.field import MARGIN, velocity_field
 from ...plans.linkages.mechanism import FRAME
-from ...plans.linkages.solved import Solved
+from ...plans.linkages.solved import SolvedLinkage
 from ...scales.scale import Scale, steps
 from ..shapes import Circle, HeadPlace, Pen, Vector
 from ..view import Canvas, View
@@ -18,7 +18,7 @@ PITCH = 5.0  # distance of neighbouring points in arrowheads
 APART = 0.9  # longest vector in parts of the distance of neighbouring points
 
 
-def coupler(solved: Solved) -> int | None:
+def coupler(solved: SolvedLinkage) -> int | None:
     """Return the first link with two joints that is not on the frame: only such a link has a field worth drawing."""
     mechanism = solved.mechanism
     on_frame = {number for pair in mechanism.pairs if FRAME in pair.links for number in pair.links}
@@ -26,11 +26,11 @@ def coupler(solved: Solved) -> int | None:
     return turning[0] if turning else None
 
 
-def _numbers(solved: Solved) -> list[int]:
+def _numbers(solved: SolvedLinkage) -> list[int]:
     return [number for group in solved.structure.groups for number in group.links]
 
 
-def _turns(solved: Solved, number: int) -> bool:
+def _turns(solved: SolvedLinkage, number: int) -> bool:
     joints = {pair.point for pair in solved.mechanism.pairs if number in pair.links}
     return len(joints) > 1 and bool(solved.values.get(f"omega_{number}"))
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from ...plans.linkages.cycles.slider_runs import Runs, slider_runs
-from ...plans.linkages.solved import Solved
+from ...plans.linkages.solved import SolvedLinkage
 from ...scales.choices import SIZES
 from ...scales.choose import UNITS, Choosers, CrankScale, Fixed
 from ...scales.errors import InputError
@@ -40,7 +40,7 @@ Fitted = tuple[list[View], Mapping[str, Scale]]
 class Contents:
     """What a sheet shows: a solved mechanism, the plans wanted, choosers of scales, givens, words, norm."""
 
-    solved: Solved
+    solved: SolvedLinkage
     plans: tuple[str, ...]
     choosers: Choosers
     givens: Mapping[str, Given]
@@ -210,7 +210,7 @@ class Fitting:
         )
 
 
-def _reach(solved: Solved, symbol: str) -> float:
+def _reach(solved: SolvedLinkage, symbol: str) -> float:
     """Return the longest distance between marks of the plans that a scale factor sizes, in its own unit."""
     longest = 0.0
     for plan in (plan for plan, name in solved.scale_of_plan.items() if name == symbol):

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ...plans.board import Step
-from ...plans.linkages.solved import Solved
+from ...plans.linkages.solved import SolvedLinkage
 from ...scales.display import AS_INSIDE
 from ..table import text_block
 from ..view import View
@@ -21,7 +21,7 @@ WHOLE, LOADS = "", "loads"
 Told = Callable[[Scene, Step], list[Factor]]
 
 
-def force_parts(solved: Solved) -> tuple[str, ...]:
+def force_parts(solved: SolvedLinkage) -> tuple[str, ...]:
     """Return into which blocks the equations are cut: one where there is one group, else loads, groups, driver."""
     groups = [group.name for group in reversed(solved.structure.groups)]
     return (WHOLE,) if len(groups) < 2 else (LOADS, *groups, str(solved.structure.driver))

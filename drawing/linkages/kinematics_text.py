@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from ...plans.board import POSITION, Step
 from ...plans.linkages.compound import found_here
 from ...plans.linkages.mechanism import ZERO
-from ...plans.linkages.solved import Solved
+from ...plans.linkages.solved import SolvedLinkage
 from ...plans.quantities import unit_of
 from ..printed import Input, calculation
 from ..table import text_block
@@ -32,7 +32,7 @@ class KinematicsPart:
     before: tuple[str, ...] = ()
 
 
-def kinematics_parts(solved: Solved, plans: tuple[str, ...]) -> tuple[KinematicsPart, ...]:
+def kinematics_parts(solved: SolvedLinkage, plans: tuple[str, ...]) -> tuple[KinematicsPart, ...]:
     """Return the blocks for the plans wanted: one for both where there is one group, else one for each."""
     drawn = tuple(plan for plan in PLANS if plan in plans)
     if len(solved.structure.groups) > 1:

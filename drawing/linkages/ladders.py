@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from ...plans.board import POSITION
 from ...plans.linkages.mechanism import Driver
-from ...plans.linkages.solved import Solved
+from ...plans.linkages.solved import SolvedLinkage
 from ...scales.choose import UNITS, Choosers, CrankScale, Round
 from ...scales.errors import InputError
 from ...scales.scale import Scale, steps
@@ -21,12 +21,12 @@ CRANK = 45.0  # mm, the least length of a crank drawn apart
 FINER = 2.05  # times that a plan may be enlarged whose pages have room to spare
 
 
-def first_scales(solved: Solved, choosers: Choosers) -> dict[str, Scale]:
+def first_scales(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Scale]:
     """Return the scale factors as they are wanted, by plan, before any format has its say."""
     return by_plan(solved, {symbol: ladder[0] for symbol, ladder in ladders_of(solved, choosers).items()})
 
 
-def ladders_of(solved: Solved, choosers: Choosers) -> dict[str, tuple[float, ...]]:
+def ladders_of(solved: SolvedLinkage, choosers: Choosers) -> dict[str, tuple[float, ...]]:
     """Return for each scale factor of the plans its values from the wanted one to ever coarser ones."""
     plans = solved.scale_of_plan
 
@@ -62,7 +62,7 @@ def finer_of(ladders: Mapping[str, Sequence[float]], choosers: Choosers) -> dict
     return finer
 
 
-def _crowded(solved: Solved, symbol: str) -> bool:
+def _crowded(solved: SolvedLinkage, symbol: str) -> bool:
     """Whether the plans of a scale factor draw so many vectors, or hang so many forces, that they need more room."""
     plans = {plan for plan, name in solved.scale_of_plan.items() if name == symbol}
     drawn = [step.plan for step in solved.program if step.verb in DRAWN]
@@ -70,7 +70,7 @@ def _crowded(solved: Solved, symbol: str) -> bool:
     return any(drawn.count(plan) > CROWD or hung.count(plan) > HUNG for plan in plans)
 
 
-def _largest(solved: Solved, symbol: str) -> float:
+def _largest(solved: SolvedLinkage, symbol: str) -> float:
     """Return the largest quantity on the plans of a scale factor, the size of the mechanism on its own plan."""
     plans, shown = solved.scale_of_plan, solved.shown_on
     if symbol == plans[POSITION]:
@@ -79,7 +79,7 @@ def _largest(solved: Solved, symbol: str) -> float:
     return max(map(abs, drawn), default=0.0)
 
 
-def _size(solved: Solved) -> float:
+def _size(solved: SolvedLinkage) -> float:
     """Return the longest distance between lettered points of the links, m."""
     places = [solved.point(point) for link in solved.mechanism.links for point in link.points]
     return max((abs(a - b) for a in places for b in places), default=0.0)
@@ -90,14 +90,14 @@ def _plan_of(quantity: str, shown: Mapping[str, str]) -> str:
     return POSITION if quantity.startswith("l_") else shown.get(quantity, "")
 
 
-def by_plan(solved: Solved, mus: Mapping[str, float]) -> dict[str, Scale]:
+def by_plan(solved: SolvedLinkage, mus: Mapping[str, float]) -> dict[str, Scale]:
     """Return the scale factors of the plans from their values by symbol."""
     plans = solved.scale_of_plan.items()
     scales = {plan: Scale(symbol, mus[symbol], UNITS[symbol.split("_")[1]]) for plan, symbol in plans}
     return {**scales, DRIVER: _of_driver(solved, scales[POSITION])}
 
 
-def _of_driver(solved: Solved, scale: Scale) -> Scale:
+def _of_driver(solved: SolvedLinkage, scale: Scale) -> Scale:
     """Return the scale factor of the driver drawn apart: its own, larger one where the crank is short on the plan."""
     driver = solved.mechanism.driver
     if not isinstance(driver, Driver):

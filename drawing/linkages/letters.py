@@ -7,14 +7,14 @@ from dataclasses import replace
 from itertools import combinations
 
 from ...plans.linkages.guides import guide_letters
-from ...plans.linkages.solved import Solved
+from ...plans.linkages.solved import SolvedLinkage
 from ..words import Words
 from .reading import Reading, read
 
 __all__ = ["guide_letters", "lettered"]
 
 
-def lettered(words: Words, solved: Solved) -> Words:
+def lettered(words: Words, solved: SolvedLinkage) -> Words:
     """Return the words for the sheet of one mechanism."""
     reading = read(solved.program)
     frame = str(len(solved.mechanism.links) + 1) if words.notation["frame"] == "last" else "0"
@@ -31,7 +31,7 @@ def _seconds(reading: Reading) -> frozenset[str]:
     return frozenset(name for name in found if "couple" in name or name.startswith("h_"))
 
 
-def _joints(solved: Solved) -> dict[str, str]:
+def _joints(solved: SolvedLinkage) -> dict[str, str]:
     """Return links by their ends, `O_{1}B`: by the two joints that are farthest apart, in the order of the link."""
     named = {}
     for link in solved.mechanism.links:

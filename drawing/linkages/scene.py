@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...plans.board import POSITION
 from ...plans.linkages.mechanism import Driver
-from ...plans.linkages.solved import Solved
+from ...plans.linkages.solved import SolvedLinkage
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
 from ..printed import segment_decimals
@@ -35,7 +35,7 @@ class Given:
 class Scene:
     """A solved mechanism on a certain format, in certain words; `scales` are by plan, `runs` of sliders by guide."""
 
-    solved: Solved
+    solved: SolvedLinkage
     scales: Mapping[str, Scale]
     words: Words
     style: Style
@@ -93,7 +93,7 @@ class Scene:
         return (self.words[key].format(**fill), *scales)
 
 
-def arms_of_driver(solved: Solved) -> frozenset[str]:
+def arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:
     """Return the arms about the driver's pivot of the forces on the driver, which its own figure shows."""
     driver = solved.mechanism.driver
     if not isinstance(driver, Driver):

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from ...plans.board import POSITION
 from ...plans.linkages.compound import found_here
-from ...plans.linkages.solved import Solved
+from ...plans.linkages.solved import SolvedLinkage
 from ...plans.quantities import Quantity
 from ...scales.scale import Scale
 from ..printed import ruler_decimals, segment_decimals, value_text
@@ -72,7 +72,7 @@ def _factors(scene: Scene) -> Iterator[tuple[str, str]]:
         yield " = ".join(symbols), scene.words.short(value)
 
 
-def results_parts(solved: Solved) -> tuple[Part, ...]:
+def results_parts(solved: SolvedLinkage) -> tuple[Part, ...]:
     """Return the tables of results, in the order of the work; each quantity stands in one of them."""
     by_kind: dict[str, list[str]] = {kind: [] for kind in KINDS}
     number, apart = read(solved.program).number, _compound(solved)
@@ -86,12 +86,12 @@ def results_parts(solved: Solved) -> tuple[Part, ...]:
     return tuple(parts)
 
 
-def _compound(solved: Solved) -> frozenset[str]:
+def _compound(solved: SolvedLinkage) -> frozenset[str]:
     """Return what belongs to compound motion: what it alone finds, and the distances measured for it."""
     return found_here(solved.program) | {step.name for step in solved.program if step.verb == "distance"}
 
 
-def _results(solved: Solved) -> Iterator[Quantity]:
+def _results(solved: SolvedLinkage) -> Iterator[Quantity]:
     """Go through what the tables show: all quantities but points, given lengths, and each force of a pair."""
     made = read(solved.program).made
     for q in solved.quantities.values():
@@ -99,7 +99,7 @@ def _results(solved: Solved) -> Iterator[Quantity]:
             yield q
 
 
-def _cut(solved: Solved, kind: str, names: list[str]) -> list[Part]:
+def _cut(solved: SolvedLinkage, kind: str, names: list[str]) -> list[Part]:
     """Cut a long table by groups of links, in the order in which the groups are dealt with."""
     order = [(solved.structure.driver,), *(group.links for group in solved.structure.groups)]
     if kind == "forces":
@@ -138,14 +138,14 @@ def _chunks(names: list[str]) -> Iterator[list[str]]:
         yield names[k * len(names) // count : (k + 1) * len(names) // count]
 
 
-def _owner(solved: Solved, name: str) -> tuple[int, ...]:
+def _owner(solved: SolvedLinkage, name: str) -> tuple[int, ...]:
     """Return the links of the group to which a quantity belongs, the last of those that it concerns."""
     groups = [(solved.structure.driver,), *(group.links for group in solved.structure.groups)]
     links = _links_of(solved, name)
     return next((group for group in reversed(groups) if links & {*group}), groups[0])
 
 
-def _links_of(solved: Solved, name: str) -> set[int]:
+def _links_of(solved: SolvedLinkage, name: str) -> set[int]:
     """Return the links that a quantity concerns: of a point the first that has it, of a reaction both."""
     mechanism = solved.mechanism
     loads = {load.name: load.link for load in mechanism.loads} | {c.name: c.link for c in mechanism.couples}
@@ -164,7 +164,7 @@ def _links_of(solved: Solved, name: str) -> set[int]:
     return found or {link.number for link in mechanism.links if {link.mass, link.inertia} & {name}}
 
 
-def _first_with(solved: Solved, index: str) -> set[int]:
+def _first_with(solved: SolvedLinkage, index: str) -> set[int]:
     """Return the first link that has the point with which an index such as `BA`, `A3A2` or `X3` begins."""
     links = [solved.structure.driver, *(number for group in solved.structure.groups for number in group.links)]
     points = {point: number for number in reversed(links) for point in solved.mechanism.link(number).points}

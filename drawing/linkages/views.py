@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import ACCELERATION, Coupler, scale_symbol
 from ...plans.linkages.mechanism import Diagram, Prismatic
-from ...plans.linkages.solved import Solved
+from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group
 from ..view import View
 from .driver_view import driver_view
@@ -41,7 +41,7 @@ class Figure:
     beside: str = ""
 
 
-def figures(solved: Solved, plans: tuple[str, ...], width: float, cycle: Cycle | None = None) -> list[Figure]:
+def figures(solved: SolvedLinkage, plans: tuple[str, ...], width: float, cycle: Cycle | None = None) -> list[Figure]:
     """Return the figures for `plans` in the order of the work; lines of text are at most `width` long."""
     return [
         *_kinematics(solved, plans, width),
@@ -52,7 +52,7 @@ def figures(solved: Solved, plans: tuple[str, ...], width: float, cycle: Cycle |
     ]
 
 
-def _kinematics(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
+def _kinematics(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
     symbols = solved.scale_of_plan
     if "structure" in plans:
         yield Figure(givens_table)
@@ -67,7 +67,7 @@ def _kinematics(solved: Solved, plans: tuple[str, ...], width: float) -> Iterato
     yield from (_results(p) for p in parts if p.kind in ("velocity", "acceleration") and p.kind in plans)
 
 
-def _compound(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
+def _compound(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
     if "compound" not in plans:
         return
     from .compound_view import velocity_figure  # few tasks split motions
@@ -82,7 +82,7 @@ def _compound(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[
     yield from (_results(p) for p in results_parts(solved) if p.kind == "compound")
 
 
-def _cycle(solved: Solved, cycle: Cycle | None) -> Iterator[Figure]:
+def _cycle(solved: SolvedLinkage, cycle: Cycle | None) -> Iterator[Figure]:
     if cycle is not None:
         # a sheet of one position does not pay for the import
         from .diagrams_view import diagrams_view
@@ -97,7 +97,7 @@ def _cycle(solved: Solved, cycle: Cycle | None) -> Iterator[Figure]:
             yield Figure(lambda scene: field_view(scene, link), "mu_l")
 
 
-def _forces(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
+def _forces(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
     if "forces" in plans:
         symbols, link = solved.scale_of_plan, str(solved.structure.driver)
         parts = force_parts(solved)  # one text after all figures, or one for each group after its own
@@ -116,7 +116,7 @@ def _load_diagram(diagram: Diagram) -> Figure:
     return Figure(lambda scene: load_diagram(scene, diagram))
 
 
-def _group(solved: Solved, group: Group) -> Iterator[Figure]:
+def _group(solved: SolvedLinkage, group: Group) -> Iterator[Figure]:
     """Go through a group, its plans of forces in the order of construction, and its sliders apart.
 
     A slider whose plan the construction draws stands before it; that of a rod beside it stands after the plans.
@@ -151,7 +151,7 @@ def _apart(group: Group, number: int | None) -> Figure:
     return Figure(lambda scene: link_view(scene, group, number), "mu_l")
 
 
-def _lever(solved: Solved, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
+def _lever(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
     if "lever" in plans:
         yield Figure(lever_view, "mu_V")
         yield Figure(lambda scene: lever_block(scene, width, with_inertia="forces" not in plans))

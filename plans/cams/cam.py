@@ -82,9 +82,10 @@ class Cam:
 
     def chosen(self, words: Mapping[str, str]) -> Cam:
         """Return the cam with the words of a variant in the place of the names of the choices."""
-        fields = ("law", "law_fall", "fall", "rotation", "limits")
-        found = {field: words[name] for field in fields if (name := getattr(self, field)) in words}
-        return replace(self, **found) if found else self
+        law, law_fall, fall, rotation, limits = (
+            words.get(word, word) for word in (self.law, self.law_fall, self.fall, self.rotation, self.limits)
+        )
+        return replace(self, law=law, law_fall=law_fall, fall=fall, rotation=rotation, limits=limits)
 
     @property
     def sense(self) -> int:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..laws import LAWS
 from .chain import moving_bodies
-from .solved import Solved
+from .solved import SolvedLinkage
 
 Array = NDArray[Any]
 MARGIN = 0.15  # how far a field reaches beyond the link's points, in parts of its larger side
@@ -31,7 +31,7 @@ def velocities(at: Array, pin: complex, velocity: complex, omega: float) -> Arra
     return found
 
 
-def velocity_field(solved: Solved, link: int, columns: int = 9, rows: int = 7) -> tuple[Array, Array]:
+def velocity_field(solved: SolvedLinkage, link: int, columns: int = 9, rows: int = 7) -> tuple[Array, Array]:
     """Return a grid of places over a link and their velocities, both of shape (rows, columns).
 
     The grid covers the link's lettered points in the plan of the mechanism, and a margin around them.

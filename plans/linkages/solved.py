@@ -9,8 +9,9 @@ from typing import Any
 
 from ...scales.errors import PositionError
 from ..board import POSITION, Program
-from ..boards.exact import Status, Trouble, run
-from ..quantities import Quantity, quantities, shown_on
+from ..boards.exact import Trouble, run
+from ..quantities import quantities, shown_on
+from ..solved import Solved
 from . import compound
 from .chain import USUAL, construct, hinged
 from .dyads.moment_centres import with_moment_centres
@@ -23,45 +24,20 @@ from .structure import TRIAD, Structure
 COINCIDENT = {"arcs": (0, 2), "tangent": (0, 1), "measure": (0, 1)}
 
 
-@dataclass(frozen=True, slots=True)
-class Solved:
-    """One position of a mechanism; `values` holds every name of the construction, `quantities` the results in SI."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SolvedLinkage(Solved):
+    """One position of a mechanism."""
 
     mechanism: Mechanism
     structure: Structure
-    program: Program
-    values: Mapping[str, Any]
-    quantities: Mapping[str, Quantity]
-    sines: Mapping[str, float]
-    status: Status
-    trouble: Trouble | None
-    shown_on: Mapping[str, str]  # the first plan that shows each quantity as a segment
-    scale_of_plan: Mapping[str, str]  # symbol of the scale factor of every plan
-    givens: Mapping[str, Any]  # what the board began with, to run the program again
-
-    def point(self, mark: str) -> complex:
-        """Return a mark of any plan, SI."""
-        return complex(self.values[mark])
-
-    def size(self, name: str) -> float:
-        """Return the magnitude of a value."""
-        value = self.values[name]
-        return math.hypot(value.real, value.imag)
 
     def guide_name(self, pair: Prismatic) -> str:
         """Return the name of the direction of a pair's guide."""
         a, b = pair.links
         return next(name for name in (f"u_{a}{b}", f"u_{b}{a}") if name in self.values)
 
-    def worst_sine(self) -> tuple[str, float]:
-        """Return the worst intersection: the name of its mark and the sine of its angle."""
-        return min(self.sines.items(), key=lambda item: item[1], default=("", 1.0))
-
-    def error(self) -> PositionError | None:
-        """Return why the position has no plan, or None."""
-        trouble = self.trouble
-        if trouble is None:
-            return None
+    def reason(self, trouble: Trouble) -> PositionError:
+        """Return why the position has no plan."""
         step = next(step for step in self.program if step.name == trouble.name)
         if step.verb == "template":
             return self._template_error(trouble)
@@ -130,7 +106,7 @@ def scale_symbols(structure: Structure, program: Program) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*structure.scale_symbols, *_scale_of_plan(structure, program).values())))
 
 
-def disagreement(solved: Solved) -> float | None:
+def disagreement(solved: SolvedLinkage) -> float | None:
     """Return by how much compound motion and the plans differ, in parts of the longest vectors; None without both."""
     if solved.trouble is not None or not any(plan.startswith(compound.ACCELERATION) for plan in solved.program.plans):
         return None
@@ -150,7 +126,7 @@ def _spoken(direction: str, program: Program) -> str:
     return {"n": f"⊥{name}", "e": f"∥{name}"}[kind]
 
 
-def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iterable[str] = USUAL) -> Solved:
+def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iterable[str] = USUAL) -> SolvedLinkage:
     """Solve one position of `mechanism`.
 
     Parameters
@@ -164,7 +140,7 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
 
     Returns
     -------
-    Solved
+    SolvedLinkage
         With status `singular` or `no-assembly` when the position has no plan; what is undefined is None.
     """
     near, plans = dict[str, Any](), tuple(plans)
@@ -184,16 +160,16 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
         board = run(program, givens)
     lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if _is_given(x)}
     items = quantities(program, board.values, lengths)
-    return Solved(
-        mechanism,
-        structure,
-        program,
-        board.values,
-        items,
-        board.sines,
-        board.status,
-        board.trouble,
-        shown_on(program),
-        _scale_of_plan(structure, program),
-        givens,
+    return SolvedLinkage(
+        mechanism=mechanism,
+        structure=structure,
+        program=program,
+        values=board.values,
+        quantities=items,
+        sines=board.sines,
+        status=board.status,
+        trouble=board.trouble,
+        shown_on=shown_on(program),
+        scale_of_plan=_scale_of_plan(structure, program),
+        givens=givens,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -13,7 +14,7 @@ from kulman import solve
 from kulman.plans.boards.exact import run
 from kulman.plans.boards.precision import batch_in, run_in
 from kulman.plans.linkages.cycles.swept import swept
-from kulman.plans.linkages.solved import Solved
+from kulman.plans.linkages.solved import SolvedLinkage
 from kulman.plans.references import references, results
 
 ROUNDING = {"single": 2.0**-23, "double": 2.0**-52, "extended": float(np.finfo(np.longdouble).eps)}
@@ -32,15 +33,16 @@ def exactly(value: Any) -> Any:
     return mpc(part(np.real(value)), part(np.imag(value)))
 
 
-def worst(solved: Solved, values: Mapping[str, Any], right: Mapping[str, Any]) -> float:
+def worst(solved: SolvedLinkage, values: Mapping[str, Any], right: Mapping[str, Any]) -> float:
     """Return the largest error of all quantities, in parts of the largest vectors beside them."""
     sizes = references(solved.program, solved.values)
     with mp.workdps(50):
         errors = [
             float(abs(exactly(values[step.name]) - right[step.name])) / sizes[step.name]
             for step in results(solved.program)
-            if sizes[step.name] and values[step.name] == values[step.name]
+            if sizes[step.name] and solved.values[step.name] == solved.values[step.name]
         ]
+    assert not any(map(math.isnan, errors))
     return max(errors)
 
 

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import pytest
 
-from kulman.plans.linkages.solved import Solved, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
 from kulman.variants.reader import load_task
 from kulman.variants.solution import Solution, solve
 
@@ -37,7 +37,7 @@ def example() -> Solution:
 
 
 @pytest.fixture(scope="module")
-def with_errata() -> Solved:
+def with_errata() -> SolvedLinkage:
     """The same with both moments of the forces of inertia turned round."""
     return solve_linkage(TASK.mechanism, {**VALUES, "J_S2": -VALUES["J_S2"], "J_S3": -VALUES["J_S3"]})
 
@@ -70,7 +70,7 @@ def test_printed_value_is_right_within_two_per_cent(example: Solution, name: str
 
 
 @pytest.mark.parametrize(("name", "printed"), WRONG_SIGNS.items())
-def test_printed_force_follows_from_two_wrong_signs(with_errata: Solved, name: str, printed: float) -> None:
+def test_printed_force_follows_from_two_wrong_signs(with_errata: SolvedLinkage, name: str, printed: float) -> None:
     assert printed == pytest.approx(abs(with_errata.quantities[name].value or 0.0), rel=0.08)
 
 

@@ -14,7 +14,7 @@ from kulman.plans.boards.exact import STATUSES
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
-from kulman.plans.linkages.solved import Solved, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
 from kulman.scales.errors import InputError
 from kulman.tests.support.mechanisms import nau_slider_crank
 
@@ -63,7 +63,7 @@ TANGENT = mechanism(  # a slider on the crank, a slider on the frame, a common p
 )
 
 
-def solve(of: Mechanism, **changed: float) -> Solved:
+def solve(of: Mechanism, **changed: float) -> SolvedLinkage:
     return solve_linkage(of, {**VALUES, **changed})
 
 

@@ -29,7 +29,7 @@ from kulman.plans.linkages.mechanism import (
     SlidingDriver,
     Stroke,
 )
-from kulman.plans.linkages.solved import Solved, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.mechanisms import ORIGIN, ZERO
 
@@ -77,7 +77,7 @@ PLACES, SIZES, BACK = (tuple(f"{name}_{i}" for i in range(4)) for name in ("at",
 INNER = math.acos((0.4**2 + (ROD - CRANK) ** 2 - 0.3**2) / (2 * 0.4 * (ROD - CRANK))) + math.pi  # A beyond O from B
 
 
-def solve(mechanism: Mechanism = SLIDER_CRANK, **changed: float) -> Solved:
+def solve(mechanism: Mechanism = SLIDER_CRANK, **changed: float) -> SolvedLinkage:
     return solve_linkage(mechanism, {**VALUES, **BARS, **changed})
 
 

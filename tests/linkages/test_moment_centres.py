@@ -18,7 +18,7 @@ from kulman.plans.hands.sensitivities import sensitivities
 from kulman.plans.hands.shaky import Paper
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.dyads.moment_centres import TWICE, sines_of, with_moment_centres
-from kulman.plans.linkages.solved import Solved, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
 from kulman.plans.references import references
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.linkage_cases import Linkage
@@ -32,11 +32,11 @@ LONGER_CB = {**FLAT, "l_AB": "300 mm", "l_CB": "310 mm", "phi": "20 deg"}
 LONGER_AB = {**FLAT, "l_AB": "310 mm", "l_CB": "300 mm", "phi": "-10 deg"}
 
 
-def flat(data: dict[str, str]) -> Solved:
+def flat(data: dict[str, str]) -> SolvedLinkage:
     return solve("scheme-03-crank-rocker", set=data).solved
 
 
-def usual(solved: Solved) -> dict[str, Any]:
+def usual(solved: SolvedLinkage) -> dict[str, Any]:
     """Return the values of the usual plan in the same position."""
     _, program = construct(replace(solved.mechanism, centres=()))
     return dict(run(program, solved.givens).values)
@@ -106,7 +106,7 @@ def test_sheet_of_a_folded_dyad_has_no_fault(variant: str, tmp_path: Path) -> No
     assert linkage_faults(case) == []
 
 
-def own_error(program: Program, solved: Solved) -> float:
+def own_error(program: Program, solved: SolvedLinkage) -> float:
     """Return what reactions miss by errors of the force plan alone, in parts of the largest."""
     values = run(program, solved.givens).values
     names = [f"R_{number}" for number in ("24", "35", "45")]

@@ -17,7 +17,7 @@ from kulman.plans.boards.exact import STATUSES
 from kulman.plans.boards.fifty_digits import fifty_digits
 from kulman.plans.linkages.accuracy.conditions import conditions_of
 from kulman.plans.linkages.givens import board_givens
-from kulman.plans.linkages.solved import Solved, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
 from kulman.plans.references import references
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.both_sides import Limit, limits
@@ -31,7 +31,7 @@ ORDINARY = [case for case in CASES if case.status in ("ok", "singular")]
 
 
 @cache
-def solved(case: Case) -> Solved:
+def solved(case: Case) -> SolvedLinkage:
     return solve_linkage(case.of, case.values)
 
 

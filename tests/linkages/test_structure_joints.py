@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.linkages.mechanism import Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
-from kulman.plans.linkages.solved import Solved, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
 from kulman.plans.linkages.structure import analyse
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.jacobian_solver import JacobianSolver
@@ -45,7 +45,7 @@ def press(first: tuple[int, int], second: tuple[int, int]) -> Mechanism:
     return Mechanism(LINKS, (*OTHERS, *at_B), Driver(1, "O", "A", "phi", "n_1", "sense_1"), LOADS)
 
 
-def force_at(found: Solved, link: int, joint: tuple[int, ...]) -> complex:
+def force_at(found: SolvedLinkage, link: int, joint: tuple[int, ...]) -> complex:
     """Return the sum of the forces with which the other links of a joint act on one of them."""
     return sum((found.point(f"R_{o}{link}") for o in joint if o != link and f"R_{o}{link}" in found.values), 0j)
 

@@ -14,7 +14,7 @@ from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Mechanism, Prismatic, Revolute, SlidingDriver, Start
-from kulman.plans.linkages.solved import Solved, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
 from kulman.plans.linkages.triads.following import Follower, followed
 from kulman.plans.linkages.triads.special_points import with_special_points
 from kulman.scales.errors import LANGUAGES, InputError
@@ -28,7 +28,7 @@ def given(of: Mechanism, **changed: Any) -> dict[str, Any]:
     return {**(RAM_VALUES if of is RAM else VALUES), **changed}
 
 
-def solve(of: Mechanism, **changed: float) -> Solved:
+def solve(of: Mechanism, **changed: float) -> SolvedLinkage:
     return solve_linkage(of, given(of, **changed))
 
 

@@ -10,7 +10,7 @@ from mpmath import mp, mpf
 
 from kulman.plans.board import Program
 from kulman.plans.boards.fifty_digits import FiftyDigits
-from kulman.plans.linkages.solved import Solved
+from kulman.plans.linkages.solved import SolvedLinkage
 
 DIGITS = 100
 STEPS = (mpf(10) ** -18, mpf(10) ** -21)
@@ -45,7 +45,7 @@ class Limit:
         return one if self.unique else None
 
 
-def limits(solved: Solved, along: str, exact: Exact) -> dict[str, Limit]:
+def limits(solved: SolvedLinkage, along: str, exact: Exact) -> dict[str, Limit]:
     """Return the limits of all quantities, as `along` goes to its value in the solved position.
 
     Parameters

@@ -8,7 +8,7 @@ from ...condition import Condition, conditions
 from ...hands.shaky import Paper
 from ...references import extent, plans_of
 from ..mechanism import Mechanism, Prismatic, Revolute
-from ..solved import Solved
+from ..solved import SolvedLinkage
 
 
 def signs(mechanism: Mechanism) -> frozenset[str]:
@@ -19,13 +19,13 @@ def signs(mechanism: Mechanism) -> frozenset[str]:
     return frozenset(name for name in names if name is not None)
 
 
-def varied(solved: Solved) -> tuple[str, ...]:
+def varied(solved: SolvedLinkage) -> tuple[str, ...]:
     """Return the givens that may err: numbers other than zero that are no signs; ends of the stroke count as givens."""
     fixed = signs(solved.mechanism)
     return tuple(name for name, value in solved.givens.items() if name not in fixed and value)
 
 
-def conditions_of(solved: Solved) -> dict[str, Condition]:
+def conditions_of(solved: SolvedLinkage) -> dict[str, Condition]:
     """Return the condition of every quantity; given lengths are their own."""
     found = conditions(solved.program, solved.givens, varied(solved), solved.values, solved.sines)
     size = extent(solved.program, solved.values)
@@ -35,7 +35,7 @@ def conditions_of(solved: Solved) -> dict[str, Condition]:
     return {name: found[name] for name in solved.quantities}
 
 
-def worst_condition(solved: Solved, plan: str | None = None) -> tuple[str, float]:
+def worst_condition(solved: SolvedLinkage, plan: str | None = None) -> tuple[str, float]:
     """Return the quantity of the largest condition, of those that `plan` shows or of all, and that condition."""
     shown = plans_of(solved.program)
     found = conditions_of(solved).items()
@@ -44,7 +44,7 @@ def worst_condition(solved: Solved, plan: str | None = None) -> tuple[str, float
     return name, value
 
 
-def paper_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
+def paper_of(solved: SolvedLinkage, mus: Mapping[str, float]) -> Paper:
     """Return the drawing of a solved mechanism with scale factors by symbol, `mu_V`, in SI per mm."""
     by_plan = {plan: mus[symbol] for plan, symbol in solved.scale_of_plan.items()}
     return Paper(solved.program, solved.givens, by_plan)

@@ -17,7 +17,7 @@ from ...hands.spread import kept
 from ...laws import TURN
 from ...references import plans_of, references
 from ..cycles.cycle import Cycle
-from ..solved import Solved
+from ..solved import SolvedLinkage
 from .comparison import HAND, Entry, beside, one_of, places_of, summed
 from .methods import Kind
 
@@ -32,7 +32,7 @@ class DrawnSheet:
     """The sheet of one position, `solved`, on a `paper`, with its scale factors by plan, SI per mm."""
 
     paper: str
-    solved: Solved
+    solved: SolvedLinkage
     mus: Mapping[str, float]
 
 

@@ -13,7 +13,7 @@ from ...laws import TURN, dot
 from ..bare import without_loads
 from ..chain import construct
 from ..mechanism import FRAME, Driver, Prismatic
-from ..solved import Solved
+from ..solved import SolvedLinkage
 from .swept import swept
 
 Array = NDArray[Any]
@@ -24,7 +24,7 @@ LEAP = 0.12  # part of that size which no slider runs between two positions, unl
 Runs = Mapping[str, tuple[float, float]]
 
 
-def slider_runs(solved: Solved) -> Runs:
+def slider_runs(solved: SolvedLinkage) -> Runs:
     """Return for each guide how far the slider's point runs back (negative) and forth from its place now, metres."""
     pairs = [pair for pair in solved.mechanism.pairs if isinstance(pair, Prismatic)]
     if not pairs:
@@ -42,13 +42,13 @@ def slider_runs(solved: Solved) -> Runs:
     return {u: _run(_along(moved, u, point, at), LEAP * size) for u, (point, at) in marks.items()}
 
 
-def _size(solved: Solved) -> float:
+def _size(solved: SolvedLinkage) -> float:
     """Return the longest distance between lettered points of the links, m."""
     places = [solved.point(point) for link in solved.mechanism.links for point in link.points]
     return max(math.hypot((a - b).real, (a - b).imag) for a in places for b in places)
 
 
-def _beside(solved: Solved, pair: Prismatic) -> str:
+def _beside(solved: SolvedLinkage, pair: Prismatic) -> str:
     """Return a point of the guide's link, from which the slider's way is measured; "" on the frame."""
     number = pair.links[1]
     return "" if number == FRAME else next(iter(solved.mechanism.link(number).points))

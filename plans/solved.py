@@ -1,0 +1,52 @@
+"""What every subject of the drafting machine is once it is solved: its construction, values and quantities together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..scales.errors import PositionError
+from .board import Program
+from .boards.exact import Status, Trouble
+from .quantities import Quantity
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Solved:
+    """A solved construction; `values` holds every name of it, `quantities` the results in SI.
+
+    A linkage, a cam add what they are solved from, and say in their own words why there is no plan.
+    """
+
+    program: Program
+    values: Mapping[str, Any]
+    quantities: Mapping[str, Quantity]
+    sines: Mapping[str, float]
+    status: Status
+    trouble: Trouble | None
+    shown_on: Mapping[str, str]  # the first plan that shows each quantity as a segment
+    scale_of_plan: Mapping[str, str]  # symbol of the scale factor of every plan
+    givens: Mapping[str, Any]  # what the board began with, to run the program again
+
+    def point(self, mark: str) -> complex:
+        """Return a mark of any plan, SI."""
+        return complex(self.values[mark])
+
+    def size(self, name: str) -> float:
+        """Return the magnitude of a value."""
+        value = self.values[name]
+        return math.hypot(value.real, value.imag)
+
+    def worst_sine(self) -> tuple[str, float]:
+        """Return the worst intersection: the name of its mark and the sine of its angle."""
+        return min(self.sines.items(), key=lambda item: item[1], default=("", 1.0))
+
+    def error(self) -> PositionError | None:
+        """Return why there is no plan, or None."""
+        return None if self.trouble is None else self.reason(self.trouble)
+
+    def reason(self, trouble: Trouble) -> PositionError:
+        """Return why a step of the construction cannot be done."""
+        return PositionError("singular-step", status_word=trouble.status, point=trouble.name.rpartition(".")[2])
