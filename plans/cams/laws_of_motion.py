@@ -1,0 +1,226 @@
+"""Laws of motion of a follower: the travel s over a phase, both from 0 to 1, with its two derivatives in closed form.
+
+A law has two lobes of acceleration: on the first part u of the phase the lobe f(x / u) with the amplitude A_1, on the
+rest the same lobe turned round with A_2 = A_1 u / (1 - u), so that the areas are equal and the velocity returns to
+zero. With F'' = f, F(0) = F'(0) = 0 it follows that A_1 = 1 / (u F(1)), that s = u where the lobes join, and that the
+greatest velocity F'(1) / F(1) does not depend on u.
+
+Source: Artobolevsky, Theory of mechanisms and machines; Rothbart, Cam Design Handbook (modified laws).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...scales.errors import InputError
+from .cam import LAWS, PIECES, Curve
+from .smooth import Smooth
+
+Array = NDArray[np.float64]
+UNIFORM = "uniform"
+SAME = 1e-9  # part of the greatest acceleration within which two accelerations are equal
+CLOSED = 1e-9  # part of the greatest velocity within which it counts as returned to zero
+
+_TURN = 2.0 * math.pi
+
+
+def _ramp(low: float, high: float, *coefficients: float) -> Smooth:
+    return Smooth(low, high, low, coefficients)
+
+
+def _wave(low: float, high: float, rate: float, sine: float, cosine: float) -> Smooth:
+    return Smooth(low, high, low, (0.0,), sine, cosine, rate)
+
+
+# the first lobe of every law, its height any, over 0..1; at 1 it joins the second
+LOBES: dict[str, tuple[Smooth, ...]] = {
+    "constant": (_ramp(0.0, 1.0, 1.0),),
+    "falling": (_ramp(0.0, 1.0, 1.0, -1.0),),
+    "sawtooth": (_ramp(0.0, 1.0, 0.0, 1.0),),
+    "cosine": (_wave(0.0, 1.0, 0.25 * _TURN, 0.0, 1.0),),
+    "sine": (_wave(0.0, 1.0, 0.5 * _TURN, 1.0, 0.0),),
+    "trapezoid": (_ramp(0.0, 0.25, 0.0, 4.0), _ramp(0.25, 0.75, 1.0), _ramp(0.75, 1.0, 1.0, -4.0)),
+    "modified-trapezoid": (
+        _wave(0.0, 0.25, _TURN, 1.0, 0.0),
+        _ramp(0.25, 0.75, 1.0),
+        _wave(0.75, 1.0, _TURN, 0.0, 1.0),
+    ),
+    "modified-sine": (_wave(0.0, 0.25, _TURN, 1.0, 0.0), _wave(0.25, 1.0, _TURN / 3.0, 0.0, 1.0)),
+    "polynomial-345": (_ramp(0.0, 1.0, 0.0, 1.0, -1.5, 0.5),),
+    "polynomial-4567": (_ramp(0.0, 1.0, 0.0, 0.0, 1.0, -2.0, 1.25, -0.25),),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class LawOfMotion:
+    """The travel over one phase, from (0, 0) to (1, 1), as smooth pieces one after the other.
+
+    Parameters
+    ----------
+    pieces : tuple of Smooth
+        The travel s; each piece begins where the one before ends.
+    u : float or None
+        Where the lobes of acceleration join; None for a law of one's own.
+    """
+
+    pieces: tuple[Smooth, ...]
+    u: float | None = None
+
+    def at(self, x: Any, order: int = 0) -> Array:
+        """Return s (order 0), s' (1) or s'' (2) at the places `x`; at a jump what follows it, at 1 what precedes."""
+        x = np.asarray(x, float)
+        curves = list(self.pieces)
+        for _ in range(order):
+            curves = [curve.derivative() for curve in curves]
+        which = np.clip(np.searchsorted([curve.low for curve in curves], x, side="right") - 1, 0, len(curves) - 1)
+        values: Array = np.choose(which, [curve.at(x) for curve in curves])
+        return values
+
+    def mirrored(self) -> tuple[Smooth, ...]:
+        """Return the way back run through backwards in time: s(1 - x)."""
+        return tuple(piece.mirrored() for piece in reversed(self.pieces))
+
+    def turned(self) -> tuple[Smooth, ...]:
+        """Return the way back in the order of the law: 1 - s(x)."""
+        return tuple(_rest(piece) for piece in self.pieces)
+
+
+def _rest(piece: Smooth) -> Smooth:
+    """Return 1 - s."""
+    back = piece.times(-1.0)
+    first, *others = back.coefficients
+    return Smooth(back.low, back.high, back.origin, (1.0 + first, *others), back.sine, back.cosine, back.rate)
+
+
+def integrated(pieces: Sequence[Smooth], start: float = 0.0) -> tuple[Smooth, ...]:
+    """Return the integral of pieces, each with its origin at its low end, that begins with `start`."""
+    found = []
+    for piece in pieces:
+        found.append(piece.integral(start))
+        start = found[-1].value(piece.high)
+    return tuple(found)
+
+
+def law_of_motion(name: str, u: float = 0.5) -> LawOfMotion:
+    """Return the law of this name, of `cam.LAWS`.
+
+    Parameters
+    ----------
+    name : str
+        Name of the law.
+    u : float
+        Length of the first lobe as part of the phase, between 0 and 1; the uniform law has none.
+
+    Raises
+    ------
+    InputError
+        When there is no such law, or u is not between 0 and 1.
+    """
+    if name == UNIFORM:
+        return LawOfMotion((Smooth(0.0, 1.0, 0.0, (0.0, 1.0)),))
+    if name not in LOBES:
+        raise InputError("choice-unknown", text=name, known=", ".join(LAWS))
+    if not 0.0 < u < 1.0:
+        raise InputError("law-u", text=f"{u:.6g}")
+    lobe = integrated(integrated(LOBES[name]))
+    whole = lobe[-1].value(1.0)
+    first = [piece.times(u / whole).stretched(u, 0.0) for piece in lobe]
+    second = [piece.times((1.0 - u) / whole).stretched(1.0 - u, 0.0).mirrored() for piece in reversed(lobe)]
+    return LawOfMotion((*first, *(_rest(piece) for piece in second)), u)
+
+
+def law_of_pieces(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
+    """Return the law whose acceleration is made of straight pieces, in any scale, integrated exactly.
+
+    Parameters
+    ----------
+    at : sequence of float
+        Places of the nodes, from 0 to 1; twice the same place where the acceleration jumps.
+    values : sequence of float
+        Accelerations there.
+
+    Raises
+    ------
+    InputError
+        When the places do not run from 0 to 1, the velocity does not return to zero, or nothing is travelled.
+    """
+    _rising(at, values, strict=False)
+    nodes = list(zip(at, values, strict=True))
+    acceleration = [
+        _ramp(low, high, a, (b - a) / (high - low)) for (low, a), (high, b) in pairwise(nodes) if high > low
+    ]
+    velocity = integrated(acceleration)
+    greatest = max(abs(piece.value(x)) for piece in velocity for x in piece.extreme_places())
+    rest = velocity[-1].value(1.0)
+    if abs(rest) > CLOSED * greatest:
+        raise InputError("law-open", text=f"{rest / greatest:+.3g}")
+    travel = integrated(velocity)
+    whole = travel[-1].value(1.0)
+    if whole <= CLOSED * greatest:
+        raise InputError("law-still")
+    return LawOfMotion(tuple(piece.times(1.0 / whole) for piece in travel))
+
+
+def law_of_points(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
+    """Return the law whose travel runs smoothly through points, in any scale, and rests at both ends.
+
+    The curve is the cubic spline with s' = 0 at the ends: of all smooth curves through the points that with the least
+    mean square of acceleration; the acceleration is a chain of straight pieces without jumps between the ends.
+
+    Parameters
+    ----------
+    at : sequence of float
+        Places of the points, rising from 0 to 1.
+    values : sequence of float
+        Travels there; the first is where the follower rests, the last the whole stroke.
+
+    Raises
+    ------
+    InputError
+        When the places do not rise from 0 to 1, nothing is travelled, or the curve leaves the stroke.
+    """
+    _rising(at, values, strict=True)
+    x = np.asarray(at, float)
+    if values[-1] == values[0]:
+        raise InputError("law-still")
+    s = (np.asarray(values, float) - values[0]) / (values[-1] - values[0])
+    travel = integrated(integrated(_spline(x, s)))
+    scale = 1.0 / travel[-1].value(1.0)  # rounding
+    for piece in travel:
+        for place in piece.extreme_places():
+            if not -CLOSED <= piece.value(place) <= 1.0 + CLOSED:
+                raise InputError("law-leaves", text=f"{place:.3g}")
+    return LawOfMotion(tuple(piece.times(scale) for piece in travel))
+
+
+def law_of_curve(curve: Curve) -> LawOfMotion:
+    """Return the law that a table of one's own gives."""
+    made = law_of_pieces if curve.kind == PIECES else law_of_points
+    return made(curve.at, curve.values)
+
+
+def _spline(x: Array, s: Array) -> list[Smooth]:
+    """Return the acceleration of the cubic spline through points, clamped at both ends."""
+    width = np.diff(x)
+    chord = np.concatenate(([0.0], np.diff(s) / width, [0.0]))
+    matrix = np.diag(np.concatenate((width, [0.0])) + np.concatenate(([0.0], width)) * 1.0) * 2.0
+    matrix += np.diag(width, 1) + np.diag(width, -1)
+    a = np.linalg.solve(matrix, 6.0 * np.diff(chord))
+    return [
+        _ramp(float(low), float(high), float(p), float((q - p) / (high - low)))
+        for (low, high), (p, q) in zip(pairwise(x), pairwise(a), strict=True)
+    ]
+
+
+def _rising(at: Sequence[float], values: Sequence[float], strict: bool) -> None:
+    """See that the places of a table run from 0 to 1."""
+    backward = any(b <= a if strict else b < a for a, b in pairwise(at))
+    if len(at) < 2 or len(at) != len(values) or at[0] != 0.0 or at[-1] != 1.0 or backward:
+        raise InputError("law-places")

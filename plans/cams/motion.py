@@ -1,0 +1,269 @@
+"""The motion of a follower over a turn of its cam: rise, upper dwell, fall, lower dwell, as smooth pieces.
+
+The angle phi of the cam counts from the start of the rise, in the sense in which the cam turns. Travel and derivatives
+are in SI; the travel of a rocker is its angle.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .cam import MIRROR, Cam
+from .division import Division
+from .laws_of_motion import SAME, LawOfMotion, law_of_curve, law_of_motion
+from .smooth import Smooth
+
+Array = NDArray[np.float64]
+RISE, UPPER, FALL, LOWER = PHASES = ("rise", "upper", "fall", "lower")
+TURN = 2.0 * math.pi
+NEAR = 1e-12  # rad, within which an angle is that of a corner
+WHOLE = 1e-9  # part of a section by which a node may be off an equal division
+
+
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """An extreme value, the angle of the cam there, and the phase that has it; at a jump one of its two limits."""
+
+    value: float
+    phi: float
+    phase: str
+
+
+@dataclass(frozen=True, slots=True)
+class Jump:
+    """A jump of s' (order 1) or of s'' (order 2) at an angle of the cam, with the limits on both sides."""
+
+    phi: float
+    order: int
+    before: float
+    after: float
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """One phase: its name, its ends, and the travel over it as smooth pieces (none when it has no length)."""
+
+    name: str
+    start: float
+    end: float
+    pieces: tuple[Smooth, ...]
+
+    @property
+    def length(self) -> float:
+        """Angle of the cam during the phase."""
+        return self.end - self.start
+
+
+class Motion:
+    """The travel s(phi) of a follower over one turn.
+
+    Parameters
+    ----------
+    h : float
+        The stroke, m; for a rocker its swing, rad.
+    phi_rise, phi_upper, phi_fall : float
+        Lengths of the phases, rad; the lower dwell is the rest of the turn.
+    rise : LawOfMotion
+        Law of the rise.
+    fall : LawOfMotion, optional
+        Law of the fall; by default that of the rise.
+    order : {"mirror", "same"}
+        Whether the fall runs through its law backwards in time, or in the same order.
+    """
+
+    def __init__(
+        self,
+        h: float,
+        phi_rise: float,
+        phi_upper: float,
+        phi_fall: float,
+        rise: LawOfMotion,
+        fall: LawOfMotion | None = None,
+        order: str = MIRROR,
+    ) -> None:
+        h, phi_rise, phi_upper, phi_fall = map(float, (h, phi_rise, phi_upper, phi_fall))
+        top, leave = phi_rise, phi_rise + phi_upper
+        last = min(leave + phi_fall, TURN)
+        back = fall or rise
+        falling = back.mirrored() if order == MIRROR else back.turned()
+        self.h = h
+        self.rise = Phase(RISE, 0.0, top, _placed(rise.pieces, h, phi_rise, 0.0))
+        self.upper = Phase(UPPER, top, leave, _dwell(top, leave, h))
+        self.fall = Phase(FALL, leave, last, _placed(falling, h, phi_fall, leave))
+        self.lower = Phase(LOWER, last, TURN, _dwell(last, TURN, 0.0))
+
+    @property
+    def phases(self) -> tuple[Phase, ...]:
+        """The four phases in order."""
+        return self.rise, self.upper, self.fall, self.lower
+
+    @cached_property
+    def _pieces(self) -> list[tuple[Phase, Smooth]]:
+        return [(phase, piece) for phase in self.phases for piece in phase.pieces]
+
+    @cached_property
+    def _derivatives(self) -> list[list[Smooth]]:
+        """The pieces of s, s', s'', s'''."""
+        found = [[piece for _, piece in self._pieces]]
+        for _ in range(3):
+            found.append([piece.derivative() for piece in found[-1]])
+        return found
+
+    def derivatives(self, phi: Any, side: int = 1, order: int = 2) -> tuple[Array, ...]:
+        """Return s, s', ... up to the given order (at most 3) at the angles `phi`, rad, of any turn.
+
+        Where they jump, the limits from the right (side +1) or from the left (side -1).
+        """
+        phi = np.asarray(phi, float)
+        turns = np.floor((phi + NEAR) / TURN) if side > 0 else -np.floor(1.0 - (phi - NEAR) / TURN)
+        phi = phi - TURN * turns
+        starts = [piece.low for _, piece in self._pieces]
+        which = np.maximum(np.searchsorted(starts, phi + side * NEAR) - 1, 0)
+        found = []
+        for curves in self._derivatives[: order + 1]:
+            value = np.empty_like(phi)
+            for k, curve in enumerate(curves):
+                here = which == k
+                value[here] = curve.at(phi[here])
+            found.append(value)
+        return tuple(found)
+
+    def at(self, phi: Any, side: int = 1) -> tuple[Array, Array, Array]:
+        """Return s, ds/dphi, d2s/dphi2 at the angles `phi`; where they jump, the limits from one side (+1 right)."""
+        s, ds, d2s = self.derivatives(phi, side)
+        return s, ds, d2s
+
+    def maximum(self, s: float, ds: float, d2s: float, phases: Iterable[str] = PHASES) -> Extreme:
+        """Return the exact maximum of s * travel + ds * first + d2s * second derivative over some of the phases.
+
+        At jumps both limits count.
+        """
+        wanted = tuple(phases)
+        best = Extreme(-math.inf, 0.0, RISE)
+        for (phase, piece), first, second in zip(self._pieces, *self._derivatives[1:3], strict=True):
+            if phase.name not in wanted:
+                continue
+            curve = piece.times(s).plus(first.times(ds)).plus(second.times(d2s))
+            for place in curve.extreme_places():
+                value = curve.value(place)
+                if value > best.value:
+                    best = Extreme(value, place, phase.name)
+        return best
+
+    def minimum(self, s: float, ds: float, d2s: float, phases: Iterable[str] = PHASES) -> Extreme:
+        """Return the exact minimum likewise."""
+        found = self.maximum(-s, -ds, -d2s, phases)
+        return Extreme(-found.value, found.phi, found.phase)
+
+    @cached_property
+    def ds_max(self) -> Extreme:
+        """The greatest |ds/dphi|."""
+        up, down = self.maximum(0.0, 1.0, 0.0), self.maximum(0.0, -1.0, 0.0)
+        return up if up.value >= down.value * (1.0 - SAME) else down
+
+    @cached_property
+    def d2s_max(self) -> Extreme:
+        """The greatest |d2s/dphi2|."""
+        up, down = self.maximum(0.0, 0.0, 1.0), self.maximum(0.0, 0.0, -1.0)
+        return up if up.value >= down.value * (1.0 - SAME) else down
+
+    @cached_property
+    def jumps(self) -> tuple[Jump, ...]:
+        """All jumps of the velocity, and of the acceleration where the velocity has none, in order."""
+        found: list[Jump] = []
+        sizes = (0.0, self.ds_max.value, self.d2s_max.value)
+        for k, (_, piece) in enumerate(self._pieces):
+            for order in (1, 2):
+                curves = self._derivatives[order]
+                before, after = curves[k - 1].value(curves[k - 1].high), curves[k].value(piece.low)
+                if abs(after - before) > SAME * sizes[order]:
+                    found.append(Jump(piece.low, order, before, after))
+                    break
+        return tuple(found)
+
+    @cached_property
+    def inflexions(self) -> tuple[float, ...]:
+        """Angles at which the acceleration changes its sign, in order."""
+        found: list[float] = []
+        last, small = 0, SAME * self.d2s_max.value
+        for curve in self._derivatives[2]:
+            for low, high in zip([curve.low, *(roots := curve.roots())], [*roots, curve.high], strict=True):
+                middle = curve.value(0.5 * (low + high))
+                sign = (middle > small) - (middle < -small)
+                if sign * last < 0:
+                    found.append(low)
+                last = sign
+        return tuple(found)
+
+    @cached_property
+    def corners(self) -> tuple[float, ...]:
+        """Angles at which the pieces join, 0 and a whole turn among them."""
+        return (*(piece.low for _, piece in self._pieces), TURN)
+
+    def division(self, sections: int = 12) -> tuple[Array, Division]:
+        """Return angles of section lines, rad, and which of them bound the phases.
+
+        Rise and fall have at least as many sections each as asked for; jumps and inflexions lie on section lines. The
+        sections of a phase are equal where some number of them, at most twice that asked for, puts all of them there.
+        """
+        marked = [*(jump.phi for jump in self.jumps), *self.inflexions]
+        rise, fall = (_divided(phase, marked, sections) for phase in (self.rise, self.fall))
+        top = len(rise) - 1
+        leave = top + (self.upper.length > 0.0)
+        angles = np.concatenate((rise, fall if leave > top else fall[1:]))
+        places = [int(np.abs(angles - jump.phi).argmin()) for jump in self.jumps]
+        last = leave + len(fall) - 1
+        return angles, Division(top, leave, last, tuple(i for i in places if 0 < i < top or leave < i < last))
+
+    def samples(self, most: float = math.radians(0.5)) -> Array:
+        """Return angles over the whole turn, from 0 to a turn, corners among them, at most `most` rad apart."""
+        parts = [
+            np.linspace(low, high, max(1, math.ceil((high - low) / most)), endpoint=False)
+            for low, high in zip(self.corners, self.corners[1:], strict=False)
+        ]
+        return np.append(np.concatenate(parts), TURN)
+
+
+def motion_of(cam: Cam, values: Mapping[str, float]) -> Motion:
+    """Return the motion of a cam with its numbers: h (or psi), phi_rise, phi_upper, phi_fall, u, u_fall.
+
+    Raises
+    ------
+    InputError
+        When a law cannot be had with these numbers.
+    """
+    u = values.get("u", 0.5)
+    rise, fall = (
+        law_of_curve(curve) if (curve := cam.curve(name)) else law_of_motion(name, part)
+        for name, part in ((cam.law, u), (cam.falls_by, values.get("u_fall", u)))
+    )
+    stroke = values["h"] if "h" in values else values["psi"]
+    return Motion(stroke, values["phi_rise"], values.get("phi_upper", 0.0), values["phi_fall"], rise, fall, cam.fall)
+
+
+def _placed(pieces: tuple[Smooth, ...], h: float, length: float, start: float) -> tuple[Smooth, ...]:
+    return tuple(piece.times(h).stretched(length, start) for piece in pieces)
+
+
+def _dwell(start: float, end: float, s: float) -> tuple[Smooth, ...]:
+    return (Smooth(start, end, start, (s,)),) if end > start else ()
+
+
+def _divided(phase: Phase, marked: Iterable[float], sections: int) -> Array:
+    """Return section lines of a phase, the `marked` angles inside it among them."""
+    near = WHOLE * phase.length
+    inner = sorted({round((phi - phase.start) / near) for phi in marked if phase.start + near < phi < phase.end - near})
+    parts = [0.0, *(WHOLE * k for k in inner), 1.0]
+    for count in range(sections, 2 * sections + 1):
+        if all(abs(part * count - round(part * count)) < WHOLE * count for part in parts):
+            return phase.start + phase.length * (np.arange(count + 1) / count)
+    counts = [max(1, math.ceil(sections * (b - a))) for a, b in zip(parts, parts[1:], strict=False)]
+    steps = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(parts, parts[1:], counts, strict=False)]
+    return phase.start + phase.length * np.append(np.concatenate(steps), 1.0)
