@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import openpyxl
@@ -195,7 +196,8 @@ def test_a_stopped_run_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.
     assert before == 10
     assert again == [8, 9, 10, 11]  # the eight of the piece that was whole are not marked again
     assert not journal.exists()
-    assert results == mark_class(job(), answers, lambda number: None, jobs=1) or len(results) == 12
+    alone = mark_class(job(), answers, lambda number: None, jobs=1)
+    assert [replace(result, reports=()) for result in results] == alone
     assert all((folder / name).is_file() for result in results for name in result.reports)
 
 
@@ -253,7 +255,7 @@ def test_students_who_share_their_errors_are_named(tmp_path: Path, capsys: pytes
 
 @pytest.mark.parametrize("step", [0.1, 0.5, 1.0])
 def test_honest_hands_seldom_share_their_segments(step: float) -> None:
-    """A hundred classes of thirty, 12 segments each: fewer than one pair in them."""
+    """A hundred classes of thirty, 12 segments each, in which chance alone makes one pair: three at most."""
     dice, pairs = random.Random(1), 0
     for _ in range(100):
         hands = [
