@@ -21,6 +21,7 @@ from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.numbers import quote
 from ..scales.units import format_unit, parse, unit
+from .tables import aligned
 
 OWN = "own"
 BETWEEN = re.compile(r"\s*;\s*|,\s+|(?<=[^\d\s]),")  # not a decimal comma
@@ -128,15 +129,8 @@ def table(
                 rows[-1][STEP:STEP] = conditions.get(quantity.name, ("", ""))
     if conditions:
         rows[0][STEP:STEP] = ("K", "sin")
-    last = len(rows[0]) - 1
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    lines = ["  ".join(_set(cell, widths[i], i in (0, last)) for i, cell in enumerate(row)).rstrip() for row in rows]
-    return "\n".join((_heading(drawn, words), "", *lines, *_undrawn(drawn, words)))
-
-
-def _set(cell: str, width: int, words: bool) -> str:
-    """Set a cell: words to the left, numbers to the right."""
-    return f"{cell:{width}}" if words else f"{cell:>{width}}"
+    lines = aligned(rows, (0, len(rows[0]) - 1))
+    return "\n".join((_heading(drawn, words), "", lines, *_undrawn(drawn, words)))
 
 
 def _heading(drawn: Drawing, words: Words) -> str:

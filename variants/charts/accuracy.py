@@ -21,7 +21,8 @@ from ...plans.linkages.cycles.cycle import Cycle
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ..sheets import scales_of
-from .data import Cell, Scene, aligned, as_csv, finite, place_column, place_si, place_value, short, wrapped
+from ..tables import Cell, aligned
+from .data import Scene, as_csv, finite, place_column, place_si, place_value, short, wrapped
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -1,9 +1,7 @@
-"""What all charts share: the case, its cycle, its words, how rows become a table and a CSV."""
+"""What all charts share: the case, its words, places of its cycle, how a number is shown."""
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 import textwrap
 from collections.abc import Iterable, Sequence
@@ -16,8 +14,8 @@ from ...plans.linkages.cycles.cycle import Cycle
 from ...scales.units import format_unit, unit
 from ..case import Case
 from ..sweeps.columns import driver_name
+from ..tables import Cell, csv_bytes, csv_text
 
-Cell = str | float | int | None
 DIGITS = 3
 LINE = 110  # characters
 
@@ -77,38 +75,14 @@ def short(words: Words, value: float | None, digits: int = DIGITS) -> str:
     return words.short(value, digits)
 
 
-def aligned(rows: Sequence[Sequence[str]], left: int = 1) -> str:
-    """Return rows as lines, so many columns to the left, the others to the right."""
-    widths = [max(len(row[i]) for row in rows if i < len(row)) for i in range(max(map(len, rows)))]
-
-    def cell(text: str, i: int) -> str:
-        return f"{text:{widths[i]}}" if i < left else f"{text:>{widths[i]}}"
-
-    return "\n".join("  ".join(cell(text, i) for i, text in enumerate(row)).rstrip() for row in rows)
-
-
 def wrapped(text: str) -> str:
     """Return a note as lines of a table's width."""
     return textwrap.fill(text, LINE)
 
 
 def as_csv(head: Sequence[str], rows: Iterable[Sequence[Cell]], words: Words) -> bytes:
-    """Return rows as CSV, numbers in full precision: as spreadsheets of the language read it."""
-    comma = words.language != "en"
-    stream = io.StringIO(newline="")
-    writer = csv.writer(stream, delimiter=";" if comma else ",", lineterminator="\r\n")
-    writer.writerow(head)
-    writer.writerows([_plain(value, comma) for value in row] for row in rows)
-    return stream.getvalue().encode("utf-8-sig" if comma else "utf-8")
-
-
-def _plain(value: Cell, comma: bool) -> str:
-    if value is None or (isinstance(value, float) and not math.isfinite(value)):
-        return ""
-    if not isinstance(value, float):
-        return str(value)
-    text = repr(float(value) + 0.0)
-    return text.replace(".", ",") if comma else text
+    """Return rows as the CSV file of a chart."""
+    return csv_bytes(csv_text(head, rows, words.language), words.language)
 
 
 def finite(value: float | None) -> float | None:

@@ -10,7 +10,8 @@ from ...drawing.words import Words
 from ...plans.linkages.accuracy.depth import Cost, Depth, depth
 from ...plans.linkages.cycles.cycle import Cycle
 from ...plans.quantities import unit_of
-from .data import Cell, Scene, aligned, as_csv, finite, place, place_column, place_head, place_si, place_value, short
+from ..tables import Cell, aligned
+from .data import Scene, as_csv, finite, place, place_column, place_head, place_si, place_value, short
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -19,10 +19,9 @@ from ...plans.linkages.solved import solve_linkage
 from ...plans.quantities import BALANCES
 from ...scales.errors import InputError
 from ..sweeps.columns import driver_name
+from ..tables import Cell, aligned
 from .data import (
-    Cell,
     Scene,
-    aligned,
     as_csv,
     finite,
     place,
@@ -60,7 +59,7 @@ class StabilityChart:
         rows = [[*self._row(i, words), self._status(i, words)] for i in range(0, len(found.places), step)]
         worst = [self._worst(name, words) for name in names]
         return "\n".join(
-            (aligned([head, *rows], 0), "", *filter(None, worst), *self._spots(words), wrapped(self.note(words)))
+            (aligned([head, *rows], ()), "", *filter(None, worst), *self._spots(words), wrapped(self.note(words)))
         )
 
     def _row(self, i: int, words: Words) -> list[str]:

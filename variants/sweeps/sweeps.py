@@ -24,6 +24,7 @@ from ...scales.units import Unit, parse, unit
 from ..arguments import names_of, positions_of
 from ..case import Case, Settings, solve_case
 from ..sheets import Sheet, cycle_sheet
+from ..tables import csv_bytes
 from ..task import LocatedError, Task
 from .columns import letters
 from .data import as_json
@@ -141,8 +142,7 @@ class Sweep:
 
 
 def _csv_file(sweep: Sweep) -> bytes:
-    """Return the CSV as bytes; spreadsheets know UTF-8 by the mark at its beginning, English ones need none."""
-    return sweep.csv().encode("utf-8" if sweep.words.language == "en" else "utf-8-sig")
+    return csv_bytes(sweep.csv(), sweep.words.language)
 
 
 SAVERS: dict[str, Callable[[Sweep], bytes]] = {".csv": _csv_file}

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -16,6 +14,7 @@ from ...plans.linkages.cycles.cycle import Cycle
 from ...plans.linkages.cycles.strokes import OutputMotion
 from ...plans.quantities import unit_of
 from ...scales.units import format_unit, unit
+from ..tables import aligned, csv_text
 from .columns import (
     Column,
     all_columns,
@@ -48,7 +47,7 @@ def as_table(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
         ]
         for k, status in enumerate(cycle.statuses)
     ]
-    parts = [_aligned([head, *rows]), *_whole_cycle(cycle, words), _extremes(cycle, chosen, words)]
+    parts = [aligned([head, *rows], ()), *_whole_cycle(cycle, words), _extremes(cycle, chosen, words)]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -57,23 +56,9 @@ def as_csv(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
     columns = [driver_column(cycle), Column("t", "s", cycle.times)]
     columns += chosen_columns(cycle, chosen) if chosen else all_columns(cycle)
     shown = [column.shown(words.display) for column in columns]
-    comma = words.language != "en"
-    stream = io.StringIO(newline="")
-    writer = csv.writer(stream, delimiter=";" if comma else ",", lineterminator="\r\n")
-    writer.writerow(
-        ["k", *(f"{column.name} [{format_unit(column.unit, words.language)}]" for column in shown), "status"]
-    )
-    for k, status in enumerate(cycle.statuses):
-        writer.writerow([k, *(_plain(column.values[k], comma) for column in shown), status])
-    return stream.getvalue()
-
-
-def _plain(value: float, comma: bool) -> str:
-    """Return a number as a spreadsheet reads it; nothing for an undefined one."""
-    if not math.isfinite(value):
-        return ""
-    text = repr(float(value) + 0.0)
-    return text.replace(".", ",") if comma else text
+    head = ["k", *(f"{column.name} [{format_unit(column.unit, words.language)}]" for column in shown), "status"]
+    rows = ([k, *(column.values[k] for column in shown), status] for k, status in enumerate(cycle.statuses))
+    return csv_text(head, rows, words.language)
 
 
 def _cell(words: Words, column: Column, k: int) -> str:
@@ -87,13 +72,6 @@ def _cell(words: Words, column: Column, k: int) -> str:
 
 def _number(words: Words, value: float) -> str:
     return words.short(float(value) + 0.0, DIGITS) if math.isfinite(value) else "–"
-
-
-def _aligned(rows: Sequence[Sequence[str]]) -> str:
-    """Return rows as lines with columns to the right; a row may have one cell more at its end."""
-    width = max(map(len, rows))
-    widths = [max((len(row[i]) for row in rows if i < len(row)), default=0) for i in range(width)]
-    return "\n".join("  ".join(f"{cell:>{w}}" for cell, w in zip(row, widths, strict=False)).rstrip() for row in rows)
 
 
 def _whole_cycle(cycle: Cycle, words: Words) -> Iterable[str]:
@@ -154,11 +132,7 @@ def _extremes(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
             rows.append([label, *(cell for e in (most, least) for cell in _extreme(cycle, words, e, unit_of(name)))])
     if len(rows) == 1:
         return ""
-    widths = [max(len(row[i]) for row in rows) for i in range(5)]
-    return "\n".join(
-        f"{row[0]:{widths[0]}}  {row[1]:>{widths[1]}}  {row[2]:{widths[2]}}  {row[3]:>{widths[3]}}  {row[4]}".rstrip()
-        for row in rows
-    )
+    return aligned(rows, (0, 2, 4))
 
 
 def _changes(most: Extreme, least: Extreme) -> bool:
@@ -192,4 +166,4 @@ def _chords(name: str, of: str, curve: Curve, words: Words) -> str:
         values = (abs(x) if np.iscomplexobj(curve.plans) else x for x in (plan, chord))
         cells = (_number(words, words.display.value(float(x), of)) for x in values)
         rows.append([_number(words, t), *cells, words.number(part, 2) if math.isfinite(part) else "–"])
-    return _aligned(rows)
+    return aligned(rows, ())
