@@ -93,6 +93,7 @@ def ratios(task: Task, place: float) -> Iterator[tuple[float, str]]:
             bounds[name] += 100.0 * sum(map(bounds.__getitem__, step.operands)) / (beside + (beside == 0.0))
         with mp.workdps(DIGITS):
             error = float(abs(mp.mpmathify(value) - right[name]))
+        assert error == error, name
         yield (error / bounds[name] if bounds[name] else math.inf if error else 0.0), name
 
 
