@@ -21,10 +21,10 @@ from .variants.options import (
     count,
     count_if_given,
     example,
-    files_out,
     given,
     of_check,
     of_task,
+    output,
 )
 from .variants.usage import Group, usage_error
 
@@ -182,16 +182,7 @@ def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, 
     )
 )
 @of_task
-@click.option(
-    "-o",
-    "--output",
-    "files",
-    metavar="FILE",
-    multiple=True,
-    required=True,
-    callback=files_out("..drawing.writers"),
-    help="Where to; the suffix picks the kind of file. Repeatable.",
-)
+@output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
 @click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything.")
 @click.option("--norm", type=Word("gost", "iso"), default="gost", show_default=True, help="Frame and title block.")
 @click.option("--tile", type=Word("A4", "A3"), help="Cut a PDF into pages of this format for a small printer.")
@@ -237,15 +228,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 @click.option(
     "--chords", metavar="POINT", help="Velocities and accelerations of a point or link by plans and by chords."
 )
-@click.option(
-    "-o",
-    "--output",
-    "files",
-    metavar="FILE",
-    multiple=True,
-    callback=files_out(".sweeps.sweeps"),
-    help="Where to: all columns to a .csv, the drawing to .svg, .pdf, .png. Repeatable.",
-)
+@output(".sweeps.sweeps", "Where to: all columns to a .csv, the drawing to .svg, .pdf, .png.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def sweep(
     task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, chords: str | None, **options: Any
@@ -281,15 +264,7 @@ def sweep(
 )
 @click.option("--tolerance", metavar="%", default="1", show_default=True, help="By how much a simpler model may miss.")
 @click.option("--hand", default="normal", show_default=True, help=f"Who draws: {', '.join(HANDS)}.")
-@click.option(
-    "-o",
-    "--output",
-    "files",
-    metavar="FILE",
-    multiple=True,
-    callback=files_out(".charts.charts"),
-    help="Where to: pictures to .svg, .pdf, .png, rows to .csv; of several charts x-accuracy.svg, ... Repeatable.",
-)
+@output(".charts.charts", "Where to: pictures to .svg, .pdf, .png, rows to .csv; of several charts x-accuracy.svg, ...")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> None:
     """Measure TASK over its cycle: speed against accuracy, stability, and which parts of the model it needs."""

@@ -60,8 +60,8 @@ def given(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -
     return values or None
 
 
-def files_out(module: str) -> Callable[[click.Context, click.Parameter, tuple[str, ...]], tuple[Path, ...]]:
-    """Return a callback that refuses, before any work, files that cannot be written.
+def output(module: str, help: str, required: bool = False) -> Callable[[Command], Command]:
+    """Return the option `-o FILE`, which refuses, before any work, files that cannot be written.
 
     Parameters
     ----------
@@ -76,7 +76,9 @@ def files_out(module: str) -> Callable[[click.Context, click.Parameter, tuple[st
         check_outputs(*paths, known=import_module(module, __package__).SUFFIXES)
         return paths
 
-    return checked
+    names = ("-o", "--output", "files")
+    said = f"{help} Repeatable."
+    return click.option(*names, metavar="FILE", multiple=True, required=required, callback=checked, help=said)
 
 
 def of_task(command: Command) -> Command:
@@ -171,15 +173,9 @@ def of_check(command: Command) -> Command:
         click.option(
             "--jobs", metavar="N", default="0", callback=count, help="Processes; as many as cores when left out."
         ),
-        click.option(
-            "-o",
-            "--output",
-            "files",
-            metavar="FILE",
-            multiple=True,
-            callback=files_out(".marking.reports"),
-            help="Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx. "
-            "Repeatable.",
+        output(
+            ".marking.reports",
+            "Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx.",
         ),
         click.option("--json", "as_json", is_flag=True, help="Print one JSON object (of one student)."),
     )
