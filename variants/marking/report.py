@@ -11,6 +11,7 @@ from ...plans.board import Step
 from ...plans.marking.verdicts import Line, Verdict, behind
 from ...plans.mistakes.rules import Broken
 from ...scales.units import format_unit
+from .answers import WHO
 from .marked import Marked
 from .misfits import Misfit
 from .rubric import Rubric
@@ -114,7 +115,7 @@ class _Teller:
         who = self.marked.entry.who if self.marked.entry else answers.who
         yield self.said["about.task"], solution.task.id
         yield self.said["about.variant"], solution.variant
-        for key in ("student", "group", "book", "number", "email"):
+        for key in WHO:
             if getattr(who, key) or getattr(answers.who, key):
                 yield self.said[f"about.{key}"], getattr(who, key) or getattr(answers.who, key)
         yield self.said["about.sheet"], self.marked.keyed.sheet

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..tables import aligned
 from .report import Report, Row
 from .wording import texts
 
@@ -43,6 +44,4 @@ def _table(report: Report, rows: tuple[Row, ...]) -> Iterator[str]:
     table += [(row.symbol, row.answer, row.right, row.tolerance, row.said) for row in rows]
     if report.own:
         table = [(*cells[:2], cells[-1]) for cells in table]
-    widths = [max(len(cells[i]) for cells in table) for i in range(len(table[0]))]
-    for cells in table:
-        yield "  " + "  ".join(f"{cell:{width}}" for cell, width in zip(cells, widths, strict=True)).rstrip()
+    yield from (f"  {line}" for line in aligned(table, range(len(table[0]))).split("\n"))
