@@ -68,8 +68,7 @@ def test_every_mistake_has_words() -> None:
 
     texts = packaged(PACKAGE, "texts", "mistakes.en")
 
-    assert set(MISTAKES) <= texts.keys()
-    assert list(texts) == [f"M{number:02d}" for number in range(1, 88)]
+    assert list(texts) == sorted(MISTAKES)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
