@@ -27,7 +27,7 @@ class HalfPlane:
 
     def lack(self, place: complex) -> float:
         """Return by how far a place is outside, negative inside."""
-        return self.least - dot(self.normal, place)
+        return self.least - float(dot(self.normal, place))
 
     @property
     def foot(self) -> complex:
@@ -69,6 +69,4 @@ def nearest(planes: Sequence[HalfPlane]) -> Nearest | None:
 
 def _inside(one: Nearest, planes: Sequence[HalfPlane], size: float) -> bool:
     slack = ON * max(size, abs(one.place))
-    return math.isfinite(abs(one.place)) and all(
-        plane.lack(one.place) <= slack for plane in planes if plane not in one.on
-    )
+    return math.isfinite(slack) and all(plane.lack(one.place) <= slack for plane in planes if plane not in one.on)

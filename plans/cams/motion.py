@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -226,7 +227,7 @@ class Motion:
         """Return angles over the whole turn, from 0 to a turn, corners among them, at most `most` rad apart."""
         parts = [
             np.linspace(low, high, max(1, math.ceil((high - low) / most)), endpoint=False)
-            for low, high in zip(self.corners, self.corners[1:], strict=False)
+            for low, high in pairwise(self.corners)
         ]
         return np.append(np.concatenate(parts), TURN)
 
@@ -265,5 +266,5 @@ def _divided(phase: Phase, marked: Iterable[float], sections: int) -> Array:
         if all(abs(part * count - round(part * count)) < WHOLE * count for part in parts):
             return phase.start + phase.length * (np.arange(count + 1) / count)
     counts = [max(1, math.ceil(sections * (b - a))) for a, b in pairwise(parts)]
-    steps = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(parts, parts[1:], counts, strict=True)]
+    steps = [np.linspace(a, b, n, endpoint=False) for (a, b), n in zip(pairwise(parts), counts, strict=True)]
     return phase.start + phase.length * np.append(np.concatenate(steps), 1.0)

@@ -3,8 +3,8 @@
 A roller's line has the offset e from the cam's centre, positive to the right; r_0 is the pitch curve's least radius,
 s_0 = sqrt(r_0^2 - e^2). Cam and follower have their instant centre at sense * s' beside the centre, so the pressure
 angle is tan(theta) = (sense s' - e) / (s_0 + s). A limit of it is linear in (e, s_0): of the complex number
-e + i s_0 every limit permits a half plane, all of them a wedge, and the smallest cam is its place nearest to the origin,
-which is its apex or the foot of the perpendicular on one side.
+e + i s_0 every limit permits a half plane, all of them a wedge, and the smallest cam is its place nearest to the
+origin, which is its apex or the foot of the perpendicular on one side.
 
 On the S-ds/dphi diagram with the points (sense s', s) the cam's centre is (e, -s_0).
 
