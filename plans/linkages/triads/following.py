@@ -67,7 +67,7 @@ class Follower:
         Returns
         -------
         dict of str to float64 array of shape (N,)
-            Five givens for each group; see `triad_parts.start_names`. One of them is not zero where the group cannot
+            Five givens for each group; see `parts.start_names`. One of them is not zero where the group cannot
             come from its start, so that the board refuses that position.
         """
         found: Poses = {}
