@@ -18,7 +18,7 @@ from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.marking.verdicts import Verdict, mark
 from kulman.plans.mistakes.book import Book, Signature, book, broken, signature
 from kulman.plans.mistakes.explaining import Candidate, Explanation, explain
-from kulman.tests.marking.test_mistakes import (
+from kulman.tests.support.broken_rules import (
     LEVER,
     OFFSET,
     OMEGA,
