@@ -31,7 +31,7 @@ from .checks.names import Names
 from .checks.start import started
 from .checks.structure import branched, needless_branches, place_of
 from .shelf import bundled, bundled_text
-from .task import WITH_FORCES, Bound, Given, LocatedError, Task
+from .task import WITH_FORCES, Given, LocatedError, Task
 from .toml_places import Path, Places
 
 LARGEST_FILE = 1_000_000
@@ -307,10 +307,8 @@ def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Nam
 
 
 def _bounded(given: Given, names: Names) -> Given:
-    """Return a given that is a distance on a link as one that must be greater than zero."""
-    if given.name in names.positive:
-        return replace(given, bound=Bound.POSITIVE)
-    return replace(given, bound=Bound.NOT_ZERO) if given.name in names.moving else given
+    """Return a given with the bound of what it is: a distance on a link must be greater than zero."""
+    return replace(given, bound=names.bounds.get(given.name, given.bound))
 
 
 def _signs(checker: Checker, names: Names, choices: Settings) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from numbers import Real
@@ -28,6 +28,24 @@ class Bound(Enum):
     POSITIVE = "not-positive"
     NOT_NEGATIVE = "negative"
     NOT_ZERO = "is-zero"
+    PART = "not-part"
+    ACUTE = "not-acute"
+    TURN = "not-turn"
+
+    def admits(self, value: float) -> bool:
+        """Whether a given may have this value, in SI."""
+        return _ADMITTED[self](value)
+
+
+_ADMITTED: dict[Bound, Callable[[float], bool]] = {
+    Bound.FREE: lambda value: True,
+    Bound.POSITIVE: lambda value: value > 0.0,
+    Bound.NOT_NEGATIVE: lambda value: value >= 0.0,
+    Bound.NOT_ZERO: lambda value: value != 0.0,
+    Bound.PART: lambda value: 0.0 < value < 1.0,
+    Bound.ACUTE: lambda value: 0.0 < value < 0.5 * math.pi,
+    Bound.TURN: lambda value: 0.0 < value <= 2.0 * math.pi,
+}
 
 
 class LocatedError(InputError):
@@ -74,8 +92,7 @@ class Given:
             raise InputError("type-quantity", expected=self.unit.name)
         if number != 0.0 and not SMALLEST <= abs(number) <= LARGEST:
             raise InputError("number-infinite", text=quote(value))
-        out = {Bound.POSITIVE: number <= 0, Bound.NOT_NEGATIVE: number < 0, Bound.NOT_ZERO: number == 0}
-        if out.get(self.bound, False):
+        if not self.bound.admits(number):
             raise InputError(self.bound.value, text=quote(value))
         return number
 

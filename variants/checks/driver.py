@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from ...plans.linkages.mechanism import FORCE, FRAME, MOMENT, ZERO, Driver, Mechanism, Revolute, SlidingDriver
 from ...scales.errors import InputError
 from ...scales.units import unit
+from ..task import Bound
 from ..toml_places import Path
 from .basics import Checker, Field, link_number, name, on_link, one_of, record
 from .names import Names
@@ -28,7 +29,7 @@ def read_driver(checker: Checker, path: Path, raw: object, names: Names) -> Driv
         checker.fault((*path, "speed"), InputError("is-zero" if slides else "not-positive", text="0"))
     if len(checker.faults) > before:
         return None
-    (names.moving if slides else names.positive).add(read["speed"])
+    names.bounds.setdefault(read["speed"], Bound.NOT_ZERO if slides else Bound.POSITIVE)
     return SlidingDriver(**read) if slides else Driver(**read)
 
 

@@ -11,6 +11,7 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import ONE, unit
+from ..task import Bound
 from ..toml_places import Path
 from .basics import Checker, Field, Read, array_of, link_number, name, on_link, one_of, record, rows
 from .driver import driver_joined, read_driver
@@ -74,7 +75,7 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | Non
         lettered = {key: place(checker, (*path, key), at) for key, at in raw.items()}
         for at in lettered.values():
             if at and ZERO in at:
-                names.positive.update(length.removeprefix(MINUS) for length in at)
+                names.bounds.update((length.removeprefix(MINUS), Bound.POSITIVE) for length in at)
         return None if None in letters or None in lettered.values() else names.on_axis(lettered)
 
     place = array_of(names.place, 2)

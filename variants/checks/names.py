@@ -9,6 +9,7 @@ from ...scales.errors import InputError
 from ...scales.names import cyrillic, latin, unknown
 from ...scales.numbers import quote, split_number
 from ...scales.units import ONE, Dimension, Unit, customary, unit
+from ..task import Bound
 from ..toml_places import Path
 from .basics import NAME, Checker, Read
 from .givens import NEVER_NEGATIVE, Setting, literal
@@ -21,17 +22,15 @@ class Names:
     """The values that a mechanism may name, and what it turned out to use.
 
     A name whose own line is at fault has no dimension, and may stand anywhere. `stated` says where each name stands.
-    `literals` are constants by value and dimension, `lengths` those of them that have customary names, such as links,
-    `positive` the names that must be greater than zero: without a length or a speed of the crank there is no plan.
-    `moving` are those that must not be zero.
+    `literals` are constants by value and dimension, `lengths` those of them that have customary names, such as links;
+    `bounds` say which values a name may have: without a length or a speed of the crank there is no plan.
     """
 
     dimensions: dict[str, Dimension | None]
     stated: dict[str, Path] = field(default_factory=dict)
     literals: dict[tuple[float, Dimension], str] = field(default_factory=dict)
     lengths: dict[str, float] = field(default_factory=dict)
-    positive: set[str] = field(default_factory=set)
-    moving: set[str] = field(default_factory=set)
+    bounds: dict[str, Bound] = field(default_factory=dict)
     signs: set[str] = field(default_factory=set)
 
     def place(self, checker: Checker, path: Path, raw: object) -> str | None:
@@ -75,7 +74,7 @@ class Names:
         def read(checker: Checker, path: Path, raw: object) -> str | None:
             found: str | None = self.value(wanted)(checker, path, raw)
             if found in self.dimensions:
-                self.positive.add(found)
+                self.bounds[found] = Bound.POSITIVE
             elif found is not None and not self.constants.get(found, 0.0) > 0.0:
                 checker.fault(path, InputError("not-positive", text=quote(raw)))
                 return None
