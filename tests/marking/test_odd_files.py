@@ -1,0 +1,140 @@
+"""Files of answers from elsewhere: formulas, dates, bombs, entities, what is no file of answers, any bytes at all."""
+
+from __future__ import annotations
+
+import zipfile
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+import xlsxwriter
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kulman.scales.errors import InputError
+from kulman.tests.support.answer_files import ASKED, HEAD, messages, read
+from kulman.variants.marking.reading import read_answers
+
+
+def workbook(tmp_path: Path, cells: dict[str, object], formats: dict[str, str] | None = None) -> Path:
+    """Write a workbook by another program."""
+    file = tmp_path / "answers.xlsx"
+    book = xlsxwriter.Workbook(str(file))
+    sheet = book.add_worksheet()
+    for column, text in enumerate(HEAD.strip().split(";")):
+        sheet.write(0, column, text)
+    for address, value in cells.items():
+        look = book.add_format({"num_format": (formats or {})[address]}) if address in (formats or {}) else None
+        sheet.write(address, value, look)
+    book.close()
+    return file
+
+
+def test_a_formula_is_read_by_its_stored_result_and_never_worked_out(tmp_path: Path) -> None:
+    file = tmp_path / "answers.xlsx"
+    book = xlsxwriter.Workbook(str(file))
+    sheet = book.add_worksheet()
+    sheet.write_row(0, 0, HEAD.strip().split(";"))
+    sheet.write_row(1, 0, ["V_B", 55.2, 0.05])
+    sheet.write_formula("D2", "=B2*C2", None, 2.76)
+    sheet.write_row(2, 0, ["V_A", 80])
+    sheet.write_formula("D3", '=HYPERLINK("http://x","4")', None, "")
+    book.close()
+
+    found = read_answers(file, ASKED)[0]
+
+    assert found.lines["V_B"].value == pytest.approx(2.76)
+    assert found.lines["V_A"].value is None
+    assert "D3, V_A" in messages(found)[0]
+    assert "formula" in messages(found)[0]
+
+
+def test_a_date_that_was_a_number_is_told_of(tmp_path: Path) -> None:
+    found = read_answers(workbook(tmp_path, {"A2": "V_B", "B2": 45789, "D2": 2.76}, {"B2": "dd.mm"}), ASKED)[0]
+
+    assert "holds a date" in messages(found)[0]
+    assert found.lines["V_B"].value == pytest.approx(2.76)
+
+
+def bomb(tmp_path: Path, size: int) -> Path:
+    """Write a small workbook that unpacks into `size` bytes."""
+    file = workbook(tmp_path, {"A2": "V_B"})
+    with zipfile.ZipFile(file) as old:
+        parts = {name: old.read(name) for name in old.namelist()}
+    parts["xl/worksheets/sheet1.xml"] += b" " * size
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as new:
+        for name, data in parts.items():
+            new.writestr(name, data)
+    return file
+
+
+def test_a_zip_bomb_is_refused(tmp_path: Path) -> None:
+    file = bomb(tmp_path, 22_000_000)
+    assert file.stat().st_size < 200_000
+
+    with pytest.raises(InputError, match="unpacked, the file is larger than 20 MB"):
+        read_answers(file, ASKED)
+
+
+def test_entities_are_not_unfolded(tmp_path: Path) -> None:
+    file = workbook(tmp_path, {"A2": "V_B"})
+    with zipfile.ZipFile(file) as old:
+        parts = {name: old.read(name) for name in old.namelist()}
+    evil = b'<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa">]>'
+    parts["xl/worksheets/sheet1.xml"] = parts["xl/worksheets/sheet1.xml"].replace(b"?>\n", b"?>\n" + evil, 1)
+    with zipfile.ZipFile(file, "w") as new:
+        for name, data in parts.items():
+            new.writestr(name, data)
+
+    with pytest.raises(InputError, match="not an XLSX file"):
+        read_answers(file, ASKED)
+
+
+def test_a_huge_file_is_refused_without_being_read(tmp_path: Path) -> None:
+    file = tmp_path / "answers.csv"
+    with file.open("wb") as stream:
+        stream.truncate(100_000_000)
+
+    with pytest.raises(InputError, match="larger than 20 MB"):
+        read_answers(file, ASKED)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "what"),
+    [
+        ("a.csv", b"", "the file is empty"),
+        ("a.csv", b"\0\1\2" * 100, "not a text"),
+        ("a.csv", b"PK\x03\x04abc", "its name end in .xlsx"),
+        ("a.xlsx", b"PK\x03\x04abc", "not an XLSX file"),
+        ("a.xlsx", b"\xd0\xcf\x11\xe0" * 100, "not an XLSX file"),
+        ("a.csv", "щось;інше\n1;2\n".encode(), "no row says what the columns hold"),
+        ("a.ods", b"x", "ends in one of: .csv, .xlsx"),
+        ("a.csv", b'"V_B;' + b"x" * 200_000, "a quotation mark is not closed"),
+    ],
+)
+def test_what_is_no_file_of_answers_is_refused_in_one_line(
+    tmp_path: Path, name: str, content: bytes, what: str
+) -> None:
+    with pytest.raises(InputError) as caught:
+        read(tmp_path, content, name)
+
+    assert what in caught.value.text("en")
+    assert "\n" not in caught.value.text("en")
+
+
+def test_a_folder_or_nothing_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "x.csv").mkdir()
+
+    with pytest.raises(InputError, match="not a folder"):
+        read_answers(tmp_path / "x.csv", ASKED)
+    with pytest.raises(InputError, match="there is no such file"):
+        read_answers(tmp_path / "y.csv", ASKED)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.binary(max_size=400))
+def test_whatever_bytes_come_they_are_read_or_refused(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
+    folder = tmp_path_factory.mktemp("any")
+    for name in ("a.csv", "a.xlsx"):
+        with suppress(InputError):  # anything else would be our bug
+            read(folder, HEAD.encode() + data if name == "a.csv" else b"PK\x03\x04" + data, name)
