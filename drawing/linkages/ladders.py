@@ -74,15 +74,9 @@ def _largest(solved: SolvedLinkage, symbol: str) -> float:
     """Return the largest quantity on the plans of a scale factor, the size of the mechanism on its own plan."""
     plans, shown = solved.scale_of_plan, solved.shown_on
     if symbol == plans[POSITION]:
-        return _size(solved)
+        return solved.extent
     drawn = (q.value or 0.0 for q in solved.quantities.values() if plans.get(_plan_of(q.name, shown)) == symbol)
     return max(map(abs, drawn), default=0.0)
-
-
-def _size(solved: SolvedLinkage) -> float:
-    """Return the longest distance between lettered points of the links, m."""
-    places = [solved.point(point) for link in solved.mechanism.links for point in link.points]
-    return max((abs(a - b) for a in places for b in places), default=0.0)
 
 
 def _plan_of(quantity: str, shown: Mapping[str, str]) -> str:

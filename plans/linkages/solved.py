@@ -31,6 +31,12 @@ class SolvedLinkage(Solved):
     mechanism: Mechanism
     structure: Structure
 
+    @property
+    def extent(self) -> float:
+        """The longest distance between lettered points of the links, m."""
+        places = [self.point(point) for link in self.mechanism.links for point in link.points]
+        return max((abs(a - b) for a in places for b in places), default=0.0)
+
     def guide_name(self, pair: Prismatic) -> str:
         """Return the name of the direction of a pair's guide."""
         a, b = pair.links

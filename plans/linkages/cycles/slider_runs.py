@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -35,17 +34,11 @@ def slider_runs(solved: SolvedLinkage) -> Runs:
     marks = {solved.guide_name(pair): (pair.point, _beside(solved, pair)) for pair in pairs}
     wanted = sorted({mark for u, (point, at) in marks.items() for mark in (u, point, at) if mark})
     steps = np.arange(-POSITIONS // 2, POSITIONS // 2 + 1) * (1.0 / POSITIONS)
-    size = _size(solved)
+    size = solved.extent
     whole = TURN if isinstance(solved.mechanism.driver, Driver) else 2.0 * SWAY * size
     places: Array = drive.start + steps * whole
     moved = drive.along(program, solved.givens, wanted, mechanism=free)(places)
     return {u: _run(_along(moved, u, point, at), LEAP * size) for u, (point, at) in marks.items()}
-
-
-def _size(solved: SolvedLinkage) -> float:
-    """Return the longest distance between lettered points of the links, m."""
-    places = [solved.point(point) for link in solved.mechanism.links for point in link.points]
-    return max(math.hypot((a - b).real, (a - b).imag) for a in places for b in places)
 
 
 def _beside(solved: SolvedLinkage, pair: Prismatic) -> str:
