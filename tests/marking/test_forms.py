@@ -16,8 +16,9 @@ from kulman import check
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.scales.packaged import packaged
 from kulman.tests.support.answer_files import ASKED, HEAD, ROW, messages, one, read
+from kulman.variants.marking.cells_in import read_grid
 from kulman.variants.marking.cells_out import csv_bytes, harmless, xlsx_bytes
-from kulman.variants.marking.grid import letters, read_grid
+from kulman.variants.marking.grid import letters
 from kulman.variants.marking.reading import read_answers
 
 PACKAGE = "kulman.variants.marking"

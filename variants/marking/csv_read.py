@@ -9,10 +9,9 @@ import io
 from ...scales.errors import InputError
 from ...scales.numbers import quote
 from .grid import MOST_ROWS, SHOWN, Grid, bounded
-from .headers import recognised
+from .headers import LOOKED_AT, recognised
 
 SEPARATORS = (";", "\t", ",")
-LOOKED_AT = 60  # rows in which the header is looked for
 _ZIP = b"PK\x03\x04"
 
 

@@ -15,7 +15,7 @@ from .checks import Check
 from .class_run import Advance, Job, mark_class
 from .class_table import class_rows, moodle_rows
 from .form import class_header, form_rows
-from .grid import SUFFIXES
+from .grid import SHOWN, SUFFIXES
 from .marked import Desk
 from .report import Report, report
 from .reports import REPORTS, report_bytes
@@ -92,7 +92,7 @@ def _make(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as problem:
         reason = getattr(problem, "strerror", "") or ""
-        raise InputError("output-refused", file=quote(folder, 200), reason=reason) from None
+        raise InputError("output-refused", file=quote(folder, SHOWN), reason=reason) from None
 
 
 def write_tables(

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from ...scales.names import latin
 
+LOOKED_AT = 60  # rows in which the header is looked for
 # columns of a form, a row per quantity
 COLUMNS: Mapping[str, str] = {
     "name": "quantity|величина|name|назва|название|имя",

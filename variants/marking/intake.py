@@ -11,7 +11,7 @@ from pathlib import Path
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from .answers import Answers, Asked, Who
-from .grid import SUFFIXES
+from .grid import SHOWN, SUFFIXES
 from .reading import read_answers
 
 PRINTED = "printed"
@@ -39,7 +39,7 @@ def found_files(names: Sequence[str], task: str = "") -> list[str]:
         else:
             inside = [name]
         if not inside:
-            raise InputError("answers-nowhere", file=quote(name, 200), known=", ".join(SUFFIXES))
+            raise InputError("answers-nowhere", file=quote(name, SHOWN), known=", ".join(SUFFIXES))
         found += inside
     return list(dict.fromkeys(found))
 

@@ -12,12 +12,12 @@ from ...scales.numbers import quote
 from ..task import LocatedError
 from . import cells
 from .answers import Answers, Asked, Line, Mu, Who
-from .grid import SHOWN, Grid, read_grid
-from .headers import about_kind, column_kind, quantity_part, split_unit
+from .cells_in import read_grid
+from .grid import SHOWN, Grid
+from .headers import LOOKED_AT, about_kind, column_kind, quantity_part, split_unit
 from .swapped import put_back
 
 NUMBERS = ("mm", "mu", "value")
-LOOKED_AT = 60  # rows in which the header is looked for
 
 
 def read_answers(file: str | Path, asked: Asked) -> list[Answers]:

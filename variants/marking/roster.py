@@ -12,8 +12,9 @@ from ...scales.names import latin, unknown
 from ...scales.numbers import quote
 from ..task import LocatedError, Task
 from .answers import Answers, Who
-from .grid import SHOWN, Grid, read_grid
-from .headers import about_kind, quantity_part
+from .cells_in import read_grid
+from .grid import SHOWN, Grid
+from .headers import LOOKED_AT, about_kind, quantity_part
 
 KEYS = ("number", "book", "email", "student")  # by which a student is found, the surest first
 
@@ -63,7 +64,7 @@ def read_roster(file: str | Path, task: Task) -> Roster:
         No such columns; an unknown variant or given, or a value that it cannot take, with the cell.
     """
     grid = read_grid(file)
-    header = next((row for row in range(min(len(grid.rows), 20)) if _is_header(grid.rows[row])), None)
+    header = next((row for row in range(min(len(grid.rows), LOOKED_AT)) if _is_header(grid.rows[row])), None)
     if header is None:
         raise InputError("roster-header", file=quote(grid.file, SHOWN))
     about: dict[str, int] = {}

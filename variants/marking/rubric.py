@@ -16,6 +16,7 @@ from ...scales.names import unknown
 from ...scales.numbers import quote
 from ..task import LocatedError
 from .answers import Asked
+from .grid import SHOWN
 
 WORTH = {
     Verdict.RIGHT: 1.0,
@@ -116,12 +117,12 @@ def read_rubric(file: str | Path | None, preset_name: str, asked: Asked) -> Rubr
     if file is None:
         return Rubric(tolerance)
     raw = _table(Path(file))
-    return _Reader(quote(file, 200), raw, asked).rubric(tolerance)
+    return _Reader(quote(file, SHOWN), raw, asked).rubric(tolerance)
 
 
 def _table(path: Path) -> dict[str, Any]:
     """Return the table of a rubric's file."""
-    shown = quote(path, 200)
+    shown = quote(path, SHOWN)
     try:
         data = path.read_bytes() if path.stat().st_size <= LARGEST else b"\0"
         return tomllib.loads(data.decode("utf-8-sig"))
