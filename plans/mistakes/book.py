@@ -14,6 +14,7 @@ from ..hands.shaky import Paper
 from ..hands.tolerances import tolerances
 from ..marking.key import Key
 from . import acceleration, forces, inputs, lever, reading, velocity
+from .angles import Turned
 from .rules import Broken, Mistake, Scene, breaks
 
 CHAPTERS = (inputs, reading, velocity, acceleration, forces, lever)
@@ -54,6 +55,8 @@ class Book:
         Their rows and tolerances; `right`, `allowed` of shape (questions,) are those of the right construction.
     vector : bool array of shape (questions,)
         Which of them are vectors.
+    turned : Turned
+        The same construction at other angles of the crank.
     """
 
     key: Key
@@ -63,6 +66,7 @@ class Book:
     right: NDArray[np.complex128]
     allowed: NDArray[np.float64]
     vector: NDArray[np.bool_]
+    turned: Turned
 
     def __len__(self) -> int:
         """Return the number of signatures."""
@@ -74,12 +78,12 @@ class Book:
             return self
         ids = [id for id, mistake in MISTAKES.items() if mistake.by_scale]
         kept = [s for s in self.signatures if s.broken.mistake not in ids]
-        return _book(key, [*kept, *_signatures(key, broken(key.paper, key.values, ids))])
+        return _book(key, [*kept, *_signatures(key, broken(key.paper, key.values, ids))], self.turned)
 
 
 def book(key: Key) -> Book:
     """Run every mistake that concerns a key."""
-    return _book(key, list(_signatures(key, broken(key.paper, key.values))))
+    return _book(key, list(_signatures(key, broken(key.paper, key.values))), Turned(key))
 
 
 def signature(key: Key, found: Broken, columns: Columns | None = None) -> Signature | None:
@@ -152,14 +156,14 @@ def _signatures(key: Key, found: Iterable[Broken]) -> Iterator[Signature]:
             yield made
 
 
-def _book(key: Key, signatures: list[Signature]) -> Book:
+def _book(key: Key, signatures: list[Signature], turned: Turned) -> Book:
     columns = Columns.of(key)
     ordered = sorted(signatures, key=lambda s: s.broken.mistake)
     shape = (len(ordered), len(columns.right))
     table, most = np.empty(shape, complex), np.empty(shape)
     for place, one in enumerate(ordered):
         table[place], most[place] = one.row, one.allowed
-    return Book(key, tuple(ordered), table, most, columns.right, columns.allowed, columns.vector)
+    return Book(key, tuple(ordered), table, most, columns.right, columns.allowed, columns.vector, turned)
 
 
 def key_of(key: Key, signature: Signature) -> Key:

@@ -25,6 +25,8 @@ FAR, NEARLY = 1.5, 0.3  # how much worse than the nearest a signature may be to 
 MISFIT = 2.0  # mean miss in tolerances from which a mistake explains nothing
 LEFT, SECOND = 0.15, 0.25  # by how many tolerances a line left wrong, or a second mistake, is worse
 PAIRS = 8  # pairs of them
+ANGLES = 2  # angles of the crank that are looked at closely
+ANGLED = frozenset(("M08", "M09", "M10"))  # mistakes that put the crank at another angle
 FIRSTS = 4  # mistakes to which a second one is added
 
 Floats = NDArray[np.float64]
@@ -116,6 +118,8 @@ class _Search:
         near = [int(i) for i in np.argsort(means, kind="stable") if likely[i]][:NEAR]
         near = [i for i in near if means[i] <= FAR * means[near[0]] + NEARLY]
         found = [c for i in near if (c := self._candidate((self.book.signatures[i],))) is not None]
+        if not any(self._fits(c) and not ANGLED.intersection(c.ids) for c, _ in found):
+            found += self._turned()
         if all(self._clear(c) for c, _ in found):
             found += self._pairs(off)
         ranked = sorted(found, key=lambda pair: self._rank(pair[0]))
@@ -123,6 +127,20 @@ class _Search:
         if not candidates or candidates[0].misses > 1.0:
             candidates = _simplest((*self._put_right(off), *candidates))
         return Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
+
+    def _fits(self, candidate: Candidate) -> bool:
+        """Whether a candidate explains everything within the tolerances."""
+        return candidate.misses <= 1.0 and not self._clear(candidate)
+
+    def _turned(self) -> list[tuple[Candidate, Signature]]:
+        """Return the crank at the angles that fit best, where the answers are those of another position."""
+        book, table = self.book, self.book.turned.table
+        with np.errstate(all="ignore"):
+            larger = np.fmax(1.0, np.abs(table) / np.abs(book.right))
+        means = _mean(self.said.misses(book, table, book.allowed * larger))
+        near = [int(i) for i in np.argsort(means, kind="stable")[:ANGLES] if means[i] <= 1.0]
+        made = [signature(book.key, book.turned.broken(i)) for i in near]
+        return [c for one in made if one is not None and (c := self._candidate((one,))) is not None]
 
     def _put_right(self, off: Floats) -> tuple[Candidate, ...]:
         """Return the mistakes that explain every line that is not right, where right values were taken after them."""

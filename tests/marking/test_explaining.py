@@ -148,17 +148,34 @@ def test_the_line_of_a_velocity_along_the_link_is_named_from_the_lines_of_its_pl
     assert "M25" in explanation.candidates[0].ids
 
 
-@pytest.mark.parametrize("degrees", [60.0, -60.0, 150.0])
-def test_another_angle_of_the_crank_is_named(degrees: float) -> None:
-    of_key = key(EXAMPLE)
-    phi = of_key.paper.givens["phi"]
-    there = run(of_key.paper.program, {**of_key.paper.givens, "phi": phi + math.radians(degrees)}).values
-    answers = [answer(name, there[name]) for name in of_key.questions]
+@pytest.mark.parametrize("directions", [True, False], ids=["directions", "sizes"])
+@pytest.mark.parametrize(
+    ("task", "degrees"),
+    [
+        pytest.param(EXAMPLE, 90.0, id="another number"),
+        pytest.param(EXAMPLE, 180.0, id="another zero"),
+        pytest.param("madi-four-bar", 15.0, id="345 laid off the other way"),
+        pytest.param("bertyaev-six-bar", 60.0, id="65 misread by a little"),
+        pytest.param("bertyaev-six-bar", 115.0, id="65 from the other end of the axis"),
+        pytest.param("scheme-09-shaper", 75.0, id="60 of another variant"),
+    ],
+)
+def test_another_angle_of_the_crank_is_named(task: str, degrees: float, directions: bool) -> None:
+    of_key, angle = key(task), math.radians(degrees)
+    there = run(of_key.paper.program, {**of_key.paper.givens, "phi": angle}).values
+    answers = [answer(name, there[name], directions) for name in of_key.questions]
 
-    first = explain(mistakes(EXAMPLE), mark(of_key, answers)).candidates[0]
+    first = explain(mistakes(task), mark(of_key, answers)).candidates[0]
 
-    angles = [one.givens["phi"] for found in (first.mistakes, *first.same) for one in found if one.mistake == "M10"]
-    assert any(math.cos(angle - phi - math.radians(degrees)) > 1.0 - 1e-12 for angle in angles)
+    named = [one.givens["phi"] for found in (first.mistakes, *first.same) for one in found]
+    assert len(first.mistakes) == 1
+    assert any(math.cos(other - angle) > 1.0 - 1e-12 for other in named)
+
+
+def test_a_driver_without_an_angle_has_none_to_mistake() -> None:
+    turned = mistakes("scheme-18-hydraulic-drive").turned
+
+    assert turned.table.shape == (0, len(turned.key.questions))
 
 
 def test_no_number_is_told_twice_and_no_pair_where_one_explains_as_much() -> None:
