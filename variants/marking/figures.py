@@ -11,7 +11,7 @@ from ...drawing.linkages.reading import read
 from ...plans.board import POSITION
 from ...plans.marking.verdicts import Line, Verdict
 from .marked import Marked
-from .wording import plain, set_scripts, texts
+from .wording import plain, plan_heading, set_scripts, texts
 
 SIZE = 150.0  # mm, of the longer side of a plan
 MARGIN = 10.0
@@ -32,26 +32,14 @@ class Vector:
 def plan_figures(marked: Marked, language: str) -> Iterator[tuple[str, str]]:
     """Go through heading and SVG of every plan on which something was answered."""
     lines = {line.name: line for line in marked.lines if line.answer is not None and isinstance(line.said, complex)}
-    program = marked.keyed.solution.solved.program
-    words = marked.keyed.words
-    for plan in program.plans:
+    solved, words = marked.keyed.solution.solved, marked.keyed.words
+    for plan in solved.program.plans:
         vectors = list(_vectors(marked, plan, lines))
         if plan != POSITION and any(vector.line is not None for vector in vectors):
-            yield plain(_heading(marked, plan, words.texts)), _svg(vectors, texts(language)["report.figure"])
-
-
-def _heading(marked: Marked, plan: str, said: Mapping[str, str]) -> str:
-    """Return the heading of a plan."""
-    kind, _, links = plan.partition("_")
-    if kind == "forces":
-        key = "heading.group_forces" if len(links) > 1 else "heading.link_forces"
-        driver = str(marked.keyed.solution.solved.structure.driver)
-        return said["heading.driver"] if links == driver else said[key].format(links=", ".join(links), link=links)
-    if plan.startswith("V_at_"):
-        return f"{said['heading.compound_velocity']}: {plan.removeprefix('V_at_')}"
-    if plan.startswith("a_at_"):
-        return said["heading.compound_acceleration"].format(point=plan.removeprefix("a_at_"))
-    return said[f"heading.{plan}"]
+            yield (
+                plain(plan_heading(plan, solved.structure.driver, words)),
+                _svg(vectors, texts(language)["report.figure"]),
+            )
 
 
 def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[Vector]:
