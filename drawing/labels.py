@@ -200,6 +200,7 @@ class _Scene:
     wanted: Wanted
     bodies: Bodies
     bounds: Box | None
+    apart: dict[tuple[int, float | None, tuple[float, ...]], tuple[Wanted, Grid]] = field(default_factory=dict)
 
     def placed(self, grid: Grid, first: Sequence[int]) -> Labels:
         """Place all labels, those of `first` before the others and as far away as they must."""
@@ -236,17 +237,31 @@ class _Scene:
 
     def _lead(self, i: int, board: _Board, limit: float, afield: bool) -> bool:
         """Move label i away onto a leader, if there is a place for both that costs less than `limit`."""
-        one = self.wanted.some(np.array([i]))
         # beside a line a leader leaves along its normal; where that is barred, from a point of it to any side
-        ends = (one, one.at(0.5), one.at(0.25), one.at(0.75))
-        ways = [(end, FAR) for end in ends] + [(one, ())] * afield
-        return any(self._led(i, end, board, steps, limit) for end, steps in ways)
+        shares: tuple[float | None, ...] = (None,) if self.wanted.a[i] == self.wanted.b[i] else (None, 0.5, 0.25, 0.75)
+        ways = [(share, FAR) for share in shares] + [(None, ())] * afield
+        return any(self._led(i, *self._places(i, share, steps), board, limit) for share, steps in ways)
 
-    def _led(self, i: int, one: Wanted, board: _Board, steps: Sequence[float], limit: float) -> bool:
-        # what goes far afield may even leave the bounds
-        grid = Grid.around(one, self.bodies, steps, self.bounds if len(steps) else None, led=True)
-        order = np.argsort(grid.cost[0], kind="stable")[:SOME]
-        x, y, cost = grid.x[0][order], grid.y[0][order], grid.cost[0][order]
+    def _places(self, i: int, share: float | None, steps: tuple[float, ...]) -> tuple[Wanted, Grid]:
+        """Return label i, which names its anchor or a point of it, and its places on leaders, shape (K,).
+
+        They are the same every time that all labels are placed anew.
+        """
+        key = i, share, steps
+        if key not in self.apart:
+            one = self.wanted.some(np.array([i]))
+            one = one if share is None else one.at(share)
+            # what goes far afield may even leave the bounds
+            grid = Grid.around(one, self.bodies, steps, self.bounds if steps else None, led=True)
+            order = np.argsort(grid.cost[0], kind="stable")[:SOME]
+            self.apart[key] = one, Grid(grid.x[0][order], grid.y[0][order], grid.cost[0][order])
+        return self.apart[key]
+
+    def _led(self, i: int, one: Wanted, grid: Grid, board: _Board, limit: float) -> bool:
+        few = grid.cost < limit  # what follows only adds to the cost
+        if not few.any():
+            return False
+        x, y, cost = grid.x[few], grid.y[few], grid.cost[few]
         cost = cost + COVER * board.clashes(i, x, y).sum(axis=1)
         foot = one.feet(x + 1j * y)
         head = np.clip(foot.real, x - one.hw, x + one.hw) + 1j * np.clip(foot.imag, y - one.hh, y + one.hh)
