@@ -7,8 +7,9 @@ of the largest value of a kind (points, velocities, forces ...) in the same mech
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -172,12 +173,12 @@ def test_many_at_once_equal_one_at_a_time_to_the_last_bit(both: Both) -> None:
         assert board.status == STATUSES[both.codes[index]]
 
 
-@pytest.mark.parametrize("k", [1e-7, 1e7])
-def test_mechanism_of_another_size_agrees(both: Both, k: float) -> None:
+def test_mechanisms_of_other_sizes_agree(both: Both) -> None:
     """Lengths times k, moments of inertia times k^2, so that forces grow as k and moments as k^2."""
+    k = np.resize([1e-7, 1e7], len(both.codes))
     power = {"x": 1, "y": 1, "e": 1, "J": 2, "F": 1, "M": 2}
     values = {name: array * k ** power.get(name.partition("_")[0], 0) for name, array in both.values.items()}
-    places = both.second.q.astype(float) * [k, k, 1.0]
+    places = both.second.q.astype(float) * np.stack([k, k, np.ones_like(k)], axis=1)[:, None, :]
 
     scaled = solve_both(both.mechanism, values, places)
 
@@ -185,17 +186,18 @@ def test_mechanism_of_another_size_agrees(both: Both, k: float) -> None:
     assert wrong(scaled.results, scaled.second.expected(), ALL_KINDS) == {}
 
 
-@pytest.mark.parametrize("count", [30, pytest.param(100, marks=pytest.mark.soak)])
-@pytest.mark.parametrize("last", KINDS)
-@pytest.mark.parametrize("middle", KINDS)
-@pytest.mark.parametrize(
-    "before",
-    [
-        pytest.param(((1, 3), (5, 4)), id="series"),
-        pytest.param(((2, 3), (1, 4)), id="crank and dyad"),
-        pytest.param(((1, 2), (1, 3)), id="parallel"),
-    ],
-)
+WAYS = {"series": ((1, 3), (5, 4)), "crank and dyad": ((2, 3), (1, 4)), "parallel": ((1, 2), (1, 3))}
+
+
+def trains() -> Iterator[Any]:
+    """Go through two dyads of every kind, hung on each other in one way; with the marker `soak` in all three."""
+    for (i, middle), (j, last), (k, way) in product(enumerate(KINDS), enumerate(KINDS), enumerate(WAYS)):
+        if (i + j) % len(WAYS) == k:
+            yield pytest.param(middle, last, WAYS[way], 30, id=f"{way}-{middle}-{last}-30")
+        yield pytest.param(middle, last, WAYS[way], 100, id=f"{way}-{middle}-{last}-100", marks=pytest.mark.soak)
+
+
+@pytest.mark.parametrize(("middle", "last", "before", "count"), [*trains()])
 def test_three_dyads_agree(middle: str, last: str, before: tuple[tuple[int, int], tuple[int, int]], count: int) -> None:
     both = solve_both(*random_trains((middle, last), before, 5, count))
 

@@ -31,6 +31,7 @@ from kulman.plans.linkages.mechanism import (
 Array = NDArray[Any]
 LONG = np.longdouble
 ROUNDS = 4
+CLOSE = 1e-12  # parts of a step of Newton's method that leaves its square
 
 
 def turned(angle: Array, x: Array, y: Array) -> tuple[Array, Array]:
@@ -64,9 +65,17 @@ class JacobianSolver:
         self.index = {link.number: i for i, link in enumerate(mechanism.links)}
         self.q = start.astype(LONG)
         for _ in range(8):
-            self.q = self.q - refined(self.jacobian(), self.residual()).reshape(self.q.shape)
+            step = refined(self.jacobian(), self.residual()).reshape(self.q.shape)
+            self.q = self.q - step
+            if np.all(np.abs(step) <= CLOSE * self._sizes()):
+                break
         self._move()
         self._balance()
+
+    def _sizes(self) -> Array:
+        """Return what a step is small beside: the largest coordinate of each mechanism, and of angles a radian."""
+        largest = np.abs(self.q[:, :, :2]).max(axis=(1, 2))
+        return np.stack([largest, largest, np.ones_like(largest)], axis=1)[:, None, :]
 
     def local(self, number: int, point: str) -> tuple[Array, Array]:
         x, y = self.m.link(number).points[point]
