@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -88,22 +88,26 @@ def shown_on(program: Program) -> dict[str, str]:
     return plans
 
 
-def quantities(program: Program, values: Mapping[str, Any], lengths: Mapping[str, float]) -> dict[str, Quantity]:
-    """Collect the quantities of a finished exact run, in order of construction, the given `lengths` first."""
+def quantities(
+    program: Program, values: Mapping[str, Any], lengths: Mapping[str, float], unit: Callable[[str], str] = unit_of
+) -> dict[str, Quantity]:
+    """Collect the quantities of a finished exact run, in order of construction, the given `lengths` first.
+
+    `unit` returns the SI unit of a quantity by its name.
+    """
     found = {name: Quantity(name, float(size), "m") for name, size in lengths.items()}
     for step in program:
         if step.name.startswith("_") or "." in step.name:
             continue
         if step.verb in RESULTS:
-            found[step.name] = _quantity(step.name, values[step.name])
+            found[step.name] = _quantity(step.name, values[step.name], unit(step.name))
         elif step.verb in POINTS:
             point = values[step.name]
             found[step.name] = Quantity(step.name, None, "m", _finite(point.real), _finite(point.imag), kind="point")
     return found
 
 
-def _quantity(name: str, value: Any) -> Quantity:
-    unit = unit_of(name)
+def _quantity(name: str, value: Any, unit: str) -> Quantity:
     if isinstance(value, complex):
         size = None if cmath.isnan(value) else math.hypot(value.real, value.imag)
         return Quantity(name, size, unit, _finite(value.real), _finite(value.imag), kind="vector")

@@ -30,6 +30,25 @@ CCW, CW = ROTATIONS = ("ccw", "cw")
 ONE_SIDED, TWO_SIDED = LIMITS = ("one-sided", "two-sided")
 POINTS, PIECES = CURVES = ("points", "pieces")
 DIAGRAMS, SIZES, PROFILE, PRESSURE = PLANS = ("diagrams", "sizes", "profile", "pressure")
+# names of the numbers, and what they are; those of a phase or a follower that a cam has not are not needed
+VALUES = {
+    "h": "m",  # stroke
+    "phi_rise": "rad",
+    "phi_upper": "rad",
+    "phi_fall": "rad",
+    "u": "",  # part of a phase that its first lobe takes, and that of the fall if it is another
+    "u_fall": "",
+    "omega": "rad/s",
+    "mu_phi": "rad/mm",  # scale factor of the axis of angles
+    "l_A1": "m",  # drawn length of the first amplitude, and the pole distances of both integrations
+    "H_a": "m",
+    "H_v": "m",
+    "gamma_rise": "rad",
+    "gamma_fall": "rad",
+    "R_roller": "m",
+    "rho_flat": "m",  # least radius of curvature under the plate, and by how much the plate reaches beyond the contact
+    "margin": "m",
+}
 SECTIONS = 12  # of a phase, at least: what a student can draw, and enough for a smooth curve
 
 

@@ -45,7 +45,7 @@ def given_means(board: Board, plan: str, sections: Iterable[int]) -> None:
     """Mark on the given diagram the mean ordinate of every section, in its middle."""
     for i in sections:
         board.calc(f"_middle{i}", "on_axis", f"_phi_middle{i}", "mu_phi")
-        board.calc(f"_mean{i}", "part_of_amplitude", "A_1_drawn", f"_part{i}")
+        board.calc(f"_mean{i}", "part_of_amplitude", "l_A1", f"_part{i}")
         board.place(f"{plan}.m{i}", f"_middle{i}", f"_mean{i}")
 
 
@@ -67,15 +67,23 @@ def integrate(board: Board, plan: str, onto: str, pole_distance: str, sections: 
         board.meet(f"{onto}.{i}", f"{onto}.{i - 1}", ray(plan, i), foot(onto, i), UP)
 
 
-def diagrams(board: Board, sections: Iterable[int], given: str = ACCELERATION) -> None:
-    """Draw the diagrams from the one that is given on: the acceleration analogue, or that of velocity."""
-    drawn = DIAGRAMS[DIAGRAMS.index(given) :]
+def given_curve(board: Board, lines: Iterable[int]) -> None:
+    """Mark the curve of a velocity analogue that is given, because it jumps, on the section lines."""
+    for i in lines:
+        board.calc(f"_height{i}", "part_of_amplitude", "l_A1", f"_node{i}")
+        board.place(f"{VELOCITY}.{i}", f"_x{i}" if i else "zero", f"_height{i}")
+
+
+def diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:
+    """Draw the diagrams from the one that is given on: the analogue of acceleration, or that of velocity."""
     board.turn(RIGHT, "zero")
     board.normal(UP, RIGHT)
-    for plan in drawn:
+    for plan in DIAGRAMS[DIAGRAMS.index(given) :]:
         axes(board, plan, sections)
     given_means(board, given, sections)
     if given == ACCELERATION:
         integrate(board, ACCELERATION, VELOCITY, "H_a", sections)
         drawn_means(board, VELOCITY, sections)
+    else:
+        given_curve(board, sections)
     integrate(board, VELOCITY, TRAVEL, "H_v", sections)

@@ -12,31 +12,24 @@ Sources: Artobolevsky, Theory of mechanisms and machines (S-ds/dphi diagram); Ge
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from ..board import Board
 from .division import Division
 from .integration import RIGHT, TRAVEL, UP, VELOCITY, foot
+from .sizes import BACK
 
 SIZES, PLATE_SIZES = "sizes", "plate_sizes"
 OUTWARDS = {"rise": 1, "fall": -1}  # to which side of the abscissas a phase lies when the cam turns counter-clockwise
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
-    """A limit of the pressure angle: in which phase, and whether where the cam pushes or to the other side, too."""
+def phase_of(limit: str) -> str:
+    """Return the phase that a limit belongs to: `rise` or `fall`, both sides of the normal alike."""
+    return limit.removesuffix(BACK)
 
-    phase: str
-    pushing: bool = True
 
-    @property
-    def name(self) -> str:
-        """The name in marks: `rise`, or `rise_back` for the other side."""
-        return self.phase if self.pushing else f"{self.phase}_back"
-
-    def side(self, sense: int) -> int:
-        """Return the side of the abscissas, +1 or -1, on which its tangent lies."""
-        return OUTWARDS[self.phase] * sense * (1 if self.pushing else -1)
+def side_of(limit: str, sense: int) -> int:
+    """Return the side of the abscissas, +1 or -1, on which the tangent of a limit lies."""
+    return OUTWARDS[phase_of(limit)] * sense * (-1 if limit.endswith(BACK) else 1)
 
 
 def ordinates(board: Board, division: Division) -> None:
@@ -47,23 +40,26 @@ def ordinates(board: Board, division: Division) -> None:
             board.calc(f"{name}{i}_drawn", "ordinate_to_scale", mu, UP, f"{name}_segment{i}")
 
 
-def roller_sizes(board: Board, division: Division, limits: Iterable[Limit], corner: tuple[Limit, Limit]) -> None:
-    """Draw S over ds/dphi, the limit tangents, and a cam's centre where the two of `corner` meet."""
+def roller_sizes(board: Board, division: Division, limits: Iterable[str], corner: Iterable[str]) -> None:
+    """Draw S over ds/dphi, the limit tangents, and a cam's centre where the two of `corner` meet.
+
+    Limits are named as the half planes of `sizes.wedge`.
+    """
     board.pole(f"{SIZES}.0")
     for i in division.lines:
         board.calc(f"_x{i}_drawn", "turned_with", f"_ds{i}_drawn", "_sense")
         if i:
             board.place(f"{SIZES}.{i}", f"_x{i}_drawn", f"_s{i}_drawn")
     for limit in limits:
-        slope, side, at = (f"_{word}_{limit.name}" for word in ("slope", "side", "touch"))
-        pieces = division.pieces(limit.phase)
+        slope, side, at = (f"_{word}_{limit}" for word in ("slope", "side", "touch"))
+        pieces = division.pieces(phase_of(limit))
         for k, piece in enumerate(pieces):
             coordinates = (*(f"_x{i}_drawn" for i in piece), *(f"_s{i}_drawn" for i in piece))
             board.calc(f"{at}{k}", "touching", slope, side, *coordinates)
         board.calc(at, "outermost", side, *(f"{at}{k}" for k in range(len(pieces))))
-        board.place(f"{SIZES}.T_{limit.name}", at, "zero")
-        board.turn(f"_tangent_{limit.name}", f"_inclination_{limit.name}")
-    lines = [operand for limit in corner for operand in (f"{SIZES}.T_{limit.name}", f"_tangent_{limit.name}")]
+        board.place(f"{SIZES}.T_{limit}", at, "zero")
+        board.turn(f"_tangent_{limit}", f"_inclination_{limit}")
+    lines = [operand for limit in corner for operand in (f"{SIZES}.T_{limit}", f"_tangent_{limit}")]
     board.meet(f"{SIZES}.A", *lines)
     board.distance("r_0_tangents", f"{SIZES}.0", f"{SIZES}.A")
     board.read("_centre", f"{SIZES}.0", f"{SIZES}.A")
@@ -78,6 +74,8 @@ def smallest_roller_cam(board: Board) -> None:
     board.pole(f"{SIZES}.0")
     board.place(f"{SIZES}.C", "e", "_below")
     board.distance("r_0", f"{SIZES}.0", f"{SIZES}.C")
+    for phase in OUTWARDS:
+        board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
 
 
 def plate_sizes(board: Board, division: Division) -> None:

@@ -1,0 +1,67 @@
+"""The whole construction of a cam: which drawings, in which order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ..board import Program, RecordingBoard
+from . import formulas as formulas  # its laws of calculation
+from .cam import DIAGRAMS, PLANS, PLATE, PRESSURE, PROFILE, ROLLER, SIZES
+from .division import Division
+from .integration import ACCELERATION, diagrams
+from .inversion import plate_profile, positions, roller_profile
+from .scale_factors import chord_factors, exact_factors
+from .size_plans import ordinates, plate_sizes, roller_sizes, smallest_plate_cam, smallest_roller_cam
+
+NEEDS = {DIAGRAMS: (), SIZES: (DIAGRAMS,), PROFILE: (SIZES,), PRESSURE: (SIZES,)}
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """What the construction of a cam depends on beside numbers.
+
+    `given` is the diagram that the law gives; `fastest` the section line of the greatest velocity; `limits` names the
+    limits of the pressure angle, `corner` the two whose tangents meet at a cam's centre.
+    """
+
+    division: Division
+    followers: tuple[str, ...]
+    given: str = ACCELERATION
+    fastest: int = 0
+    limits: tuple[str, ...] = ()
+    corner: tuple[str, ...] = ()
+
+
+def with_needs(plans: Iterable[str]) -> tuple[str, ...]:
+    """Return `plans` and all that they need, in order of construction."""
+    wanted = set(plans)
+    for plan in reversed(PLANS):
+        if plan in wanted:
+            wanted.update(NEEDS[plan])
+    return tuple(plan for plan in PLANS if plan in wanted)
+
+
+def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
+    """Record the construction of the plans wanted and of those they need."""
+    board, wanted = RecordingBoard(), with_needs(plans)
+    division, given = layout.division, layout.given
+    if DIAGRAMS in wanted:
+        diagrams(board, division.sections, given)
+        exact_factors(board, given)
+        chord_factors(board, division, layout.fastest, given)
+    if SIZES in wanted:
+        ordinates(board, division)
+        if ROLLER in layout.followers:
+            roller_sizes(board, division, layout.limits, layout.corner)
+            smallest_roller_cam(board)
+        if PLATE in layout.followers:
+            plate_sizes(board, division)
+            smallest_plate_cam(board)
+    if PROFILE in wanted:
+        positions(board, division)
+        if ROLLER in layout.followers:
+            roller_profile(board, division)
+        if PLATE in layout.followers:
+            plate_profile(board, division)
+    return Program(board.steps)

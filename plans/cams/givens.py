@@ -1,0 +1,68 @@
+"""The givens of a cam's construction: the numbers of the task, and those that belong to the law of motion.
+
+A law of motion is a table to the board, as it is to a student: parts of the amplitude, of the travel, of the sizes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+from .division import Division
+from .integration import ACCELERATION, VELOCITY
+from .motion import Motion
+from .pressure import RIGHT_ANGLE
+from .size_plans import side_of
+
+NUMBERS = {"_two": 2.0, "_minus_one": -1.0}
+
+
+def peak(motion: Motion, given: str) -> float:
+    """Return the greatest ordinate of the given diagram in the rise, SI: A_1, or the greatest ds/dphi."""
+    order = (0.0, 0.0, 1.0) if given == ACCELERATION else (0.0, 1.0, 0.0)
+    return motion.maximum(*order, ("rise",)).value
+
+
+def diagram_givens(motion: Motion, angles: Sequence[float], division: Division, given: str) -> dict[str, Any]:
+    """Return what the diagrams begin with: angles of section lines, and parts of the amplitude that is given."""
+    amplitude, top = peak(motion, given), motion.rise.length
+    order = 2 if given == ACCELERATION else 1
+    found: dict[str, Any] = dict(NUMBERS)
+    middles = [0.5 * (a + b) for a, b in pairwise(angles)]
+    means = motion.at(middles)[order]
+    for i in division.sections:
+        found |= {f"_phi{i}": float(angles[i]), f"_phi_middle{i}": middles[i - 1]}
+        found[f"_part{i}"] = float(means[i - 1]) / amplitude
+    for word, side in (("before", -1), ("after", 1)):
+        values = motion.at(angles, side)[order]
+        found |= {f"_part{i}_{word}": float(values[i]) / amplitude for i in division.lines}
+    if given == VELOCITY:  # of two values at a jump the one inside the phase
+        inside = {i: "after" if i == division.leave else "before" for i in division.sections}
+        found |= {f"_node{i}": found[f"_part{i}_{word}"] for i, word in inside.items()}
+        return found | {"_part_s": motion.h / (amplitude * top)}
+    found["_part_v"] = motion.ds_max.value / (amplitude * top)
+    found["_part_s"] = motion.h / (amplitude * top * top)
+    found["_part_a"] = motion.d2s_max.value / amplitude
+    return found
+
+
+def limit_givens(limits: Mapping[str, float], sense: int) -> dict[str, float]:
+    """Return slope, side and inclination of every limit's tangent; `limits` are transmission angles by name."""
+    found: dict[str, float] = {"_sense": float(sense)}
+    for limit, gamma in limits.items():
+        side = side_of(limit, sense)
+        found |= {f"_slope_{limit}": side / math.tan(gamma), f"_side_{limit}": float(side)}
+        found[f"_inclination_{limit}"] = gamma if side > 0 else math.pi - gamma
+    return found
+
+
+def profile_givens(motion: Motion, angles: Sequence[float], division: Division, sense: int) -> dict[str, float]:
+    """Return the follower's axes in the inverted motion, and travels as parts of the stroke."""
+    s, ds, _ = motion.at(angles, -1)
+    found: dict[str, float] = {}
+    for i in division.lines:
+        found[f"_axis_angle{i}"] = RIGHT_ANGLE - sense * float(angles[i])
+        found |= {f"_s_part{i}": float(s[i]) / motion.h, f"_x_part{i}": sense * float(ds[i]) / motion.h}
+    return found
