@@ -61,6 +61,11 @@ class Phase:
         """Angle of the cam during the phase."""
         return self.end - self.start
 
+    @property
+    def corners(self) -> tuple[float, ...]:
+        """Where the pieces of the phase join, its ends among them."""
+        return (*(piece.low for piece in self.pieces), self.end)
+
 
 class Motion:
     """The travel s(phi) of a follower over one turn.

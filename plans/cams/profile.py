@@ -1,0 +1,245 @@
+"""Profiles of cams by inversion: the pitch curve of a roller, its practical profile, and the profile under a plate.
+
+All points are complex numbers, m, in the frame of the cam as it stands at phi = 0: the centre at the origin, the
+follower above it. In that frame the follower goes round against the sense of the cam, by exp(-i sense phi).
+
+A roller's centre q(phi), seen from the frame, moves on the cam with the velocity w = q' - i sense q; the derivative of
+that is q'' - 2 i sense q' - q. Its curvature is positive where the pitch curve is convex. The practical profile is
+parallel to the pitch curve, R inside. A plate at the height r_0 + s touches its profile under the instant centre,
+sense * s' beside its axis, where the radius of curvature is r_0 + s + s''.
+
+Source: Artobolevsky, Theory of mechanisms and machines (inversion of motion).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..laws import cross, dot
+from .envelopes import Undercut, outline, undercuts
+from .motion import Motion
+from .places import Minimum, minima
+from .sizes import RollerSizes
+
+Array = NDArray[np.float64]
+Points = NDArray[Any]  # complex
+OF_R_0, OF_RHO_MIN = 0.4, 0.7  # the roller's radius is at most these parts of r_0 and of the pitch curve's rho_min
+OUTLINE = math.radians(0.5)  # between points of a profile
+ARC = 24  # points on an arc
+
+
+class Path(Protocol):
+    """How a roller's centre moves in the frame."""
+
+    @property
+    def motion(self) -> Motion:
+        """The follower's motion."""
+
+    def centre(self, phi: Any, side: int = 1) -> tuple[Points, Points, Points]:
+        """Return q, q', q'' of the roller's centre, seen from the cam's centre, m."""
+
+    def seat(self, corner: Points, R: float) -> Array:
+        """Return the travel at which a roller of radius R rests on points of the frame."""
+
+
+@dataclass(frozen=True, slots=True)
+class StraightPath:
+    """The roller of a follower that moves up along a line at the offset e to the right of the cam's centre."""
+
+    motion: Motion
+    sizes: RollerSizes
+
+    def centre(self, phi: Any, side: int = 1) -> tuple[Points, Points, Points]:
+        """Return q, q', q''."""
+        s, ds, d2s = self.motion.at(phi, side)
+        return self.sizes.e + 1j * (self.sizes.s_0 + s), 1j * ds, 1j * d2s
+
+    def seat(self, corner: Points, R: float) -> Array:
+        """Return the travel at which a roller of radius R rests on points of the frame; NaN where it passes them."""
+        beside = corner.real - self.sizes.e
+        with np.errstate(invalid="ignore"):
+            height: Array = corner.imag + np.sqrt(R * R - beside * beside) - self.sizes.s_0
+        return height
+
+
+@dataclass(frozen=True)
+class RollerProfile:
+    """The profile of a cam for a roller of the radius R that moves along a path; `sense` +1 counter-clockwise."""
+
+    path: Path
+    R: float
+    sense: int = 1
+
+    @property
+    def motion(self) -> Motion:
+        """The motion that the roller should have."""
+        return self.path.motion
+
+    def inverted(self, phi: Any) -> Points:
+        """Return by what a vector of the frame is multiplied to have it on the cam."""
+        return turned_back(phi, self.sense)
+
+    def pitch(self, phi: Any, side: int = 1) -> Points:
+        """Return points of the pitch curve."""
+        return self.path.centre(phi, side)[0] * self.inverted(phi)
+
+    def _velocity(self, phi: Any, side: int) -> tuple[Points, Points]:
+        """Return the first and second derivative of the pitch curve, as seen in the frame."""
+        q, dq, d2q = self.path.centre(phi, side)
+        return dq - 1j * self.sense * q, d2q - 2j * self.sense * dq - q
+
+    def unit(self, phi: Any, side: int = 1) -> Points:
+        """Return the unit tangent of the pitch curve, in the sense of growing phi."""
+        w, _ = self._velocity(phi, side)
+        return w / np.abs(w) * self.inverted(phi)
+
+    def normal(self, phi: Any, side: int = 1) -> Points:
+        """Return the unit normal of the pitch curve, out of the cam."""
+        return self.unit(phi, side) * (1j * self.sense)
+
+    def curvature(self, phi: Any, side: int = 1) -> Array:
+        """Return the curvature of the pitch curve, 1/m, positive where it is convex."""
+        w, dw = self._velocity(phi, side)
+        kappa: Array = -self.sense * cross(w, dw) / np.abs(w) ** 3
+        return kappa
+
+    def practical(self, phi: Any, side: int = 1) -> Points:
+        """Return points of the practical profile, loops and all."""
+        return self.pitch(phi, side) - self.R * self.normal(phi, side)
+
+    def tangent(self, phi: Any, side: int = 1) -> Points:
+        """Return the derivative of `practical`."""
+        w, _ = self._velocity(phi, side)
+        return w * self.inverted(phi) * self.bend(phi, side)
+
+    def bend(self, phi: Any, side: int = 1) -> Array:
+        """Return 1 - R / rho, negative where the envelope runs backwards."""
+        return 1.0 - self.R * self.curvature(phi, side)
+
+    def depth(self, points: Any, phi: Any) -> Array:
+        """Return how deep points of the cam are inside the roller, m."""
+        depth: Array = self.R - np.abs(points - self.pitch(phi))
+        return depth
+
+    def seat(self, corner: complex, phi: Any) -> Array:
+        """Return the travel at which the roller rests on a corner of the cam."""
+        return self.path.seat(corner * np.conj(self.inverted(phi)), self.R)
+
+    def across(self, phi: float) -> Points:
+        """Return the arc, of the roller's radius, by which the profile goes on where the velocity jumps up."""
+        before, after = (complex(self.normal(phi, side)) for side in (-1, 1))
+        angle = math.atan2(float(cross(before, after)), float(dot(before, after)))
+        turn = turned_back(np.linspace(0.0, angle, ARC, endpoint=False), -1)
+        arc: Points = self.pitch(phi) - self.R * before * turn
+        return arc
+
+    @cached_property
+    def sharpest(self) -> Minimum:
+        """The least radius of curvature of the convex pitch curve, and where: zero where it has a corner."""
+        return _sharpest(self.motion, lambda phi, side: -self.curvature(phi, side))
+
+    @property
+    def rho_min(self) -> float:
+        """The least radius of curvature of the convex pitch curve, m."""
+        return self.sharpest.value
+
+    @cached_property
+    def undercuts(self) -> list[Undercut]:
+        """What the profile does not give of the motion."""
+        return undercuts(self)
+
+    def outline(self, most: float = OUTLINE) -> Points:
+        """Return points of the profile as it is cut, in order of phi, without loops."""
+        return outline(self, self.undercuts, most)
+
+
+@dataclass(frozen=True)
+class PlateProfile:
+    """The profile of a cam for a flat plate whose lowest height above the centre is r_0."""
+
+    motion: Motion
+    r_0: float
+    sense: int = 1
+
+    def centre(self, phi: Any) -> Points:
+        """Return the plate's centre, on its axis."""
+        return 1j * (self.r_0 + self.motion.at(phi)[0]) * turned_back(phi, self.sense)
+
+    def practical(self, phi: Any, side: int = 1) -> Points:
+        """Return points of the profile: where the plate touches it."""
+        s, ds, _ = self.motion.at(phi, side)
+        return (self.sense * ds + 1j * (self.r_0 + s)) * turned_back(phi, self.sense)
+
+    def tangent(self, phi: Any, side: int = 1) -> Points:
+        """Return the derivative of `practical`."""
+        return self.sense * self.bend(phi, side) * turned_back(phi, self.sense)
+
+    def bend(self, phi: Any, side: int = 1) -> Array:
+        """Return the radius of curvature r_0 + s + s'', m, negative where the envelope runs backwards."""
+        s, _, d2s = self.motion.at(phi, side)
+        rho: Array = self.r_0 + s + d2s
+        return rho
+
+    def depth(self, points: Any, phi: Any) -> Array:
+        """Return how far points of the cam are above the plate, m."""
+        depth: Array = self._height(points, phi) - self.r_0 - self.motion.at(phi)[0]
+        return depth
+
+    def seat(self, corner: complex, phi: Any) -> Array:
+        """Return the travel at which the plate rests on a corner of the cam."""
+        return self._height(corner, phi) - self.r_0
+
+    def _height(self, points: Any, phi: Any) -> Array:
+        height: Array = (points * np.conj(turned_back(phi, self.sense))).imag
+        return height
+
+    def across(self, phi: float) -> Points:
+        """Return where the flat of the profile begins on which the plate lies where the velocity jumps up."""
+        return np.atleast_1d(self.practical(phi, -1))
+
+    @cached_property
+    def sharpest(self) -> Minimum:
+        """The least radius of curvature, m, and where; negative where the profile is undercut."""
+        found = self.motion.minimum(1.0, 0.0, 1.0)
+        drops = [jump.phi for jump in self.motion.jumps if jump.order == 1 and jump.after < jump.before]
+        return Minimum(-math.inf, drops[0]) if drops else Minimum(self.r_0 + found.value, found.phi)
+
+    @property
+    def rho_min(self) -> float:
+        """The least radius of curvature, m."""
+        return self.sharpest.value
+
+    @cached_property
+    def undercuts(self) -> list[Undercut]:
+        """What the profile does not give of the motion."""
+        return undercuts(self)
+
+    def outline(self, most: float = OUTLINE) -> Points:
+        """Return points of the profile as it is cut, in order of phi, without loops."""
+        return outline(self, self.undercuts, most)
+
+
+def turned_back(phi: Any, sense: int) -> Points:
+    """Return exp(-i sense phi): what turns a vector of the frame onto the cam that stands still."""
+    angle = np.asarray(phi, float)
+    turn: Points = np.cos(angle) - 1j * (sense * np.sin(angle))
+    return turn
+
+
+def largest_roller(r_0: float, rho_min: float) -> tuple[float, float]:
+    """Return how large the roller may be by the two rules of design: 0.4 r_0 and 0.7 rho_min, m."""
+    return OF_R_0 * r_0, OF_RHO_MIN * rho_min
+
+
+def _sharpest(motion: Motion, less_curved: Any) -> Minimum:
+    drops = [jump.phi for jump in motion.jumps if jump.order == 1 and jump.after < jump.before]
+    if drops:
+        return Minimum(0.0, drops[0])
+    least = min(minima(less_curved, motion.corners), key=lambda minimum: minimum.value)
+    return Minimum(-1.0 / least.value if least.value < 0.0 else math.inf, least.phi)
