@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from cmath import rect
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import pi
 from typing import assert_never
 
+from ..scales.scale import Scale
 from .pens import Norm, Pens, pens_for
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Polyline, Shape, Text, Vector
 from .text import Box, corners
@@ -31,6 +32,15 @@ class Page:
     def pens(self) -> Pens:
         """Return the widths, dashes and arrowheads of a page of this size."""
         return pens_for(self.width, self.height, self.norm)
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A drawn sheet: its pages, the scale factors that they have, by plan, and its format."""
+
+    pages: list[Page]
+    scales: Mapping[str, Scale]
+    format: str
 
 
 def _reach(shape: Shape) -> tuple[complex, ...]:

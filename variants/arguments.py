@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ..plans.linkages.chain import PLANS
 from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.names import unknown
@@ -57,8 +56,12 @@ def positions_of(argument: str, value: int) -> int:
     return value
 
 
-def plans_wanted(value: str | Iterable[str] | None, all_of_them: tuple[str, ...]) -> tuple[str, ...]:
+def plans_wanted(
+    value: str | Iterable[str] | None, all_of_them: tuple[str, ...], known: tuple[str, ...]
+) -> tuple[str, ...]:
     """Return the plans that `only` names, each alone or several with commas between; `all_of_them` for none.
+
+    Those that can be named are `known`.
 
     Raises
     ------
@@ -71,6 +74,6 @@ def plans_wanted(value: str | Iterable[str] | None, all_of_them: tuple[str, ...]
     items = (value,) if isinstance(value, str) else tuple(value)
     plans = names_of("only", items)
     for plan in plans or items[:1]:
-        if plan not in PLANS:
-            raise unknown("plan-unknown", plan, PLANS)
+        if plan not in known:
+            raise unknown("plan-unknown", plan, known)
     return plans or all_of_them

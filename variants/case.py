@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from ..drawing.linkages.scene import Given
 from ..drawing.words import Words
-from ..plans.boards.exact import SMALL
-from ..plans.linkages.chain import require_couplers
-from ..plans.linkages.solved import SolvedLinkage, scale_symbols, solve_linkage
-from ..plans.references import pins_together, point_of
+from ..plans.solved import Solved
 from ..scales.arguments import of_kind
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
 from ..scales.display import Display
@@ -20,6 +17,8 @@ from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import quote
 from .arguments import by_name, plans_wanted
+from .kinds import kind_of
+from .kinds.kind import Kind
 from .reader import load_task
 from .task import WITH_FORCES, LocatedError, Task
 
@@ -34,7 +33,7 @@ class Case:
     variant: str
     settings: Settings
     plans: tuple[str, ...]
-    solved: SolvedLinkage
+    solved: Solved
     choosers: Mapping[str, Chooser]
 
     @property
@@ -67,29 +66,13 @@ class Case:
 
     @property
     def warnings(self) -> tuple[InputError, ...]:
-        """What a user should know of a position that has a plan: lines that meet at a small angle."""
-        if self.solved.trouble is not None:
-            return ()
-        mark, sine = self.solved.worst_sine()
-        if sine >= SMALL:
-            return ()
-        point = point_of(self.solved.program, mark).rpartition(".")[2]
-        said = {"point": point, "angle": f"{math.degrees(math.asin(sine)):.3g}", "loss": _short(1.0 / sine)}
-        if self.solved.status != "ill-conditioned":
-            return (InputError("small-angle", **said),)
-        from ..plans.linkages.accuracy.conditions import worst_condition  # needs numpy, and few positions need it
+        """What a user should know of what has been solved: lines that meet at a small angle."""
+        return self.kind.warnings(self.solved)
 
-        quantity, condition = worst_condition(self.solved)
-        said |= {"quantity": quantity, "condition": _short(condition)}
-        pins = pins_together(self.solved.program, self.solved.values, mark)
-        if pins is None:
-            return (InputError("ill-conditioned", **said),)
-        return (InputError("ill-conditioned-pins", first=pins[0], second=pins[1], **said),)
-
-
-def _short(value: float) -> str:
-    """Return a number with three digits, a large one with a power of ten."""
-    return f"{float(f'{value:.3g}'):g}" if value < 1e6 else f"{value:.1e}".replace("e+0", "e").replace("e+", "e")
+    @property
+    def kind(self) -> Kind[Any, Any]:
+        """Of which kind the task is."""
+        return kind_of(self.task.kind)
 
 
 def solve_case(
@@ -110,17 +93,16 @@ def solve_case(
     of_kind("variant", variant, (str, int, type(None)), "str | None")
     row = found.variant(variant)
     changed = by_name("set", settings)
-    plans = plans_wanted(only, found.plans)
-    solved = solve_linkage(found.mechanism, found.values(row.id, changed), plans)
-    if "compound" in plans:
-        require_couplers(solved.mechanism, solved.structure)
+    kind = kind_of(found.kind)
+    plans = plans_wanted(only, found.plans, kind.plans)
+    solved = kind.solve(found.mechanism, found.values(row.id, changed), found.words(row.id, changed), plans)
     return Case(found, row.id, changed, plans, solved, _choosers(found, by_name("scales", scales), solved))
 
 
-def _choosers(task: Task, scales: Settings, solved: SolvedLinkage) -> dict[str, Chooser]:
+def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser]:
     """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
     choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
-    known = scale_symbols(solved.structure, solved.program)
+    known = kind_of(task.kind).scale_symbols(solved)
     for name, text in scales.items():
         if name.startswith("mu_") and name not in known:
             raise unknown("scale-unknown", name, known, task=task.id)
@@ -138,7 +120,7 @@ def _choosers(task: Task, scales: Settings, solved: SolvedLinkage) -> dict[str, 
     return choosers
 
 
-def _shown(segment: Segment, solved: SolvedLinkage, name: str) -> None:
+def _shown(segment: Segment, solved: Solved, name: str) -> None:
     """Refuse a segment, named `name`, that no plan shows."""
     if segment.quantity not in solved.values and segment.quantity not in solved.quantities:
         raise InputError("scale-segment", text=quote(name))

@@ -13,23 +13,16 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from ..drawing.words import notations
-from ..plans.linkages.chain import PLANS, construct, require_couplers
-from ..plans.linkages.mechanism import Mechanism
-from ..plans.linkages.solved import scale_symbols
-from ..plans.linkages.structure import analyse
 from ..scales.arguments import of_kind
-from ..scales.choose import Segment, chooser
+from ..scales.choose import chooser
 from ..scales.display import AS_INSIDE, LENGTHS, METRE, PAPER, Display
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote
 from .checks.basics import Checker, EnoughError, Field, array_of, as_is, label, one_of, record, text
 from .checks.givens import Settings, read_choices, read_givens, read_variants
-from .checks.loads import diagrams_in_order
-from .checks.mechanism import read_mechanism
 from .checks.names import Names
-from .checks.start import started
-from .checks.structure import branched, needless_branches, place_of
+from .kinds import kind_of, table_in
 from .shelf import bundled, bundled_text
 from .task import WITH_FORCES, Given, LocatedError, Task
 from .toml_places import Path, Places
@@ -209,15 +202,13 @@ def _display(checker: Checker, path: Path, raw: object) -> Display:
     return Display(**record(checker, path, raw, fields))
 
 
-_FIELDS = {
+_FIELDS = {  # and the table of its kind
     "id": Field(label),
     "source": Field(text),
     "notation": Field(one_of("notation-unknown", notations)),
-    "plans": Field(array_of(one_of("plan-unknown", lambda: PLANS))),
     "title": Field(lambda c, p, r: record(c, p, r, {language: Field(text) for language in LANGUAGES})),
     "givens": Field(as_is),
     "choices": Field(as_is, required=False),
-    "mechanism": Field(as_is),
     "scales": Field(_scales, required=False),
     "display": Field(_display, required=False),
     "variant": Field(as_is),
@@ -226,18 +217,21 @@ _FIELDS = {
 
 def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
     """Read a task out of parsed TOML; the faults go to `checker`."""
-    head = record(checker, (), raw, _FIELDS)
+    table = table_in(raw)
+    kind = kind_of(table)
+    own = {"plans": Field(array_of(one_of("plan-unknown", lambda: kind.plans))), table: Field(as_is)}
+    head = record(checker, (), raw, _FIELDS | own)
     givens = read_givens(checker, raw["givens"]) if "givens" in raw else {}
-    choices = read_choices(checker, raw.get("choices", {}), givens)
+    choices = read_choices(checker, raw.get("choices", {}), givens, kind.words(raw.get(table)))
     names = _names(checker, givens, choices)
-    mechanism = read_mechanism(checker, raw["mechanism"], names) if "mechanism" in raw else None
+    mechanism = kind.read(checker, raw[table], names, givens) if table in raw else None
     givens = {key: _bounded(given, names) for key, given in givens.items()}
     variants = read_variants(checker, raw["variant"], givens) if "variant" in raw else {}
     _signs(checker, names, choices)
     if head.get("display", AS_INSIDE).length != METRE and WITH_FORCES.intersection(head.get("plans", ())):
         checker.fault(("display", "length"), InputError("display-forces"))
     if mechanism is not None and "plans" in head:
-        _constructed(checker, mechanism, head)
+        kind.fits(checker, mechanism, head)
     if checker.faults or mechanism is None:
         return None
     task = Task(
@@ -257,38 +251,10 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
         display=head.get("display", AS_INSIDE),
         variants=variants,
         file=checker.file,
+        kind=table,
     )
-    diagrams_in_order(checker, mechanism, [task.values(variant) for variant in variants])
+    kind.varies(checker, task)
     return None if checker.faults else task
-
-
-def _constructed(checker: Checker, mechanism: Mechanism, head: dict[str, Any]) -> None:
-    """Check that the mechanism has a structure, constructions for its groups, and plans for the scale factors."""
-    try:
-        construct(mechanism, head["plans"])
-        # a task that never splits a motion may use the names of what that would measure
-        structure, program = construct(mechanism, {*PLANS} - {"compound"} | {*head["plans"]})
-        if "compound" in head["plans"]:
-            require_couplers(mechanism, structure)
-    except InputError as error:
-        before = len(checker.faults)
-        if error.key == "start-missing":  # or it is that of another link
-            started(checker, mechanism, analyse(mechanism))
-        if len(checker.faults) == before:
-            checker.fault(place_of(mechanism, error), error)
-        return
-    branched(checker, mechanism, structure)
-    needless_branches(checker, mechanism, structure)
-    started(checker, mechanism, structure)
-    symbols = scale_symbols(structure, program)
-    lengths = {x for link in mechanism.links for x, _ in link.points.values()}
-    for name, said in head.get("scales", {}).items():
-        if name not in symbols:
-            checker.fault(("scales", name), unknown("scale-unknown", name, symbols, task=head.get("id", "")))
-            continue
-        choice = chooser(name, said)
-        if isinstance(choice, Segment) and choice.quantity not in {*program.names, *lengths}:
-            checker.fault(("scales", name), InputError("scale-segment", text=quote(said)))
 
 
 def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Names:

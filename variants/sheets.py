@@ -7,12 +7,10 @@ import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, get_args
+from typing import get_args
 
 from ..drawing.formats import Format, format_named
-from ..drawing.linkages.fitting import Contents
-from ..drawing.linkages.sheet import Drawn, draw
-from ..drawing.page import Page
+from ..drawing.page import Drawn, Page
 from ..drawing.pens import Norm
 from ..drawing.titleblock import Stamp
 from ..drawing.words import Words
@@ -25,9 +23,6 @@ from ..scales.scale import Scale
 from .case import Case, Settings, solve_case
 from .sheet_id import sheet_id
 from .task import Task
-
-if TYPE_CHECKING:
-    from ..plans.linkages.cycles.cycle import Cycle
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -151,8 +146,7 @@ def sheet(
         language=lang,
         identity=sheet_id(case.task, case.variant, case.settings),
     )
-    contents = Contents(case.solved, case.plans, case.choosers, case.givens, words, norm, _cycle(case))
-    return _drawn(contents, stamp, paper, case.warnings)
+    return sheet_of(case, case.kind.draw(case, words, stamp, norm, paper))
 
 
 def scales_of(case: Case, words: Words, paper: Format) -> Mapping[str, Scale]:
@@ -163,46 +157,19 @@ def scales_of(case: Case, words: Words, paper: Format) -> Mapping[str, Scale]:
     InputError
         The sheet does not fit on it.
     """
-    contents = Contents(case.solved, case.plans, case.choosers, case.givens, words, "gost", _cycle(case))
-    return draw(contents, Stamp(title=case.task.title[words.language], language=words.language), paper).scales
+    stamp = Stamp(title=case.task.title[words.language], language=words.language)
+    return case.kind.draw(case, words, stamp, paper=paper).scales
 
 
-def cycle_sheet(case: Case, whole: Cycle, words: Words) -> Sheet:
-    """Draw the plan of positions and the diagrams of a cycle on a sheet of their own.
-
-    Raises
-    ------
-    PositionError
-        The position of the case itself, which the plan of positions shows, has no plan.
-    """
-    error = case.solved.error()
-    if error is not None:
-        raise error
-    language = words.language
-    stamp = Stamp(title=case.task.title[language], document_type=words["sheet.document"], language=language)
-    contents = Contents(case.solved, ("cycle",), case.choosers, case.givens, words, "gost", whole)
-    return _drawn(contents, stamp, None, case.warnings)
+def sheet_of(case: Case, drawn: Drawn) -> Sheet:
+    """Return the sheet of a case that has been drawn, with what a user should know of it."""
+    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, (*case.warnings, *_coarser(case, drawn)))
 
 
-def _drawn(contents: Contents, stamp: Stamp, paper: Format | None, warnings: tuple[InputError, ...]) -> Sheet:
-    drawn = draw(contents, stamp, paper)
-    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, (*warnings, *_coarser(contents, drawn)))
-
-
-def _coarser(contents: Contents, drawn: Drawn) -> Iterator[InputError]:
+def _coarser(case: Case, drawn: Drawn) -> Iterator[InputError]:
     """Say of each scale factor that the task fixes, but whose plan has no room on the format, how it is drawn."""
     for scale in dict.fromkeys(drawn.scales.values()):
-        chosen = contents.choosers.get(scale.symbol)
+        chosen = case.choosers.get(scale.symbol)
         if isinstance(chosen, Fixed) and scale.mu != chosen.mu:
             said = {"mu": f"{chosen.mu:g}", "drawn": f"{scale.mu:g}", "unit": scale.per_mm_unit}
             yield InputError("scale-coarser", symbol=scale.symbol, format=drawn.format, **said)
-
-
-def _cycle(case: Case) -> Cycle | None:
-    """Return the whole cycle where the task draws it; drawing a single position does not import it."""
-    if "cycle" not in case.plans:
-        return None
-    from ..plans.linkages.cycles.cycle import cycle
-
-    values = case.task.values(case.variant, case.settings)
-    return cycle(case.solved.mechanism, values, ("position", "velocity", "acceleration"))

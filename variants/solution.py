@@ -8,15 +8,16 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from ..drawing.formats import format_named
-from ..drawing.linkages.ladders import first_scales
 from ..drawing.words import Words
-from ..plans.linkages.solved import SolvedLinkage, disagreement
 from ..plans.quantities import Quantity, measured
+from ..plans.solved import Solved
 from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
 from ..scales.scale import Scale
 from ..scales.units import format_unit
 from .case import Case, Settings, solve_case
+from .kinds import kind_of
+from .kinds.kind import Kind
 from .task import Task
 
 if TYPE_CHECKING:
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
     from .hands import Drawing
 
 ROUNDING = 1e-14  # part of the largest quantity of a unit
-LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
-COMPOUND_AGREES = 1e-9  # part of the longest vector by which two routes to one vector may differ
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -39,7 +38,7 @@ class Solution:
 
     task: Task
     variant: str
-    solved: SolvedLinkage
+    solved: Solved
     quantities: Mapping[str, Quantity]
     scales: Mapping[str, Scale]
     reason: PositionError | None
@@ -55,19 +54,13 @@ class Solution:
 
     @property
     def checks(self) -> dict[str, dict[str, Any]]:
-        """What a second route says, by name.
+        """What a second route, or a rule of good design, says, by name."""
+        return self.kind.checks(self.solved, self.quantities)
 
-        `lever` compares what balances the driver with Zhukovsky's lever, per cent; `compound` the plans of velocities
-        and accelerations with the sums of compound motion, in parts of their longest vectors.
-        """
-        found: dict[str, dict[str, Any]] = {}
-        delta = self.quantities.get("delta_M_bal") or self.quantities.get("delta_F_bal")
-        if delta is not None and delta.value is not None:
-            found["lever"] = {"ok": abs(delta.value) < LEVER_AGREES, "value": delta.value, "unit": "%"}
-        gap = disagreement(self.solved)
-        if gap is not None:
-            found["compound"] = {"ok": gap < COMPOUND_AGREES, "value": gap, "unit": ""}
-        return found
+    @property
+    def kind(self) -> Kind[Any, Any]:
+        """Of which kind the task is."""
+        return kind_of(self.task.kind)
 
     def __getitem__(self, name: str) -> Quantity:
         """Return a quantity by its name."""
@@ -247,7 +240,7 @@ def solve(
     by_plan = _scales(case, words if lang else case.words("uk"), format)
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
-    found = _conditions(solved) if condition else {}
+    found = case.kind.conditions(solved) if condition else {}
     drawn = None if hand is None else _drawing(solved, by_plan, hand)
     return Solution(case.task, case.variant, solved, items, used, solved.error(), case.warnings, words, found, drawn)
 
@@ -258,14 +251,14 @@ def _scales(case: Case, words: Words, format: str | None) -> Mapping[str, Scale]
     if case.solved.trouble is not None:
         return {}
     if paper is None:
-        return first_scales(case.solved, case.choosers)
+        return case.kind.first_scales(case.solved, case.choosers)
     from .sheets import scales_of  # draws the whole sheet, which takes a second or two
 
     scales = scales_of(case, words, paper)
     return {plan: scales[plan] for plan in case.solved.scale_of_plan}  # some views are drawn larger
 
 
-def _drawing(solved: SolvedLinkage, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:
+def _drawing(solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:
     from ..plans.hands.shaky import Paper
     from .hands import drawing, hand_of
 
@@ -274,9 +267,3 @@ def _drawing(solved: SolvedLinkage, scales: Mapping[str, Scale], hand: str | Han
         return None
     mus = {plan: scale.mu for plan, scale in scales.items()}
     return drawing(Paper(solved.program, solved.givens, mus), hand)
-
-
-def _conditions(solved: SolvedLinkage) -> dict[str, Condition]:
-    from ..plans.linkages.accuracy.conditions import conditions_of  # needs numpy, which a plain solution does without
-
-    return conditions_of(solved)

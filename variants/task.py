@@ -1,4 +1,4 @@
-"""A task: a mechanism, its givens and choices, and its variants, as read from one TOML file."""
+"""A task: its subject, such as a mechanism, its givens and choices, its variants, as read from one TOML file."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from numbers import Real
+from typing import TYPE_CHECKING
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..scales.display import AS_INSIDE, Display
@@ -14,6 +15,9 @@ from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import Unit, parse
+
+if TYPE_CHECKING:
+    from ..plans.cams.cam import Cam
 
 # In SI; no drawing has links, masses or forces beyond these, and none of their products leaves the range of a float.
 SMALLEST, LARGEST = 1e-12, 1e9
@@ -123,6 +127,7 @@ class Variant:
 class Task:
     """A task of a textbook as data.
 
+    `mechanism` is what it is about: a linkage, a cam; `kind` is the table that describes it, and names its kind.
     `choices` says which values each word of a choice sets, `constants` holds the literals of the mechanism;
     `file` is what was read, as the user named it, `None` for a bundled task; `display` are the units of results.
     """
@@ -135,11 +140,12 @@ class Task:
     givens: Mapping[str, Given]
     choices: Mapping[str, Mapping[str, Mapping[str, float]]]
     constants: Mapping[str, float]
-    mechanism: Mechanism
+    mechanism: Mechanism | Cam
     scales: Mapping[str, str]
     variants: Mapping[str, Variant]
     file: str | None = None
     display: Display = AS_INSIDE
+    kind: str = "mechanism"
 
     def variant(self, variant_id: str | None = None) -> Variant:
         """Return a variant, the first one without an id."""
@@ -180,7 +186,7 @@ class Task:
     def values(
         self, variant_id: str | None = None, settings: Mapping[str, str | float] | None = None
     ) -> dict[str, float]:
-        """Return every value that the mechanism names, in SI: givens, what the choices set, and constants."""
+        """Return every number that the mechanism names, in SI: givens, what the choices set, and constants."""
         values = {ZERO: 0.0, **self.constants}
         for name, value in self.resolve(variant_id, settings).items():
             if isinstance(value, str):
@@ -188,3 +194,8 @@ class Task:
             else:
                 values[name] = value
         return values
+
+    def words(self, variant_id: str | None = None, settings: Mapping[str, str | float] | None = None) -> dict[str, str]:
+        """Return the words of all choices of a variant."""
+        resolved = self.resolve(variant_id, settings).items()
+        return {name: value for name, value in resolved if isinstance(value, str)}

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from operator import is_
 
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
-from ...scales.scale import Scale
 from ..compose import arrange, arrange_halves, compose
 from ..formats import FORMATS, Format
 from ..packing import Placement
-from ..page import Page
+from ..page import Drawn
 from ..pens import Norm
 from ..titleblock import Stamp
 from ..view import View
@@ -24,15 +21,6 @@ from .zones import zoned
 LIGHTER = {"A4": 0.5, "A3": 0.55, "A2": 0.9, "A1": 1.0}
 COARSER = 5  # steps below the wanted scales, pa = 50 mm, beyond which several pages are better than one
 CROWDED = 1.6  # parts of a page whose figures no coarser rung brings on one page
-
-
-@dataclass(frozen=True, slots=True)
-class Drawn:
-    """A drawn sheet: its pages, and the scale factors that they have, by plan."""
-
-    pages: list[Page]
-    scales: Mapping[str, Scale]
-    format: str
 
 
 def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn:

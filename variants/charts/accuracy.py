@@ -20,6 +20,7 @@ from ...plans.linkages.accuracy.hand_drawn import DrawnSheet, by_hand
 from ...plans.linkages.cycles.cycle import Cycle
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
+from ..kinds.linkage import linkage
 from ..sheets import scales_of
 from ..tables import Cell, aligned
 from .data import Scene, as_csv, finite, place_column, place_si, place_value, short, wrapped
@@ -126,7 +127,7 @@ def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
     for name in SIZES:
         mus = _mus(scene, name)
         if mus is not None:
-            drawn = DrawnSheet(name, scene.case.solved, mus)
+            drawn = DrawnSheet(name, linkage(scene.case.solved), mus)
             yield from by_hand(cycle, drawn, preset(scene.hand).hand, found.kinds)
 
 

@@ -23,6 +23,7 @@ from ...scales.numbers import quote
 from ...scales.units import parse, unit
 from ..arguments import names_of, positions_of
 from ..case import Case, Settings, solve_case
+from ..kinds.linkage import mechanism_of
 from ..task import LocatedError, Task
 from .accuracy import AccuracyChart, accuracy_chart
 from .data import Scene
@@ -238,7 +239,7 @@ def _cycle(case: Case, positions: int) -> Cycle:
     """
     wanted = with_needs((*case.plans, "position"))
     plans = tuple(plan for plan in wanted if plan not in ("cycle", "compound"))
-    found = cycle(case.task.mechanism, case.task.values(case.variant, case.settings), plans, positions)
+    found = cycle(mechanism_of(case.task), case.task.values(case.variant, case.settings), plans, positions)
     if not found.reach.stretches:
         raise case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
     return found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -81,8 +81,11 @@ def _with_default(checker: Checker, path: Path, given: Given, read: Mapping[str,
         return given
 
 
-def read_choices(checker: Checker, raw: object, givens: Mapping[str, Given]) -> Settings:
-    """Read `[choices.*]`: every word of a choice sets the same numbers."""
+def read_choices(checker: Checker, raw: object, givens: Mapping[str, Given], words: Container[str] = ()) -> Settings:
+    """Read `[choices.*]`: every word of a choice sets the same numbers.
+
+    Choices whose `words` are taken as they are need not set any.
+    """
     if not isinstance(raw, dict):
         checker.wrong_type(("choices",), "type-table")
         return {}
@@ -93,15 +96,18 @@ def read_choices(checker: Checker, raw: object, givens: Mapping[str, Given]) -> 
     choices = {}
     for given in wanted:
         path: Path = ("choices", given.name)
+        if given.name not in raw and given.name in words:
+            choices[given.name] = {word: dict[str, Setting]() for word in given.choices}
+            continue
         if given.name not in raw:
             checker.fault(("givens", given.name), InputError("choice-missing", name=given.name))
             continue
-        words = record(checker, path, raw[given.name], {word: Field(_settings) for word in given.choices})
-        first: dict[str, Setting] = next(iter(words.values()), {})
-        for word, settings in words.items():
+        read = record(checker, path, raw[given.name], {word: Field(_settings) for word in given.choices})
+        first: dict[str, Setting] = next(iter(read.values()), {})
+        for word, settings in read.items():
             if {key: s.dimension for key, s in settings.items()} != {key: s.dimension for key, s in first.items()}:
                 checker.fault((*path, word), InputError("choice-uneven", name=", ".join(first)))
-        choices[given.name] = words
+        choices[given.name] = read
     return choices
 
 

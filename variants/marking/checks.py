@@ -12,6 +12,7 @@ from ...scales.arguments import of_kind
 from ...scales.errors import KulmanError
 from ..arguments import by_name, plans_wanted
 from ..case import Settings
+from ..kinds import kind_of
 from ..reader import load_task
 from ..task import Task
 from .answers import Answers, Asked
@@ -157,7 +158,7 @@ def check(
     if variant is not None:
         found.variant(variant)
     of_kind("digits", digits, (int,), "int")
-    plans = None if only is None else plans_wanted(only, found.plans)
+    plans = None if only is None else plans_wanted(only, found.plans, kind_of(found.kind).plans)
     language = "en" if lang is None else lang
     request = Request(found, variant or "", by_name("set", set), plans, by_name("scales", scales), notation, language)
     asked = asked_of(request.solution(variant or next(iter(found.variants)), {}))

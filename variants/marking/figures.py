@@ -11,7 +11,7 @@ from ...drawing.linkages.reading import read
 from ...plans.board import POSITION
 from ...plans.marking.verdicts import Line, Verdict
 from .marked import Marked
-from .wording import plain, plan_heading, set_scripts, texts
+from .wording import plain, set_scripts, texts
 
 SIZE = 150.0  # mm, of the longer side of a plan
 MARGIN = 10.0
@@ -33,13 +33,11 @@ def plan_figures(marked: Marked, language: str) -> Iterator[tuple[str, str]]:
     """Go through heading and SVG of every plan on which something was answered."""
     lines = {line.name: line for line in marked.lines if line.answer is not None and isinstance(line.said, complex)}
     solved, words = marked.keyed.solution.solved, marked.keyed.words
+    heading = marked.keyed.solution.kind.plan_heading
     for plan in solved.program.plans:
         vectors = list(_vectors(marked, plan, lines))
         if plan != POSITION and any(vector.line is not None for vector in vectors):
-            yield (
-                plain(plan_heading(plan, solved.structure.driver, words)),
-                _svg(vectors, texts(language)["report.figure"]),
-            )
+            yield plain(heading(solved, plan, words)), _svg(vectors, texts(language)["report.figure"])
 
 
 def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[Vector]:

@@ -6,21 +6,17 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...drawing.linkages.reading import read
 from ...drawing.words import Words
-from ...plans.board import POSITION
-from ...plans.linkages.solved import SolvedLinkage
 from ...plans.marking.key import Question
 from ...scales.units import format_unit
-from .wording import letter, plain, plan_heading, texts
+from ..solution import Solution
+from .wording import plain, texts
 
 if TYPE_CHECKING:
     from .keyed import Keyed
 
 ASKED_ABOUT = ("task", "variant", "sheet", "student", "group", "book")
 COLUMNS = ("name", "symbol", "vector", "mm", "mu", "value", "unit", "direction")
-OPEN = ("", "position", "velocity", "acceleration", "loads")  # sections before the first group is dealt with
-KINEMATIC = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,12 +28,13 @@ class Section:
     questions: tuple[Question, ...]
 
 
-def sections(solved: SolvedLinkage, questions: Iterable[Question], words: Words) -> list[Section]:
+def sections(solution: Solution, questions: Iterable[Question], words: Words) -> list[Section]:
     """Return the questions plan by plan, in order of construction."""
+    kind, solved = solution.kind, solution.solved
     by_key: dict[str, list[Question]] = {}
     current = ""
     for question in questions:
-        current = _section(solved, question, current)
+        current = kind.section(solved, question, current)
         by_key.setdefault(current, []).append(question)
     found, taken = [], set[str]()
     for key, own in by_key.items():
@@ -45,7 +42,7 @@ def sections(solved: SolvedLinkage, questions: Iterable[Question], words: Words)
         symbols = dict.fromkeys(solved.scale_of_plan[plan] for plan in plans if plan in solved.scale_of_plan)
         fresh = tuple(symbol for symbol in symbols if symbol not in taken)
         taken.update(fresh)
-        found.append(Section(_heading(key, solved, words), fresh, tuple(own)))
+        found.append(Section(kind.section_heading(solved, key, words), fresh, tuple(own)))
     return found
 
 
@@ -59,33 +56,6 @@ def drawn(question: Question) -> bool:
     return question.vector or question.step.verb in ("read", "arm", "measure", "distance")
 
 
-def _section(solved: SolvedLinkage, question: Question, current: str) -> str:
-    """Return the section of a question."""
-    head, plan = question.name.partition("_")[0], question.plan
-    if plan == "lever" or current == "lever":
-        return "lever"
-    if plan.startswith("V_at_"):  # those of all points are one drawing
-        return "V_at_"
-    if plan.startswith("a_at_"):
-        return plan
-    if head == "l" and plan == POSITION:
-        return "position"
-    if head in KINEMATIC and plan in (POSITION, "velocity", "acceleration") and "forces" not in current:
-        return KINEMATIC[head]
-    if question.step.verb == "arm":  # with the force plan of the force that it is the arm of
-        plan = solved.shown_on.get(question.step.operands[1].removeprefix("_"), plan)
-    if head in ("R", "M", "h") and plan.startswith("forces"):
-        return f"forces_{solved.scale_of_plan[plan].removeprefix('mu_F_')}"
-    return "loads" if head not in ("h", "M", "F") or current in OPEN else current
-
-
-def _heading(key: str, solved: SolvedLinkage, words: Words) -> str:
-    """Return the heading of a section, as the sheet has it."""
-    if key == "loads":
-        return texts(words.language)["form.loads"]
-    return plan_heading(key, solved.structure.driver, words)
-
-
 def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
     """Go through the rows of an empty form; `about` is what is known of the sheet already."""
     asked, words = keyed.asked, keyed.words
@@ -94,7 +64,7 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
         yield (said[f"about.{key}"], about.get(key, ""))
     yield (said["form.hint"],)
     yield tuple(said[f"column.{column}"] for column in COLUMNS)
-    letters = vector_letters(keyed.solution.solved, words)
+    letters = keyed.solution.kind.vector_letters(keyed.solution.solved, words)
     for part in keyed.parts:
         yield (plain(part.heading),)
         for name in part.scales:
@@ -103,18 +73,6 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
         for question in filter(is_asked, part.questions):
             name, unit = question.name, _written(asked.unit(question.name), words)
             yield (name, keyed.symbol(name), letters.get(name, ""), "", "", "", unit)
-
-
-def vector_letters(solved: SolvedLinkage, words: Words) -> dict[str, str]:
-    """Return the letters of the vector that shows a quantity on its plan: pb, ab, n_BA b."""
-    reading = read(solved.program)
-    plans = (plan for plan in solved.program.plans if not plan.startswith(("V_at_", "a_at_")))
-    edges = (edge for plan in plans for edge in reading.on(plan))
-    found: dict[str, str] = {}
-    for edge in edges:
-        tail, tip = (letter(words, mark) for mark in (edge.tail, edge.tip))
-        found.setdefault(edge.name.removeprefix("_"), f"{tail}{tip}")
-    return found
 
 
 def _written(unit: str, words: Words) -> str:

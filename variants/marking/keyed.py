@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from ...drawing.linkages.letters import lettered
 from ...drawing.words import Words
 from ...plans.linkages.accuracy.conditions import paper_of
 from ...plans.marking.key import Key, answer_key
@@ -125,8 +124,8 @@ def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) ->
     solution = request.solution(variant, settings)
     mus = {scale.symbol: scale.mu for scale in solution.scales.values()}
     key = answer_key(paper_of(solution.solved, mus), rubric.tolerance, rubric.limits)
-    words = lettered(solution.words, solution.solved)
-    parts = tuple(sections(solution.solved, key.questions.values(), words))
+    words = solution.kind.lettered(solution.words, solution.solved)
+    parts = tuple(sections(solution, key.questions.values(), words))
     asked = asked_of(solution, key.questions)
     own = sheet_id(request.task, solution.variant, {**request.settings, **settings})
     return Keyed(solution, key, asked, parts, words, own)

@@ -49,16 +49,3 @@ def letter(words: Words, mark: str) -> str:
     """Return the letter of a mark on a plan; at a point whose motion is split marks have none of their own."""
     plan, _, name = mark.rpartition(".")
     return name if plan.startswith(("V_at_", "a_at_")) else plain(words.mark(mark))
-
-
-def plan_heading(plan: str, driver: int, words: Words) -> str:
-    """Return the heading of a plan, as the sheet has it; `V_at_` alone stands for the points of one drawing."""
-    kind, _, links = plan.partition("_")
-    if kind == "forces":
-        key = "driver" if links == str(driver) else "group_forces" if len(links) > 1 else "link_forces"
-        return words[f"heading.{key}"].format(links=", ".join(links), link=links)
-    if plan.startswith("V_at_"):
-        return ": ".join(filter(None, (words["heading.compound_velocity"], plan.removeprefix("V_at_"))))
-    if plan.startswith("a_at_"):
-        return words["heading.compound_acceleration"].format(point=plan.removeprefix("a_at_"))
-    return words[f"heading.{plan}"]

@@ -15,7 +15,7 @@ from ...drawing.writers import WRITERS, Files, page_files, save_all
 from ...plans.graphs import Diagrams
 from ...plans.linkages.cycles.cycle import Cycle, cycle
 from ...plans.linkages.cycles.diagrams import diagrams
-from ...plans.linkages.mechanism import Driver
+from ...plans.linkages.mechanism import Driver, Mechanism
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, PositionError
 from ...scales.names import unknown
@@ -23,11 +23,13 @@ from ...scales.numbers import quote
 from ...scales.units import Unit, parse, unit
 from ..arguments import names_of, positions_of
 from ..case import Case, Settings, solve_case
-from ..sheets import Sheet, cycle_sheet
+from ..kinds.linkage import mechanism_of
+from ..sheets import Sheet
 from ..tables import csv_bytes
 from ..task import LocatedError, Task
 from .columns import letters
 from .data import as_json
+from .sheet import cycle_sheet
 from .table import as_chords, as_csv, as_table
 
 SECTIONS = 12
@@ -197,20 +199,21 @@ def sweep(
     positions_of("positions", positions)
     case = solve_case(task, variant, set, only, scales)
     words = case.words(lang, notation)
-    chosen = _chosen(case.task, points)
+    mechanism = mechanism_of(case.task)
+    chosen = _chosen(mechanism, points)
     first, last = (_place(case.task, *item) for item in (("start", start), ("end", end)))
-    if last is not None and isinstance(case.task.mechanism.driver, Driver):
+    if last is not None and isinstance(mechanism.driver, Driver):
         raise InputError("sweep-end")
     values = case.task.values(case.variant, case.settings)
     plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
-    done = cycle(case.task.mechanism, values, plans, positions, first, last)
+    done = cycle(mechanism, values, plans, positions, first, last)
     return Sweep(case, done, chosen, words)
 
 
-def _chosen(task: Task, points: str | Iterable[str] | None) -> tuple[str, ...]:
+def _chosen(mechanism: Mechanism, points: str | Iterable[str] | None) -> tuple[str, ...]:
     """Return the points and links that are asked for, each named alone or several with commas between."""
     chosen = names_of("points", points, (str, int))
-    known = (*letters(task.mechanism), *(str(link.number) for link in task.mechanism.links))
+    known = (*letters(mechanism), *(str(link.number) for link in mechanism.links))
     for one in chosen:
         if one not in known:
             raise unknown("motion-unknown", one, known)
@@ -235,7 +238,7 @@ def _place(task: Task, name: str, value: str | float | None) -> float | None:
 
 def _own_unit(task: Task) -> Unit:
     """Return the unit of the given that says where the driver stands."""
-    driver = task.mechanism.driver
+    driver = mechanism_of(task).driver
     given = task.givens.get(driver.coordinate)
     if given is not None and given.unit is not None:
         return given.unit

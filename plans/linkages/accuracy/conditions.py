@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from ...condition import Condition, conditions
 from ...hands.shaky import Paper
 from ...references import extent, plans_of
+from ...solved import Solved
 from ..mechanism import Mechanism, Prismatic, Revolute
 from ..solved import SolvedLinkage
 
@@ -44,7 +45,7 @@ def worst_condition(solved: SolvedLinkage, plan: str | None = None) -> tuple[str
     return name, value
 
 
-def paper_of(solved: SolvedLinkage, mus: Mapping[str, float]) -> Paper:
-    """Return the drawing of a solved mechanism with scale factors by symbol, `mu_V`, in SI per mm."""
+def paper_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
+    """Return the drawing of what is solved with scale factors by symbol, `mu_V`, in SI per mm."""
     by_plan = {plan: mus[symbol] for plan, symbol in solved.scale_of_plan.items()}
     return Paper(solved.program, solved.givens, by_plan)

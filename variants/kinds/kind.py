@@ -1,0 +1,116 @@
+"""What the reader, the solution, the sheet and the marking ask of a task without knowing of which kind it is."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+
+from ...plans.solved import Solved
+from ...scales.choose import Choosers
+from ...scales.errors import InputError
+from ...scales.scale import Scale
+from ..task import Given, Task
+
+if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
+    from ...drawing.formats import Format
+    from ...drawing.page import Drawn
+    from ...drawing.pens import Norm
+    from ...drawing.titleblock import Stamp
+    from ...drawing.words import Words
+    from ...plans.condition import Condition
+    from ...plans.marking.key import Question
+    from ...plans.quantities import Quantity
+    from ..case import Case
+    from ..checks.basics import Checker
+    from ..checks.names import Names
+
+Subject = TypeVar("Subject")  # what is described: a mechanism, a cam
+Answer = TypeVar("Answer", bound=Solved)
+Verdicts = dict[str, dict[str, Any]]
+
+
+class Kind(ABC, Generic[Subject, Answer]):
+    """A kind of tasks; `table` is where their files describe the subject, `plans` what can be drawn of it."""
+
+    table: ClassVar[str]
+    plans: ClassVar[tuple[str, ...]]
+
+    # Reading a task file. Faults go to the checker.
+
+    def words(self, raw: object) -> frozenset[str]:
+        """Return what the table `raw` says in words that may be names of choices: these need not set numbers."""
+        return frozenset()
+
+    @abstractmethod
+    def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Subject | None:
+        """Read the table of this kind; None when a part of it is at fault."""
+
+    @abstractmethod
+    def fits(self, checker: Checker, subject: Subject, head: Mapping[str, Any]) -> None:
+        """Check that the subject has the plans and the scale factors that the `head` of the file wants."""
+
+    def varies(self, checker: Checker, task: Task) -> None:
+        """Check what can be wrong in single variants only."""
+
+    # Solving.
+
+    @abstractmethod
+    def solve(
+        self, subject: Subject, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
+    ) -> Answer:
+        """Solve a variant with its `values` in SI and the `words` of its choices.
+
+        Raises
+        ------
+        InputError
+            Values that belong to no such subject.
+        """
+
+    @abstractmethod
+    def scale_symbols(self, solved: Answer) -> tuple[str, ...]:
+        """Return the symbols of all scale factors that a task or a user may choose."""
+
+    @abstractmethod
+    def first_scales(self, solved: Answer, choosers: Choosers) -> dict[str, Scale]:
+        """Return the scale factors as they are wanted, by plan, before any format has its say."""
+
+    @abstractmethod
+    def conditions(self, solved: Answer) -> dict[str, Condition]:
+        """Return the condition of every quantity."""
+
+    def warnings(self, solved: Answer) -> tuple[InputError, ...]:
+        """Return what a user should know of what has been solved."""
+        return ()
+
+    def checks(self, solved: Answer, quantities: Mapping[str, Quantity]) -> Verdicts:
+        """Return what a second route, or a rule of good design, says of a solution, by name."""
+        return {}
+
+    # Drawing.
+
+    @abstractmethod
+    def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
+        """Draw the sheet of a case; on the smallest format that holds everything where `paper` is not said."""
+
+    # Marking.
+
+    def lettered(self, words: Words, solved: Answer) -> Words:
+        """Return the words with the letters that depend on the subject."""
+        return words
+
+    def section(self, solved: Answer, question: Question, current: str) -> str:
+        """Return the section of the form in which a question stands; `current` is that of the one before it."""
+        return question.plan
+
+    def section_heading(self, solved: Answer, section: str, words: Words) -> str:
+        """Return the heading of a section of the form."""
+        return self.plan_heading(solved, section, words)
+
+    def plan_heading(self, solved: Answer, plan: str, words: Words) -> str:
+        """Return the heading of a plan, as the sheet has it."""
+        return words[f"heading.{plan}"]
+
+    def vector_letters(self, solved: Answer, words: Words) -> dict[str, str]:
+        """Return the letters of the vectors that show quantities on their plans."""
+        return {}

@@ -1,0 +1,244 @@
+"""Tasks about linkages: a table `[mechanism]` with links, pairs, a driver, loads."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from ...plans.board import POSITION
+from ...plans.boards.exact import SMALL
+from ...plans.linkages.chain import PLANS, construct, require_couplers
+from ...plans.linkages.mechanism import Mechanism
+from ...plans.linkages.solved import SolvedLinkage, disagreement, scale_symbols, solve_linkage
+from ...plans.linkages.structure import analyse
+from ...plans.references import pins_together, point_of
+from ...scales.choose import Choosers, Segment, chooser
+from ...scales.errors import InputError
+from ...scales.names import unknown
+from ...scales.numbers import quote
+from ...scales.scale import Scale
+from ..checks.loads import diagrams_in_order
+from ..checks.mechanism import read_mechanism
+from ..checks.start import started
+from ..checks.structure import branched, needless_branches, place_of
+from ..marking.wording import letter, texts
+from ..task import Given, Task
+from .kind import Kind, Verdicts
+
+if TYPE_CHECKING:
+    from ...drawing.formats import Format
+    from ...drawing.page import Drawn
+    from ...drawing.pens import Norm
+    from ...drawing.titleblock import Stamp
+    from ...drawing.words import Words
+    from ...plans.condition import Condition
+    from ...plans.marking.key import Question
+    from ...plans.quantities import Quantity
+    from ..case import Case
+    from ..checks.basics import Checker
+    from ..checks.names import Names
+
+LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
+COMPOUND_AGREES = 1e-9  # part of the longest vector by which two routes to one vector may differ
+OPEN = ("", "position", "velocity", "acceleration", "loads")  # sections before the first group is dealt with
+KINEMATIC = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
+
+
+class Linkages(Kind[Mechanism, SolvedLinkage]):
+    """Linkages of any structure that the plans know."""
+
+    table, plans = "mechanism", PLANS
+
+    def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Mechanism | None:
+        """Read `[mechanism]`."""
+        return read_mechanism(checker, raw, names)
+
+    def fits(self, checker: Checker, subject: Mechanism, head: Mapping[str, Any]) -> None:
+        """Check that the mechanism has a structure, constructions for its groups, and plans for the scale factors."""
+        try:
+            construct(subject, head["plans"])
+            # a task that never splits a motion may use the names of what that would measure
+            structure, program = construct(subject, {*PLANS} - {"compound"} | {*head["plans"]})
+            if "compound" in head["plans"]:
+                require_couplers(subject, structure)
+        except InputError as error:
+            before = len(checker.faults)
+            if error.key == "start-missing":  # or it is that of another link
+                started(checker, subject, analyse(subject))
+            if len(checker.faults) == before:
+                checker.fault(place_of(subject, error), error)
+            return
+        branched(checker, subject, structure)
+        needless_branches(checker, subject, structure)
+        started(checker, subject, structure)
+        symbols = scale_symbols(structure, program)
+        lengths = {x for link in subject.links for x, _ in link.points.values()}
+        for name, said in head.get("scales", {}).items():
+            if name not in symbols:
+                checker.fault(("scales", name), unknown("scale-unknown", name, symbols, task=head.get("id", "")))
+                continue
+            choice = chooser(name, said)
+            if isinstance(choice, Segment) and choice.quantity not in {*program.names, *lengths}:
+                checker.fault(("scales", name), InputError("scale-segment", text=quote(said)))
+
+    def varies(self, checker: Checker, task: Task) -> None:
+        """Check the load diagrams of every variant."""
+        diagrams_in_order(checker, mechanism_of(task), [task.values(variant) for variant in task.variants])
+
+    def solve(
+        self, subject: Mechanism, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
+    ) -> SolvedLinkage:
+        """Solve one position."""
+        solved = solve_linkage(subject, values, plans)
+        if "compound" in plans:
+            require_couplers(solved.mechanism, solved.structure)
+        return solved
+
+    def scale_symbols(self, solved: SolvedLinkage) -> tuple[str, ...]:
+        """Return the symbols of all scale factors that may be chosen."""
+        return scale_symbols(solved.structure, solved.program)
+
+    def first_scales(self, solved: SolvedLinkage, choosers: Choosers) -> dict[str, Scale]:
+        """Return the scale factors as they are wanted, by plan."""
+        from ...drawing.linkages.ladders import first_scales
+
+        return first_scales(solved, choosers)
+
+    def conditions(self, solved: SolvedLinkage) -> dict[str, Condition]:
+        """Return the condition of every quantity."""
+        from ...plans.linkages.accuracy.conditions import conditions_of  # needs numpy, which plain solutions do without
+
+        return conditions_of(solved)
+
+    def warnings(self, solved: SolvedLinkage) -> tuple[InputError, ...]:
+        """Tell of lines that meet at a small angle."""
+        if solved.trouble is not None:
+            return ()
+        mark, sine = solved.worst_sine()
+        if sine >= SMALL:
+            return ()
+        point = point_of(solved.program, mark).rpartition(".")[2]
+        said = {"point": point, "angle": f"{math.degrees(math.asin(sine)):.3g}", "loss": _short(1.0 / sine)}
+        if solved.status != "ill-conditioned":
+            return (InputError("small-angle", **said),)
+        from ...plans.linkages.accuracy.conditions import worst_condition  # needs numpy, and few positions need it
+
+        quantity, condition = worst_condition(solved)
+        said |= {"quantity": quantity, "condition": _short(condition)}
+        pins = pins_together(solved.program, solved.values, mark)
+        if pins is None:
+            return (InputError("ill-conditioned", **said),)
+        return (InputError("ill-conditioned-pins", first=pins[0], second=pins[1], **said),)
+
+    def checks(self, solved: SolvedLinkage, quantities: Mapping[str, Quantity]) -> Verdicts:
+        """Return what a second route says.
+
+        `lever` compares what balances the driver with Zhukovsky's lever, per cent; `compound` the plans of velocities
+        and accelerations with the sums of compound motion, in parts of their longest vectors.
+        """
+        found: Verdicts = {}
+        delta = quantities.get("delta_M_bal") or quantities.get("delta_F_bal")
+        if delta is not None and delta.value is not None:
+            found["lever"] = {"ok": abs(delta.value) < LEVER_AGREES, "value": delta.value, "unit": "%"}
+        gap = disagreement(solved)
+        if gap is not None:
+            found["compound"] = {"ok": gap < COMPOUND_AGREES, "value": gap, "unit": ""}
+        return found
+
+    def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
+        """Draw the plans of one position, and the cycle where the task wants it."""
+        from ...drawing.linkages.fitting import Contents
+        from ...drawing.linkages.sheet import draw
+
+        whole = None
+        if "cycle" in case.plans:  # drawing a single position does not import it
+            from ...plans.linkages.cycles.cycle import cycle
+
+            values = case.task.values(case.variant, case.settings)
+            whole = cycle(mechanism_of(case.task), values, ("position", "velocity", "acceleration"))
+        contents = Contents(linkage(case.solved), case.plans, case.choosers, case.givens, words, norm, whole)
+        return draw(contents, stamp, paper)
+
+    def lettered(self, words: Words, solved: SolvedLinkage) -> Words:
+        """Return the words with the letters of guides, ends and couples."""
+        from ...drawing.linkages.letters import lettered
+
+        return lettered(words, solved)
+
+    def section(self, solved: SolvedLinkage, question: Question, current: str) -> str:
+        """Return the section of a question: its plan, or the plan of the forces that it goes with."""
+        head, plan = question.name.partition("_")[0], question.plan
+        if plan == "lever" or current == "lever":
+            return "lever"
+        if plan.startswith("V_at_"):  # those of all points are one drawing
+            return "V_at_"
+        if plan.startswith("a_at_"):
+            return plan
+        if head == "l" and plan == POSITION:
+            return "position"
+        if head in KINEMATIC and plan in (POSITION, "velocity", "acceleration") and "forces" not in current:
+            return KINEMATIC[head]
+        if question.step.verb == "arm":  # with the force plan of the force that it is the arm of
+            plan = solved.shown_on.get(question.step.operands[1].removeprefix("_"), plan)
+        if head in ("R", "M", "h") and plan.startswith("forces"):
+            return f"forces:{solved.scale_of_plan[plan].removeprefix('mu_F_')}"
+        return "loads" if head not in ("h", "M", "F") or current in OPEN else current
+
+    def section_heading(self, solved: SolvedLinkage, section: str, words: Words) -> str:
+        """Return the heading of a section: loads have no plan of their own."""
+        if section == "loads":
+            return texts(words.language)["form.loads"]
+        return self.plan_heading(solved, section.replace(":", "_"), words)
+
+    def plan_heading(self, solved: SolvedLinkage, plan: str, words: Words) -> str:
+        """Return the heading of a plan, as the sheet has it; `V_at_` alone stands for the points of one drawing."""
+        kind, _, links = plan.partition("_")
+        if kind == "forces":
+            driver = str(solved.structure.driver)
+            key = "driver" if links == driver else "group_forces" if len(links) > 1 else "link_forces"
+            return words[f"heading.{key}"].format(links=", ".join(links), link=links)
+        if plan.startswith("V_at_"):
+            return ": ".join(filter(None, (words["heading.compound_velocity"], plan.removeprefix("V_at_"))))
+        if plan.startswith("a_at_"):
+            return words["heading.compound_acceleration"].format(point=plan.removeprefix("a_at_"))
+        return words[f"heading.{plan}"]
+
+    def vector_letters(self, solved: SolvedLinkage, words: Words) -> dict[str, str]:
+        """Return the letters of the vector that shows a quantity on its plan: pb, ab, n_BA b."""
+        from ...drawing.linkages.reading import read
+
+        reading = read(solved.program)
+        plans = (plan for plan in solved.program.plans if not plan.startswith(("V_at_", "a_at_")))
+        found: dict[str, str] = {}
+        for edge in (edge for plan in plans for edge in reading.on(plan)):
+            tail, tip = (letter(words, mark) for mark in (edge.tail, edge.tip))
+            found.setdefault(edge.name.removeprefix("_"), f"{tail}{tip}")
+        return found
+
+
+KIND = Linkages()
+
+
+def mechanism_of(task: Task) -> Mechanism:
+    """Return the mechanism of a task about a linkage.
+
+    Raises
+    ------
+    InputError
+        The task is about something else.
+    """
+    if not isinstance(task.mechanism, Mechanism):
+        raise InputError("linkages-only", task=task.id)
+    return task.mechanism
+
+
+def linkage(solved: Any) -> SolvedLinkage:
+    """Return what has been solved as the linkage that it is."""
+    assert isinstance(solved, SolvedLinkage)
+    return solved
+
+
+def _short(value: float) -> str:
+    """Return a number with three digits, a large one with a power of ten."""
+    return f"{float(f'{value:.3g}'):g}" if value < 1e6 else f"{value:.1e}".replace("e+0", "e").replace("e+", "e")
