@@ -6,15 +6,14 @@ A law of motion is a table to the board, as it is to a student: parts of the amp
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from itertools import pairwise
+from collections.abc import Mapping
 from typing import Any
 
 from .division import Division
 from .integration import ACCELERATION, VELOCITY
-from .motion import Motion
-from .pressure import RIGHT_ANGLE
+from .motion import Array, Motion
 from .size_plans import side_of
+from .sizes import RIGHT_ANGLE
 
 NUMBERS = {"_two": 2.0, "_minus_one": -1.0}
 
@@ -25,15 +24,15 @@ def peak(motion: Motion, given: str) -> float:
     return motion.maximum(*order, ("rise",)).value
 
 
-def diagram_givens(motion: Motion, angles: Sequence[float], division: Division, given: str) -> dict[str, Any]:
+def diagram_givens(motion: Motion, angles: Array, division: Division, given: str) -> dict[str, Any]:
     """Return what the diagrams begin with: angles of section lines, and parts of the amplitude that is given."""
     amplitude, top = peak(motion, given), motion.rise.length
     order = 2 if given == ACCELERATION else 1
     found: dict[str, Any] = dict(NUMBERS)
-    middles = [0.5 * (a + b) for a, b in pairwise(angles)]
+    middles = 0.5 * (angles[:-1] + angles[1:])
     means = motion.at(middles)[order]
     for i in division.sections:
-        found |= {f"_phi{i}": float(angles[i]), f"_phi_middle{i}": middles[i - 1]}
+        found |= {f"_phi{i}": float(angles[i]), f"_phi_middle{i}": float(middles[i - 1])}
         found[f"_part{i}"] = float(means[i - 1]) / amplitude
     for word, side in (("before", -1), ("after", 1)):
         values = motion.at(angles, side)[order]
@@ -58,7 +57,7 @@ def limit_givens(limits: Mapping[str, float], sense: int) -> dict[str, float]:
     return found
 
 
-def profile_givens(motion: Motion, angles: Sequence[float], division: Division, sense: int) -> dict[str, float]:
+def profile_givens(motion: Motion, angles: Array, division: Division, sense: int) -> dict[str, float]:
     """Return the follower's axes in the inverted motion, and travels as parts of the stroke."""
     s, ds, _ = motion.at(angles, -1)
     found: dict[str, float] = {}
