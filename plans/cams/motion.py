@@ -7,10 +7,10 @@ are in SI; the travel of a rocker is its angle.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from typing import Any
 
 import numpy as np
@@ -65,6 +65,34 @@ class Phase:
     def corners(self) -> tuple[float, ...]:
         """Where the pieces of the phase join, its ends among them."""
         return (*(piece.low for piece in self.pieces), self.end)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Table:
+    """The pieces of one derivative side by side: one column each, so that many angles are one array."""
+
+    powers: Array  # (degree + 1, pieces), the highest first
+    sine: Array
+    cosine: Array
+    rate: Array
+    waves: bool
+
+    @classmethod
+    def of(cls, curves: Sequence[Smooth]) -> _Table:
+        """Return the table of pieces."""
+        rows = list(zip_longest(*(curve.coefficients for curve in curves), fillvalue=0.0))
+        sine, cosine, rate = np.array([(curve.sine, curve.cosine, curve.rate) for curve in curves]).T
+        return cls(np.array(rows[::-1]), sine, cosine, rate, any(curve.waves for curve in curves))
+
+    def at(self, t: Array, which: NDArray[np.intp]) -> Array:
+        """Return the values at the distances `t` from the origins of the pieces `which`."""
+        value = self.powers[0, which]
+        for row in self.powers[1:]:
+            value = value * t + row[which]
+        if self.waves:
+            angle = self.rate[which] * t
+            value = value + (self.sine[which] * np.sin(angle) + self.cosine[which] * np.cos(angle))
+        return np.asarray(value)
 
 
 class Motion:
@@ -122,6 +150,18 @@ class Motion:
             found.append([piece.derivative() for piece in found[-1]])
         return found
 
+    @cached_property
+    def _tables(self) -> list[_Table]:
+        return [_Table.of(curves) for curves in self._derivatives]
+
+    @cached_property
+    def _starts(self) -> Array:
+        return np.array([piece.low for _, piece in self._pieces])
+
+    @cached_property
+    def _origins(self) -> Array:
+        return np.array([piece.origin for _, piece in self._pieces])
+
     def derivatives(self, phi: Any, side: int = 1, order: int = 2) -> tuple[Array, ...]:
         """Return s, s', ... up to the given order (at most 3) at the angles `phi`, rad, of any turn.
 
@@ -130,16 +170,9 @@ class Motion:
         phi = np.asarray(phi, float)
         turns = np.floor((phi + NEAR) / TURN) if side > 0 else -np.floor(1.0 - (phi - NEAR) / TURN)
         phi = phi - TURN * turns
-        starts = [piece.low for _, piece in self._pieces]
-        which = np.maximum(np.searchsorted(starts, phi + side * NEAR) - 1, 0)
-        found = []
-        for curves in self._derivatives[: order + 1]:
-            value = np.empty_like(phi)
-            for k, curve in enumerate(curves):
-                here = which == k
-                value[here] = curve.at(phi[here])
-            found.append(value)
-        return tuple(found)
+        which = np.maximum(np.searchsorted(self._starts, phi + side * NEAR) - 1, 0)
+        t = phi - self._origins[which]
+        return tuple(table.at(t, which) for table in self._tables[: order + 1])
 
     def at(self, phi: Any, side: int = 1) -> tuple[Array, Array, Array]:
         """Return s, ds/dphi, d2s/dphi2 at the angles `phi`; where they jump, the limits from one side (+1 right)."""
