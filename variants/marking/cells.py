@@ -10,21 +10,11 @@ from ...scales.numbers import quote, split_number
 from ...scales.units import Unit, converted, unit
 from .answers import Asked, Mu
 from .grid import Grid
-from .headers import tidy
+from .headers import UNDERSTOOD, tidy
 
-NONE = frozenset(("", "-", "–", "—", "?", "n/a"))  # how people write that they have no answer
-_CCW = (
-    "+|1|ccw|counter-clockwise|counterclockwise|anticlockwise|проти|против|проти годинникової стрілки"
-    "|проти год стрілки|против часовой стрелки|против ч с|проти г с"
-)
-_CW = "-|−|–|-1|−1|cw|clockwise|за|по|за годинниковою стрілкою|за год стрілкою|по часовой стрелке|по ч с|за г с"
-CCW, CW = frozenset(_CCW.split("|")), frozenset(_CW.split("|"))
-SIDES = {
-    **dict.fromkeys(("right", "вправо", "праворуч", "→"), 0.0),
-    **dict.fromkeys(("up", "вгору", "угору", "вверх", "↑"), 90.0),
-    **dict.fromkeys(("left", "вліво", "ліворуч", "влево", "←"), 180.0),
-    **dict.fromkeys(("down", "вниз", "униз", "↓"), 270.0),
-}
+NONE = frozenset(UNDERSTOOD["none"])
+SENSES = {word: int(sense) for sense, words in UNDERSTOOD["senses"].items() for word in words}
+SIDES = {word: float(degrees) for degrees, words in UNDERSTOOD["directions"].items() for word in words}
 _DECIMALS = re.compile(r"^[^0-9]*[0-9 \u00a0\u2009\u202f]*[.,]([0-9]+)")
 MM = unit("mm")
 
@@ -32,6 +22,11 @@ MM = unit("mm")
 def known(written: str) -> Unit:
     """Return the unit that stands in a file; cp1251 has no ², which comes back as a question mark."""
     return unit(written.replace("?", "2"))
+
+
+def of_paper(written: str) -> bool:
+    """Whether a unit is one in which segments are measured on paper."""
+    return written.strip().lower() in UNDERSTOOD["paper"]
 
 
 def checked(grid: Grid, row: int, column: int | None) -> str:
@@ -127,8 +122,8 @@ def direction(text: str) -> tuple[float | None, int | None]:
     if text in ("+", "-", "−", "–"):
         return None, 1 if text == "+" else -1
     word = tidy(text)
-    if word in CCW | CW:
-        return None, 1 if word in CCW else -1
+    if word in SENSES:
+        return None, SENSES[word]
     if word in SIDES:
         return math.radians(SIDES[word]), None
     try:

@@ -4,37 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from ...scales.names import latin
+from ...scales.packaged import packaged
 
 LOOKED_AT = 60  # rows in which the header is looked for
-# columns of a form, a row per quantity
-COLUMNS: Mapping[str, str] = {
-    "name": "quantity|величина|name|назва|название|имя",
-    "symbol": "symbol|позначення|обозначение",
-    "vector": "vector|вектор|стрілка",
-    "mm": "mm|мм|cm|см|segment|відрізок|отрезок|довжина|длина",
-    "mu": "mu|μ|µ|scale|scale factor|масштаб|масштабний коефіцієнт|масштабный коэффициент",
-    "value": "value|значення|значение|answer|відповідь|ответ",
-    "unit": "unit|units|одиниця|одиниці|единица|единицы|од|ед",
-    "direction": "direction or sense|direction|sense|angle|sign|напрям або знак|напрям|напрямок|кут"
-    "|направление или знак|направление|угол|знак",
-}
-# what is said of the student, in lines before the answers or in columns of a class
-ABOUT: Mapping[str, str] = {
-    "task": "task|задача|завдання|задание",
-    "variant": "variant|варіант|вариант",
-    "sheet": "sheet id|sheet|номер аркуша|аркуш|номер листа|лист|id",
-    "student": "student|name|full name|студент|студентка|здобувач|піб|фио|прізвище|фамилия"
-    "|прізвище та ім'я|прізвище ім'я|фамилия и имя|фамилия имя",
-    "group": "group|група|группа",
-    "book": "record book|book|залікова книжка|номер залікової книжки|залікова|зачетная книжка"
-    "|номер зачетной книжки|зачетка",
-    "number": "id number|idnumber|student id|identifier|номер студента",
-    "email": "email|e-mail|email address|електронна пошта|электронная почта|пошта|почта",
-}
-_COLUMN_OF = {word: kind for kind, words in COLUMNS.items() for word in words.split("|")}
-_ABOUT_OF = {word: kind for kind, words in ABOUT.items() for word in words.split("|")}
+UNDERSTOOD: Mapping[str, Any] = packaged(__package__, "texts", "understood")
+_COLUMN_OF = {word: kind for kind, words in UNDERSTOOD["columns"].items() for word in words}
+_ABOUT_OF = {word: kind for kind, words in UNDERSTOOD["about"].items() for word in words}
 _UNIT = re.compile(r"\s*(?:[,:]\s*(?P<plain>[^\[(]+)|\[(?P<square>[^\]]*)\]|\((?P<round>.*)\))\s*$")
 # a column of a class: a quantity, a part of its answer, a unit
 _QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|mu))?")

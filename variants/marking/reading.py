@@ -168,7 +168,7 @@ def _form(grid: Grid, header: int, columns: Mapping[str, int], asked: Asked) -> 
 
 def _bare_unit(text: str) -> str:
     """Return the unit that a header is itself: "мм"."""
-    return text if text.strip().lower() in {"mm", "мм", "cm", "см"} else ""
+    return text if cells.of_paper(text) else ""
 
 
 def _form_row(sheet: _Sheet, row: int, columns: Mapping[str, int], over: Mapping[str, str]) -> None:
@@ -270,5 +270,4 @@ def _part(asked: Asked, name: str, part: str, written: str) -> str:
     """Return what a column of a class holds: millimetres over a quantity that is no length are those of paper."""
     if part or name in asked.scales:
         return part
-    on_paper = written.strip().lower() in {"mm", "мм", "cm", "см"}
-    return "mm" if on_paper and asked.quantities[name].unit != "m" else ""
+    return "mm" if cells.of_paper(written) and asked.quantities[name].unit != "m" else ""
