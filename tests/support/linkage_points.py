@@ -12,7 +12,7 @@ from kulman.tests.support.linkage_cases import Linkage, Oracle
 from kulman.tests.support.overlaps import overlaps
 from kulman.tests.support.printed_numbers import equation_faults, lines_of, numbers_of, table_faults
 from kulman.tests.support.readback import Sheet, View, cross, parallel
-from kulman.tests.support.sheet_geometry import NEAR, closed_chain, same, unless
+from kulman.tests.support.sheet_geometry import NEAR, closed_chain, crosses, past, runs_along, same, unless
 
 Faults = Iterator[str]
 
@@ -55,13 +55,7 @@ def _guides(view: View) -> Faults:
     links = [s.points for s in view.inside("link") if len(s.points) == 2]
     for hatch in (s.points for s in view.inside("guide") if s.role == "hatch"):
         for a, b in links:
-            yield from unless(not _cross(hatch, (a, b)), f"a link crosses the hatching at {hatch[0]:.1f}")
-
-
-def _cross(one: tuple[complex, ...], other: tuple[complex, ...]) -> bool:
-    """Whether two lines cross."""
-    ways = ((one, other), (other, one))
-    return all(cross(b - a, p - a) * cross(b - a, q - a) < 0 for (a, b), (p, q) in ways)
+            yield from unless(not crosses(hatch, (a, b)), f"a link crosses the hatching at {hatch[0]:.1f}")
 
 
 def _driver(case: Linkage, view: View) -> Faults:
@@ -145,16 +139,8 @@ def _sides(view: View, marks: tuple[str, ...]) -> Faults:
         for second in marks[:i]:
             a, b = view.point(second), view.point(first)
             if abs(b - a) > 2 * rings:  # the lines of links stop at the circles of their joints
-                drawn = any(_along(line, a, b, rings) for line in lines)
+                drawn = any(runs_along(line, a, b, rings) for line in lines)
                 yield from unless(drawn, f"{view.name}: no side {second}-{first} of a similar triangle")
-
-
-def _along(line: tuple[complex, ...], a: complex, b: complex, spare: float) -> bool:
-    """Whether a line, or the piece of it between circles on it, runs along the middle of the side a-b."""
-    e = (b - a) / abs(b - a)
-    low, high = sorted(((end - a) / e).real for end in line)
-    near = all(abs(((end - a) / e).imag) < NEAR for end in line)
-    return near and low <= abs(b - a) / 2 + spare and high >= abs(b - a) / 2 - spare and high - low > spare
 
 
 def l7_senses(case: Linkage, sheet: Sheet) -> Faults:
@@ -165,6 +151,10 @@ def l7_senses(case: Linkage, sheet: Sheet) -> Faults:
             turning = view.turning(f"{name}_{link.number}")
             if turning is not None:
                 yield from unless(turning[1] == math.copysign(1.0, rate), f"sense of {name}_{link.number}")
+                ends = [p for s in view.inside("link", str(link.number)) for p in s.points if len(s.points) == 2]
+                ends += [view.point(point) for point in link.points if view.has(point)]
+                about = any(same(turning[0], end, 0.02) for end in ends)
+                yield from unless(about, f"{name}_{link.number} is not an arc about a point of its link")
                 yield from _across_its_link(view, f"{name}_{link.number}", case.oracle.m.driver.link)
 
 
@@ -177,7 +167,7 @@ def _across_its_link(view: View, name: str, driver: int) -> Faults:
         own
         for own, stroke in lines
         for side in pairwise(stroke.points)
-        if any(_cross(piece, side) for piece in pairwise(arc.points))
+        if any(crosses(piece, side) for piece in pairwise(arc.points))
     }
     yield from unless(crossed <= {number}, f"the arc of {name} crosses links {sorted(crossed - {number})}")
     if int(number) != driver and any(own == number and len(s.points) == 2 for own, s in lines):
@@ -186,10 +176,9 @@ def _across_its_link(view: View, name: str, driver: int) -> Faults:
 
 def l8_groups(case: Linkage, sheet: Sheet) -> Faults:
     """Every group apart in its attitude; each arrow of a force points as the force does and passes its point."""
-    position = sheet["position"]
     for group in case.solution.solved.structure.groups:
         view = sheet[f"group_{group.name}"]
-        yield from _attitude(case.oracle, position, view)
+        yield from _to_scale(case, view)
         names = [arrow.name for arrow in view.arrows]
         yield from unless(len(names) == len(set(names)), f"{view.name}: forces drawn twice in {sorted(names)}")
         loads = [*case.oracle.solver.forces]
@@ -199,12 +188,14 @@ def l8_groups(case: Linkage, sheet: Sheet) -> Faults:
         yield from _arrows(case, view, case.oracle)
 
 
-def _attitude(oracle: Oracle, position: View, view: View) -> Faults:
-    drawn = [name for name in sorted(oracle.points()) if view.has(name) and position.has(name)]
+def _to_scale(case: Linkage, view: View) -> Faults:
+    """What is drawn apart stands as in the mechanism, to the scale factor that its own heading prints."""
+    mu = mu_of(view, case.lang)
+    drawn = [name for name in sorted(case.oracle.points()) if view.has(name)]
     for a, b in pairwise(drawn):
-        one, other = position.point(b) - position.point(a), view.point(b) - view.point(a)
-        if abs(one) > 1.0:
-            yield from unless(same(one, other, 0.02), f"{view.name}: {a}{b} stands otherwise than on the plan")
+        wanted = (case.oracle.place(b) - case.oracle.place(a)) / mu
+        off = abs(view.point(b) - view.point(a) - wanted)
+        yield from unless(off <= 0.02, f"{view.name}: {a}{b} is {off:.3f} mm off")
 
 
 def _link_of_force(oracle: Oracle, name: str) -> int:
@@ -255,12 +246,20 @@ def l9_arms(case: Linkage, sheet: Sheet) -> Faults:
         lines = [s for s in view.strokes if any(kind == "arm" for kind, _ in s.path) and s.role == "thin"]
         for line in lines:
             a, b = line.points
+            yield from unless(_begins(view, a), f"{view.name}: the arm {line.path[-1]} begins nowhere")
             normal = [x for x in view.arrows if abs(cross(x.unit, b - x.tail)) < NEAR]
             square = [x for x in normal if abs((x.unit.conjugate() * (b - a)).real) < NEAR * max(1.0, abs(b - a))]
             yield from unless(bool(square), f"{view.name}: the arm {line.path[-1]} is not normal to a force")
             yield from unless(
                 any(abs(x - abs(b - a)) < NEAR for x in printed), f"{view.name}: {abs(b - a):.2f} mm is not printed"
             )
+
+
+def _begins(view: View, at: complex) -> bool:
+    """Whether an arm may begin there: in a circle, or, as a dimension, on a line that extends one."""
+    centres = [ring.centre for ring in view.rings]
+    extended = (s.points for s in view.lines("extension") if any(same(s.points[0], c) for c in centres))
+    return any(same(at, c) for c in centres) or any(past(ends, at, 0.0) for ends in extended)
 
 
 def l10_force_plans(case: Linkage, sheet: Sheet) -> Faults:
@@ -293,7 +292,8 @@ def _pole_chords(view: View) -> set[str]:
 
 
 def l11_driver(case: Linkage, sheet: Sheet) -> Faults:
-    """The arrows on the driver are those of the balance."""
+    """The driver is drawn to its printed scale factor; the arrows on it are those of the balance."""
+    yield from _to_scale(case, sheet["driver"])
     yield from _arrows(case, sheet["driver"], case.oracle)
 
 

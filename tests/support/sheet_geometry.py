@@ -26,6 +26,20 @@ def along(ends: tuple[complex, ...], direction: complex) -> bool:
     return parallel(ends[1] - ends[0], direction) or parallel(ends[0] - ends[1], direction)
 
 
+def crosses(one: tuple[complex, ...], other: tuple[complex, ...]) -> bool:
+    """Whether two lines cross."""
+    ways = ((one, other), (other, one))
+    return all(cross(b - a, p - a) * cross(b - a, q - a) < 0 for (a, b), (p, q) in ways)
+
+
+def runs_along(line: tuple[complex, ...], a: complex, b: complex, spare: float) -> bool:
+    """Whether a line, or the piece of it between circles on it, runs along the middle of the side a-b."""
+    e = (b - a) / abs(b - a)
+    low, high = sorted(((end - a) / e).real for end in line)
+    near = all(abs(((end - a) / e).imag) < NEAR for end in line)
+    return near and low <= abs(b - a) / 2 + spare and high >= abs(b - a) / 2 - spare and high - low > spare
+
+
 def closed_chain(vectors: list[Vec]) -> list[Vec] | None:
     """Order vectors tip to tail round a closed polygon, or tell that there is none."""
     left = [v for v in vectors if abs(v.span) > 0.02]

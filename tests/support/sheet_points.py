@@ -13,6 +13,7 @@ from kulman.tests.support.sheet_geometry import NEAR, along, closed_chain, on, p
 Faults = Iterator[str]
 SENSE = {"uk": ("проти годинникової", "за годинниковою"), "ru": ("против часовой", "по часовой")}
 ON_LEVER = {"F_{i2}": "F_i2", "F_{i3}": "F_i3", "F_{3}": "F_3", "F′_{i2}": "F_i2_couple_B", "F″_{i2}": "F_i2_couple_A"}
+ARMS = {"F_i2": "h_{Fi2}", "F_i3": "h_{Fi3}", "F_3": "h_{F3}", "F_i2_couple_B": "h′_{i2}", "F_i2_couple_A": "h″_{i2}"}
 SENSE["en"] = ("counter-clockwise", "clockwise")
 
 
@@ -327,7 +328,8 @@ def _lever_arm(case: Case, view: View, arrow: Arrow, p: complex) -> Faults:
     drawn = [s for s in arms for a in starts if same(s.points[0], a) and same(s.points[1], foot + a - p)]
     yield from unless(bool(drawn), f"{arrow.name} has no arm")
     written = [part for place in ("label", "heading") for t in view.of(place) for part in t.string.split(";")]
-    printed = [h for part in written if "=" in part for h in numbers_of(part.rpartition("=")[2], case.lang)[:1]]
+    own = [part for part in written if ARMS[arrow.name] in part and "=" in part]
+    printed = [h for part in own for h in numbers_of(part.rpartition("=")[2], case.lang)[:1]]
     yield from unless(any(abs(h - abs(foot - p)) < NEAR for h in printed), f"the mm of {arrow.name} are not printed")
 
 
