@@ -10,8 +10,9 @@ import re
 import subprocess
 import sys
 import time
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 from matplotlib.figure import Figure
@@ -25,7 +26,7 @@ from kulman.plans.linkages.accuracy import comparison as contests
 from kulman.plans.linkages.accuracy.comparison import Effort
 from kulman.scales.errors import LANGUAGES
 from kulman.variants.charts import charts
-from kulman.variants.charts.charts import chart
+from kulman.variants.charts.charts import Charts, chart
 
 TASK = "nau-slider-crank"
 BOTH = ("stability", "depth")
@@ -36,13 +37,33 @@ def english(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
 
 
-@pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+def quickened(patch: pytest.MonkeyPatch) -> None:
     """Measure times on little work, draw by hand on one format only."""
     little = partial(charts.accuracy_chart, effort=Effort((1, 10), 20))
-    monkeypatch.setattr(charts, "accuracy_chart", little)
-    monkeypatch.setattr(contests, "ROUNDS", 1)
-    monkeypatch.setattr("kulman.variants.charts.accuracy.SIZES", ("A4",))
+    patch.setattr(charts, "accuracy_chart", little)
+    patch.setattr(contests, "ROUNDS", 1)
+    patch.setattr("kulman.variants.charts.accuracy.SIZES", ("A4",))
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    quickened(monkeypatch)
+
+
+@pytest.fixture(scope="module")
+def all_three() -> Charts:
+    """Charts of six positions, measured on little work."""
+    with pytest.MonkeyPatch.context() as patch:
+        quickened(patch)
+        return chart(TASK, positions=6, lang="en")
+
+
+@cache
+def pictures(language: str) -> dict[str, str]:
+    """Return the charts of stability and depth as SVG, by their files."""
+    with TemporaryDirectory() as folder:
+        files = chart(TASK, chart=BOTH, positions=24, lang=language).save(Path(folder) / "a.svg")
+        return {path.name: path.read_text(encoding="utf-8") for path in files}
 
 
 def run(arguments: list[str], capsys: pytest.CaptureFixture[str], task: str = TASK) -> tuple[int, str, str]:
@@ -58,8 +79,8 @@ def test_without_files_all_three_are_printed(capsys: pytest.CaptureFixture[str])
 
     assert (status, err) == (0, "")
     assert [
-        head for head in ("Speed against accuracy", "Stability over the cycle", "Depth of the model") if head in out
-    ]
+        head for head in ("Speed against accuracy", "Stability over the cycle", "Depth of the model") if head not in out
+    ] == []
     assert re.search(r"plans, float32 +20", out)
     assert re.search(r"^hand +A4 ", out, re.MULTILINE)
     assert re.search(r"without F_i2 +\d", out)
@@ -76,12 +97,10 @@ def test_the_picture_of_accuracy_names_what_it_shows(tmp_path: Path, capsys: pyt
     assert [label for label in ("Velocities", "Forces", "float32", "hand: A4", "Python 3") if label not in text] == []
 
 
-@pytest.mark.usefixtures("quick")
-def test_a_hand_stands_above_the_times_of_the_others() -> None:
-    found = chart(TASK, chart="accuracy", positions=6, lang="uk")
-    entries = found["accuracy"].contest.entries  # type: ignore[union-attr]
+def test_a_hand_stands_above_the_times_of_the_others(all_three: Charts) -> None:
+    entries = all_three["accuracy"].contest.entries  # type: ignore[union-attr]
 
-    axes = found["accuracy"].figure(found.words).axes
+    axes = all_three["accuracy"].figure(all_three.words.speaking("uk")).axes
 
     bands = [one for one in axes if [text for text in one.texts if text.get_text() == "рука: A4"]]
     times = [one for one in axes if one.get_ylabel() == "час на положення, с"]
@@ -95,16 +114,17 @@ def test_a_hand_stands_above_the_times_of_the_others() -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_pictures_speak_every_language(language: str, tmp_path: Path) -> None:
+def test_pictures_speak_every_language(language: str) -> None:
     words = {
         "en": ("condition K", "without $F", "tolerance 1 %", "dead position of link 3", "0.01"),
         "uk": ("обумовленість K", "без $F", "допуск 1 %", "мертве положення ланки 3", "0,01"),
         "ru": ("обусловленность K", "без $F", "допуск 1 %", "мёртвое положение звена 3", "0,01"),
     }[language]
-    files = chart(TASK, chart=BOTH, positions=24, lang=language).save(tmp_path / "a.svg")
 
-    text = "".join(path.read_text(encoding="utf-8") for path in files)
-    assert [path.name for path in files] == ["a-stability.svg", "a-depth.svg"]
+    files = pictures(language)
+
+    text = "".join(files.values())
+    assert [*files] == ["a-stability.svg", "a-depth.svg"]
     assert [word for word in words if word not in text] == []
     if language != "en":
         assert "normal" not in chart(TASK, chart="stability", positions=6, lang=language).table()
@@ -141,21 +161,16 @@ def test_short_logarithmic_axes_name_enough_numbers(low: float, high: float) -> 
 
 
 def test_pictures_are_the_same_twice(tmp_path: Path) -> None:
-    kinds = {"stability": ("svg",), "depth": ("svg", "pdf", "png")}
+    def drawn(name: str, *suffixes: str) -> dict[str, bytes]:
+        files = chart(TASK, chart=name, positions=24, lang="en").save(*(tmp_path / f"a-{name}{s}" for s in suffixes))
+        return {path.name: path.read_bytes() for path in files}
 
-    def drawn() -> dict[str, bytes]:
-        saved = [
-            path
-            for name, suffixes in kinds.items()
-            for path in chart(TASK, chart=name, positions=24).save(*(tmp_path / f"{name}.{s}" for s in suffixes))
-        ]
-        return {path.name: path.read_bytes() for path in saved}
-
-    first = drawn()
+    first = drawn("depth", ".pdf", ".png")
+    svg = pictures("en")["a-stability.svg"]
     time.sleep(1.1)
 
-    assert len(first) == 4
-    assert drawn() == first
+    assert drawn("depth", ".pdf", ".png") == first
+    assert drawn("stability", ".svg") == {"a-stability.svg": svg.encode("utf-8")}
 
 
 def test_a_pdf_has_a_page_for_each_chart(tmp_path: Path) -> None:
@@ -164,11 +179,11 @@ def test_a_pdf_has_a_page_for_each_chart(tmp_path: Path) -> None:
     assert len(re.findall(rb"/Type /Page\b", path.read_bytes())) == 2
 
 
-def test_a_picture_has_no_colour(tmp_path: Path) -> None:
-    found = chart(TASK, chart=BOTH, positions=24)
-    for path in found.save(tmp_path / "a.svg"):
-        for red, green, blue in re.findall(r"#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})\b", path.read_text("utf-8")):
-            assert red == green == blue
+def test_a_picture_has_no_colour() -> None:
+    colours = {colour for text in pictures("en").values() for colour in re.findall(r"#([0-9a-f]{6})\b", text)}
+
+    assert colours > {"000000"}
+    assert [colour for colour in colours if len({colour[:2], colour[2:4], colour[4:]}) > 1] == []
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -184,19 +199,26 @@ def test_a_csv_is_read_back(language: str, tmp_path: Path) -> None:
     assert [float(row[column].replace(",", ".")) for row in rows] == expected.tolist()
 
 
-@pytest.mark.usefixtures("quick")
-def test_all_rows_of_accuracy_are_in_the_csv(tmp_path: Path) -> None:
-    found = chart(TASK, chart="accuracy", positions=6)
-    (path,) = found.save(tmp_path / "a.csv")
+def test_all_rows_of_accuracy_are_in_the_csv(all_three: Charts, tmp_path: Path) -> None:
+    path, *_ = all_three.save(tmp_path / "a.csv")
     with path.open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
 
-    entries = found["accuracy"].contest.entries  # type: ignore[union-attr]
+    entries = all_three["accuracy"].contest.entries  # type: ignore[union-attr]
+    assert path.name == "a-accuracy.csv"
     assert [(row["method"], row["kind"], float(row["error"])) for row in rows] == [
         (e.method, e.kind, e.error) for e in entries
     ]
     assert {row["method"] for row in rows} >= {"plan", "plan-single", "newton", "differences", "chords", "hand"}
     assert all(row["seconds [s]"] == "" for row in rows if row["method"] == "hand")
+
+
+@pytest.mark.soak
+def test_all_charts_are_measured_with_their_full_effort(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = run(["-v", "3", "-o", str(tmp_path / "charts.pdf")], capsys)
+
+    assert (status, out, err) == (0, f"{tmp_path / 'charts.pdf'}\n", "")
+    assert len(re.findall(rb"/Type /Page\b", (tmp_path / "charts.pdf").read_bytes())) == 3
 
 
 def test_json_holds_the_charts_in_si(capsys: pytest.CaptureFixture[str]) -> None:
@@ -212,11 +234,10 @@ def test_json_holds_the_charts_in_si(capsys: pytest.CaptureFixture[str]) -> None
     assert {cost["without"] for cost in data["depth"]["costs"]} >= {"F_i2", "inertia"}
 
 
-@pytest.mark.usefixtures("quick")
-def test_places_have_units_in_csv_and_lie_within_a_turn_in_json() -> None:
-    found = chart(TASK, positions=6)
-    heads = [one.csv(found.words).decode("utf-8").split("\r\n")[0].split(",") for one in found.charts.values()]
-    data = found.to_json()
+def test_places_have_units_in_csv_and_lie_within_a_turn_in_json(all_three: Charts) -> None:
+    files = [one.csv(all_three.words) for one in all_three.charts.values()]
+    heads = [file.decode("utf-8").split("\r\n")[0].split(",") for file in files]
+    data = all_three.to_json()
 
     places = data["accuracy"]["places"] + data["stability"]["places"]
     places += [
