@@ -4,6 +4,8 @@ PY := .venv/bin/python
 VARIANT ?= 3
 READY := .venv/ready
 WORKERS ?= auto
+# what the tests start is compiled once, whatever the shell says: they start some hundred processes
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: sheet test soak lint types bench speed clean
 
