@@ -90,6 +90,11 @@ def measured(answer: Answer, mu: float | None = None) -> tuple[float, ...]:
     return tuple(dict.fromkeys(x for x in (answer.mm * factor, answer.mm / factor) if math.isfinite(x)))
 
 
+def nearest(values: tuple[float, ...], ours: float) -> float:
+    """Return the value nearest to ours in ratio."""
+    return min(values, key=lambda x: abs(math.log(abs(x)) - math.log(ours)) if x and ours else math.inf)
+
+
 def readings(answer: Answer, values: tuple[float, ...]) -> tuple[Said, ...]:
     """Return all ways to take an answer whose value is one of `values`.
 

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from ...scales.names import unknown
 from ..board import Step
 from ..hands.tolerances import MARKS
-from .answers import Answer, Said, known, measured, readings, values_of
+from .answers import Answer, Said, known, measured, nearest, readings, values_of
 from .comparing import NEVER, SIZE, Miss, miss, ratio
 from .key import Key, Question
 from .lines import Line, Marking, Verdict
@@ -165,7 +165,7 @@ class _Marker:
         for name, answer in self.answers.items():
             values = values_of(answer, self.mus[name])
             self.ways[name] = readings(answer, values)
-            near = (_nearest_to(values, abs(self.key[name])),) if len(values) > 1 else values
+            near = (nearest(values, abs(self.key[name])),) if len(values) > 1 else values
             self.taken[name] = readings(answer, near)[0]
         self.drawn = follow(program, givens, lambda name, value: (self.taken.get(name), True))
         follows = follow(program, givens, self._judge)
@@ -288,9 +288,4 @@ def _agree(shown: list[float]) -> bool:
 
 def _nearest(mu: float, ours: float) -> float:
     """Return a scale factor as value per mm, whichever convention is nearer to ours."""
-    return _nearest_to((mu, 1.0 / mu), ours) if mu else ours
-
-
-def _nearest_to(values: tuple[float, ...], ours: float) -> float:
-    """Return the value nearest to ours in ratio."""
-    return min(values, key=lambda x: abs(math.log(abs(x)) - math.log(ours)) if x and ours else math.inf)
+    return nearest((mu, 1.0 / mu), ours) if mu else ours

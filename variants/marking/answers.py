@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from ...plans.marking.answers import nearest
 from ...plans.quantities import Quantity
 from ...scales.display import Display
 from ...scales.errors import KulmanError
@@ -47,7 +47,7 @@ class Mu:
 
     def nearest(self, ours: float) -> float:
         """Return the factor in the way that is nearer to ours in ratio."""
-        return min(self.ways, key=lambda way: abs(math.log(way / ours)))
+        return nearest(self.ways, ours)
 
 
 @dataclass(frozen=True, slots=True)
