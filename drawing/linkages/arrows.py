@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from ..shapes import Arrow, Pen
 from ..symbols import clear_ray, room_on
 from ..view import Canvas
+from .marks import symbol
 from .scene import Scene
 from .skeleton import Stroke, rays_of
 
@@ -88,5 +89,4 @@ def letter_arrow(canvas: Canvas, scene: Scene, arrow: Arrow, ray: complex) -> No
     """Draw a force arrow with its letter beside its outer half."""
     canvas.add(arrow)
     far = arrow.tip if abs((arrow.tip - arrow.tail) / abs(arrow.tip - arrow.tail) - ray) < 1.0 else arrow.tail
-    name = scene.words.symbol(arrow.name.removeprefix("_"), bar=True)
-    canvas.label(name, (far - ray * 0.55 * scene.style.force, far), clear=0.9)
+    canvas.label(symbol(scene, arrow.name), (far - ray * 0.55 * scene.style.force, far), clear=0.9)

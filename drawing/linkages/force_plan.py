@@ -9,11 +9,12 @@ from ...plans.board import Step
 from ...scales.scale import SERIES
 from ..shapes import Vector
 from .inset import NUMERALS, READABLE, TIMES, WIDEST, Window, shows, size_of, window_about
-from .marks import vectors_of
+from .marks import symbol, vectors_of
 from .scene import Scene
 
 FORCES = "forces_"  # with which the names of plans of forces begin
 NARROWEST = 45.0  # mm, the least side of an inset
+PAST = 6.0  # mm by which a construction line runs past the point that it finds
 FEW = 1  # forces too short to be read that a plan shows as points, said in words
 
 
@@ -125,14 +126,6 @@ def in_inset(scene: Scene, shown: Sequence[Window], ends: tuple[complex, complex
     """Whether a vector is too short to be read in its figure and stands in an inset."""
     short = abs(ends[1] - ends[0]) < scene.style.arrow
     return short and any(shows(window, ends) for window in shown)
-
-
-def symbol(scene: Scene, quantity: str) -> str:
-    """Return the symbol of a vector with its bar."""
-    return scene.words.symbol(quantity.removeprefix("_"), bar=True)
-
-
-PAST = 6.0  # mm by which a construction line runs past the point that it finds
 
 
 def construction_line(scene: Scene, step: Step, start: str, direction: str) -> tuple[complex, complex, complex]:

@@ -12,7 +12,7 @@ from ..shapes import Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
 from ..style import Style
 from ..text import Box
 from ..view import Canvas, View, heading_shapes
-from .marks import letter_marks
+from .marks import letter_marks, symbol
 from .scene import Scene
 
 SHORT, READABLE = 1.25, 1.7  # arrowheads: a shorter vector cannot be read; the least length in an inset
@@ -179,8 +179,7 @@ def _inset(plan: Plan, window: Window, name: str, numeral: str, framed: Sequence
             canvas.label(said, past, clear=0.8)
     named: dict[tuple[complex, complex], list[str]] = {}
     for vector in plan.vectors():
-        symbol = scene.words.symbol(vector.quantity.removeprefix("_"), bar=True)
-        named.setdefault((vector.tail, vector.tip), []).append(symbol)
+        named.setdefault((vector.tail, vector.tip), []).append(symbol(scene, vector.quantity))
     for vector in plan.vectors():
         symbols = " = ".join(dict.fromkeys(named.pop((vector.tail, vector.tip), ())))
         _enlarged(canvas, scene, vector, times, bounds, symbols)
@@ -197,7 +196,7 @@ def _inset(plan: Plan, window: Window, name: str, numeral: str, framed: Sequence
     return canvas.finish(name, (f"{numeral}:  {scene.words.scale(own)}",))
 
 
-def _enlarged(canvas: Canvas, scene: Scene, vector: Vector, times: float, bounds: Box, symbol: str) -> None:
+def _enlarged(canvas: Canvas, scene: Scene, vector: Vector, times: float, bounds: Box, name: str) -> None:
     tail, tip = vector.tail * times, vector.tip * times
     cut = clipped(tail, tip, bounds)
     if cut is None or abs(cut[1] - cut[0]) < 1e-6:
@@ -212,8 +211,8 @@ def _enlarged(canvas: Canvas, scene: Scene, vector: Vector, times: float, bounds
         if abs(cut[1] - tip) < 1e-6:
             parts.append(Head(tip, tip - tail))
         canvas.add(Group(tuple(parts), "cut", vector.quantity))
-    if symbol:
-        canvas.label(symbol, cut, clear=0.9, strict=True)
+    if name:
+        canvas.label(name, cut, clear=0.9, strict=True)
 
 
 def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:

@@ -37,6 +37,11 @@ def letter_marks(
             canvas.add(Group((Circle(places[mark], 0.3, Pen.THIN, fill="black"),), "point", mark))
 
 
+def symbol(scene: Scene, quantity: str) -> str:
+    """Return the symbol of a vector with its bar."""
+    return scene.words.symbol(quantity.removeprefix("_"), bar=True)
+
+
 def vectors_of(steps: tuple[Step, ...]) -> list[tuple[str, str, str]]:
     """Return (quantity, tail, tip) of the vectors that the steps draw."""
     vectors = []

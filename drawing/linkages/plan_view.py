@@ -8,9 +8,9 @@ from ...plans.board import Step
 from ..shapes import Line, Pen
 from ..view import Canvas, View
 from .flat import said_flat
-from .force_plan import FORCES, ForcePlan, construction_line, in_inset, symbol
+from .force_plan import FORCES, ForcePlan, construction_line, in_inset
 from .inset import with_insets
-from .marks import letter_marks, vectors_of
+from .marks import letter_marks, symbol, vectors_of
 from .scene import Scene
 from .similarity import draw_sides
 
