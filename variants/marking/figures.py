@@ -10,13 +10,15 @@ from html import escape
 from ...drawing.linkages.reading import read
 from ...plans.board import POSITION
 from ...plans.marking.verdicts import Line, Verdict
+from .beside import boxes
 from .marked import Marked
-from .wording import plain, set_scripts, texts
+from .wording import plain, script_runs, texts
 
 SIZE = 150.0  # mm, of the longer side of a plan
 MARGIN = 10.0
 LEAST = 1e-9  # part of a plan's size below which a vector is a point
-RAISED, LOWERED = (f'<tspan baseline-shift="{shift}" font-size="2.5">{{}}</tspan>' for shift in ("super", "sub"))
+RISE = {0: 0.0, 1: -1.2, -1: 0.9}  # mm down the page, of text, superscripts and subscripts
+SMALL = 2.5  # mm, size of scripts
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +29,17 @@ class Vector:
     tail: complex
     tip: complex
     line: Line | None
+
+    @property
+    def kind(self) -> str:
+        """What it is, as the style of the page names it."""
+        return "right" if self.line is None else "wrong" if self.line.verdict.faulty else "own"
+
+    @property
+    def text(self) -> str:
+        """Its symbol, marked where the line is not simply right."""
+        marks = {"wrong": " ✗", "own": "" if self.line and self.line.verdict is Verdict.RIGHT else " ✓"}
+        return self.symbol + marks.get(self.kind, "")
 
 
 def plan_figures(marked: Marked, language: str) -> Iterator[tuple[str, str]]:
@@ -79,24 +92,37 @@ def _svg(vectors: list[Vector], caption: str) -> str:
     def at(place: complex) -> complex:
         return complex((place.real - left) * scale + MARGIN, (top - place.imag) * scale + MARGIN)
 
-    shapes = "".join(_shape(vector, at(vector.tail), at(vector.tip), span * scale * LEAST) for vector in vectors)
+    drawn = [(vector, at(vector.tail), at(vector.tip)) for vector in vectors]
+    shapes = "".join(_shape(*one, span * scale * LEAST) for one in drawn)
+    own = [(vector, tail, tip) for vector, tail, tip in drawn if vector.line is not None]
+    rooms = boxes([(tail, tip, len(vector.text)) for vector, tail, tip in own], complex(width, height) * 0.5)
+    letters = "".join(_label(vector, room.start) for (vector, _, _), room in zip(own, rooms, strict=True))
     title = f"<title>{escape(caption)}</title>"
-    return f'<svg viewBox="0 0 {width:.2f} {height:.2f}" role="img">{title}{shapes}</svg>'
+    return f'<svg viewBox="0 0 {width:.2f} {height:.2f}" role="img">{title}{shapes}{letters}</svg>'
 
 
 def _shape(vector: Vector, tail: complex, tip: complex, least: float) -> str:
-    """Return one vector with its arrow and symbol."""
-    faulty = vector.line is not None and vector.line.verdict.faulty
-    kind = "right" if vector.line is None else "wrong" if faulty else "own"
-    arrow = _arrow(tail, tip, least)
-    label = ""
-    if vector.line is not None:
-        middle = (tail + tip) / 2
-        mark = " ✗" if faulty else "" if vector.line.verdict is Verdict.RIGHT else " ✓"
-        text = set_scripts(escape(vector.symbol), RAISED, LOWERED) + mark
-        label = f'<text class="{kind}" x="{middle.real + 1:.2f}" y="{middle.imag - 1:.2f}">{text}</text>'
-    line = f'<path class="{kind}" d="M{tail.real:.2f} {tail.imag:.2f}L{tip.real:.2f} {tip.imag:.2f}"/>'
-    return f'{line}<path class="{kind} tip" d="{arrow}"/>{label}'
+    """Return one vector with its arrow."""
+    line = f'<path class="{vector.kind}" d="M{tail.real:.2f} {tail.imag:.2f}L{tip.real:.2f} {tip.imag:.2f}"/>'
+    return f'{line}<path class="{vector.kind} tip" d="{_arrow(tail, tip, least)}"/>'
+
+
+def _label(vector: Vector, start: complex) -> str:
+    """Return the letters of a student's vector."""
+    text = "".join(_lettered(vector.text))
+    return f'<text class="{vector.kind}" x="{start.real:.2f}" y="{start.imag:.2f}">{text}</text>'
+
+
+def _lettered(text: str) -> Iterator[str]:
+    """Go through the pieces of a text with scripts, each moved from where the one before it stands.
+
+    Old browsers know no `baseline-shift`; `dy` moves all that follows, until it is moved back.
+    """
+    at = 0.0
+    for run, level in script_runs(text):
+        size = f' font-size="{SMALL}"' if level else ""
+        yield f'<tspan dy="{RISE[level] - at:.1f}"{size}>{escape(run)}</tspan>'
+        at = RISE[level]
 
 
 def _arrow(tail: complex, tip: complex, least: float) -> str:

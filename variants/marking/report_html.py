@@ -8,8 +8,9 @@ from html import escape
 from ...plans.marking.verdicts import Verdict
 from .figures import plan_figures
 from .report import Report, Row
-from .wording import set_scripts, texts
+from .wording import script_runs, texts
 
+TAGS = {0: "", 1: "sup", -1: "sub"}
 SIGNS = {Verdict.RIGHT: "✓", Verdict.CARRIED: "(✓)", Verdict.MISSING: "–"}
 STYLE = """
 body{font:11pt/1.4 "Segoe UI",Arial,sans-serif;max-width:180mm;margin:8mm auto;color:#000}
@@ -92,4 +93,5 @@ def scripts(text: str) -> str:
     >>> scripts("a^n_BA < V_B"), scripts("F′_i2")
     ('a<sup>n</sup><sub>BA</sub> &lt; V<sub>B</sub>', 'F′<sub>i2</sub>')
     """
-    return set_scripts(escape(text), "<sup>{}</sup>", "<sub>{}</sub>")
+    runs = ((escape(run), TAGS[level]) for run, level in script_runs(text))
+    return "".join(f"<{tag}>{run}</{tag}>" if tag else run for run, tag in runs)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from ...drawing.words import Words
 from ...scales.packaged import packaged
@@ -26,18 +27,19 @@ def plain(markup: str) -> str:
     return re.sub(r"[{}]", "", text)
 
 
-def set_scripts(text: str, raised: str, lowered: str) -> str:
-    """Return escaped text with the scripts of its symbols in markup; {} stands for the script.
+def script_runs(text: str) -> Iterator[tuple[str, int]]:
+    """Go through text piece by piece, each with its level: 0 on the line, 1 above it, -1 below it.
 
-    >>> set_scripts("a^n_BA &lt; V_B", "<sup>{}</sup>", "<sub>{}</sub>")
-    'a<sup>n</sup><sub>BA</sub> &lt; V<sub>B</sub>'
+    >>> list(script_runs("a^n_BA < V_B"))
+    [('a', 0), ('n', 1), ('BA', -1), (' < V', 0), ('B', -1)]
     """
-
-    def written(found: re.Match[str]) -> str:
-        letter, above, below = found.groups()
-        return letter + (raised.format(above) if above else "") + (lowered.format(below) if below else "")
-
-    return SYMBOL.sub(written, text)
+    start = 0
+    for found in SYMBOL.finditer(text):
+        yield text[start : found.end(1)], 0
+        yield from ((script, level) for script, level in ((found[2], 1), (found[3], -1)) if script)
+        start = found.end()
+    if text[start:]:
+        yield text[start:], 0
 
 
 def mistake_texts(language: str) -> dict[str, str]:
