@@ -51,7 +51,7 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
         exact_factors(board, given)
         chord_factors(board, division, layout.fastest, given)
     if SIZES in wanted:
-        ordinates(board, division)
+        ordinates(board, division, given)
         if ROLLER in layout.followers:
             roller_sizes(board, division, layout.limits, layout.corner)
             smallest_roller_cam(board)

@@ -29,8 +29,18 @@ class Division:
         """All sections; each has the number of the line at its end."""
         return range(1, self.last + 1)
 
+    @property
+    def rise(self) -> range:
+        """Lines of the rise, both ends among them."""
+        return range(self.top + 1)
+
+    @property
+    def fall(self) -> range:
+        """Lines of the fall, both ends among them."""
+        return range(self.leave, self.last + 1)
+
     def pieces(self, phase: str) -> tuple[range, ...]:
         """Return the lines of the `rise` or the `fall`, between jumps: of each piece both ends are among them."""
-        begin, end = (0, self.top) if phase == "rise" else (self.leave, self.last)
-        ends = sorted({begin, *(line for line in self.jumps if begin < line < end), end})
+        lines = self.rise if phase == "rise" else self.fall
+        ends = sorted({lines[0], *(line for line in self.jumps if line in lines), lines[-1]})
         return tuple(range(a, b + 1) for a, b in pairwise(ends))

@@ -11,7 +11,7 @@ from typing import Any
 
 from .division import Division
 from .integration import ACCELERATION, VELOCITY
-from .motion import Array, Motion
+from .motion import FALL, RISE, Array, Motion
 from .size_plans import side_of
 from .sizes import RIGHT_ANGLE
 
@@ -21,7 +21,7 @@ NUMBERS = {"_two": 2.0, "_minus_one": -1.0}
 def peak(motion: Motion, given: str) -> float:
     """Return the greatest ordinate of the given diagram in the rise, SI: A_1, or the greatest ds/dphi."""
     order = (0.0, 0.0, 1.0) if given == ACCELERATION else (0.0, 1.0, 0.0)
-    return motion.maximum(*order, ("rise",)).value
+    return motion.maximum(*order, (RISE,)).value
 
 
 def diagram_givens(motion: Motion, angles: Array, division: Division, given: str) -> dict[str, Any]:
@@ -37,10 +37,11 @@ def diagram_givens(motion: Motion, angles: Array, division: Division, given: str
     for word, side in (("before", -1), ("after", 1)):
         values = motion.at(angles, side)[order]
         found |= {f"_part{i}_{word}": float(values[i]) / amplitude for i in division.lines}
-    if given == VELOCITY:  # of two values at a jump the one inside the phase
-        inside = {i: "after" if i == division.leave else "before" for i in division.sections}
-        found |= {f"_node{i}": found[f"_part{i}_{word}"] for i, word in inside.items()}
-        return found | {"_part_s": motion.h / (amplitude * top)}
+    if given == VELOCITY:
+        for phase, lines in ((RISE, division.rise), (FALL, division.fall)):  # of two values at a jump that inside
+            words = ("after", *("before" for _ in lines[1:]))
+            found |= {f"_node{i}_{phase}": found[f"_part{i}_{word}"] for i, word in zip(lines, words, strict=True)}
+        return found | {"_part_v": motion.ds_max.value / amplitude, "_part_s": motion.h / (amplitude * top)}
     found["_part_v"] = motion.ds_max.value / (amplitude * top)
     found["_part_s"] = motion.h / (amplitude * top * top)
     found["_part_a"] = motion.d2s_max.value / amplitude
@@ -49,7 +50,7 @@ def diagram_givens(motion: Motion, angles: Array, division: Division, given: str
 
 def limit_givens(limits: Mapping[str, float], sense: int) -> dict[str, float]:
     """Return slope, side and inclination of every limit's tangent; `limits` are transmission angles by name."""
-    found: dict[str, float] = {"_sense": float(sense)}
+    found: dict[str, float] = {}
     for limit, gamma in limits.items():
         side = side_of(limit, sense)
         found |= {f"_slope_{limit}": side / math.tan(gamma), f"_side_{limit}": float(side)}
@@ -60,7 +61,7 @@ def limit_givens(limits: Mapping[str, float], sense: int) -> dict[str, float]:
 def profile_givens(motion: Motion, angles: Array, division: Division, sense: int) -> dict[str, float]:
     """Return the follower's axes in the inverted motion, and travels as parts of the stroke."""
     s, ds, _ = motion.at(angles, -1)
-    found: dict[str, float] = {}
+    found = {"_sense": float(sense)}
     for i in division.lines:
         found[f"_axis_angle{i}"] = RIGHT_ANGLE - sense * float(angles[i])
         found |= {f"_s_part{i}": float(s[i]) / motion.h, f"_x_part{i}": sense * float(ds[i]) / motion.h}

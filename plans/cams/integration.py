@@ -67,13 +67,6 @@ def integrate(board: Board, plan: str, onto: str, pole_distance: str, sections: 
         board.meet(f"{onto}.{i}", f"{onto}.{i - 1}", ray(plan, i), foot(onto, i), UP)
 
 
-def given_curve(board: Board, lines: Iterable[int]) -> None:
-    """Mark the curve of a velocity analogue that is given, because it jumps, on the section lines."""
-    for i in lines:
-        board.calc(f"_height{i}", "part_of_amplitude", "l_A1", f"_node{i}")
-        board.place(f"{VELOCITY}.{i}", f"_x{i}" if i else "zero", f"_height{i}")
-
-
 def diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:
     """Draw the diagrams from the one that is given on: the analogue of acceleration, or that of velocity."""
     board.turn(RIGHT, "zero")
@@ -84,6 +77,4 @@ def diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:
     if given == ACCELERATION:
         integrate(board, ACCELERATION, VELOCITY, "H_a", sections)
         drawn_means(board, VELOCITY, sections)
-    else:
-        given_curve(board, sections)
     integrate(board, VELOCITY, TRAVEL, "H_v", sections)

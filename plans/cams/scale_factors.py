@@ -17,7 +17,7 @@ def exact_factors(board: Board, given: str) -> None:
         board.calc("_V_max", "first_integral", "_part_v", "l_A1", "_x_rise", "H_a")
         board.calc("_S_max", "second_integral", "_part_s", "l_A1", "_x_rise", "H_a", "H_v")
     else:
-        board.calc("_V_max", "part_of_amplitude", "l_A1", "one")
+        board.calc("_V_max", "part_of_amplitude", "l_A1", "_part_v")
         board.calc("_S_max", "first_integral", "_part_s", "l_A1", "_x_rise", "H_v")
     _factors(board, given, "_S_max", "")
     board.calc("s_max", "to_scale", "mu_s", "_S_max")

@@ -1,8 +1,8 @@
 """The plans from which the smallest sizes are read: the travel over its analogues, in equal scales.
 
-`sizes` shows S over ds/dphi: a point for every section line, from the curves of chords. On each limit a tangent runs at
-the permitted transmission angle from `T_rise`, `T_fall` on the axis; where they meet, in `A`, a cam's centre has the
-limits on both sides. `C` is the centre of the smallest cam, `0` the lowest place of the roller's centre.
+`sizes` shows S over ds/dphi: points `1_rise`, `13_fall` on the section lines, from the curves of chords. On each limit
+a tangent runs at the permitted transmission angle from `T_rise`, `T_fall` on the axis; where they meet, in `A`, a cam's
+centre has the limits on both sides. `C` is the centre of the smallest cam, `0` the lowest place of the roller's centre.
 
 `plate_sizes` shows S over d2s/dphi2; a tangent at 45 degrees to the negative branch meets the axis of travels in `T`.
 
@@ -15,7 +15,7 @@ from collections.abc import Iterable
 
 from ..board import Board
 from .division import Division
-from .integration import RIGHT, TRAVEL, UP, VELOCITY, foot
+from .integration import ACCELERATION, RIGHT, TRAVEL, UP, VELOCITY, foot
 from .sizes import BACK
 
 SIZES, PLATE_SIZES = "sizes", "plate_sizes"
@@ -32,12 +32,25 @@ def side_of(limit: str, sense: int) -> int:
     return OUTWARDS[phase_of(limit)] * sense * (-1 if limit.endswith(BACK) else 1)
 
 
-def ordinates(board: Board, division: Division) -> None:
-    """Read the curves of chords on every section line, as values."""
+def ordinates(board: Board, division: Division, given: str) -> None:
+    """Read the curves on every section line, as values: a velocity that is given, because it jumps, in both phases."""
     for i in division.lines:
-        for plan, name, mu in ((VELOCITY, "_ds", "mu_ds_chord"), (TRAVEL, "_s", "mu_s_chord")):
-            board.read(f"{name}_segment{i}", foot(plan, i), f"{plan}.{i}")
-            board.calc(f"{name}{i}_drawn", "ordinate_to_scale", mu, UP, f"{name}_segment{i}")
+        _ordinate(board, TRAVEL, f"_s{i}_drawn", "mu_s_chord", i)
+        if given == ACCELERATION:
+            _ordinate(board, VELOCITY, f"_ds{i}_drawn", "mu_ds_chord", i)
+    for phase, lines in (("rise", division.rise), ("fall", division.fall)):
+        for i in lines:
+            analogue = f"_ds{i}_drawn"
+            if given == VELOCITY:
+                analogue = f"_ds{i}_{phase}_drawn"
+                board.calc(f"_height{i}_{phase}", "part_of_amplitude", "l_A1", f"_node{i}_{phase}")
+                board.calc(analogue, "to_scale", "mu_ds_chord", f"_height{i}_{phase}")
+            board.calc(f"_x{i}_{phase}_drawn", "turned_with", analogue, "_sense")
+
+
+def _ordinate(board: Board, plan: str, name: str, mu: str, line: int) -> None:
+    board.read(f"{name}_segment", foot(plan, line), f"{plan}.{line}")
+    board.calc(name, "ordinate_to_scale", mu, UP, f"{name}_segment")
 
 
 def roller_sizes(board: Board, division: Division, limits: Iterable[str], corner: Iterable[str]) -> None:
@@ -46,21 +59,20 @@ def roller_sizes(board: Board, division: Division, limits: Iterable[str], corner
     Limits are named as the half planes of `sizes.wedge`.
     """
     board.pole(f"{SIZES}.0")
-    for i in division.lines:
-        board.calc(f"_x{i}_drawn", "turned_with", f"_ds{i}_drawn", "_sense")
-        if i:
-            board.place(f"{SIZES}.{i}", f"_x{i}_drawn", f"_s{i}_drawn")
+    for phase, lines in (("rise", division.rise), ("fall", division.fall)):
+        for i in lines:
+            board.place(f"{SIZES}.{i}_{phase}", f"_x{i}_{phase}_drawn", f"_s{i}_drawn")
     for limit in limits:
         slope, side, at = (f"_{word}_{limit}" for word in ("slope", "side", "touch"))
         pieces = division.pieces(phase_of(limit))
         for k, piece in enumerate(pieces):
-            coordinates = (*(f"_x{i}_drawn" for i in piece), *(f"_s{i}_drawn" for i in piece))
+            coordinates = (*(f"_x{i}_{phase_of(limit)}_drawn" for i in piece), *(f"_s{i}_drawn" for i in piece))
             board.calc(f"{at}{k}", "touching", slope, side, *coordinates)
         board.calc(at, "outermost", side, *(f"{at}{k}" for k in range(len(pieces))))
         board.place(f"{SIZES}.T_{limit}", at, "zero")
         board.turn(f"_tangent_{limit}", f"_inclination_{limit}")
-    lines = [operand for limit in corner for operand in (f"{SIZES}.T_{limit}", f"_tangent_{limit}")]
-    board.meet(f"{SIZES}.A", *lines)
+    tangents = [operand for limit in corner for operand in (f"{SIZES}.T_{limit}", f"_tangent_{limit}")]
+    board.meet(f"{SIZES}.A", *tangents)
     board.distance("r_0_tangents", f"{SIZES}.0", f"{SIZES}.A")
     board.read("_centre", f"{SIZES}.0", f"{SIZES}.A")
     board.calc("e_tangents", "component", RIGHT, "_centre")

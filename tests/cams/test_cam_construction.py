@@ -1,0 +1,220 @@
+"""The construction of a cam on the board: chords, scale factors, tangents, inversion, against the exact motion."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from kulman.plans.boards.exact import run
+from kulman.plans.cams.cam import LAWS, PLANS, Cam, Curve
+from kulman.plans.cams.construction import construct
+from kulman.plans.cams.givens import diagram_givens
+from kulman.plans.cams.integration import ray
+from kulman.plans.cams.motion import motion_of
+from kulman.plans.cams.solve import SolvedCam, solve_cam
+from kulman.plans.hands.hand import preset
+from kulman.plans.hands.shaky import Paper, draw
+
+DEGREE = math.radians(1.0)
+MADI = {
+    "h": 0.013,
+    "phi_rise": 108 * DEGREE,
+    "phi_upper": 15 * DEGREE,
+    "phi_fall": 108 * DEGREE,
+    "u": 1 / 3,
+    "omega": 200.0,
+    "mu_phi": DEGREE,
+    "l_A1": 0.110,
+    "H_a": 0.030,
+    "H_v": 0.030,
+    "gamma_rise": 75 * DEGREE,
+    "gamma_fall": 60 * DEGREE,
+    "R_roller": 0.007,
+    "rho_flat": 0.010,
+    "margin": 0.005,
+}
+FOLLOWERS = ("roller", "plate")
+ACCELERATED = tuple(law for law in LAWS if law != "uniform")
+
+
+def madi(law: str = "sawtooth", **fields: object) -> SolvedCam:
+    """Solve the cam of the course project, with another law or sense."""
+    return solve_cam(Cam(FOLLOWERS, law, **fields), MADI)
+
+
+def random_cams(count: int) -> list[tuple[Cam, dict[str, float]]]:
+    """Return cams with random laws, phases, amplitudes, pole distances, both senses and orders of the fall."""
+    random = np.random.default_rng(20261122)
+    cams = []
+    for _ in range(count):
+        law, law_fall = random.choice(LAWS, 2)
+        rise, fall = random.uniform(40, 150, 2)
+        numbers = {
+            "h": random.uniform(0.004, 0.06),
+            "phi_rise": rise * DEGREE,
+            "phi_upper": random.choice([0.0, random.uniform(1, 60)]) * DEGREE,
+            "phi_fall": fall * DEGREE,
+            "u": random.uniform(0.25, 0.75),
+            "l_A1": random.uniform(0.04, 0.2),
+            "H_a": random.uniform(0.02, 0.06),
+            "H_v": random.uniform(0.02, 0.06),
+            "gamma_rise": random.uniform(50, 80) * DEGREE,
+            "gamma_fall": random.uniform(45, 80) * DEGREE,
+        }
+        words = {
+            "fall": str(random.choice(["mirror", "same"])),
+            "rotation": str(random.choice(["ccw", "cw"])),
+            "limits": str(random.choice(["one-sided", "two-sided"])),
+        }
+        cams.append((Cam(FOLLOWERS, str(law), str(law_fall), **words), MADI | numbers))
+    return cams
+
+
+MANY = [pytest.param(25, id="25"), pytest.param(500, id="500", marks=pytest.mark.soak)]
+
+
+def test_the_scale_factors_of_the_project_follow_from_its_amplitude():
+    # by hand: V = A u x / (2 H), S = A x^2 u (u + (1 - u)) / (6 H^2) * ... of a sawtooth, all in mm of paper
+    v_max = 110 * 36 / 2 / 30
+    s_max = (110 * 36**2 / 6 + (110 * 36 / 2) * 72 / 3) / 30**2
+    mu_s = 0.013 / s_max
+    mu_ds = mu_s / (DEGREE * 30)
+    found = madi().quantities
+
+    assert found["mu_s"].value == pytest.approx(mu_s, rel=1e-14)
+    assert found["mu_ds"].value == pytest.approx(mu_ds, rel=1e-14)
+    assert found["mu_d2s"].value == pytest.approx(mu_ds / (DEGREE * 30), rel=1e-14)
+    assert found["mu_v"].value == pytest.approx(200 * mu_ds, rel=1e-14)
+    assert found["mu_a"].value == pytest.approx(200**2 * mu_ds / (DEGREE * 30), rel=1e-14)
+    assert found["ds_max"].value == pytest.approx(v_max * mu_ds, rel=1e-14)
+    assert found["nu"].value == pytest.approx(math.atan(mu_s / mu_ds), rel=1e-14)
+    assert found["l_A2"].value == pytest.approx(0.055, rel=1e-14)
+
+
+@pytest.mark.parametrize("count", MANY)
+def test_scale_factors_show_what_the_motion_has(count: int) -> None:
+    for cam, values in random_cams(count):
+        solved = solve_cam(cam, values, ("diagrams",))
+        motion, found = solved.motion, solved.quantities
+
+        assert found["s_max"].value == pytest.approx(values["h"], rel=1e-12)
+        assert found["ds_max"].value == pytest.approx(motion.ds_max.value, rel=1e-12)
+        if "A_1" in found:
+            rise = motion.maximum(0.0, 0.0, 1.0, ("rise",)).value
+            slowing = motion.maximum(0.0, 0.0, -1.0, ("rise",)).value
+            assert found["A_1"].value == pytest.approx(rise, rel=1e-12)
+            assert found["A_2"].value == pytest.approx(slowing, rel=1e-10)
+            assert found["a_max"].value == pytest.approx(values["omega"] ** 2 * motion.d2s_max.value, rel=1e-12)
+
+
+@pytest.mark.parametrize("law", ACCELERATED)
+def test_chords_run_parallel_to_their_rays(law: str) -> None:
+    solved = madi(law)
+    for plan, onto in (("diagram_a", "diagram_v"), ("diagram_v", "diagram_s")):
+        for i in solved.layout.division.sections:
+            chord = solved.point(f"{onto}.{i}") - solved.point(f"{onto}.{i - 1}")
+            direction = solved.point(ray(plan, i))
+            assert abs((direction.conjugate() * chord).imag) < 1e-12 * abs(chord)
+            foot = solved.point(f"{onto}.f{i}")
+            assert solved.point(f"{onto}.{i}").real == pytest.approx(foot.real, abs=1e-15)
+            assert foot.real == pytest.approx(solved.angles[i] / DEGREE * 1e-3, rel=1e-13)
+
+
+def errors(cam: Cam, sections: int, shift: float = 0.0) -> tuple[float, float]:
+    """Return by which parts chords miss velocity and stroke; `shift` moves all inner section lines by a part."""
+    motion = motion_of(cam, MADI)
+    solved = solve_cam(Cam(cam.followers, cam.law, fall=cam.fall, sections=sections), MADI, ("diagrams",))
+    angles, division = solved.angles.copy(), solved.layout.division
+    inside = [i for i in division.lines if i not in (0, division.top, division.leave, division.last)]
+    angles[inside] += shift * (angles[1] - angles[0])
+    givens = solved.givens | diagram_givens(motion, angles, division, "diagram_a")
+    board = run(construct(solved.layout, ("diagrams",)), givens)
+    drawn = (board.values["V_max_chord"] / board.values["_V_max"], board.values["S_max_chord"] / board.values["_S_max"])
+    return abs(drawn[0] - 1.0), abs(drawn[1] - 1.0)
+
+
+@pytest.mark.parametrize("law", ACCELERATED)
+def test_chords_are_of_second_order_when_jumps_lie_on_nodes(law: str) -> None:
+    few, many = (errors(Cam(FOLLOWERS, law), sections) for sections in (24, 96))
+
+    for coarse, fine in zip(few, many, strict=True):
+        assert fine < 2e-3
+        assert fine < 1e-12 or math.log(coarse / fine, 4.0) > 1.8
+
+
+@pytest.mark.parametrize("law", ["constant", "sawtooth"])
+def test_chords_are_of_first_order_when_jumps_lie_between_nodes(law: str) -> None:
+    coarse, fine = (errors(Cam(FOLLOWERS, law), sections, 0.3)[1] for sections in (24, 192))
+
+    assert 0.7 < math.log(coarse / fine, 8.0) < 1.4
+
+
+@pytest.mark.parametrize("count", MANY)
+def test_sizes_by_tangents_come_to_those_of_the_exact_curves(count: int) -> None:
+    for cam, values in random_cams(count):
+        fine = Cam(cam.followers, cam.law, cam.law_fall, cam.fall, cam.rotation, cam.limits, sections=96)
+        solved = solve_cam(fine, values, ("sizes",))
+        exact = solved.roller.by_tangents
+        found = solved.quantities
+
+        assert found["r_0_tangents"].value == pytest.approx(exact.r_0, rel=8e-3)
+        assert found["e_tangents"].value == pytest.approx(exact.e, abs=8e-3 * exact.r_0)
+        assert found["r_0"].value <= exact.r_0 * (1 + 1e-12)
+        if solved.plate is not None:
+            size = max(found["r_0_flat_min"].value, found["A_1"].value)
+            assert found["r_0_flat_tangent"].value == pytest.approx(solved.plate.sizes.r_0_min, abs=8e-3 * size)
+
+
+@pytest.mark.parametrize("count", MANY)
+def test_profiles_by_inversion_are_the_exact_ones(count: int) -> None:
+    for cam, values in random_cams(count):
+        solved = solve_cam(cam, values)
+        pitch = solved.roller.profile.pitch(solved.angles, -1)
+        practical = solved.roller.profile.practical(solved.angles, -1)
+        for i in solved.layout.division.lines:
+            assert solved.point(f"profile.B{i}") == pytest.approx(complex(pitch[i]), abs=1e-12)
+            assert solved.point(f"profile.K{i}") == pytest.approx(complex(practical[i]), abs=1e-12)
+        if solved.plate is not None:
+            touches = solved.plate.profile.practical(solved.angles, -1)
+            for i in solved.layout.division.lines:
+                assert solved.point(f"plate_profile.K{i}") == pytest.approx(complex(touches[i]), abs=1e-12)
+
+
+def test_no_more_is_built_than_wanted() -> None:
+    few, all_plans = (solve_cam(Cam(FOLLOWERS, "sine"), MADI, plans) for plans in (("diagrams",), PLANS))
+
+    assert set(few.program.plans) == {"diagram_a", "diagram_v", "diagram_s", "position"}
+    assert few.roller is None
+    assert "r_0" not in few.quantities
+    assert len(few.program.steps) < 0.6 * len(all_plans.program.steps)
+
+
+def test_a_cam_for_one_follower_draws_nothing_of_the_other() -> None:
+    plans = set(solve_cam(Cam(("plate",), "sine"), MADI).program.plans)
+
+    assert "plate_profile" in plans
+    assert plans.isdisjoint({"sizes", "profile"})
+
+
+def test_a_law_of_ones_own_is_drawn_like_that_of_the_table() -> None:
+    pieces = Curve("mine", "pieces", (0.0, 1 / 3, 1 / 3, 1.0), (0.0, 2.0, -1.0, 0.0))
+    mine = solve_cam(Cam(FOLLOWERS, "mine", curves=(pieces,)), MADI)
+    bundled = madi("sawtooth")
+
+    for name in ("mu_s", "ds_max", "A_1", "A_2", "r_0", "e", "rho_min", "r_0_flat_min"):
+        assert mine.quantities[name].value == pytest.approx(bundled.quantities[name].value, rel=1e-12), name
+
+
+def test_a_hand_draws_the_cam_as_well_as_its_pencil_lets_it() -> None:
+    solved = madi()
+    hand = preset("normal").hand
+    board = draw(Paper(solved.program, solved.givens, solved.mus(1e-3)), hand, np.random.default_rng(1), 400)
+
+    for name in ("mu_s_chord", "r_0_tangents"):
+        exact = solved.values[name]
+        spread = np.std(board.values[name]) / abs(exact)
+        assert 1e-4 < spread < 0.3, name
+        assert abs(np.mean(board.values[name]) / exact - 1.0) < spread
+    assert np.std(board.values["mu_s"]) == 0.0  # calculated from data
