@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 
 from kulman.drawing.linkages.lever_arms import LeverArm, staggered
 from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.style import STYLES
 from kulman.drawing.view import Canvas
+from kulman.tests.support.sheet_geometry import crosses
 
 
 def arm_to(foot: complex, along: complex = 1j) -> LeverArm:
@@ -33,6 +36,8 @@ def test_random_arms_that_make_small_angles_do_not_meet() -> None:
 
         assert sorted(round(abs(shift), 9) for shift in shifts.values()) == [9.0, 18.0, 27.0, 36.0]
         assert all(shift.imag < 0.0 for shift in shifts.values())
+        drawn = [(shifts.get(i, 0j), each.foot + shifts.get(i, 0j)) for i, each in enumerate(arms)]
+        assert not any(crosses(one, other) for one, other in combinations(drawn, 2))
 
 
 def test_number_of_an_arm_that_lines_cross_stands_under_the_heading() -> None:
