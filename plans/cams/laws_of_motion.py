@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -95,8 +95,7 @@ class LawOfMotion:
 def _rest(piece: Smooth) -> Smooth:
     """Return 1 - s."""
     back = piece.times(-1.0)
-    first, *others = back.coefficients
-    return Smooth(back.low, back.high, back.origin, (1.0 + first, *others), back.sine, back.cosine, back.rate)
+    return replace(back, coefficients=(1.0 + back.coefficients[0], *back.coefficients[1:]))
 
 
 def integrated(pieces: Sequence[Smooth], start: float = 0.0) -> tuple[Smooth, ...]:
@@ -133,6 +132,7 @@ def law_of_motion(name: str, u: float = 0.5) -> LawOfMotion:
     whole = lobe[-1].value(1.0)
     first = [piece.times(u / whole).stretched(u, 0.0) for piece in lobe]
     second = [piece.times((1.0 - u) / whole).stretched(1.0 - u, 0.0).mirrored() for piece in reversed(lobe)]
+    second[0] = replace(second[0], low=first[-1].high)  # not an ulp beside it
     return LawOfMotion((*first, *(_rest(piece) for piece in second)), u)
 
 
