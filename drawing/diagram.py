@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ..scales.scale import Scale
-from .shapes import Group, Head, Line, Pen, Polyline
+from .shapes import Circle, Group, Head, Line, Pen, Polyline
+from .symbols import dimension
 from .view import Canvas
 
 PAST = 8.0  # mm by which an axis runs past its last division
@@ -83,6 +84,40 @@ def curve(
     lines = tuple(Polyline(tuple(piece), pen) for piece in pieces if len(piece) > 1)
     if lines:
         canvas.add(Group(lines, role, name))
+
+
+@dataclass(frozen=True, slots=True)
+class Pole:
+    """The pole of a graphical integration or differentiation, `reach` mm to the left of the ordinates.
+
+    `letter` stands beside it, `name` names its distance and `text` is the dimension.
+    """
+
+    reach: float
+    letter: str
+    name: str
+    text: str
+
+
+def rays(canvas: Canvas, field: Field, pole: Pole, ordinates: Iterable[tuple[int, float]]) -> None:
+    """Draw the pole at its distance, and a ray to each ordinate, mm, with the numbers of its sections."""
+    at, style = field.origin - pole.reach, canvas.style
+    cuts: dict[float, list[str]] = {}
+    for number, y in ordinates:
+        cuts.setdefault(round(y, 4), []).append(str(number))
+    for cut, numbers in sorted(cuts.items()):
+        end = field.origin + 1j * cut
+        canvas.add(Line(at, end, Pen.THIN, role="ray", name=" ".join(numbers)))
+        canvas.label(", ".join(numbers), end, prefer=end - at, clear=0.8, height=max(2.5, 0.7 * style.text))
+    canvas.add(Line(at - 3.0, field.origin, Pen.THIN, role="axis"))
+    canvas.add(Circle(at, style.node, Pen.MAIN, fill="white", role="pole"))
+    canvas.label(pole.letter, at, prefer=-1.0 + 1j, clear=1.0, height=style.text)
+    below = field.origin + 1j * (field.y.mm(field.y.low) - 4.0)
+    feet = complex(at.real, below.imag), complex(field.origin.real, below.imag)
+    for start, foot in zip((at, field.at(0.0, field.y.low)), feet, strict=True):
+        canvas.add(Line(start, foot - 1.5j, Pen.THIN, role="extension"))
+    canvas.add(dimension(*feet, pole.name, style))
+    canvas.label(pole.text, feet, prefer=-1j, clear=0.8, height=style.text)
 
 
 def divisions(high: float, low: float, mu: float, apart: float = 12.0) -> Sequence[float]:

@@ -15,9 +15,8 @@ from ...plans.linkages.cycles.cycle import Cycle
 from ...plans.linkages.cycles.diagrams import diagrams
 from ...plans.linkages.cycles.strokes import OutputMotion
 from ...scales.scale import Scale, rounded, steps
-from ..diagram import Axis, Field, axes, curve
-from ..shapes import Circle, Group, Line, Pen, Polyline
-from ..symbols import dimension
+from ..diagram import Axis, Field, Pole, axes, curve, rays
+from ..shapes import Circle, Group, Pen, Polyline
 from ..view import Canvas, View
 from .positions_view import main_output
 from .scene import Scene
@@ -148,27 +147,11 @@ def _pole(canvas: Canvas, scene: Scene, field: Field, bands: Sequence[Band], let
     """Draw the pole at its distance to the left of the axis, and a ray parallel to each chord of the diagram above."""
     above, band = bands
     reach = pole_distance(above.scale.mu, field.x.scale.mu, band.scale.mu)
-    pole = field.origin - reach
     assert band.chords is not None
-    cuts: dict[float, list[str]] = {}
-    for number, y in enumerate(band.chords[1].tolist(), 1):
-        if math.isfinite(y):
-            cuts.setdefault(round(field.y.mm(y), 4), []).append(str(number))
-    for cut, numbers in sorted(cuts.items()):
-        end = field.origin + 1j * cut
-        canvas.add(Line(pole, end, Pen.THIN, role="ray", name=" ".join(numbers)))
-        canvas.label(", ".join(numbers), end, prefer=end - pole, clear=0.8, height=max(2.5, 0.7 * scene.style.text))
-    canvas.add(Line(pole - 3.0, field.origin, Pen.THIN, role="axis"))
-    canvas.add(Circle(pole, scene.style.node, Pen.MAIN, fill="white", role="pole"))
-    canvas.label(letter, pole, prefer=-1.0 + 1j, clear=1.0, height=scene.style.text)
-    below = field.origin + 1j * (field.y.mm(field.y.low) - 4.0)
-    feet = complex(pole.real, below.imag), complex(field.origin.real, below.imag)
-    for start, end in zip((pole, field.at(0.0, field.y.low)), feet, strict=True):
-        canvas.add(Line(start, end - 1.5j, Pen.THIN, role="extension"))
     name = f"H_{band.name.split('_')[0]}"
-    canvas.add(dimension(*feet, name, scene.style))
     text = f"{scene.words.symbol(name)} = {scene.words.number(reach, 2)}"
-    canvas.label(text, feet, prefer=-1j, clear=0.8, height=scene.style.text)
+    ordinates = ((i, field.y.mm(y)) for i, y in enumerate(band.chords[1].tolist(), 1) if math.isfinite(y))
+    rays(canvas, field, Pole(reach, letter, name, text), ordinates)
 
 
 def _chords(canvas: Canvas, field: Field, drawn: Diagrams, least: float) -> None:

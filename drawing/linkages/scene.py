@@ -11,6 +11,7 @@ from ...plans.linkages.mechanism import Driver
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
+from ..givens import Given as Given
 from ..printed import segment_decimals
 from ..shapes import Vector
 from ..style import Style
@@ -21,14 +22,6 @@ if TYPE_CHECKING:  # runs are found with numpy, which a solution does without
 
 DRIVER = "driver"  # the figure of the driver apart, among the plans that have scale factors
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
-
-
-@dataclass(frozen=True, slots=True)
-class Given:
-    """A given as the task states it: a number in its own unit, or a chosen word (without unit)."""
-
-    value: float | str
-    unit: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,7 @@ from ...plans.linkages.compound import found_here
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.quantities import Quantity
 from ...scales.scale import Scale
+from ..givens import givens_view
 from ..printed import ruler_decimals, segment_decimals, value_text
 from ..table import table
 from ..view import View
@@ -50,16 +51,8 @@ class Part:
 def givens_table(scene: Scene) -> View:
     """Return the table of the givens in the task's own units."""
     words = scene.words
-    rows = [[words["table.symbol"], words["table.value"], words["table.unit"]]]
-    for name, given in scene.givens.items():
-        if isinstance(given.value, str):
-            rows.append(
-                [words.texts.get(f"given.{name}", name), words.texts.get(f"choice.{given.value}", given.value), ""]
-            )
-        else:
-            rows.append([words.symbol(name), words.short(given.value), words.unit(given.unit)])
-    rows += ([symbols, number, words["table.calculated"]] for symbols, number in _factors(scene))
-    return table("givens", words["heading.givens"], rows, scene.style)
+    factors = [(symbols, number, words["table.calculated"]) for symbols, number in _factors(scene)]
+    return givens_view(scene.givens, words, scene.style, factors)
 
 
 def _factors(scene: Scene) -> Iterator[tuple[str, str]]:
