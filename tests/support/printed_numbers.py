@@ -61,6 +61,14 @@ def _shows_three_digits(mu: float, printed: float) -> bool:
     return printed != 0.0 and 0.01 * mu <= 10.0 ** (math.floor(math.log10(abs(printed))) - 2)
 
 
+def _needless(mm: str, most: int, mu: float, printed: str) -> bool:
+    """Whether a segment has more decimals than a ruler shows, though with so many its value would be as printed."""
+    decimals = re.split("[.,]", mm)[-1]
+    if len(decimals) <= most or decimals[most] == "5":  # which way it was rounded cannot be told
+        return False
+    return abs(round(value(mm), most) * mu - value(printed)) < half_digit(printed) * (1 - 1e-6)
+
+
 def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[str]:
     """Rows in which mm times mu is not the value to its last digit, or which `values` (by symbol) contradict."""
     for name in sheet.names:
@@ -75,6 +83,8 @@ def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[
             longer = mm != "–" and value(mm) > 2.0 and len(re.split("[.,]", mm)[-1]) > most
             if longer and abs(value(printed)) < 100.0 and _shows_three_digits(value(mu), value(printed)):
                 yield f"{symbol}: no ruler reads {mm} mm"
+            if mm != "–" and _needless(mm, most, value(mu), printed):
+                yield f"{symbol}: {mm} mm has more decimals than it takes"
             if symbol in values and abs(abs(value(printed)) - abs(values[symbol])) > half_digit(printed) + 1e-9:
                 yield f"{symbol}: {printed} is not {values[symbol]}"
             numbers_of(" ".join(row), lang)
