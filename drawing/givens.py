@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from .style import Style
-from .table import table
-from .view import View
 from .words import Words
+
+if TYPE_CHECKING:
+    from .style import Style
+    from .view import View
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +25,8 @@ def givens_view(
     givens: Mapping[str, Given], words: Words, style: Style, more: Sequence[tuple[str, str, str]] = ()
 ) -> View:
     """Return the table of the givens in the task's own units; `more` rows of the same columns follow."""
+    from .table import table  # needs numpy, which a solution does without
+
     rows = [[words["table.symbol"], words["table.value"], words["table.unit"]]]
     for name, given in givens.items():
         if isinstance(given.value, str):

@@ -13,6 +13,7 @@ _GROUPED = rf"[0-9]{{1,3}}(?:[{SPACES}][0-9]{{3}})+(?![0-9])"
 _NUMBER = re.compile(
     rf"[+\-\u2212\u2013]?(?:(?:{_GROUPED}|[0-9]+)(?:[.,][0-9]*)?|[.,][0-9]+)(?:[eE][+\-\u2212]?[0-9]+)?"
 )
+_UNDER = re.compile(r"\s*/\s*([1-9][0-9]*)(?![0-9.,])")  # what makes a fraction of a whole number
 _PLAIN = str.maketrans({"\u2212": "-", "\u2013": "-", ",": ".", **dict.fromkeys(SPACES)})
 
 
@@ -25,7 +26,8 @@ def quote(text: object, longest: int = 40) -> str:
 def split_number(text: str) -> tuple[float, str]:
     """Return the number that `text` begins with, and the rest of it without the spaces around.
 
-    A comma is always a decimal comma (`1,500` is one and a half), spaces part only whole groups of three digits.
+    A comma is always a decimal comma (`1,500` is one and a half), spaces part only whole groups of three digits; two
+    whole numbers with a slash between are a fraction.
 
     Raises
     ------
@@ -36,6 +38,8 @@ def split_number(text: str) -> tuple[float, str]:
     (55.5, 'мм')
     >>> split_number("−1 500 Н")
     (-1500.0, 'Н')
+    >>> split_number("1/4")
+    (0.25, '')
     """
     stripped = text.strip()
     if not stripped:
@@ -44,6 +48,9 @@ def split_number(text: str) -> tuple[float, str]:
     if found is None:
         raise InputError("number-bad", text=quote(stripped))
     rest = stripped[found.end() :].strip()
+    under = _UNDER.match(rest) if found.group().isdigit() else None
+    if under is not None:
+        return float(found.group()) / float(under[1]), rest[under.end() :].strip()
     # A second number ("55 5", "1,500.5") would otherwise be taken for a unit.
     if (rest[:1].isdigit() and not rest.startswith("1/")) or rest[:1] in {".", ","}:
         raise InputError("number-bad", text=quote(stripped))

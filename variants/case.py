@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..drawing.linkages.scene import Given
+from ..drawing.givens import Given
 from ..drawing.words import Words
 from ..plans.solved import Solved
 from ..scales.arguments import of_kind

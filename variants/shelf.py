@@ -7,18 +7,21 @@ import tomllib
 from typing import Any
 
 from ..scales.packaged import home
+from .kinds import table_in
 
 _TASKS = home(__package__) / "tasks"
 # what the files of the bundled tasks look like: a row of variants begins with its id, a given with unit or choices
 _ID = re.compile(r'^(?:  \{ )?id = "([^"]+)"', re.MULTILINE)
 _TABLE = re.compile(r"^variant = \[\n.*?^\]\n", re.MULTILINE | re.DOTALL)
+_HEADS = re.compile(r"^\[+(\w+)", re.MULTILINE)  # of tables
 _GIVEN = re.compile(r'^(\w+) = \{ (?:unit = "([^"]+)"|choices = \[([^]]+)\])', re.MULTILINE)
 
 
-def bundled() -> tuple[str, ...]:
-    """Return the ids of the bundled tasks."""
+def bundled(kind: str | None = None) -> tuple[str, ...]:
+    """Return the ids of the bundled tasks; only those of one kind where its table is said, `mechanism` or `cam`."""
     names = (entry.name for entry in _TASKS.iterdir())
-    return tuple(sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")))
+    tasks = sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml"))
+    return tuple(task for task in tasks if kind is None or kind == table_in(_HEADS.findall(bundled_text(task))))
 
 
 def bundled_text(task: str) -> str:
@@ -34,7 +37,7 @@ def summary(task: str) -> dict[str, Any]:
     text = bundled_text(task)
     head, _, rest = text.partition("[givens]\n")
     raw = tomllib.loads(_TABLE.sub("", head))
-    rows = _GIVEN.findall(rest[: rest.index("[[mechanism.")])
+    rows = _GIVEN.findall(rest[: rest.index("\n[")])
     givens = {name: unit or re.findall('"([^"]+)"', choices) for name, unit, choices in rows}
     return {name: raw[name] for name in ("id", "title", "source", "plans")} | {
         "variants": _ID.findall(text)[1:],

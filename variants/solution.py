@@ -240,7 +240,7 @@ def solve(
     by_plan = _scales(case, words if lang else case.words("uk"), format)
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
-    found = case.kind.conditions(solved) if condition else {}
+    found = case.kind.conditions(case) if condition else {}
     drawn = None if hand is None else _drawing(solved, by_plan, hand)
     return Solution(case.task, case.variant, solved, items, used, solved.error(), case.warnings, words, found, drawn)
 

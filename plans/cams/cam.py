@@ -48,6 +48,11 @@ VALUES = {
     "R_roller": "m",
     "rho_flat": "m",  # least radius of curvature under the plate, and by how much the plate reaches beyond the contact
     "margin": "m",
+    "psi": "rad",  # swing of a rocker, in the place of the stroke; its length, and where it turns
+    "l_rocker": "m",
+    "l_OC": "m",
+    "r_0": "m",  # sizes that are given, not found
+    "e": "m",
 }
 SECTIONS = 12  # of a phase, at least: what a student can draw, and enough for a smooth curve
 

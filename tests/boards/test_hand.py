@@ -243,7 +243,9 @@ def test_a_position_without_a_plan_has_no_drawing(capsys: pytest.CaptureFixture[
     assert "hand" not in json.loads(out)
 
 
-TASKS = [pytest.param(task, marks=[] if i % 6 == 0 else [pytest.mark.soak]) for i, task in enumerate(bundled())]
+TASKS = [
+    pytest.param(task, marks=[] if i % 6 == 0 else [pytest.mark.soak]) for i, task in enumerate(bundled("mechanism"))
+]
 
 
 @pytest.mark.parametrize("task", TASKS)

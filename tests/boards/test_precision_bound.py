@@ -118,7 +118,7 @@ def test_plans_err_no_more_than_their_data_over_a_sample_of_the_cycle(name: str)
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize("name", sorted(bundled()))
+@pytest.mark.parametrize("name", sorted(bundled("mechanism")))
 def test_plans_err_no_more_than_their_data(name: str) -> None:
     task = task_of(name)
     near = [place + away for place in task.special() for step in AWAY for away in (step, -step)]

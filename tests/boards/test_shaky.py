@@ -39,7 +39,7 @@ Array = NDArray[Any]
 STEADY = Hand(0.0, 0.0, 0.0)
 # between them all kinds of dyads, a triad, compound motion, both drivers, force plans and levers
 SAMPLE = ("nau-slider-crank", "madi-four-bar", "scheme-09-shaper", "scheme-20-press-automaton")
-MORE = [pytest.param(task, marks=pytest.mark.soak) for task in bundled() if task not in SAMPLE]
+MORE = [pytest.param(task, marks=pytest.mark.soak) for task in bundled("mechanism") if task not in SAMPLE]
 
 
 def generator() -> np.random.Generator:
@@ -84,7 +84,7 @@ def same_bits(first: Any, second: Any) -> bool:
 # Nothing at zero.
 
 
-@pytest.mark.parametrize("task", bundled())
+@pytest.mark.parametrize("task", bundled("mechanism"))
 def test_a_hand_without_errors_draws_the_exact_plan_to_the_last_bit(task: str) -> None:
     drawing = paper(task)
     exact = run(drawing.program, drawing.givens).values
@@ -286,7 +286,7 @@ def test_spread_of_small_errors_is_that_of_single_errors_together(task: str) -> 
 
 
 def test_the_tasks_hold_every_kind_of_group_and_of_plan() -> None:
-    solved = [solution_of(task).solved for task in bundled()]
+    solved = [solution_of(task).solved for task in bundled("mechanism")]
 
     kinds = {group.kind for one in solved for group in one.structure.groups}
     assert kinds == {"RRR", "RRP", "RPR", "PRP", "RPP", "III"}

@@ -170,7 +170,7 @@ def concurrence(marks: dict[str, np.ndarray]) -> np.ndarray:
     return np.linalg.det(np.moveaxis(np.array(rows), -1, 0))
 
 
-@pytest.mark.parametrize("name", bundled())
+@pytest.mark.parametrize("name", bundled("mechanism"))
 def test_tasks_move_over_the_whole_cycle_with_links_of_constant_length(name: str) -> None:
     task = load_task(name)
 

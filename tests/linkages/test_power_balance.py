@@ -21,7 +21,7 @@ from kulman.variants.shelf import bundled
 from kulman.variants.task import Task
 
 POSITIONS = 96
-FORCED = [name for name in bundled() if "forces" in load_task(name).plans]
+FORCED = [name for name in bundled("mechanism") if "forces" in load_task(name).plans]
 
 
 class Powers:

@@ -22,7 +22,7 @@ from kulman.variants.shelf import bundled
 from kulman.variants.solution import solve
 
 HAND = "normal"
-LINKAGES = [task for task in bundled() if task.startswith(("nau", "madi-four", "bertyaev", "scheme"))]
+LINKAGES = bundled("mechanism")
 
 
 @cache

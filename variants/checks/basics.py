@@ -101,6 +101,13 @@ def name(checker: Checker, path: Path, raw: object) -> str | None:
     return None
 
 
+def word(checker: Checker, path: Path, raw: object) -> str | None:
+    """Read a word of a choice: a name in which hyphens may stand, too."""
+    if isinstance(raw, str) and name(checker, path, raw.replace("-", "_")) is not None:
+        return raw
+    return None if isinstance(raw, str) else name(checker, path, raw)
+
+
 def label(checker: Checker, path: Path, raw: object) -> str | None:
     """Read an id of a task or variant: something to type on a command line."""
     if isinstance(raw, str) and re.fullmatch(r"\w[\w.-]*", raw):

@@ -12,7 +12,7 @@ from ...scales.numbers import quote, split_number
 from ...scales.units import ONE, Dimension, Unit, parse, unit
 from ..task import Bound, Given, Variant
 from ..toml_places import Path
-from .basics import Checker, Field, array_of, as_is, label, name, record, rows, text
+from .basics import Checker, Field, array_of, as_is, label, name, record, rows, text, word
 
 NEVER_NEGATIVE = {unit("kg").dimension, unit("kg*m^2").dimension, unit("rad/s").dimension}
 
@@ -42,7 +42,7 @@ def _unit(checker: Checker, path: Path, raw: object) -> Unit | None:
 
 _GIVEN = {
     "unit": Field(_unit, required=False),
-    "choices": Field(array_of(name), required=False),
+    "choices": Field(array_of(word), required=False),
     "default": Field(as_is, required=False),
 }
 
@@ -97,16 +97,16 @@ def read_choices(checker: Checker, raw: object, givens: Mapping[str, Given], wor
     for given in wanted:
         path: Path = ("choices", given.name)
         if given.name not in raw and given.name in words:
-            choices[given.name] = {word: dict[str, Setting]() for word in given.choices}
+            choices[given.name] = {chosen: dict[str, Setting]() for chosen in given.choices}
             continue
         if given.name not in raw:
             checker.fault(("givens", given.name), InputError("choice-missing", name=given.name))
             continue
-        read = record(checker, path, raw[given.name], {word: Field(_settings) for word in given.choices})
+        read = record(checker, path, raw[given.name], {chosen: Field(_settings) for chosen in given.choices})
         first: dict[str, Setting] = next(iter(read.values()), {})
-        for word, settings in read.items():
+        for chosen, settings in read.items():
             if {key: s.dimension for key, s in settings.items()} != {key: s.dimension for key, s in first.items()}:
-                checker.fault((*path, word), InputError("choice-uneven", name=", ".join(first)))
+                checker.fault((*path, chosen), InputError("choice-uneven", name=", ".join(first)))
         choices[given.name] = read
     return choices
 

@@ -22,14 +22,14 @@ class Names:
     """The values that a mechanism may name, and what it turned out to use.
 
     A name whose own line is at fault has no dimension, and may stand anywhere. `stated` says where each name stands.
-    `literals` are constants by value and dimension, `lengths` those of them that have customary names, such as links;
+    `literals` are constants by value and dimension, `named` those of them that have customary names, such as links;
     `bounds` say which values a name may have: without a length or a speed of the crank there is no plan.
     """
 
     dimensions: dict[str, Dimension | None]
     stated: dict[str, Path] = field(default_factory=dict)
     literals: dict[tuple[float, Dimension], str] = field(default_factory=dict)
-    lengths: dict[str, float] = field(default_factory=dict)
+    named: dict[str, float] = field(default_factory=dict)
     bounds: dict[str, Bound] = field(default_factory=dict)
     signs: set[str] = field(default_factory=set)
 
@@ -124,12 +124,12 @@ class Names:
     @property
     def constants(self) -> dict[str, float]:
         """The literals by their names."""
-        return {constant: value for (value, _), constant in self.literals.items()} | self.lengths
+        return {constant: value for (value, _), constant in self.literals.items()} | self.named
 
     def called(self, name: str, found: str | None) -> str | None:
         """Call a literal by its customary name, `m_3`, where nothing else is called so."""
         value = self.constants.get(found or "")
-        if value is None or name in self.dimensions or self.lengths.setdefault(name, value) != value:
+        if value is None or name in self.dimensions or self.named.setdefault(name, value) != value:
             return found
         return name
 
@@ -140,6 +140,6 @@ class Names:
         for end, (x, y) in points.items():
             name, value = f"l_{start}{end}", self.constants.get(x, 0.0)
             free = start and y == ZERO and value > 0.0 and name not in self.dimensions
-            if free and self.lengths.setdefault(name, value) == value:
+            if free and self.named.setdefault(name, value) == value:
                 named[end] = (name, y)
         return named

@@ -75,9 +75,15 @@ class Kind(ABC, Generic[Subject, Answer]):
     def first_scales(self, solved: Answer, choosers: Choosers) -> dict[str, Scale]:
         """Return the scale factors as they are wanted, by plan, before any format has its say."""
 
-    @abstractmethod
-    def conditions(self, solved: Answer) -> dict[str, Condition]:
-        """Return the condition of every quantity."""
+    def conditions(self, case: Case) -> dict[str, Condition]:
+        """Return the condition of every quantity.
+
+        Raises
+        ------
+        InputError
+            What is solved has none.
+        """
+        raise InputError("linkages-only", task=case.task.id, text="condition")
 
     def warnings(self, solved: Answer) -> tuple[InputError, ...]:
         """Return what a user should know of what has been solved."""

@@ -105,11 +105,11 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
         return first_scales(solved, choosers)
 
-    def conditions(self, solved: SolvedLinkage) -> dict[str, Condition]:
+    def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity."""
         from ...plans.linkages.accuracy.conditions import conditions_of  # needs numpy, which plain solutions do without
 
-        return conditions_of(solved)
+        return conditions_of(linkage(case.solved))
 
     def warnings(self, solved: SolvedLinkage) -> tuple[InputError, ...]:
         """Tell of lines that meet at a small angle."""
@@ -220,8 +220,8 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 KIND = Linkages()
 
 
-def mechanism_of(task: Task) -> Mechanism:
-    """Return the mechanism of a task about a linkage.
+def mechanism_of(task: Task, asked: str = "") -> Mechanism:
+    """Return the mechanism of a task about a linkage, which has what is `asked` for.
 
     Raises
     ------
@@ -229,7 +229,7 @@ def mechanism_of(task: Task) -> Mechanism:
         The task is about something else.
     """
     if not isinstance(task.mechanism, Mechanism):
-        raise InputError("linkages-only", task=task.id)
+        raise InputError("linkages-only", task=task.id, text=asked)
     return task.mechanism
 
 

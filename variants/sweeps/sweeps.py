@@ -199,7 +199,7 @@ def sweep(
     positions_of("positions", positions)
     case = solve_case(task, variant, set, only, scales)
     words = case.words(lang, notation)
-    mechanism = mechanism_of(case.task)
+    mechanism = mechanism_of(case.task, "sweep")
     chosen = _chosen(mechanism, points)
     first, last = (_place(case.task, *item) for item in (("start", start), ("end", end)))
     if last is not None and isinstance(mechanism.driver, Driver):

@@ -1,0 +1,213 @@
+"""Checking a cam: its words, laws of one's own, and whether its numbers have the right names, kinds and bounds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ...plans.cams.cam import (
+    CURVES,
+    FOLLOWERS,
+    LAWS,
+    LIMITS,
+    ORDERS,
+    PLATE,
+    RISE,
+    ROCKER,
+    ROLLER,
+    ROTATIONS,
+    SECTIONS,
+    VALUES,
+    Cam,
+    Curve,
+)
+from ...scales.errors import InputError
+from ...scales.names import unknown
+from ...scales.numbers import quote
+from ...scales.units import Unit, customary, unit
+from ..task import Bound, Given
+from ..toml_places import Path
+from .basics import Checker, Field, array_of, one_of, record, rows, word
+from .givens import literal
+from .names import Names
+
+TABLE = "cam"
+WORDS = ("law", "law_fall", "fall", "rotation", "limits")  # keys whose value may be the name of a choice
+MOST_SECTIONS = 90  # of a phase: finer than a degree nobody divides one
+ROUNDING = 1e-9  # rad
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number of a cam: which values it may have, who needs it, and what it is in SI where nobody says."""
+
+    bound: Bound = Bound.POSITIVE
+    needed_by: tuple[str, ...] = FOLLOWERS
+    default: float | None = None
+
+
+_STRAIGHT, _ROLLING = (ROLLER, PLATE), (ROLLER, ROCKER)
+NUMBERS = {
+    "h": Number(needed_by=_STRAIGHT),
+    "psi": Number(Bound.ACUTE, (ROCKER,)),
+    "phi_rise": Number(Bound.TURN),
+    "phi_upper": Number(Bound.NOT_NEGATIVE, default=0.0),
+    "phi_fall": Number(Bound.TURN),
+    "omega": Number(),
+    "u": Number(Bound.PART, default=0.5),
+    "u_fall": Number(Bound.PART, ()),
+    "l_A1": Number(default=0.1),
+    "H_a": Number(default=0.03),
+    "H_v": Number(default=0.03),
+    "mu_phi": Number(default=math.radians(1e3)),
+    "gamma_rise": Number(Bound.ACUTE, _ROLLING),
+    "gamma_fall": Number(Bound.ACUTE, _ROLLING),
+    "R_roller": Number(needed_by=_ROLLING),
+    "rho_flat": Number(Bound.NOT_NEGATIVE, (PLATE,), 0.01),
+    "margin": Number(Bound.NOT_NEGATIVE, (PLATE,), 0.005),
+    "l_rocker": Number(needed_by=(ROCKER,)),
+    "l_OC": Number(needed_by=(ROCKER,)),
+    "r_0": Number(needed_by=()),
+    "e": Number(Bound.FREE, ()),
+}
+
+
+def _unit(name: str) -> Unit:
+    """Return the unit of a number of a cam."""
+    return unit(VALUES[name] or "1")
+
+
+def words_of(raw: object) -> frozenset[str]:
+    """Return the words of `[cam]` that may be names of choices."""
+    if not isinstance(raw, dict):
+        return frozenset()
+    return frozenset(name for key in WORDS if isinstance(name := raw.get(key), str))
+
+
+def read_cam(checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Cam | None:
+    """Read `[cam]`, and hold the numbers of the task against those that such a cam needs."""
+    before, path = len(checker.faults), (TABLE,)
+    curves = _curves(checker, (*path, "curve"), raw["curve"]) if isinstance(raw, dict) and "curve" in raw else ()
+    laws = (*LAWS, *(curve.name for curve in curves))
+    known = {"law": laws, "law_fall": (RISE, *laws), "fall": ORDERS, "rotation": ROTATIONS, "limits": LIMITS}
+    fields = {key: Field(_word(known[key], givens), required=key == "law") for key in WORDS}
+    fields |= {
+        "followers": Field(array_of(one_of("follower-unknown", lambda: FOLLOWERS))),
+        "sections": Field(_sections, required=False),
+        "curve": Field(lambda checker, path, raw: curves, required=False),
+    }
+    read = record(checker, path, raw, fields)
+    followers = tuple(dict.fromkeys(read.get("followers", ())))
+    if ROCKER in followers and len(followers) > 1:
+        checker.fault((*path, "followers"), InputError("follower-rocker"))
+    _numbers(checker, names, followers)
+    if len(checker.faults) > before:
+        return None
+    return Cam(**{**read, "followers": followers, "curves": curves})
+
+
+def _word(known: tuple[str, ...], givens: Mapping[str, Given]) -> Any:
+    """Return a reader of one of the `known` words, or of the name of a choice between some of them."""
+
+    def read_word(checker: Checker, path: Path, raw: object) -> str | None:
+        given = givens.get(raw) if isinstance(raw, str) else None
+        if given is None or not given.choices:
+            found: str | None = one_of("choice-unknown", lambda: known)(checker, path, raw)
+            return found
+        for i, choice in enumerate(given.choices):
+            if choice not in known:
+                checker.fault(("givens", given.name, "choices", i), unknown("choice-unknown", choice, known))
+        return given.name
+
+    return read_word
+
+
+def _sections(checker: Checker, path: Path, raw: object) -> int | None:
+    """Read into how many sections a phase is divided at least."""
+    if isinstance(raw, int) and not isinstance(raw, bool) and SECTIONS <= raw <= MOST_SECTIONS:
+        return raw
+    checker.fault(path, InputError("cam-sections", text=quote(raw), least=SECTIONS, most=MOST_SECTIONS))
+    return None
+
+
+def _curves(checker: Checker, path: Path, raw: object) -> tuple[Curve, ...]:
+    """Read the laws of one's own."""
+    fields = {
+        "name": Field(word),
+        "kind": Field(one_of("choice-unknown", lambda: CURVES)),
+        "at": Field(array_of(_plain)),
+        "values": Field(array_of(_plain)),
+    }
+    found: dict[str, tuple[Curve, Path]] = {}
+    for row_path, row in rows(checker, path, raw):
+        read = record(checker, row_path, row, fields)
+        if len(read) < len(fields):
+            continue
+        curve = Curve(**read)
+        if curve.name in found or curve.name in (*LAWS, RISE):
+            first = found[curve.name][1] if curve.name in found else row_path
+            checker.twice((*row_path, "name"), curve.name, (*first, "name"))
+            continue
+        if len(curve.at) != len(curve.values):
+            checker.fault((*row_path, "values"), InputError("type-array", n=len(curve.at)))
+            continue
+        if (error := _unfit(curve)) is not None:
+            checker.fault(row_path, error)
+        found[curve.name] = curve, row_path
+    return tuple(curve for curve, _ in found.values())
+
+
+def _plain(checker: Checker, path: Path, raw: object) -> float | None:
+    """Read a plain number."""
+    setting = literal(checker, path, raw)
+    return None if setting is None else setting.value
+
+
+def _unfit(curve: Curve) -> InputError | None:
+    """Return why a law of one's own moves no follower from its lowest place to its highest one."""
+    from ...plans.cams.laws_of_motion import law_of_curve  # needs numpy, and few tasks have laws of their own
+
+    try:
+        law_of_curve(curve)
+    except InputError as error:
+        return error
+    return None
+
+
+def _numbers(checker: Checker, names: Names, followers: tuple[str, ...]) -> None:
+    """Check that the numbers are there that the followers need, and no others; fill in the usual ones."""
+    for name, dimension in names.dimensions.items():
+        place = names.stated.get(name, ("givens",))
+        if name not in NUMBERS:
+            checker.fault(place, unknown("cam-number-unknown", name, NUMBERS))
+        elif dimension not in (None, _unit(name).dimension):
+            checker.fault(place, InputError("value-wrong", text=name, expected=customary(_unit(name))))
+        else:
+            names.bounds[name] = NUMBERS[name].bound
+    for name, number in NUMBERS.items():
+        if name in names.dimensions or not {*number.needed_by} & {*followers}:
+            continue
+        if number.default is None:
+            checker.fault(("givens",), InputError("key-missing", name=name))
+        else:
+            names.named[name] = number.default
+
+
+def impossible(values: Mapping[str, float]) -> Iterator[InputError]:
+    """Go through what no cam can have among the numbers of a variant: those that a choice sets are bounded, too."""
+    for name, number in NUMBERS.items():
+        if name in values and not number.bound.admits(values[name]):
+            yield InputError(number.bound.value, text=f"{name} = {_unit(name).from_si(values[name]):.7g}")
+    turned = sum(values[name] for name in ("phi_rise", "phi_upper", "phi_fall"))
+    if turned > 2.0 * math.pi + ROUNDING:
+        yield InputError("cam-phases", angle=f"{math.degrees(turned):.7g}")
+    if "r_0" in values and abs(values.get("e", 0.0)) >= values["r_0"]:
+        yield InputError("cam-eccentric", e=_mm(values["e"]), r_0=_mm(values["r_0"]))
+    if "r_0" in values and values.get("R_roller", 0.0) >= values["r_0"]:
+        yield InputError("cam-roller", roller=_mm(values["R_roller"]), r_0=_mm(values["r_0"]))
+
+
+def _mm(length: float) -> str:
+    return f"{length * 1e3:.7g}"
