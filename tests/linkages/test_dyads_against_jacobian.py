@@ -173,14 +173,17 @@ def test_many_at_once_equal_one_at_a_time_to_the_last_bit(both: Both) -> None:
         assert board.status == STATUSES[both.codes[index]]
 
 
-def test_mechanisms_of_other_sizes_agree(both: Both) -> None:
+def of_other_sizes(both: Both) -> Both:
     """Lengths times k, moments of inertia times k^2, so that forces grow as k and moments as k^2."""
     k = np.resize([1e-7, 1e7], len(both.codes))
     power = {"x": 1, "y": 1, "e": 1, "J": 2, "F": 1, "M": 2}
     values = {name: array * k ** power.get(name.partition("_")[0], 0) for name, array in both.values.items()}
     places = both.second.q.astype(float) * np.stack([k, k, np.ones_like(k)], axis=1)[:, None, :]
+    return solve_both(both.mechanism, values, places)
 
-    scaled = solve_both(both.mechanism, values, places)
+
+def test_mechanisms_of_other_sizes_agree(both: Both) -> None:
+    scaled = of_other_sizes(both)
 
     assert max(scaled.codes) == STATUSES.index("ok")
     assert wrong(scaled.results, scaled.second.expected(), ALL_KINDS) == {}

@@ -20,7 +20,14 @@ from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism, Prismatic
-from kulman.tests.linkages.test_dyads_against_jacobian import ALL_KINDS, TOLERANCE, Both, solve_both, wrong
+from kulman.tests.linkages.test_dyads_against_jacobian import (
+    ALL_KINDS,
+    TOLERANCE,
+    Both,
+    of_other_sizes,
+    solve_both,
+    wrong,
+)
 from kulman.tests.support.triads import CENTRAL, PAIRS, random_triads
 
 COUNT, MANY = 34, 1_250
@@ -142,14 +149,8 @@ def test_many_at_once_equal_one_at_a_time_to_the_last_bit(both: Both) -> None:
         assert board.status == STATUSES[both.codes[index]]
 
 
-@pytest.mark.parametrize("k", [1e-7, 1e7])
-def test_mechanism_of_another_size_agrees(both: Both, k: float) -> None:
-    """Lengths times k, moments of inertia times k^2, so that forces grow as k and moments as k^2."""
-    power = {"x": 1, "y": 1, "e": 1, "J": 2, "F": 1, "M": 2}
-    values = {name: array * k ** power.get(name.partition("_")[0], 0) for name, array in both.values.items()}
-    places = both.second.q.astype(float) * [k, k, 1.0]
-
-    scaled = solve_both(both.mechanism, values, places)
+def test_mechanisms_of_other_sizes_agree(both: Both) -> None:
+    scaled = of_other_sizes(both)
 
     assert max(scaled.codes) == STATUSES.index("ok")
     assert wrong(scaled.results, scaled.second.expected(), ALL_KINDS) == {}

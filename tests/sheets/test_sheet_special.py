@@ -45,7 +45,12 @@ def special_cases(steps: tuple[float, ...], sheets: tuple[tuple[str, str], ...])
     ]
 
 
-@pytest.mark.parametrize("case", special_cases((0.0, 1e-6), (("example", "uk"),)), ids=str)
+def half(cases: list[Case]) -> list[Case]:
+    """Return every other case, so that each position has both formats and both sides; the soak has them all."""
+    return [c for c in cases if ((c.format == "A1") + (c.side == "left") + round(c.phi or 0.0) // 90) % 2 == 0]
+
+
+@pytest.mark.parametrize("case", half(special_cases((0.0, 1e-6), (("example", "uk"),))), ids=str)
 def test_sheet_of_a_special_position_is_drawn_and_said_in_words(case: Case) -> None:
     assert special_faults(case, drawn(case)) == []
 
