@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import string
 from collections.abc import Iterator
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -33,8 +34,13 @@ def placeholders(template: str) -> list[str]:
     return sorted(name for _, name, _, _ in string.Formatter().parse(template) if name is not None)
 
 
-def patterns() -> Iterator[str]:
-    """Go through the texts in the package's code; what an f-string fills in is a `*`."""
+@cache
+def patterns() -> frozenset[str]:
+    """Return the texts in the package's code; what an f-string fills in is a `*`."""
+    return frozenset(_patterns())
+
+
+def _patterns() -> Iterator[str]:
     for layer in LAYERS:
         for file in [ROOT / layer] if layer.endswith(".py") else sorted((ROOT / layer).rglob("*.py")):
             for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
@@ -44,9 +50,6 @@ def patterns() -> Iterator[str]:
                     yield node.value
 
 
-PATTERNS = frozenset(patterns())
-
-
 def words_of(stem: str) -> frozenset[str]:
     """Return what may stand in place of the `*` of `stem*`: names of the bundled tasks, or any text of the code."""
     tasks = [load_task(task) for task in bundled()]
@@ -54,15 +57,15 @@ def words_of(stem: str) -> frozenset[str]:
         return frozenset(name for task in tasks for name, given in task.givens.items() if given.choices)
     if stem == "choice.":
         return frozenset(word for task in tasks for given in task.givens.values() for word in given.choices)
-    return PATTERNS
+    return patterns()
 
 
 def used(key: str) -> bool:
     """Whether the code names a text, whole or composed of a beginning and a word."""
-    if key in PATTERNS:
+    if key in patterns():
         return True
     cuts = [at for at in range(1, len(key)) if key[at - 1] in "._-"]
-    return any(f"{key[:at]}*" in PATTERNS and key[at:] in words_of(key[:at]) for at in cuts)
+    return any(f"{key[:at]}*" in patterns() and key[at:] in words_of(key[:at]) for at in cuts)
 
 
 @pytest.mark.parametrize("kind", ["", "titleblock."])
