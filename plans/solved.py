@@ -43,6 +43,10 @@ class Solved:
         """Return the worst intersection: the name of its mark and the sine of its angle."""
         return min(self.sines.items(), key=lambda item: item[1], default=("", 1.0))
 
+    def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
+        """Return what a millimetre of every plan is worth to the board, SI, by the scale factors of the plans."""
+        return dict(mus)
+
     def error(self) -> PositionError | None:
         """Return why there is no plan, or None."""
         return None if self.trouble is None else self.reason(self.trouble)

@@ -265,5 +265,5 @@ def _drawing(solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> D
     hand_of(hand)  # a wrong one is refused in any position
     if solved.trouble is not None:
         return None
-    mus = {plan: scale.mu for plan, scale in scales.items()}
+    mus = solved.worth({plan: scale.mu for plan, scale in scales.items()})
     return drawing(Paper(solved.program, solved.givens, mus), hand)

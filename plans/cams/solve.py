@@ -13,7 +13,7 @@ from ..solved import Solved
 from .cam import PLANS, PLATE, ROLLER, Cam
 from .construction import Layout, construct, with_needs
 from .givens import diagram_givens, limit_givens, profile_givens
-from .integration import ACCELERATION, TRAVEL, VELOCITY
+from .integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
 from .inversion import PLATE_PROFILE, PROFILE
 from .motion import FALL, RISE, Array, Motion, motion_of
 from .pressure import least_transmission
@@ -92,10 +92,9 @@ class SolvedCam(Solved):
     roller: RollerCam | None
     plate: PlateCam | None
 
-    def mus(self, mu_l: float) -> dict[str, float]:
-        """Return what a millimetre of every plan is worth to the board, SI; profiles are drawn at `mu_l`, m/mm."""
-        own = {ACCELERATION: PAPER, VELOCITY: PAPER, TRAVEL: PAPER, PROFILE: mu_l, PLATE_PROFILE: mu_l}
-        return {plan: own.get(plan) or self.values[symbol] for plan, symbol in self.scale_of_plan.items()}
+    def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
+        """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""
+        return {plan: PAPER if plan in DIAGRAMS else mu for plan, mu in mus.items()}
 
 
 def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> SolvedCam:

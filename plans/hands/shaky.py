@@ -19,6 +19,7 @@ import numpy as np
 from ..board import POSITION, Program
 from ..boards.arrays import ArrayBoard
 from ..laws import dot
+from ..solved import Solved
 from .hand import Hand
 
 ZERO = "zero"
@@ -50,6 +51,12 @@ class Paper:
     program: Program
     givens: Mapping[str, Any]
     mus: Mapping[str, Any]
+
+
+def paper_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
+    """Return the drawing of what is solved with scale factors by symbol, `mu_V`, in SI per mm."""
+    by_plan = {plan: mus[symbol] for plan, symbol in solved.scale_of_plan.items()}
+    return Paper(solved.program, solved.givens, solved.worth(by_plan))
 
 
 class ShakyBoard(ArrayBoard):

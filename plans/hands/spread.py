@@ -156,7 +156,7 @@ def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = DRAWINGS)
     >>> import numpy as np
     >>> from kulman import solve
     >>> from kulman.plans.hands.hand import preset
-    >>> from kulman.plans.linkages.accuracy.conditions import paper_of
+    >>> from kulman.plans.hands.shaky import paper_of
     >>> from kulman.plans.hands.spread import drawn
     >>> solution = solve("nau-slider-crank", "example")
     >>> paper = paper_of(solution.solved, {"mu_l": 0.001, "mu_V": 0.05, "mu_a": 2.0, "mu_F_23": 10.0, "mu_F_1": 10.0})

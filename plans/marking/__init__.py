@@ -5,7 +5,7 @@ who read forms and write reports build on the functions here.
 
     >>> from kulman import solve
     >>> from kulman.plans.hands.hand import preset
-    >>> from kulman.plans.linkages.accuracy.conditions import paper_of
+    >>> from kulman.plans.hands.shaky import paper_of
     >>> from kulman.plans.marking.answers import Answer
     >>> from kulman.plans.marking.key import answer_key
     >>> from kulman.plans.marking.verdicts import Verdict, mark

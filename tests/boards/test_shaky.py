@@ -17,10 +17,9 @@ from kulman.plans.board import Program
 from kulman.plans.boards.exact import run
 from kulman.plans.hands.hand import PRESETS, Hand, preset
 from kulman.plans.hands.sensitivities import sensitivities
-from kulman.plans.hands.shaky import Paper, draw
+from kulman.plans.hands.shaky import Paper, draw, paper_of
 from kulman.plans.hands.spread import drawn
 from kulman.plans.hands.tolerances import failing
-from kulman.plans.linkages.accuracy.conditions import paper_of
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.references import references, results

@@ -9,10 +9,9 @@ import pytest
 
 from kulman import solve
 from kulman.plans.hands.hand import PRESETS, Hand, Tolerance, preset
-from kulman.plans.hands.shaky import Paper
+from kulman.plans.hands.shaky import Paper, paper_of
 from kulman.plans.hands.spread import drawn
 from kulman.plans.hands.tolerances import failing, tolerances
-from kulman.plans.linkages.accuracy.conditions import paper_of
 from kulman.scales.errors import InputError
 from kulman.tests.support.mechanisms import SEED
 from kulman.variants.solution import Solution

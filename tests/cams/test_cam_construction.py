@@ -15,7 +15,7 @@ from kulman.plans.cams.integration import ray
 from kulman.plans.cams.motion import motion_of
 from kulman.plans.cams.solve import SolvedCam, solve_cam
 from kulman.plans.hands.hand import preset
-from kulman.plans.hands.shaky import Paper, draw
+from kulman.plans.hands.shaky import draw, paper_of
 
 DEGREE = math.radians(1.0)
 MADI = {
@@ -164,7 +164,9 @@ def test_sizes_by_tangents_come_to_those_of_the_exact_curves(count: int) -> None
         assert found["r_0"].value <= exact.r_0 * (1 + 1e-12)
         if solved.plate is not None:
             size = max(found["r_0_flat_min"].value, found["A_1"].value)
-            assert found["r_0_flat_tangent"].value == pytest.approx(solved.plate.sizes.r_0_min, abs=8e-3 * size)
+            kinks = "trapezoid" in cam.law + cam.falls_by  # lie between section lines: the curve is cut there
+            part = 0.04 if kinks else 8e-3
+            assert found["r_0_flat_tangent"].value == pytest.approx(solved.plate.sizes.r_0_min, abs=part * size)
 
 
 @pytest.mark.parametrize("count", MANY)
@@ -210,7 +212,7 @@ def test_a_law_of_ones_own_is_drawn_like_that_of_the_table() -> None:
 def test_a_hand_draws_the_cam_as_well_as_its_pencil_lets_it() -> None:
     solved = madi()
     hand = preset("normal").hand
-    board = draw(Paper(solved.program, solved.givens, solved.mus(1e-3)), hand, np.random.default_rng(1), 400)
+    board = draw(paper_of(solved, {**solved.values, "mu_l": 1e-3}), hand, np.random.default_rng(1), 400)
 
     for name in ("mu_s_chord", "r_0_tangents"):
         exact = solved.values[name]

@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 
 from kulman.plans.hands.hand import preset
-from kulman.plans.hands.shaky import Paper, draw
-from kulman.plans.linkages.accuracy.conditions import paper_of
+from kulman.plans.hands.shaky import Paper, draw, paper_of
 from kulman.plans.marking.answers import Answer, Said
 from kulman.plans.marking.comparing import miss
 from kulman.plans.marking.key import Key, answer_key

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from ...drawing.words import Words
-from ...plans.linkages.accuracy.conditions import paper_of
+from ...plans.hands.shaky import paper_of
 from ...plans.marking.key import Key, answer_key
 from ...plans.mistakes.book import Book, book
 from ..case import Settings

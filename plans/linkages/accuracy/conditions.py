@@ -1,13 +1,9 @@
-"""How accurate a solved mechanism is: its conditions, and the paper on which a hand would draw it."""
+"""How accurate a solved mechanism is: its conditions."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from ...condition import Condition, conditions
-from ...hands.shaky import Paper
 from ...references import extent, plans_of
-from ...solved import Solved
 from ..mechanism import Mechanism, Prismatic, Revolute
 from ..solved import SolvedLinkage
 
@@ -43,9 +39,3 @@ def worst_condition(solved: SolvedLinkage, plan: str | None = None) -> tuple[str
     here = ((item.value or 0.0, name) for name, item in found if plan is None or shown.get(name) == plan)
     value, name = max(here, default=(0.0, ""))
     return name, value
-
-
-def paper_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
-    """Return the drawing of what is solved with scale factors by symbol, `mu_V`, in SI per mm."""
-    by_plan = {plan: mus[symbol] for plan, symbol in solved.scale_of_plan.items()}
-    return Paper(solved.program, solved.givens, by_plan)
