@@ -238,7 +238,7 @@ class Motion:
                 sign = (middle > small) - (middle < -small)
                 if sign * last < 0:
                     found.append(low)
-                last = sign
+                last = sign or last
         return tuple(found)
 
     @cached_property
@@ -258,6 +258,7 @@ class Motion:
         leave = top + (self.upper.length > 0.0)
         angles = np.concatenate((rise, fall if leave > top else fall[1:]))
         places = [int(np.abs(angles - jump.phi).argmin()) for jump in self.jumps]
+        angles[places] = [jump.phi for jump in self.jumps]  # exactly, to have the limits of both sides there
         last = leave + len(fall) - 1
         return angles, Division(top, leave, last, tuple(i for i in places if 0 < i < top or leave < i < last))
 

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .half_planes import HalfPlane, nearest
+from .half_planes import HalfPlane, Nearest, nearest
 from .motion import RISE, Extreme, Motion, Phase
 from .places import minima
 from .sizes import BACK, RIGHT_ANGLE, Limits
@@ -44,6 +44,13 @@ class RockerSizes:
     e: float
     s_0: float
     on: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class NoPlace:
+    """Limits, one alone or several together, that permit no place of the cam's centre."""
+
+    limits: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,26 +113,38 @@ class RockerPath:
         return psi
 
 
-def smallest_rocker(rocker: Rocker, limits: Limits) -> RockerSizes:
-    """Return the sizes with the least r_0, the place of the cam's centre being free.
+def smallest_rocker(rocker: Rocker, limits: Limits) -> RockerSizes | NoPlace:
+    """Return the sizes with the least r_0, the place of the cam's centre being free, or why there is none.
 
-    The half planes of a few positions are held; as long as another position is outside its limit, it joins them.
+    The half planes of a few positions are held; as long as another position is outside its limit, it joins them. A
+    wide swing and large transmission angles may leave nothing.
     """
     swing, l = rocker.motion.h, rocker.l
     high = complex(-math.sin(swing), math.cos(swing))
     planes = [HalfPlane(LOWEST, 1j, 0.0), HalfPlane(HIGHEST, high, -l * math.sin(swing))]
     wanted = rocker.limits(limits)
-    place: complex = 0j
-    on: tuple[str, ...] = ()
+    found = Nearest(0j, ())
     for _ in range(ROUNDS):
-        further = [plane for limit in wanted for plane in _outside(rocker, limit, place)]
+        further = [plane for limit in wanted for plane in _outside(rocker, limit, found.place)]
         if not further:
             break
         planes += further
-        found = nearest(planes)
-        assert found is not None, "half planes that all open upwards have places in common"
-        place, on = found.place, tuple(plane.name for plane in found.on)
+        if (nearer := nearest(planes)) is None:
+            return NoPlace(_opposed(planes))
+        found = nearer
+    place = found.place
+    on = tuple(plane.name for plane in found.on)
     return RockerSizes(abs(place), abs(l - place), l, place.real, place.imag, on)
+
+
+def _opposed(planes: list[HalfPlane]) -> tuple[str, ...]:
+    """Return names of half planes that together permit nothing, as few as may be."""
+    names = list(dict.fromkeys(plane.name for plane in planes))
+    for name in tuple(names):
+        fewer = [other for other in names if other != name]
+        if nearest([plane for plane in planes if plane.name in fewer]) is None:
+            names = fewer
+    return tuple(names)
 
 
 def _outside(rocker: Rocker, limit: Limit, place: complex) -> Iterator[HalfPlane]:
@@ -141,13 +160,6 @@ def _outside(rocker: Rocker, limit: Limit, place: complex) -> Iterator[HalfPlane
             side = 1 if worst.phi < limit.phase.end else -1
             normal, least = rocker.half_planes(limit, worst.phi, side)
             yield HalfPlane(limit.name, complex(normal), float(least), worst.phi)
-
-
-@dataclass(frozen=True, slots=True)
-class NoPlace:
-    """Limits, one alone or two together, that permit no place of the cam's centre at a given distance."""
-
-    limits: tuple[str, ...]
 
 
 def smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> RockerSizes | NoPlace:

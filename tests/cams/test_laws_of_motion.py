@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -22,16 +23,17 @@ from kulman.tests.support.cams import SMOOTH
 
 PARTS = (0.5, 1.0 / 3.0, 0.72)
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
-ALL_PARTS = [pytest.param((0.5, 1.0 / 3.0, 0.72), id="3")] + [
-    pytest.param(tuple(np.linspace(0.02, 0.98, 97)), id="97", marks=pytest.mark.soak)
+ALL_PARTS = [
+    pytest.param(PARTS, id="3"),
+    pytest.param(tuple(np.linspace(0.02, 0.98, 97)), id="97", marks=pytest.mark.soak),
 ]
 
 
 def quadrature(law: LawOfMotion, order: int, low: float, high: np.ndarray) -> np.ndarray:
     """Return the integral of a derivative from `low` to each of `high`, piece by piece."""
-    corners = [piece.low for piece in law.pieces] + [1.0]
+    corners = [*(piece.low for piece in law.pieces), 1.0]
     total = np.zeros_like(high)
-    for a, b in zip(corners, corners[1:], strict=False):
+    for a, b in pairwise(corners):
         begin, end = np.clip(low, a, b), np.clip(high, a, b)
         half = 0.5 * (end - begin)
         places = begin + half * (1.0 + NODES[:, np.newaxis])
@@ -120,7 +122,7 @@ def test_acceleration_jumps_where_the_law_says(name: str, u: float) -> None:
 
     expected = [part * (first if k < 2 else second) for k, part in enumerate(JUMPS[name])]
     assert np.allclose(ends, expected, rtol=0.0, atol=1e-4 * first)
-    for piece, following in zip(law.pieces, law.pieces[1:], strict=False):  # s and s' do not jump anywhere
+    for piece, following in pairwise(law.pieces):  # s and s' do not jump anywhere
         assert piece.at(piece.high) == pytest.approx(float(following.at(following.low)), abs=1e-14)
         left, right = piece.derivative(), following.derivative()
         assert left.at(piece.high) == pytest.approx(float(right.at(following.low)), abs=1e-13)

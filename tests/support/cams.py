@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 
@@ -44,7 +45,7 @@ def dense(motion: Motion, name: str, cells: int) -> tuple[np.ndarray, ...]:
     """Return phi, s, s', s'' over a phase, both limits at every corner of the motion."""
     phase = getattr(motion, name)
     found = []
-    for low, high in zip(phase.corners, phase.corners[1:], strict=False):
+    for low, high in pairwise(phase.corners):
         phi = np.linspace(low, high, cells + 1)
         left, right = motion.at(phi, -1), motion.at(phi, 1)
         found.append((phi, *(np.append(b[:-1], a[-1:]) for a, b in zip(left, right, strict=True))))

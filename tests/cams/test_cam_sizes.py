@@ -1,0 +1,339 @@
+"""The smallest cams: exact optimum against brute force, permitted offsets, flat followers, rockers."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from kulman.plans.cams.laws_of_motion import law_of_motion
+from kulman.plans.cams.motion import Motion
+from kulman.plans.cams.pressure import least_transmission, pressure_angle
+from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath
+from kulman.plans.cams.rocker import (
+    NoPlace,
+    Rocker,
+    RockerPath,
+    RockerSizes,
+    least_rocker_transmission,
+    rocker_pressure,
+    smallest_rocker,
+    smallest_rocker_at,
+)
+from kulman.plans.cams.sizes import (
+    Limits,
+    NoOffset,
+    Offsets,
+    RollerSizes,
+    apex,
+    central,
+    convexity,
+    offsets,
+    smallest_plate,
+    smallest_roller,
+    wedge,
+)
+from kulman.tests.support.cams import (
+    MADI_LIMITS,
+    SEED,
+    SMOOTH,
+    dense,
+    madi_motion,
+    random_limits,
+    random_motion,
+)
+
+COUNTS = [pytest.param(15, id="15"), pytest.param(500, id="500", marks=pytest.mark.soak)]
+FEW = [pytest.param(3, id="3"), pytest.param(60, id="60", marks=pytest.mark.soak)]
+
+
+class Positions:
+    """What every one of many positions permits, each by itself: the least s_0 at an offset."""
+
+    def __init__(self, motion: Motion, limits: Limits, sense: int, cells: int = 1500) -> None:
+        self._rows = []
+        for name, gamma, up in (("rise", limits.gamma_rise, 1), ("fall", limits.gamma_fall, -1)):
+            _, s, ds, _ = dense(motion, name, cells)
+            for way in (up, -up)[: 1 + limits.two_sided]:
+                self._rows.append((way * sense, sense * ds, s, math.tan(0.5 * math.pi - gamma)))
+
+    def s_0(self, e: float) -> float:
+        """Return the least s_0: theta is limited to one side, way * (sense s' - e) <= tan * (s_0 + s)."""
+        return float(max(np.max(way * (x - e) / tan - s) for way, x, s, tan in self._rows))
+
+    def smallest(self, reach: float) -> float:
+        """Return the least r_0 of all offsets: r_0(e) has one minimum, found by golden section."""
+        low, high = -reach, reach
+        for _ in range(70):
+            a, b = high - 0.618 * (high - low), low + 0.618 * (high - low)
+            low, high = (low, b) if math.hypot(a, self.s_0(a)) < math.hypot(b, self.s_0(b)) else (a, high)
+        return math.hypot(low, self.s_0(low))
+
+
+@pytest.mark.parametrize("count", COUNTS)
+@pytest.mark.parametrize("sense", [1, -1])
+def test_smallest_roller_cam_is_that_of_brute_force(count: int, sense: int) -> None:
+    random = np.random.default_rng([SEED, sense + 1])
+
+    for _ in range(count):
+        motion, limits = random_motion(random), random_limits(random)
+        found = smallest_roller(wedge(motion, limits, sense))
+        brute = Positions(motion, limits, sense).smallest(3.0 * found.r_0)
+        assert found.r_0 == pytest.approx(brute, rel=1e-6)
+        assert found.r_0 == pytest.approx(math.hypot(found.e, found.s_0), rel=1e-14)
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_limits_that_bind_are_just_reached_and_no_other_is_passed(count: int) -> None:
+    random = np.random.default_rng(SEED + 2)
+
+    for _ in range(count):
+        motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
+        sizes = smallest_roller(wedge(motion, limits, sense))
+        for phase, gamma in (("rise", limits.gamma_rise), ("fall", limits.gamma_fall)):
+            least = least_transmission(motion, sizes, phase, sense, limits.two_sided).value
+            assert least >= gamma - 1e-12
+            if phase in sizes.on:
+                assert least == pytest.approx(gamma, abs=1e-12)
+
+
+def test_pressure_angle_is_that_between_normal_and_line() -> None:
+    random = np.random.default_rng(SEED + 3)
+    phi = np.linspace(0.01, 6.2, 97)
+
+    for sense in (1, -1):
+        motion = random_motion(random)
+        sizes = RollerSizes(math.hypot(0.01, 0.05), 0.01, 0.05)
+        profile = RollerProfile(StraightPath(motion, sizes), 0.01, sense)
+        normal = profile.normal(phi) / profile.inverted(phi)
+        assert pressure_angle(motion, sizes, phi, sense) == pytest.approx(np.angle(normal / 1j), abs=1e-13)
+
+
+@pytest.mark.parametrize("two_sided", [False, True])
+def test_least_transmission_angle_is_exact(two_sided: bool) -> None:
+    random = np.random.default_rng(SEED + 4)
+
+    for _ in range(30):
+        motion, sense = random_motion(random), int(random.choice((-1, 1)))
+        sizes = RollerSizes(0.05, e := random.uniform(-0.02, 0.02), math.sqrt(0.05**2 - e * e))
+        for phase, up in (("rise", 1), ("fall", -1)):
+            found = least_transmission(motion, sizes, phase, sense, two_sided)
+            _, s, ds, _ = dense(motion, phase, 2000)
+            theta = np.arctan2(sense * ds - sizes.e, sizes.s_0 + s)
+            gamma = 0.5 * math.pi - (np.abs(theta) if two_sided else up * sense * theta)
+            assert found.value == pytest.approx(float(np.min(gamma)), abs=1e-6)
+            assert found.value <= np.min(gamma) + 1e-14
+
+
+def test_apex_is_not_always_the_smallest_cam() -> None:
+    motion = Motion(0.03, 1.2, 0.2, 3.0, law_of_motion("sine"))
+    limits = Limits(math.radians(60.0), math.radians(20.0))
+
+    for sense in (1, -1):
+        planes = wedge(motion, limits, sense)
+        smallest, corner = smallest_roller(planes), apex(planes)
+        assert smallest.on == ("rise",)
+        assert corner.on == ("rise", "fall")
+        assert smallest.r_0 < 0.99 * corner.r_0
+        assert smallest.r_0 == pytest.approx(Positions(motion, limits, sense).smallest(0.2), rel=1e-6)
+        assert smallest.e * sense > 0.0  # towards the side to which the cam pushes in the rise
+
+
+def test_cam_turned_the_other_way_is_the_mirror_image() -> None:
+    planes, mirrored = (wedge(madi_motion(), MADI_LIMITS, sense) for sense in (1, -1))
+
+    one, other = smallest_roller(planes), smallest_roller(mirrored)
+
+    assert (other.r_0, other.e, other.s_0, other.on) == (one.r_0, -one.e, one.s_0, one.on)
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_permitted_offsets_are_those_of_brute_force(count: int) -> None:
+    random = np.random.default_rng(SEED + 5)
+
+    for _ in range(count):
+        motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
+        planes = wedge(motion, limits, sense)
+        r_0 = smallest_roller(planes).r_0 * random.uniform(1.0001, 1.8)
+        found = offsets(planes, r_0)
+        assert isinstance(found, Offsets)
+        positions = Positions(motion, limits, sense)
+        inner = 1e-5 * (found.most - found.least)
+        for e in np.linspace(found.least + inner, found.most - inner, 7):
+            assert positions.s_0(e) <= math.sqrt(r_0 * r_0 - e * e) * (1.0 + 1e-9)
+        for end, by, out in ((found.least, found.at_least, -1e-5), (found.most, found.at_most, 1e-5)):
+            e = end + out * r_0
+            assert by == "r_0" or positions.s_0(e) > math.sqrt(r_0 * r_0 - e * e)
+
+
+def test_offset_at_either_end_reaches_its_limit() -> None:
+    motion = madi_motion()
+
+    found = offsets(wedge(motion, MADI_LIMITS), 0.05)
+
+    assert isinstance(found, Offsets)
+    assert (found.at_least, found.at_most) == ("rise", "fall")
+    for e, phase, gamma in ((found.least, "rise", 75.0), (found.most, "fall", 60.0)):
+        sizes = RollerSizes(0.05, e, math.sqrt(0.05**2 - e * e))
+        assert math.degrees(least_transmission(motion, sizes, phase).value) == pytest.approx(gamma, abs=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("part", "reason"),
+    [
+        pytest.param(0.999999, ("rise", "fall"), id="both together"),
+        pytest.param(0.40, ("rise",), id="rise alone"),
+    ],
+)
+def test_too_small_a_cam_has_no_offset_and_says_why(part: float, reason: tuple[str, ...]) -> None:
+    planes = wedge(madi_motion(), MADI_LIMITS)
+
+    found = offsets(planes, part * smallest_roller(planes).r_0)
+
+    assert isinstance(found, NoOffset)
+    assert found.limits == reason
+    assert found.r_0_min == pytest.approx(smallest_roller([p for p in planes if p.name in reason]).r_0)
+
+
+def test_least_r_0_permits_exactly_its_offset() -> None:
+    random = np.random.default_rng(SEED + 6)
+
+    for _ in range(40):
+        planes = wedge(random_motion(random), random_limits(random), int(random.choice((-1, 1))))
+        sizes = smallest_roller(planes)
+        found = offsets(planes, sizes.r_0)
+        assert isinstance(found, Offsets)
+        assert found.least == pytest.approx(sizes.e, abs=1e-5 * sizes.r_0)
+        assert found.most == pytest.approx(sizes.e, abs=1e-5 * sizes.r_0)
+
+
+def test_central_follower_needs_the_least_s_0_of_its_positions() -> None:
+    random = np.random.default_rng(SEED + 7)
+
+    for _ in range(20):
+        motion, limits = random_motion(random), random_limits(random)
+        sizes = central(wedge(motion, limits), e := random.uniform(-0.01, 0.01))
+        assert sizes.e == e
+        assert sizes.s_0 == pytest.approx(max(0.0, Positions(motion, limits, 1).s_0(e)), rel=1e-6)
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_flat_followers_cam_is_just_convex(count: int) -> None:
+    random = np.random.default_rng(SEED + 8)
+
+    for _ in range(count):
+        motion = random_motion(random, SMOOTH)
+        found = smallest_plate(motion, 0.01, 0.005)
+        samples = [dense(motion, phase.name, 1500) for phase in motion.phases if phase.pieces]
+        assert found.r_0_min == pytest.approx(max(0.0, *(np.max(-s - d2s) for _, s, _, d2s in samples)), rel=1e-5)
+        assert found.r_0 == found.r_0_min + 0.01
+        assert found.R_plate == pytest.approx(max(np.max(np.abs(ds)) for _, _, ds, _ in samples) + 0.005, rel=1e-6)
+        assert PlateProfile(motion, found.r_0).rho_min >= 0.01 - 1e-15
+
+
+def test_geronimus_counts_both_limits_of_a_jump() -> None:
+    amplitude = 9.0 * 13e-3 / math.radians(108.0) ** 2
+
+    found = convexity(madi_motion())
+
+    assert found.value == pytest.approx(amplitude - 13e-3 / 3.0, rel=1e-13)
+
+
+def test_no_flat_follower_stands_a_velocity_that_drops() -> None:
+    motion = Motion(0.01, 1.0, 0.5, 2.0, law_of_motion("uniform"))
+
+    assert smallest_plate(motion, 0.01, 0.005).r_0_min == math.inf
+
+
+@pytest.mark.parametrize("count", FEW)
+def test_smallest_rocker_cam_keeps_its_limits_and_no_smaller_one_does(count: int) -> None:
+    random = np.random.default_rng(SEED + 9)
+
+    for _ in range(count):
+        sense = int(random.choice((-1, 1)))
+        motion, limits = random_motion(random, SMOOTH, random.uniform(0.1, 0.7)), random_limits(random)
+        rocker = Rocker(motion, random.uniform(0.05, 0.2), sense)
+        found = smallest_rocker(rocker, limits)
+        if isinstance(found, NoPlace):
+            places = rocker.l * (random.uniform(-5.0, 5.0, 800) + 1j * random.uniform(0.0, 8.0, 800))
+            assert np.all(dense_slack(rocker, limits, places) < 0.0)
+            continue
+        slack = dense_slack(rocker, limits, np.array([complex(found.e, found.s_0)]))
+        assert slack[0] >= -1e-11 * rocker.l
+        around = found.r_0 * (1.0 - 1e-5) * np.exp(1j * np.linspace(0.0, math.pi, 400))
+        nearer = complex(found.e, found.s_0) * (1.0 - 1e-5)
+        assert np.all(dense_slack(rocker, limits, np.append(around, nearer)) < 0.0)
+
+
+def dense_slack(rocker: Rocker, limits: Limits, places: np.ndarray) -> np.ndarray:
+    """Return by how much every position keeps to its limit at the worst, for places of the cam's centre."""
+    motion, least = rocker.motion, np.full(len(places), np.inf)
+    for name, gamma, up in (("rise", limits.gamma_rise, 1), ("fall", limits.gamma_fall, -1)):
+        _, psi, dpsi, _ = dense(motion, name, 700)
+        along, centre = np.exp(1j * psi), (rocker.l - places)[:, np.newaxis]
+        reach = rocker.l * along * (1.0 - rocker.sense * dpsi) - centre  # from the cam's centre to where normals meet
+        lift, across = (reach / (1j * along)).real, -(reach / along).real
+        for way in (up, -up)[: 1 + limits.two_sided]:
+            room = lift - way * rocker.sense * across * math.tan(gamma)
+            least = np.minimum(least, np.min(np.minimum(room * math.cos(gamma), lift), axis=1))
+    return least
+
+
+def test_pressure_angle_of_a_rocker_is_that_between_normal_and_velocity() -> None:
+    random = np.random.default_rng(SEED + 10)
+    phi = np.linspace(0.01, 6.2, 97)
+
+    for sense in (1, -1):
+        rocker = Rocker(random_motion(random, SMOOTH, 0.5), 0.1, sense)
+        sizes = RockerSizes(math.hypot(0.01, 0.05), math.hypot(0.09, 0.05), 0.1, 0.01, 0.05)
+        profile = RollerProfile(RockerPath(rocker.motion, sizes), 0.01, sense)
+        normal, along = profile.normal(phi) / profile.inverted(phi), np.exp(1j * rocker.motion.at(phi)[0])
+        theta = rocker_pressure(rocker, sizes, phi)
+        assert theta == pytest.approx(np.angle(normal / (1j * along)), abs=1e-13)
+        for phase, up in ((rocker.motion.rise, 1), (rocker.motion.fall, -1)):
+            inside = (phi > phase.start) & (phi < phase.end)
+            least = least_rocker_transmission(rocker, sizes, phase)
+            assert least.value <= np.min(0.5 * math.pi - up * sense * theta[inside])
+            assert float(rocker_pressure(rocker, sizes, least.phi)) * up * sense == pytest.approx(
+                0.5 * math.pi - least.value, abs=1e-9
+            )
+
+
+def test_very_long_rocker_is_a_follower_on_a_line() -> None:
+    scale = 1e-6
+    motion = Motion(
+        13e-3 * scale, *(phase.length for phase in madi_motion().phases[:3]), law_of_motion("sawtooth", 0.3)
+    )
+    line = Motion(13e-3, *(phase.length for phase in madi_motion().phases[:3]), law_of_motion("sawtooth", 0.3))
+
+    rocker = smallest_rocker(Rocker(motion, 1.0 / scale), MADI_LIMITS)
+
+    straight = smallest_roller(wedge(line, MADI_LIMITS))
+    assert (rocker.r_0, rocker.e, rocker.s_0) == pytest.approx((straight.r_0, straight.e, straight.s_0), rel=1e-5)
+
+
+def test_rocker_at_a_given_distance_reaches_its_limit_and_tells_when_it_cannot() -> None:
+    motion = Motion(math.radians(25.0), 1.9, 0.3, 1.9, law_of_motion("sine"))
+    limits = Limits(math.radians(50.0), math.radians(45.0))
+
+    for sense in (1, -1):
+        rocker = Rocker(motion, 0.1, sense)
+        best = smallest_rocker(rocker, limits)
+        assert isinstance(best, RockerSizes)
+        same = smallest_rocker_at(rocker, limits, best.l_OC)
+        assert isinstance(same, RockerSizes)
+        assert same.r_0 == pytest.approx(best.r_0, rel=1e-9)
+        wider = smallest_rocker_at(rocker, limits, 1.2 * best.l_OC)
+        assert isinstance(wider, RockerSizes)
+        assert wider.r_0 > best.r_0
+        assert dense_slack(rocker, limits, np.array([complex(wider.e, wider.s_0)]))[0] == pytest.approx(0.0, abs=1e-7)
+        assert isinstance(smallest_rocker_at(rocker, limits, 0.05), NoPlace)
+
+
+def test_wide_swing_with_large_angles_has_no_place_and_says_why() -> None:
+    rocker = Rocker(Motion(math.radians(35.0), 1.9, 0.3, 1.9, law_of_motion("sine")), 0.1)
+
+    found = smallest_rocker(rocker, Limits(math.radians(80.0), math.radians(75.0)))
+
+    assert found == NoPlace(("rise", "fall"))
