@@ -72,7 +72,7 @@ def random_cams(count: int) -> list[tuple[Cam, dict[str, float]]]:
     return cams
 
 
-MANY = [pytest.param(25, id="25"), pytest.param(500, id="500", marks=pytest.mark.soak)]
+MANY = [pytest.param(25, id="25"), pytest.param(150, id="150", marks=pytest.mark.soak)]
 
 
 def test_the_scale_factors_of_the_project_follow_from_its_amplitude():
