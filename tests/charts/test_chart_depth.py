@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -13,9 +15,10 @@ from kulman.variants.reader import load_task
 TASKS = ["nau-slider-crank", "madi-four-bar", "scheme-09-shaper", "scheme-14-jaw-crusher"]
 
 
-def of_task(name: str, **settings: float | str) -> Cycle:
+@cache
+def of_task(name: str) -> Cycle:
     task = load_task(name)
-    return cycle(task.mechanism, task.values(None, settings), task.plans, 36)
+    return cycle(task.mechanism, task.values(None, {}), task.plans, 36)
 
 
 @pytest.mark.parametrize("name", TASKS)
