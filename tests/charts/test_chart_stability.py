@@ -35,21 +35,18 @@ def test_condition_is_that_of_a_solution_at_the_same_place() -> None:
     assert found.sines[0] == min(expected[name].sine for name in found.conditions)
 
 
-def test_condition_grows_as_one_over_the_sine_towards_a_limit() -> None:
+def test_condition_grows_as_one_over_the_square_of_the_sine_towards_a_limit() -> None:
+    """The sine goes with the root of the way to the limit, the velocity with one over the sine."""
     whole = cycle(slider_crank(), slider_crank_values(0.5, 0.5, 0.1), PLANS, 12)
-    limit = whole.reach.limits[0]
-    inside = limit + np.sign(whole.reach.stretches[0].low + 0.1 - limit) * 10.0 ** -np.arange(2.0, 7.0)
-    inside = inside if np.isfinite(whole.at(inside, ["V_B"])["V_B"]).all() else 2.0 * limit - inside
-    near = _at(whole, inside)
+    limit, _ = whole.reach.limits  # nothing assembles from the first one to the second
+    near = _at(whole, limit - 10.0 ** -np.arange(2.0, 7.0))
 
     found = look(near, "V_B")
 
-    products = found.conditions["V_B"] * found.sines
-    lost = np.diff(found.digits("V_B"))
+    products = found.conditions["V_B"] * found.sines**2
     assert found.sines[-1] < 2e-3
-    assert found.conditions["V_B"][-1] > 30.0 * found.conditions["V_B"][0]
-    assert products.max() / products.min() < 3.0 or found.conditions["V_B"][-1] > 1.0 / found.sines[-1]
-    assert (lost < 0.0).all()
+    assert products.max() / products.min() < 1.01
+    assert (np.diff(found.digits("V_B")) < 0.0).all()
 
 
 def _at(whole: Cycle, places: np.ndarray) -> Cycle:
