@@ -1,0 +1,261 @@
+"""Profiles: the follower traced on them, their areas and curvature, undercutting found and measured."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from shapely import Polygon
+from shapely.affinity import rotate
+
+from kulman.plans.cams.laws_of_motion import law_of_motion
+from kulman.plans.cams.motion import Motion
+from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath, largest_roller
+from kulman.plans.cams.rocker import Rocker, RockerPath, RockerSizes, smallest_rocker
+from kulman.plans.cams.sizes import RollerSizes, smallest_plate, smallest_roller, wedge
+from kulman.tests.support.cams import MADI_LIMITS, SEED, SMOOTH, madi_motion, random_limits, random_motion
+
+COUNTS = [pytest.param(4, id="4"), pytest.param(100, id="100", marks=pytest.mark.soak)]
+TURN = 2.0 * math.pi
+MM = 1e-3
+
+
+def random_profiles(count: int, seed: int, part: float) -> Iterator[RollerProfile]:
+    """Go through cams with rollers on lines and on rockers, the roller's radius a part of the least radius."""
+    random = np.random.default_rng([SEED, seed])
+    for k in range(count):
+        limits, sense = random_limits(random), int(random.choice((-1, 1)))
+        if k % 3 == 2:
+            motion = random_motion(random, SMOOTH, random.uniform(0.1, 0.4))
+            sizes = smallest_rocker(Rocker(motion, 0.1, sense), limits)
+            if not isinstance(sizes, RockerSizes):
+                continue
+            path = RockerPath(motion, sizes)
+        else:
+            motion = random_motion(random, SMOOTH)
+            path = StraightPath(motion, smallest_roller(wedge(motion, limits, sense)))
+        sharpest = RollerProfile(path, 0.0, sense).rho_min
+        yield RollerProfile(path, part * min(sharpest, 0.9 * path.sizes.r_0), sense)
+
+
+def seat(profile: RollerProfile | PlateProfile, points: np.ndarray, phi: float) -> float:
+    """Return the travel at which the follower rests on the highest of points of a profile."""
+    heights = profile.seat(points, phi)
+    return float(np.nanmax(heights))
+
+
+def traced(profile: RollerProfile | PlateProfile, phi: float, cells: int = 720) -> float:
+    """Return the travel of the follower on the finished profile: it rests where it comes highest.
+
+    Between the places the highest is found by cutting the bracket around it again.
+    """
+    low, high = phi - math.pi, phi + math.pi
+    for _ in range(9):
+        places = np.linspace(low, high, cells)
+        with np.errstate(invalid="ignore"):
+            heights = np.nan_to_num(profile.seat(profile.practical(places), phi), nan=-np.inf)
+        k = int(np.argmax(heights))
+        low, high = places[max(k - 2, 0)], places[min(k + 2, cells - 1)]
+        cells = 50
+    return float(np.max(heights))
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_roller_traced_on_the_finished_profile_has_its_travel(count: int) -> None:
+    for profile in random_profiles(count, 1, 0.7):
+        unit = 1.0 if isinstance(profile.path, StraightPath) else profile.path.sizes.l
+        for phi in np.linspace(0.05, 6.2, 13):
+            travel = float(profile.motion.at(phi)[0])
+            assert traced(profile, phi) * unit == pytest.approx(travel * unit, abs=1e-6 * MM)
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_plate_traced_on_the_finished_profile_has_its_travel(count: int) -> None:
+    random = np.random.default_rng(SEED + 12)
+
+    for _ in range(count):
+        motion, sense = random_motion(random, SMOOTH), int(random.choice((-1, 1)))
+        profile = PlateProfile(motion, smallest_plate(motion, 0.01, 0.005).r_0, sense)
+        for phi in np.linspace(0.05, 6.2, 13):
+            assert traced(profile, phi) == pytest.approx(float(motion.at(phi)[0]), abs=1e-6 * MM)
+
+
+def integral(profile: RollerProfile | PlateProfile, points: str) -> tuple[float, float]:
+    """Return the area and the length of a closed curve of a cam, by quadrature on every smooth piece."""
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+    area = length = 0.0
+    corners = profile.motion.samples(math.radians(9.0))
+    for low, high in pairwise(corners):
+        phi = low + 0.5 * (high - low) * (1.0 + nodes)
+        here, step = getattr(profile, points)(phi), 0.5 * (high - low) * weights
+        if points == "pitch":
+            w, _ = profile._velocity(phi, 1)
+            velocity = w * profile.inverted(phi)
+        else:
+            velocity = profile.tangent(phi)
+        area += 0.5 * float(np.sum(step * (here.real * velocity.imag - here.imag * velocity.real)))
+        length += float(np.sum(step * np.abs(velocity)))
+    return abs(area), length
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_area_of_the_practical_profile_is_that_of_the_offset_formula(count: int) -> None:
+    for profile in random_profiles(count, 2, 0.7):
+        (pitch, length), (practical, _) = integral(profile, "pitch"), integral(profile, "practical")
+
+        assert practical == pytest.approx(pitch - profile.R * length + math.pi * profile.R**2, rel=1e-6)
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_curvature_and_tangents_are_those_of_the_points(count: int) -> None:
+    step = 1e-5
+    for profile in random_profiles(count, 3, 0.5):
+        phi = np.random.default_rng(SEED).uniform(0.0, TURN, 40)
+        phi = phi[np.min(np.abs(phi[:, np.newaxis] - np.array(profile.motion.corners)), axis=1) > 10.0 * step]
+        ends = profile.practical(phi - step), profile.practical(phi + step)
+        assert (ends[1] - ends[0]) / (2.0 * step) == pytest.approx(profile.tangent(phi), abs=1e-6)
+        turned = np.angle(profile.unit(phi + step) / profile.unit(phi - step))
+        length = np.abs(profile.pitch(phi + step) - profile.pitch(phi - step))
+        assert -profile.sense * turned / length == pytest.approx(profile.curvature(phi), rel=1e-5, abs=1e-4)
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_least_radius_of_curvature_is_found(count: int) -> None:
+    for profile in random_profiles(count, 4, 0.5):
+        phi = np.concatenate([np.linspace(a, b, 3000) for a, b in pairwise(profile.motion.corners)])
+        most = max(float(np.max(profile.curvature(phi, side))) for side in (-1, 1))
+        assert profile.rho_min == pytest.approx(1.0 / most, rel=1e-6)
+        assert profile.rho_min <= 1.0 / most * (1.0 + 1e-13)
+        assert not profile.undercuts
+        assert largest_roller(0.05, profile.rho_min) == (0.4 * 0.05, 0.7 * profile.rho_min)
+
+
+@cache
+def undercut_cams() -> tuple[RollerProfile, ...]:
+    """Return undercut cams: of the project at three radii of the roller, of laws that jump in velocity, random ones."""
+    motion = madi_motion()
+    sizes = smallest_roller(wedge(motion, MADI_LIMITS))
+    path, turned = StraightPath(motion, sizes), StraightPath(motion, RollerSizes(sizes.r_0, -sizes.e, sizes.s_0))
+    uniform = Motion(0.01, 2.0, 0.5, 2.0, law_of_motion("uniform"))
+    found = [RollerProfile(path, R, 1) for R in (0.0293, 0.032, 0.04)] + [RollerProfile(turned, 0.034, -1)]
+    found.append(RollerProfile(StraightPath(uniform, RollerSizes(0.05, 0.0, 0.05)), 0.02, 1))
+    for profile in random_profiles(4, 5, 1.0):
+        R = min(1.15 * profile.rho_min, 0.98 * profile.path.sizes.r_0)
+        found.append(RollerProfile(profile.path, R, profile.sense))
+    return tuple(found)
+
+
+def eroded(profile: RollerProfile) -> Polygon:
+    """Return the cam that a milling cutter of the roller's radius leaves: what is R inside the pitch curve.
+
+    The library simplifies what it offsets: the result is right to 1e-4 R.
+    """
+    pitch = profile.pitch(profile.motion.samples(math.radians(0.05))[:-1])
+    cam = Polygon(np.column_stack((pitch.real, pitch.imag))).buffer(-profile.R, quad_segs=400)
+    return cam if cam.geom_type == "Polygon" else max(cam.geoms, key=lambda part: part.area)
+
+
+@pytest.mark.parametrize("k", range(8))
+def test_undercut_is_found_and_the_lost_travel_is_that_of_the_cut_cam(k: int) -> None:
+    profile = undercut_cams()[k]
+    ring = np.array(eroded(profile).exterior.coords) @ np.array([1.0, 1.0j])
+    ring = np.concatenate([ring[:-1] + part * np.diff(ring) for part in np.linspace(0.0, 1.0, 8, endpoint=False)])
+
+    cuts = profile.undercuts
+
+    assert cuts
+    unit = 1.0 if isinstance(profile.path, StraightPath) else profile.path.sizes.l
+    for phi in np.linspace(0.0, TURN, 61):
+        inside = next((cut for cut in cuts if (phi - cut.start) % TURN < cut.end - cut.start), None)
+        travel = float(profile.motion.at(phi)[0])
+        resting = float(profile.seat(inside.corner, phi)) if inside else travel
+        assert seat(profile, ring, phi) * unit == pytest.approx(resting * unit, abs=1e-4 * profile.R)
+        if inside:
+            assert resting <= travel + 1e-12
+    for cut in cuts:
+        lost = float(profile.motion.at(cut.phi_lost)[0]) - seat(profile, ring, cut.phi_lost)
+        assert cut.lost * unit == pytest.approx(lost * unit, abs=1e-4 * profile.R)
+        assert cut.lost > 0.0
+        for end in (cut.start, cut.end):  # both branches run through the corner
+            gaps = [abs(complex(profile.practical(end, side)) - cut.corner) for side in (-1, 1)]
+            assert min(gaps) < 1e-12
+
+
+@pytest.mark.parametrize("k", range(8))
+def test_outline_is_the_cut_cam_without_loops(k: int) -> None:
+    profile = undercut_cams()[k]
+
+    points = profile.outline(math.radians(0.05))
+
+    outline, cam = Polygon(np.column_stack((points.real, points.imag))), eroded(profile)
+    pitch = profile.pitch(profile.motion.samples(math.radians(0.1)))
+    away = [np.min(np.abs(point - pitch)) for point in points[:: max(1, len(points) // 500)]]
+    assert outline.is_valid
+    assert outline.symmetric_difference(cam).area < 1e-4 * cam.area
+    assert away == pytest.approx([profile.R] * len(away), abs=1e-7)  # 0.1 deg of the pitch curve between its points
+
+
+def test_roller_just_smaller_than_the_least_radius_undercuts_nothing() -> None:
+    motion = madi_motion()
+    path = StraightPath(motion, smallest_roller(wedge(motion, MADI_LIMITS)))
+    rho = RollerProfile(path, 0.0).rho_min
+
+    below, above = (RollerProfile(path, rho * part) for part in (1.0 - 1e-9, 1.0 + 1e-3))
+
+    assert below.undercuts == []
+    assert [math.degrees(cut.start) for cut in above.undercuts] == pytest.approx([36.0], abs=0.1)
+    assert 0.0 < above.undercuts[0].lost < 1e-6
+
+
+def test_velocity_that_drops_undercuts_at_any_radius() -> None:
+    motion = Motion(0.01, 2.0, 0.5, 2.0, law_of_motion("uniform"))
+    path = StraightPath(motion, RollerSizes(0.05, 0.0, 0.05))
+
+    profile = RollerProfile(path, 1e-3)
+
+    assert profile.rho_min == 0.0
+    starts = [(cut.start, cut.end) for cut in profile.undercuts]
+    assert all(any(start < phi < end for start, end in starts) for phi in (2.0, 2.5))
+
+
+@pytest.mark.parametrize(("r_0", "sense"), [(0.028, 1), (0.022, -1), (0.014, 1)])
+def test_plate_that_is_too_low_cuts_its_own_profile(r_0: float, sense: int) -> None:
+    profile = PlateProfile(madi_motion(), r_0, sense)
+    reach, cam = 0.2, Polygon([(-0.2, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.2, 0.2)])
+    for phi in np.linspace(0.0, TURN, 480, endpoint=False):
+        height = r_0 + float(profile.motion.at(phi)[0])
+        below = Polygon([(-reach, -reach), (reach, -reach), (reach, height), (-reach, height)])
+        cam = cam.intersection(rotate(below, -sense * phi, origin=(0.0, 0.0), use_radians=True))
+    ring = np.array(cam.exterior.coords) @ np.array([1.0, 1.0j])
+
+    cuts = profile.undercuts
+
+    assert len(cuts) == 2
+    assert profile.rho_min < 0.0
+    for cut in cuts:
+        lost = float(profile.motion.at(cut.phi_lost)[0]) - seat(profile, ring, cut.phi_lost)
+        assert cut.lost == pytest.approx(lost, abs=2e-3 * MM)
+        assert cut.lost > 0.0
+    points = profile.outline()
+    assert Polygon(np.column_stack((points.real, points.imag))).area == pytest.approx(cam.area, rel=1e-4)
+
+
+def test_contact_of_a_plate_is_beside_its_axis_by_the_analogue_of_velocity() -> None:
+    profile = PlateProfile(madi_motion(), 0.04, -1)
+    phi = np.linspace(0.0, 6.2, 40)
+
+    beside = profile.practical(phi) - profile.centre(phi)
+
+    assert np.abs(beside) == pytest.approx(np.abs(profile.motion.at(phi)[1]), abs=1e-15)
+
+
+def test_pitch_curve_is_traced_against_the_sense_of_the_cam() -> None:
+    for sense in (1, -1):
+        profile = RollerProfile(StraightPath(madi_motion(), RollerSizes(0.05, 0.0, 0.05)), 0.01, sense)
+        centre = profile.pitch(np.array([0.0, 0.1]))
+        assert centre[0] == pytest.approx(0.05j)
+        assert math.copysign(1.0, centre[1].real) == sense
