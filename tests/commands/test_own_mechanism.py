@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from kulman.tests.commands.test_readme import refresh
+from kulman.docs import refresh
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled_text
 from kulman.variants.starter import template

@@ -1,18 +1,12 @@
 """The README cannot rot: its commands run, they print what it shows, its Python runs, its links lead somewhere."""
 
-import importlib.util
 import re
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-_spec = importlib.util.spec_from_file_location("refresh", ROOT / "docs" / "refresh.py")
-assert _spec is not None
-assert _spec.loader is not None
-refresh = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(refresh)
-TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+from kulman.docs import refresh
+
+TEXT = refresh.README.read_text(encoding="utf-8")
 BLOCKS = refresh.BLOCK.findall(TEXT)
 
 
@@ -44,4 +38,4 @@ def test_python_of_the_readme_runs(tmp_path, monkeypatch):
 
 def test_links_of_the_readme_lead_somewhere():
     for target in re.findall(r"\]\(([^)#:]+)\)", TEXT):
-        assert (ROOT / target).exists(), target
+        assert (refresh.ROOT / target).exists(), target

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import importlib.util
 import json
 import math
 import re
@@ -14,6 +13,7 @@ import pytest
 
 import kulman
 from kulman import KulmanError, cli
+from kulman.docs import refresh
 from kulman.scales.errors import LANGUAGES
 from kulman.variants.sweeps.sweeps import Sweep
 
@@ -231,17 +231,11 @@ def test_no_file_of_a_sweep_is_written_when_one_cannot_be(tmp_path: Path) -> Non
 
 
 def test_what_the_document_shows_is_what_is_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    folder = Path(kulman.__file__).parent / "docs"
-    spec = importlib.util.spec_from_file_location("refresh", folder / "refresh.py")
-    assert spec is not None
-    assert spec.loader is not None
-    refresh = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(refresh)
-    text = (folder / "cycle.md").read_text(encoding="utf-8")
+    text = (refresh.ROOT / "docs" / "cycle.md").read_text(encoding="utf-8")
     monkeypatch.chdir(tmp_path)
 
-    for block in refresh.BLOCK.findall(text):
-        assert refresh.filled(block, str(tmp_path)) == block
+    assert refresh.BLOCK.search(text)
+    assert refresh.refreshed(text, str(tmp_path)) == text
     names: dict[str, object] = {}
     exec(compile("\n".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL)), "cycle.md", "exec"), names)
 

@@ -2,30 +2,19 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import math
 import re
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
 
 from kulman import cli
+from kulman.docs import refresh, seeds_tables
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 SEEDS = (DOCS / "seeds.md").read_text(encoding="utf-8")
-
-
-def module(name: str) -> ModuleType:
-    """Load a module of the folder of documents."""
-    spec = importlib.util.spec_from_file_location(name, DOCS / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    loaded = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(loaded)
-    return loaded
 
 
 def printed(capsys: pytest.CaptureFixture[str], task: str, *options: str) -> dict[str, Any]:
@@ -37,7 +26,6 @@ def printed(capsys: pytest.CaptureFixture[str], task: str, *options: str) -> dic
 
 
 def test_commands_of_the_guide_print_what_it_shows(tmp_path: Path) -> None:
-    refresh = module("refresh")
     text = (DOCS / "marking.md").read_text(encoding="utf-8")
 
     assert refresh.refreshed(text, str(tmp_path)) == text
@@ -45,7 +33,7 @@ def test_commands_of_the_guide_print_what_it_shows(tmp_path: Path) -> None:
 
 @pytest.mark.soak
 def test_every_line_of_the_sources_is_marked_as_the_document_says() -> None:
-    assert module("seeds_tables").filled(SEEDS) == SEEDS
+    assert seeds_tables.filled(SEEDS) == SEEDS
 
 
 def test_a_reason_stands_beside_what_is_not_right_and_nowhere_else() -> None:
