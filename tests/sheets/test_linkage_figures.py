@@ -196,7 +196,9 @@ def test_letter_with_room_stands_beside_its_line() -> None:
     assert [text.role for text in texts if text.markup == "h = 1"] == ["label"]
 
 
-@pytest.mark.parametrize("mu", ["0.005", "0.008", "0.01", "0.012"])
+@pytest.mark.parametrize(
+    "mu", ["0.005", "0.01", *(pytest.param(mu, marks=pytest.mark.soak) for mu in ("0.008", "0.012"))]
+)
 def test_arcs_of_one_link_stand_apart(mu: str) -> None:
     """On a short link both arcs had the same least radius, one on the other."""
     drawn = sheet("scheme-16-hay-baler", "8", only="position,velocity,acceleration", format="A1", scales={"mu_l": mu})

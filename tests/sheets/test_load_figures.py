@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
 
 from kulman import sheet, solve
@@ -10,6 +12,7 @@ from kulman.tests.support.readback import Sheet, View, read
 from kulman.tests.support.sheet_geometry import same
 
 
+@cache
 def drawn(task: str, lang: str = "en") -> Sheet:
     found = sheet(task, only="velocity,acceleration,structure,forces", format="A1", lang=lang)
     return read(*(found.svg(number) for number in range(1, len(found.pages) + 1)))
