@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -64,6 +64,7 @@ def answer_key(
     tolerance: Tolerance,
     limits: Mapping[str, float] | None = None,
     wanted: Collection[str] | None = None,
+    units: Callable[[str], str] = unit_of,
 ) -> Key:
     """Make the answer key of one position.
 
@@ -75,9 +76,11 @@ def answer_key(
         Tolerances of single quantities in SI, in the place of the rule.
     wanted : collection of str, optional
         The quantities that are asked; all when left out. What is undefined is not asked.
+    units : callable
+        The SI unit of each quantity by its name.
     """
     board = run(paper.program, paper.givens)
-    asked = _questions(paper, board.values, wanted)
+    asked = _questions(paper, board.values, wanted, units)
     return _key(paper, Key(paper, tolerance, limits or {}, board.values, board.sines, {}, {}, asked))
 
 
@@ -104,7 +107,9 @@ def _angle(key: Key, name: str, allowed: float, flat: Mapping[str, float]) -> fl
     return min(math.radians(key.tolerance.degrees) / sine + math.asin(allowed / size), math.pi)
 
 
-def _questions(paper: Paper, values: Mapping[str, Any], wanted: Collection[str] | None) -> dict[str, Question]:
+def _questions(
+    paper: Paper, values: Mapping[str, Any], wanted: Collection[str] | None, units: Callable[[str], str]
+) -> dict[str, Question]:
     shown, last, found = shown_on(paper.program), POSITION, {}
     asked = {step.name for step in results(paper.program) if step.verb not in POINTS and step.law != "difference"}
     for step in paper.program:
@@ -112,6 +117,7 @@ def _questions(paper: Paper, values: Mapping[str, Any], wanted: Collection[str] 
             last = step.plan
         value = values[step.name]
         if step.name in asked and value == value and (wanted is None or step.name in wanted):
-            plan = shown.get(step.name, POSITION if step.verb in ("distance", "measure") else last)
-            found[step.name] = Question(step.name, plan, isinstance(value, complex), unit_of(step.name), step)
+            here = step.operands[0].rpartition(".")[0] or POSITION  # where a distance is measured
+            plan = shown.get(step.name, here if step.verb in ("distance", "measure") else last)
+            found[step.name] = Question(step.name, plan, isinstance(value, complex), units(step.name), step)
     return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from ...plans.cams.cam import PLANS, ROLLER, Cam
+from ...plans.cams.cam import DIAGRAMS, PLANS, ROLLER, Cam
 from ...scales.choose import Choosers, Fixed
 from ...scales.names import unknown
 from ...scales.scale import Scale
@@ -20,13 +20,19 @@ if TYPE_CHECKING:
     from ...drawing.titleblock import Stamp
     from ...drawing.words import Words
     from ...plans.cams.solve import SolvedCam
+    from ...plans.hands.hand import Tolerance
+    from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
+    from ..charts.cam import CamCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
 
 SYMBOLS = ("mu_l",)  # the others follow from the drawn amplitude and the pole distances
 MM = 1e-3
+AXES = ("diagram_a", "diagram_v", "diagram_s")  # the plans of the diagrams on one axis of angles
+DRAWN = ("_chord", "_tangents")  # what the name of a quantity ends with that is drawn, and so asked in place of another
+UNASKED = ("s_0", "r_0_flat_tangent")  # what goes with a size that is asked
 FULL_SIZE = 1e-3  # m/mm
 
 
@@ -86,9 +92,33 @@ class Cams(Kind[Cam, "SolvedCam"]):
         values = {**solved.values, "mu_l": mu_l}
         return {plan: Scale(symbol, values[symbol], "m") for plan, symbol in solved.scale_of_plan.items()}
 
+    def gallery(self, task: Task) -> CamCharts:
+        """Return who makes the charts of a cam."""
+        from ..charts.cam import CamCharts
+
+        return CamCharts()
+
     def checks(self, solved: SolvedCam, quantities: Mapping[str, Quantity]) -> Verdicts:
         """Return what the rules of good design say."""
         return {}
+
+    def asks(self, solved: SolvedCam, question: Question) -> bool:
+        """Ask for what a drawing gives rather than for what only a formula gives."""
+        return question.name not in UNASKED and not any(f"{question.name}{end}" in solved.quantities for end in DRAWN)
+
+    def limits(self, solved: SolvedCam, mus: Mapping[str, float], tolerance: Tolerance) -> dict[str, float]:
+        """Let pass what is measured on a drawing, though it can be calculated, as a segment of its length."""
+        calculated = [step.name for step in solved.program if step.verb == "calc" and step.name in solved.shown_on]
+        shown = ((name, mus[solved.scale_of_plan[solved.shown_on[name]]]) for name in calculated)
+        return {name: tolerance.of_segment(abs(solved.values[name]) / mu) * mu for name, mu in shown}
+
+    def section(self, solved: SolvedCam, question: Question, current: str) -> str:
+        """Return the section of a question: the three diagrams are one drawing."""
+        return DIAGRAMS if question.plan in AXES else question.plan
+
+    def plan_heading(self, solved: SolvedCam, plan: str, words: Words) -> str:
+        """Return the heading of a plan, as the sheet has it."""
+        return words[f"heading.cam_{DIAGRAMS if plan in AXES else plan}"]
 
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a cam."""

@@ -19,9 +19,11 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...drawing.titleblock import Stamp
     from ...drawing.words import Words
     from ...plans.condition import Condition
+    from ...plans.hands.hand import Tolerance
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
+    from ..charts.gallery import Gallery
     from ..checks.basics import Checker
     from ..checks.names import Names
 
@@ -93,6 +95,16 @@ class Kind(ABC, Generic[Subject, Answer]):
         """Return what a second route, or a rule of good design, says of a solution, by name."""
         return {}
 
+    def gallery(self, task: Task) -> Gallery:
+        """Return who makes the charts of a task.
+
+        Raises
+        ------
+        InputError
+            There are none.
+        """
+        raise InputError("linkages-only", task=task.id, text="chart")
+
     # Drawing.
 
     @abstractmethod
@@ -104,6 +116,20 @@ class Kind(ABC, Generic[Subject, Answer]):
     def lettered(self, words: Words, solved: Answer) -> Words:
         """Return the words with the letters that depend on the subject."""
         return words
+
+    def asks(self, solved: Answer, question: Question) -> bool:
+        """Whether a form asks for a quantity."""
+        return True
+
+    def limits(self, solved: Answer, mus: Mapping[str, float], tolerance: Tolerance) -> dict[str, float]:
+        """Return by how much single quantities may miss, SI, where the usual rule does not hold.
+
+        Parameters
+        ----------
+        mus : mapping of str to float
+            Scale factors by symbol, SI per mm.
+        """
+        return {}
 
     def section(self, solved: Answer, question: Question, current: str) -> str:
         """Return the section of the form in which a question stands; `current` is that of the one before it."""

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
+    from ..charts.linkage import LinkageCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
 
@@ -111,6 +112,12 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
         return conditions_of(linkage(case.solved))
 
+    def gallery(self, task: Task) -> LinkageCharts:
+        """Return who makes the charts of a linkage."""
+        from ..charts.linkage import LinkageCharts
+
+        return LinkageCharts()
+
     def warnings(self, solved: SolvedLinkage) -> tuple[InputError, ...]:
         """Tell of lines that meet at a small angle."""
         if solved.trouble is not None:
@@ -165,6 +172,10 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         from ...drawing.linkages.letters import lettered
 
         return lettered(words, solved)
+
+    def asks(self, solved: SolvedLinkage, question: Question) -> bool:
+        """Ask not for each force of a couple: these are as large as the couple's force."""
+        return "_couple_" not in question.name
 
     def section(self, solved: SolvedLinkage, question: Question, current: str) -> str:
         """Return the section of a question: its plan, or the plan of the forces that it goes with."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from ...drawing.words import Words
@@ -21,11 +22,12 @@ COLUMNS = ("name", "symbol", "vector", "mm", "mu", "value", "unit", "direction")
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """The questions of one plan: its heading, its scale factors, the names asked."""
+    """The questions of one plan: its heading, its scale factors, all that may be answered, what a form asks of it."""
 
     heading: str
     scales: tuple[str, ...]
     questions: tuple[Question, ...]
+    asked: tuple[Question, ...]
 
 
 def sections(solution: Solution, questions: Iterable[Question], words: Words) -> list[Section]:
@@ -40,15 +42,11 @@ def sections(solution: Solution, questions: Iterable[Question], words: Words) ->
     for key, own in by_key.items():
         plans = (question.plan for question in own if drawn(question))
         symbols = dict.fromkeys(solved.scale_of_plan[plan] for plan in plans if plan in solved.scale_of_plan)
-        fresh = tuple(symbol for symbol in symbols if symbol not in taken)
+        fresh = tuple(symbol for symbol in symbols if symbol not in taken and symbol not in solution)
         taken.update(fresh)
-        found.append(Section(kind.section_heading(solved, key, words), fresh, tuple(own)))
+        asked = tuple(question for question in own if kind.asks(solved, question))
+        found.append(Section(kind.section_heading(solved, key, words), fresh, tuple(own), asked))
     return found
-
-
-def is_asked(question: Question) -> bool:
-    """Whether a form asks for a quantity: not for each force of a couple, which are as large as the couple's force."""
-    return "_couple_" not in question.name
 
 
 def drawn(question: Question) -> bool:
@@ -65,12 +63,12 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
     yield (said["form.hint"],)
     yield tuple(said[f"column.{column}"] for column in COLUMNS)
     letters = keyed.solution.kind.vector_letters(keyed.solution.solved, words)
-    for part in keyed.parts:
+    for part in filter(attrgetter("asked"), keyed.parts):
         yield (plain(part.heading),)
         for name in part.scales:
             unit = _written(f"({asked.display.unit(asked.scales[name])})/{asked.display.paper}", words)
             yield (name, keyed.symbol(name), "", "", "", "", unit)
-        for question in filter(is_asked, part.questions):
+        for question in part.asked:
             name, unit = question.name, _written(asked.unit(question.name), words)
             yield (name, keyed.symbol(name), letters.get(name, ""), "", "", "", unit)
 
@@ -85,7 +83,7 @@ def class_header(parts: Iterable[Section], language: str) -> tuple[str, ...]:
     columns = [said[f"about.{key}"] for key in ("student", "group", "book", "number", "variant", "sheet")]
     for part in parts:
         columns += part.scales
-        for question in filter(is_asked, part.questions):
+        for question in part.asked:
             name = question.name
             columns += [f"{name}.mm"] if drawn(question) else []
             columns += [name]

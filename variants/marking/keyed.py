@@ -16,7 +16,7 @@ from ..sheet_id import sheet_id
 from ..solution import Solution, solve
 from ..task import Task
 from .answers import Asked
-from .form import Section, is_asked, sections
+from .form import Section, sections
 from .rubric import Rubric
 from .wording import plain, texts
 
@@ -85,7 +85,7 @@ class Keyed:
         for name in [name for name in found if name.endswith("_couple")]:
             both = sorted({found[one] for one in found if one.startswith(f"{name}_")})
             found[name] = " = ".join(both) or found[name]
-        asked = [question.name for part in self.parts for question in part.questions if is_asked(question)]
+        asked = [question.name for part in self.parts for question in part.asked]
         often = Counter(found[name] for name in (*asked, *scales))
         where = {name: self._where(name) for name in (*asked, *scales) if often[found[name]] > 1}
         return found | {name: f"{found[name]} ({place})" for name, place in where.items() if place}
@@ -110,7 +110,8 @@ def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> A
         for name, q in solution.quantities.items()
         if name in made and q.kind != "point" and not name.startswith("delta")
     }
-    return Asked(quantities, {s.symbol: s.unit for s in solution.scales.values()}, solution.words.display)
+    scales = {s.symbol: s.unit for s in solution.scales.values() if s.symbol not in solution}  # chosen, not found
+    return Asked(quantities, scales, solution.words.display)
 
 
 def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) -> Keyed:
@@ -123,7 +124,9 @@ def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) ->
     """
     solution = request.solution(variant, settings)
     mus = {scale.symbol: scale.mu for scale in solution.scales.values()}
-    key = answer_key(paper_of(solution.solved, mus), rubric.tolerance, rubric.limits)
+    limits = {**solution.kind.limits(solution.solved, mus, rubric.tolerance), **rubric.limits}
+    paper = paper_of(solution.solved, mus)
+    key = answer_key(paper, rubric.tolerance, limits, units=lambda name: solution.quantities[name].unit)
     words = solution.kind.lettered(solution.words, solution.solved)
     parts = tuple(sections(solution, key.questions.values(), words))
     asked = asked_of(solution, key.questions)

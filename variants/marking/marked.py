@@ -15,7 +15,6 @@ from ..sheet_id import same_id, variant_of_id
 from .answers import Answers
 from .checks import Check
 from .elsewhere import fits_other
-from .form import is_asked
 from .keyed import Keyed, keyed
 from .misfits import Misfit, counted_once, misfits
 from .roster import Entry, variant_of_book
@@ -86,8 +85,8 @@ class Desk:
         if marking.first_wrong is not None:
             explanation = explain(key.book, marking)
             marking, candidates = explanation.marking, explanation.candidates
-        marking, borne = counted_once(marking, found, {line.name for line in self._counted(marking, answers)})
-        lines = self._counted(marking, answers)
+        marking, borne = counted_once(marking, found, {line.name for line in self._counted(key, marking, answers)})
+        lines = self._counted(key, marking, answers)
         marks = self.check.rubric.mark(lines)
         told = [line for line in lines if line.answer is not None and isinstance(line.right, complex)]
         if len(told) > 1 and all(line.answer is not None and line.answer.direction is None for line in told):
@@ -131,13 +130,13 @@ class Desk:
             return [InputError("marked-sheet-variant", text=quote(written), variant=other, own=key.solution.variant)]
         return [InputError("marked-sheet", text=quote(written), variant=key.solution.variant)]
 
-    def _counted(self, marking: Marking, answers: Answers) -> tuple[Line, ...]:
+    def _counted(self, key: Keyed, marking: Marking, answers: Answers) -> tuple[Line, ...]:
         """Return the lines that count: those of the rubric, else those of the class's columns, else all."""
         names = self.check.rubric.asked or answers.columns
         if names:
             return tuple(line for line in marking.lines if line.name in names)
-        questions = marking.key.questions
-        return tuple(line for line in marking.lines if line.answer is not None or is_asked(questions[line.name]))
+        asked = {question.name for part in key.parts for question in part.asked}
+        return tuple(line for line in marking.lines if line.answer is not None or line.name in asked)
 
 
 def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[list[Answer], list[KulmanError]]:
