@@ -175,6 +175,15 @@ class RecordingBoard(Board):
             raise InputError("name-twice", name=name.lstrip("_"))
 
 
+# a step with what takes its operands, when they are more than one, out of the values by name
+Prepared = tuple[Step, Callable[[Mapping[str, Any]], Any] | None]
+
+
+def prepared(step: Step) -> Prepared:
+    """Return a step prepared for a board."""
+    return step, itemgetter(*step.operands) if len(step.operands) > 1 else None
+
+
 @dataclass(frozen=True)
 class Program:
     """A construction as it was recorded: straight steps on names, in order; what is looked up in it is kept."""
@@ -194,14 +203,59 @@ class Program:
         return hash(self.steps)
 
     @cached_property
-    def prepared(self) -> tuple[tuple[Step, Callable[[Mapping[str, Any]], Any] | None], ...]:
-        """The steps, each with what takes its operands, when they are more than one, out of the values by name."""
-        return tuple((step, itemgetter(*step.operands) if len(step.operands) > 1 else None) for step in self.steps)
+    def prepared(self) -> tuple[Prepared, ...]:
+        """The steps, prepared for a board that does them one after the other."""
+        return tuple(map(prepared, self.steps))
 
     @cached_property
     def names(self) -> tuple[str, ...]:
         """All names that the steps make, in order."""
         return tuple(step.name for step in self.steps)
+
+    @cached_property
+    def by_name(self) -> Mapping[str, Step]:
+        """The steps by the names that they make."""
+        return {step.name: step for step in self.steps}
+
+    @cached_property
+    def places(self) -> Mapping[str, int]:
+        """Where in the order the step stands that makes a name."""
+        return {step.name: place for place, step in enumerate(self.steps)}
+
+    @cached_property
+    def hanging(self) -> Mapping[str, int]:
+        """For each name that a step needs all steps that hang on it, as a number whose bit i is the step at place i."""
+        found: dict[str, int] = {}
+        for place in range(len(self.steps) - 1, -1, -1):
+            step = self.steps[place]
+            own = 1 << place | found.get(step.name, 0)
+            for name in step.operands:
+                found[name] = found.get(name, 0) | own
+        return found
+
+    def at(self, bits: int) -> tuple[Prepared, ...]:
+        """Return the steps that are set in a number of `hanging`, in order; kept, for the same ones come again."""
+        found = self._at.get(bits)
+        if found is None:
+            found = self._at[bits] = tuple(one for place, one in enumerate(self.prepared) if bits >> place & 1)
+        return found
+
+    def which(self, verbs: tuple[str, ...], law: str = "", plan: str = "") -> tuple[Step, ...]:
+        """Return the steps of some verbs, of one law if it is named, on the plans whose names begin so; kept, too."""
+        asked = verbs, law, plan
+        found = self._which.get(asked)
+        if found is None:
+            steps = (s for s in self.steps if s.verb in verbs and (not law or s.law == law) and s.plan.startswith(plan))
+            found = self._which[asked] = tuple(steps)
+        return found
+
+    @cached_property
+    def _at(self) -> dict[int, tuple[Prepared, ...]]:
+        return {}
+
+    @cached_property
+    def _which(self) -> dict[tuple[tuple[str, ...], str, str], tuple[Step, ...]]:
+        return {}
 
     @property
     def needs(self) -> frozenset[str]:

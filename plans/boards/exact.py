@@ -7,11 +7,11 @@ numbers, which numpy fuses; no modulus by `hypot`): N positions at once equal on
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from ..board import Program
+from ..board import Prepared, Program
 from ..laws import LAWS, cross, dot
 from .protractor import COARSE, FARTHEST, FINE, MARKS, PER_RADIAN, ROUND, TURN, graduation
 from .template import CLOSED, FOLDED, TemplateBoard
@@ -79,10 +79,14 @@ class ExactBoard(TemplateBoard):
         values[name] = value
 
     def follow(self, program: Program) -> None:
-        """Do all steps of a program: what `step` does with each, without looking operations up again and again."""
+        """Do all steps of a program."""
+        self.do(program.prepared)
+
+    def do(self, steps: Iterable[Prepared]) -> None:
+        """Do steps: what `step` does with each, without looking operations up again and again."""
         values = self.values
         operations: dict[tuple[str, str], Callable[..., Any]] = {}
-        for step, taken in program.prepared:
+        for step, taken in steps:
             key = step.verb, step.law
             operate = operations.get(key)
             if operate is None:

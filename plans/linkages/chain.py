@@ -30,6 +30,8 @@ NEEDS = {
     "lever": ("acceleration",),
 }
 Attached = list[tuple[ModuleType, AssurGroup]]
+KEPT = 16  # constructions
+_CONSTRUCTED: dict[tuple[str, tuple[str, ...]], tuple[Structure, Program]] = {}
 # modules with the constructions of each kind, which a mechanism without such a group does without
 CONSTRUCTIONS = {
     "RRR": "dyads.rrr",
@@ -89,6 +91,16 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Struc
     for name in sorted(mechanism.givens.intersection(program.names)):
         raise InputError("name-twice", name=name)
     return structure, program
+
+
+def constructed(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Structure, Program]:
+    """Return what `construct` finds; kept, for a class has one mechanism with many values."""
+    asked = repr(mechanism), tuple(plans)
+    found = _CONSTRUCTED.pop(asked, None) or construct(mechanism, asked[1])
+    _CONSTRUCTED[asked] = found  # the one asked for last stands last
+    if len(_CONSTRUCTED) > KEPT:
+        del _CONSTRUCTED[next(iter(_CONSTRUCTED))]
+    return found
 
 
 def _statics(board: RecordingBoard, mechanism: Mechanism, plans: set[str], dyads: Attached, bodies: Bodies) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..board import Program
 from .bare import without_loads
-from .chain import construct
+from .chain import constructed
 from .loads import in_order
 from .mechanism import Mechanism
 from .triads.parts import start_names
@@ -37,7 +37,7 @@ def board_givens(
     sizes = {f"|{name}|": values[name] for name in mechanism.sizes}
     if program is None or END not in program.needs or END in values:
         return {**values, **sizes}
-    _, motion = construct(without_loads(mechanism), ("velocity",))
+    _, motion = constructed(without_loads(mechanism), ("velocity",))
     return {**values, **sizes, **_stroke_ends(mechanism, values, motion.needs)}
 
 

@@ -13,7 +13,7 @@ from ..boards.exact import Trouble, run
 from ..quantities import quantities, shown_on
 from ..solved import Solved
 from . import compound
-from .chain import USUAL, construct, hinged
+from .chain import USUAL, constructed, hinged
 from .dyads.moment_centres import with_moment_centres
 from .givens import board_givens
 from .guides import guide_letters
@@ -156,13 +156,13 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
 
         near = followed(mechanism, values)
         mechanism = with_special_points(mechanism, values, near)
-    structure, program = construct(mechanism, plans)
+    structure, program = constructed(mechanism, plans)
     givens = board_givens(mechanism, {**values, **near}, program, follow=False)
     board = run(program, givens)
     better = with_moment_centres(mechanism, structure, board.values) if "forces" in plans else mechanism
     if better is not mechanism:
         mechanism = better
-        program = construct(mechanism, plans)[1]
+        program = constructed(mechanism, plans)[1]
         board = run(program, givens)
     lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if _is_given(x)}
     items = quantities(program, board.values, lengths)

@@ -24,34 +24,45 @@ class StudentBoard(ExactBoard):
 
     Parameters
     ----------
-    givens : mapping
-        The data, SI.
+    program : Program
+        The construction.
+    values : mapping
+        The data, SI; with `made` all values of the construction. Then only what hangs on the student is done again.
     take : callable
         For the name of a quantity and its value on this board: what the student says and goes on with, or None, and
         whether the mark behind it moves.
     """
 
-    def __init__(self, givens: Mapping[str, Any], take: Take) -> None:
-        super().__init__(givens)
+    def __init__(self, program: Program, values: Mapping[str, Any], take: Take, made: bool = False) -> None:
+        super().__init__(values)
         self.follows: dict[str, Any] = {}
-        self._take = take
-        self._order: dict[str, int] = {}
+        self._program, self._take = program, take
+        self._done = 0
+        self._moved: set[str] | None = set() if made else None
 
-    def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
-        """Do the step; go on with what the student says of its quantity."""
-        super().step(verb, name, *operands, law=law)
-        self._order[name] = len(self._order)
-        if verb in LAID and operands[2].startswith("_"):
-            self._lay_off(name, operands[0], operands[2][1:])
-        elif verb in TAKEN and not name.startswith("_"):
-            self._replace(verb, name, operands)
+    def go_on(self, end: int | None = None) -> None:
+        """Do the steps before the place `end` that are not done yet, all without it."""
+        steps = self._program.steps[self._done : end]
+        self._done += len(steps)
+        moved = self._moved
+        for step in steps:
+            verb, name, operands = step.verb, step.name, step.operands
+            if moved is None or not moved.isdisjoint(operands):
+                try:
+                    self.perform(self.operation(verb, step.law), name, operands)
+                except (ZeroDivisionError, OverflowError):  # what a student says is zero
+                    self.values[name] = NAN
+                if moved is not None:
+                    moved.add(name)
+            if verb in LAID and operands[2].startswith("_"):
+                self._lay_off(name, operands[0], operands[2][1:])
+            elif verb in TAKEN and not name.startswith("_"):
+                self._replace(verb, name, operands)
 
-    def perform(self, operate: Callable[..., Any], name: str, operands: tuple[str, ...]) -> None:
-        """Make `name`; a division by what a student says is zero gives nothing."""
-        try:
-            super().perform(operate, name, operands)
-        except (ZeroDivisionError, OverflowError):
-            self.values[name] = NAN
+    def _put(self, name: str, value: Any) -> None:
+        self.values[name] = value
+        if self._moved is not None:
+            self._moved.add(name)
 
     def _lay_off(self, name: str, start: str, quantity: str) -> None:
         """Lay off the student's segment in the place of ours: the part that is calculated, laid off, and read."""
@@ -60,7 +71,7 @@ class StudentBoard(ExactBoard):
         said, _ = self._take(quantity, vector)
         if said is not None:
             self.follows[quantity] = vector
-            values[name] = values[start] + said.taken(vector)
+            self._put(name, values[start] + said.taken(vector))
 
     def _replace(self, verb: str, name: str, operands: tuple[str, ...]) -> None:
         value = self.values[name]
@@ -68,23 +79,29 @@ class StudentBoard(ExactBoard):
         said, moves = self._take(name, value)
         if said is None:
             return
-        self.values[name] = taken = said.taken(value)
+        taken = said.taken(value)
+        self._put(name, taken)
         if verb == "arm":  # of the moment before it, which is not asked for
             moment, force = operands
-            self.values[moment] = taken * abs(self.values[force]) * (-1.0 if self.values[moment] < 0.0 else 1.0)
+            self._put(moment, taken * abs(self.values[force]) * (-1.0 if self.values[moment] < 0.0 else 1.0))
         elif verb == "read" and moves:
             self._move(operands[0], operands[1], taken)
 
     def _move(self, tail: str, tip: str, vector: complex) -> None:
         """Put the mark that was made last where the vector that was read says it is; a pole stays."""
-        if self._order.get(tip, -1) >= self._order.get(tail, -1):
-            self.values[tip] = self.values[tail] + vector
+        places = self._program.places
+        if places.get(tip, -1) >= places.get(tail, -1):
+            self._put(tip, self.values[tail] + vector)
         else:
-            self.values[tail] = self.values[tip] - vector
+            self._put(tail, self.values[tip] - vector)
 
 
-def follow(program: Program, givens: Mapping[str, Any], take: Take) -> dict[str, Any]:
-    """Run a construction with what a student says; return for each quantity what follows from those before it."""
-    board = StudentBoard(givens, take)
-    program.run(board)
-    return board.follows
+def settled(program: Program) -> dict[str, int]:
+    """Return for each quantity how many steps must be done until it is known what follows for it."""
+    found = {}
+    for place, step in enumerate(program.steps, start=1):
+        if step.verb in LAID and step.operands[2].startswith("_"):
+            found[step.operands[2][1:]] = place
+        elif step.verb in TAKEN and not step.name.startswith("_"):
+            found[step.name] = place
+    return found

@@ -18,7 +18,7 @@ from .answers import Answer, Said, known, measured, nearest, readings, values_of
 from .comparing import NEVER, SIZE, Miss, miss, ratio
 from .key import Key, Question
 from .lines import Line, Marking, Verdict
-from .student import follow
+from .student import StudentBoard, settled
 
 __all__ = ["CLEAR", "Line", "Marking", "Verdict", "behind", "first_wrong", "judge", "mark"]
 
@@ -52,16 +52,41 @@ def mark(key: Key, answers: Iterable[Answer]) -> Marking:
     """
     marker = _marker(key, answers)
     marker.settle_scales()
+    marker.begin()
     lines = tuple(marker.lines())
     first = first_wrong(lines)
     return Marking(marker.key, lines, first, None if first is None else behind(key, first))
 
 
-def judge(key: Key, answers: Iterable[Answer]) -> tuple[Line, ...]:
-    """Judge the lines with a key that is drawn to the student's scales already, that of a broken rule too."""
+def judge(key: Key, answers: Iterable[Answer], first: str = "") -> tuple[Line, ...] | None:
+    """Judge the lines with a key that is drawn to the student's scales already, that of a broken rule too.
+
+    Where the line `first` is clearly wrong, None: lines after it are not looked at.
+    """
     marker = _marker(key, answers)
     marker.settle_scales(redraw=False)
+    marker.begin()
+    if first:
+        marker.go_on(first)
+        held = marker.held.get(first)
+        if held is not None and held.verdict.faulty and held.miss.off > CLEAR:
+            return None
     return tuple(marker.lines())
+
+
+def count_right(key: Key, answers: Iterable[Answer], least: float) -> int:
+    """Return how many answers are right by themselves; nothing where that is less than `least`."""
+    marker = _marker(key, answers)
+    marker.settle_scales()
+    marker.begin()
+    left, held = len(marker.answers), marker.held
+    for name in key.questions:
+        if name in marker.answers:
+            marker.go_on(name)
+            left -= held[name].verdict is not Verdict.RIGHT
+            if left < least:
+                return 0
+    return left
 
 
 def _marker(key: Key, answers: Iterable[Answer]) -> _Marker:
@@ -159,17 +184,32 @@ class _Marker:
         found = [abs(value / mm) for mm, value in values if value and mm]
         return median(found) if found else None
 
-    def lines(self) -> Iterator[Line]:
-        """Judge every line in order of construction."""
-        program, givens = self.key.paper.program, self.key.paper.givens
+    def begin(self) -> None:
+        """Find how every answer may be taken, and begin the constructions with it."""
+        key, program = self.key, self.key.paper.program
         for name, answer in self.answers.items():
             values = values_of(answer, self.mus[name])
             self.ways[name] = readings(answer, values)
-            near = (nearest(values, abs(self.key[name])),) if len(values) > 1 else values
-            self.taken[name] = readings(answer, near)[0]
-        self.drawn = follow(program, givens, lambda name, value: (self.taken.get(name), True))
-        follows = follow(program, givens, self._judge)
+            near = (nearest(values, abs(key[name])),) if len(values) > 1 else values
+            self.taken[name] = self.ways[name][0] if near == values else readings(answer, near)[0]
+        self.settled = settled(program)
+        self.drawn = StudentBoard(program, key.paper.givens, lambda name, value: (self.taken.get(name), True))
+        self.board = StudentBoard(program, key.values, self._judge, made=True)
+
+    def go_on(self, name: str) -> None:
+        """Judge the lines up to that of `name`."""
+        self.board.go_on(self.settled[name])
+
+    def lines(self) -> Iterator[Line]:
+        """Judge every line in order of construction."""
+        self.board.go_on()
+        follows = self.board.follows
         return (self._line(question, follows[question.name]) for question in self.key.questions.values())
+
+    def _follows(self, name: str) -> Any:
+        """Return what follows from all that the student said before: constructed as far as it is asked for."""
+        self.drawn.go_on(self.settled[name])
+        return self.drawn.follows.get(name)
 
     def _line(self, question: Question, follows: Any) -> Line:
         name, held = question.name, self.held.get(question.name)
@@ -205,14 +245,18 @@ class _Marker:
         clear = held.miss.off > CLEAR and held.miss.about == SIZE
         if clear and self._is_unit(name, value):
             return held._replace(verdict=Verdict.SCALE)
-        if answer.value is not None and (instead := measured(answer, self.mus[name])):
-            agrees = any(abs(x - abs(answer.value)) <= self._slack(name, x) for x in instead)
+        instead, written = measured(answer, self.mus[name]), answer.value
+        if written is not None and instead and not self._agrees(name, written, instead):
             by_mm = self._held(readings(answer, instead), name, value).verdict
-            if not agrees and held.verdict.passed is not by_mm.passed:
+            if held.verdict.passed is not by_mm.passed:
                 return held._replace(verdict=Verdict.ARITHMETIC)
         if clear and self._is_scale(name, value):
             return held._replace(verdict=Verdict.SCALE)
         return held
+
+    def _agrees(self, name: str, written: float, instead: Iterable[float]) -> bool:
+        """Whether the value written is one of those that the millimetres mean."""
+        return any(abs(x - abs(written)) <= self._slack(name, x) for x in instead)
 
     def _slack(self, name: str, value: float) -> float:
         tolerance, mu = self.key.tolerance, self.key.paper.mus.get(self.key.questions[name].plan, 0.0)
@@ -223,7 +267,7 @@ class _Marker:
         right = self._best(ways, name, self.key[name])
         if right.miss.off <= 1.0:
             return right
-        follows = [self._best(ways, name, x) for x in (value, self.drawn.get(name))]
+        follows = [self._best(ways, name, x) for x in (value, self._follows(name))]
         found = min((right, *follows), key=_off)
         if found.miss.off <= 1.0:
             return found._replace(verdict=Verdict.CARRIED if self.failed else Verdict.RIGHT)
@@ -271,8 +315,13 @@ class _Marker:
         """Whether a line would pass with one of other values, and that in a few parts of a hundred."""
         if abs(self.key[name]) <= self.key.allowed[name]:
             return False  # anything is nothing in some unit
-        held = ((abs(x), self._held(readings(self.answers[name], (x,)), name, value)) for x in others)
-        return any(h.verdict.passed and abs(x - abs(h.against)) <= SAME * abs(h.against) for x, h in held)
+        sizes = [abs(x) for x in (self.key[name], value, self._follows(name)) if x is not None]
+        for x in others:
+            if any(abs(abs(x) - size) <= SAME * size for size in sizes):  # else it need not be held against anything
+                held = self._held(readings(self.answers[name], (x,)), name, value)
+                if held.verdict.passed and abs(abs(x) - abs(held.against)) <= SAME * abs(held.against):
+                    return True
+        return False
 
 
 def _off(held: _Held) -> float:

@@ -136,8 +136,8 @@ class _Search:
         """Return the crank at the angles that fit best, where the answers are those of another position."""
         book, table = self.book, self.book.turned.table
         with np.errstate(all="ignore"):
-            larger = np.fmax(1.0, np.abs(table) / np.abs(book.right))
-        means = _mean(self.said.misses(book, table, book.allowed * larger))
+            most = book.allowed * np.fmax(1.0, np.abs(table) / np.abs(book.right))
+        means = _mean(self.said.misses(book, table, most))
         near = [int(i) for i in np.argsort(means, kind="stable")[:ANGLES] if means[i] <= 1.0]
         made = [signature(book.key, book.turned.broken(i)) for i in near]
         return [c for one in made if one is not None and (c := self._candidate((one,))) is not None]
@@ -176,14 +176,15 @@ class _Search:
     def _candidate(self, signatures: tuple[Signature, ...]) -> tuple[Candidate, Signature] | None:
         """Mark the answers with a broken construction; None where it does not explain the first wrong line."""
         last = signatures[-1]
-        again = judge(key_of(self.book.key, last), self.answers)
-        wrong = {line.name: line.off for line in again if line.verdict.faulty}
-        if wrong.get(str(self.marking.first_wrong), 0.0) > CLEAR:
-            return None
-        left = tuple(wrong)
-        explained = tuple(name for name in self.faulty if name not in wrong)
         misses = float(_mean(self.said.misses(self.book, last.row[None, :], last.allowed[None, :]))[0])
-        if not explained or misses > MISFIT:
+        if misses > MISFIT:
+            return None
+        again = judge(key_of(self.book.key, last), self.answers, str(self.marking.first_wrong))
+        if again is None:
+            return None
+        left = tuple(line.name for line in again if line.verdict.faulty)
+        explained = tuple(name for name in self.faulty if name not in left)
+        if not explained:
             return None
         return Candidate(tuple(s.broken for s in signatures), (), explained, left, misses), last
 

@@ -6,7 +6,7 @@ The mistakes have numbers, M01 to M82; the other modules here, a chapter each, h
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -26,16 +26,14 @@ class Scene:
         """The construction."""
         return self.paper.program
 
-    @cached_property
-    def steps(self) -> dict[str, Step]:
+    @property
+    def steps(self) -> Mapping[str, Step]:
         """The steps by the names they make."""
-        return {step.name: step for step in self.program}
+        return self.program.by_name
 
     def made_by(self, *verbs: str, law: str = "", plan: str = "") -> Iterator[Step]:
         """Go through the steps of some verbs, of one law, on the plans whose names begin so."""
-        for step in self.program:
-            if step.verb in verbs and (not law or step.law == law) and step.plan.startswith(plan):
-                yield step
+        return iter(self.program.which(verbs, law, plan))
 
     def mu(self, plan: str) -> float:
         """Return the scale factor of a plan, SI per mm."""
@@ -82,15 +80,26 @@ class Mistake:
     by_scale: bool = False
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Broken:
-    """A construction with one rule broken, or several one after the other, at the steps or data `at`."""
+    """A construction with one rule broken, or several one after the other, at the steps or data `at`.
+
+    It is the construction `before` with other `steps` in the place of those of the same names, and other data.
+    """
 
     mistake: str
     at: str
     how: str
-    program: Program
+    before: Program
     givens: Mapping[str, Any]
+    steps: Mapping[str, tuple[Step, ...]] = field(default_factory=dict)
+
+    @cached_property
+    def program(self) -> Program:
+        """The construction with the rule broken: put together for the few that are looked at closely."""
+        if not self.steps:
+            return self.before
+        return Program(tuple(new for step in self.before for new in self.steps.get(step.name, (step,))))
 
     @property
     def place(self) -> tuple[str, str, str]:
@@ -124,9 +133,8 @@ def _both(first: Rule, second: Rule) -> Rule:
 def breaks(scene: Scene, mistake: Mistake) -> Iterator[Broken]:
     """Go through all ways in which the rule of one mistake can be broken here."""
     for change in mistake.breaks(scene):
-        steps = [new for step in scene.program for new in change.steps.get(step.name, (step,))]
         givens = {**scene.paper.givens, **change.givens}
-        yield Broken(mistake.id, change.at, change.how, Program(tuple(steps)), givens)
+        yield Broken(mistake.id, change.at, change.how, scene.program, givens, change.steps)
 
 
 # Rewrites that many rules share.

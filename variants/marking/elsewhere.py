@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from ...plans.marking.answers import Answer
 from ...plans.marking.key import Key
-from ...plans.marking.verdicts import Line, Marking, Verdict, mark
+from ...plans.marking.verdicts import Line, Marking, Verdict, count_right
 from ...scales.errors import KulmanError
 
 FEWEST = 4  # answers that must be right under the other key
@@ -26,9 +26,10 @@ def fits_other(marking: Marking, given: Sequence[Answer], others: Iterable[str],
     answered = marking.answered
     if len(answered) < FEWEST or _right(answered) > (1.0 - MANY) * len(answered):
         return ""
-    found = {variant: _under(variant, given, key) for variant in others}
+    least = max(FEWEST, MOST * len(answered))
+    found = {variant: _under(variant, given, key, least) for variant in others}
     best = max(found, key=lambda variant: found[variant], default="")
-    return best if best and found[best] >= max(FEWEST, MOST * len(answered)) else ""
+    return best if best and found[best] >= least else ""
 
 
 def _right(lines: Iterable[Line]) -> int:
@@ -36,10 +37,10 @@ def _right(lines: Iterable[Line]) -> int:
     return sum(line.verdict is Verdict.RIGHT for line in lines)
 
 
-def _under(variant: str, given: Sequence[Answer], key: Callable[[str], Key]) -> int:
-    """Return how many answers are right under the key of a variant."""
+def _under(variant: str, given: Sequence[Answer], key: Callable[[str], Key], least: float) -> int:
+    """Return how many answers are right under the key of a variant, nothing where that is less than `least`."""
     try:
         of = key(variant)
     except KulmanError:
         return 0  # this variant has no plan with the student's data
-    return _right(mark(of, [answer for answer in given if answer.name in of.questions]).lines)
+    return count_right(of, [answer for answer in given if answer.name in of.questions], least)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from ...scales.errors import InputError
@@ -29,24 +30,33 @@ class Entry:
     place: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Roster:
     """The students of a class, in the order of the file."""
 
     entries: tuple[Entry, ...]
 
+    @cached_property
+    def _by_key(self) -> Mapping[tuple[str, str], list[Entry]]:
+        """The entries by what they are found by."""
+        found: dict[tuple[str, str], list[Entry]] = {}
+        for entry in self.entries:
+            for key in KEYS:
+                found.setdefault((key, _folded(getattr(entry.who, key))), []).append(entry)
+        return found
+
     def find(self, who: Who) -> Entry | None:
         """Return the entry of a student: by number, record book, e-mail or name, whichever is there first."""
         for key in KEYS:
             said = _folded(getattr(who, key))
-            found = [entry for entry in self.entries if said and _folded(getattr(entry.who, key)) == said]
+            found = self._by_key.get((key, said), []) if said else []
             if len(found) == 1:
                 return found[0]
         return None
 
     def missing(self, handed_in: Iterable[Answers]) -> list[Entry]:
         """Return those who have handed in nothing."""
-        there = [id(entry) for answers in handed_in if (entry := self.find(answers.who)) is not None]
+        there = {id(entry) for answers in handed_in if (entry := self.find(answers.who)) is not None}
         return [entry for entry in self.entries if id(entry) not in there]
 
 

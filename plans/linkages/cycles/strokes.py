@@ -22,7 +22,7 @@ from ...board import Program, Step
 from ...laws import TURN, inclination
 from ...zeros import Stretch, zeros
 from ..bare import at_unit_speed, without_loads
-from ..chain import construct, moving_bodies
+from ..chain import constructed, moving_bodies
 from ..mechanism import FRAME, ZERO, Mechanism, Prismatic
 from ..structure import Structure
 from .limits import Reach, reach_of, size_of
@@ -206,7 +206,7 @@ def output_motions(drive: Swept, values: Mapping[str, float], found: Reach) -> t
     Dead positions are zeros of the velocity, refined until they do not change: better than 1e-12 rad.
     """
     mechanism = at_unit_speed(without_loads(drive.mechanism))
-    structure, program = construct(mechanism, ("velocity",))
+    structure, program = constructed(mechanism, ("velocity",))
     moved = outputs(mechanism, structure)
     wanted = [name for output in moved for name in (output.place, output.rate) if name]
     along = remembering(drive.along(measured(program, moved), values, wanted, mechanism=mechanism))

@@ -1,0 +1,96 @@
+"""Marking does again only what differs: it gives what the whole constructions give, to the last bit."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from kulman.plans.boards.exact import run
+from kulman.plans.marking.answers import Answer, Said
+from kulman.plans.marking.student import StudentBoard, settled
+from kulman.plans.marking.verdicts import CLEAR, Verdict, count_right, judge, mark
+from kulman.plans.mistakes.book import key_of
+from kulman.tests.support.marking_cases import LINKAGES, key, mistakes, planted, right_answers
+
+TASKS = LINKAGES[1::8]
+
+
+def same(found: Any, expected: Any) -> bool:
+    return bool(found == expected or (found != found and expected != expected))
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_a_broken_construction_gives_what_a_whole_run_gives(task: str) -> None:
+    for found in mistakes(task).signatures[::9]:
+        whole = run(found.broken.program, found.broken.givens).values
+
+        assert all(same(found.values[name], value) for name, value in whole.items()), found.broken.place
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_what_follows_for_a_student_is_the_same_from_made_values(task: str) -> None:
+    of = key(task)
+    for found in mistakes(task).signatures[5::40]:
+        said = {a.name: a for a in planted(mistakes(task), found, 1)}
+
+        def take(name: str, value: Any, said: dict[str, Answer] = said) -> tuple[Said | None, bool]:
+            if name not in said or ord(name[-1]) % 2:
+                return None, False
+            return Said(said[name].value, said[name].sense, None), len(name) % 2 == 0
+
+        whole = StudentBoard(of.paper.program, of.paper.givens, take)
+        again = StudentBoard(of.paper.program, of.values, take, made=True)
+        whole.go_on()
+        again.go_on()
+
+        assert whole.follows.keys() == again.follows.keys()
+        assert all(same(again.follows[name], value) for name, value in whole.follows.items())
+
+
+def test_a_quantity_is_settled_where_nothing_changes_it_any_more() -> None:
+    of = key(TASKS[0])
+    taken = {name: Said(1.1 * abs(of[name]), None, None) for name in of.questions}
+    whole, part = (
+        StudentBoard(of.paper.program, of.paper.givens, lambda name, value: (taken.get(name), True)) for _ in "12"
+    )
+    whole.go_on()
+
+    for name, end in settled(of.paper.program).items():
+        if name in of.questions:
+            part.go_on(end)
+            assert same(part.follows[name], whole.follows[name])
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_lines_after_a_first_one_that_is_clearly_wrong_are_not_looked_at(task: str) -> None:
+    of, given_up = mistakes(task), 0
+    for found in of.signatures[3::80]:
+        answers = planted(of, found, 1)
+        first = mark(of.key, answers).first_wrong
+        for other in of.signatures[::90] if first else ():
+            whole = judge(key_of(of.key, other), answers)
+            some = judge(key_of(of.key, other), answers, str(first))
+
+            assert whole is not None
+            line = next(line for line in whole if line.name == first)
+            assert (some is None) == (line.verdict.faulty and line.off > CLEAR)
+            assert some is None or [found.verdict for found in some] == [found.verdict for found in whole]
+            given_up += some is None
+    assert given_up > 0
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_right_lines_are_counted_as_marked_unless_they_are_too_few(task: str) -> None:
+    of = key(task)
+    answers = [
+        Answer(a.name, value=(a.value or 0.0) * (3.0 if place % 5 == 2 else 1.0), direction=a.direction, sense=a.sense)
+        for place, a in enumerate(right_answers(of))
+    ]
+
+    right = sum(line.verdict is Verdict.RIGHT for line in mark(of, answers).lines)
+
+    assert 0 < right < len(answers)
+    assert count_right(of, answers, 0.0) == count_right(of, answers, right) == right
+    assert count_right(of, answers, math.nextafter(right, math.inf)) == 0
