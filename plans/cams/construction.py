@@ -7,12 +7,13 @@ from dataclasses import dataclass
 
 from ..board import Program, RecordingBoard
 from . import formulas as formulas  # its laws of calculation
-from .cam import DIAGRAMS, PLANS, PLATE, PRESSURE, PROFILE, ROLLER, SIZES
+from .cam import DIAGRAMS, PLANS, PLATE, PRESSURE, PROFILE, ROCKER, ROLLER, SIZES
 from .division import Division
 from .integration import ACCELERATION, diagrams
 from .inversion import plate_profile, positions, roller_profile
+from .rocker_plans import rocker_profile, rocker_sizes
 from .scale_factors import chord_factors, exact_factors
-from .size_plans import ordinates, plate_sizes, roller_sizes, smallest_plate_cam, smallest_roller_cam
+from .size_plans import ordinates, permitted_offsets, plate_sizes, roller_sizes, smallest_plate_cam, smallest_roller_cam
 
 NEEDS = {DIAGRAMS: (), SIZES: (DIAGRAMS,), PROFILE: (SIZES,), PRESSURE: (SIZES,)}
 
@@ -22,7 +23,8 @@ class Layout:
     """What the construction of a cam depends on beside numbers.
 
     `given` is the diagram that the law gives; `fastest` the section line of the greatest velocity; `limits` names the
-    limits of the pressure angle, `corner` the two whose tangents meet at a cam's centre.
+    limits of the pressure angle, `corner` the two whose tangents meet at a cam's centre; `ranged` tells that r_0 is
+    given, and between which offsets the cam may be.
     """
 
     division: Division
@@ -31,6 +33,7 @@ class Layout:
     fastest: int = 0
     limits: tuple[str, ...] = ()
     corner: tuple[str, ...] = ()
+    ranged: bool = False
 
 
 def with_needs(plans: Iterable[str]) -> tuple[str, ...]:
@@ -55,13 +58,19 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
         if ROLLER in layout.followers:
             roller_sizes(board, division, layout.limits, layout.corner)
             smallest_roller_cam(board)
+            if layout.ranged:
+                permitted_offsets(board)
         if PLATE in layout.followers:
             plate_sizes(board, division)
             smallest_plate_cam(board)
+        if ROCKER in layout.followers:
+            rocker_sizes(board, division)
     if PROFILE in wanted:
         positions(board, division)
         if ROLLER in layout.followers:
             roller_profile(board, division)
         if PLATE in layout.followers:
             plate_profile(board, division)
+        if ROCKER in layout.followers:
+            rocker_profile(board, division)
     return Program(board.steps)

@@ -5,14 +5,11 @@ A law of motion is a table to the board, as it is to a student: parts of the amp
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from typing import Any
 
 from .division import Division
 from .integration import ACCELERATION, VELOCITY
 from .motion import FALL, RISE, Array, Motion
-from .size_plans import side_of
 from .sizes import RIGHT_ANGLE
 
 NUMBERS = {"_two": 2.0, "_minus_one": -1.0}
@@ -45,16 +42,6 @@ def diagram_givens(motion: Motion, angles: Array, division: Division, given: str
     found["_part_v"] = motion.ds_max.value / (amplitude * top)
     found["_part_s"] = motion.h / (amplitude * top * top)
     found["_part_a"] = motion.d2s_max.value / amplitude
-    return found
-
-
-def limit_givens(limits: Mapping[str, float], sense: int) -> dict[str, float]:
-    """Return slope, side and inclination of every limit's tangent; `limits` are transmission angles by name."""
-    found: dict[str, float] = {}
-    for limit, gamma in limits.items():
-        side = side_of(limit, sense)
-        found |= {f"_slope_{limit}": side / math.tan(gamma), f"_side_{limit}": float(side)}
-        found[f"_inclination_{limit}"] = gamma if side > 0 else math.pi - gamma
     return found
 
 

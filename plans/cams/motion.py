@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...scales.errors import InputError
 from .cam import MIRROR, Cam
 from .division import Division
 from .laws_of_motion import SAME, LawOfMotion, law_of_curve, law_of_motion
@@ -110,6 +111,11 @@ class Motion:
         Law of the fall; by default that of the rise.
     order : {"mirror", "same"}
         Whether the fall runs through its law backwards in time, or in the same order.
+
+    Raises
+    ------
+    InputError
+        When the phases are more than a turn.
     """
 
     def __init__(
@@ -125,6 +131,8 @@ class Motion:
         h, phi_rise, phi_upper, phi_fall = map(float, (h, phi_rise, phi_upper, phi_fall))
         top, leave = phi_rise, phi_rise + phi_upper
         last = min(leave + phi_fall, TURN)
+        if leave + phi_fall > TURN * (1.0 + NEAR):
+            raise InputError("cam-phases", angle=f"{math.degrees(leave + phi_fall):.7g}")
         back = fall or rise
         falling = back.mirrored() if order == MIRROR else back.turned()
         self.h = h
@@ -272,7 +280,7 @@ class Motion:
 
 
 def motion_of(cam: Cam, values: Mapping[str, float]) -> Motion:
-    """Return the motion of a cam with its numbers: h (or psi), phi_rise, phi_upper, phi_fall, u, u_fall.
+    """Return the motion of a cam with its numbers: h, phi_rise, phi_upper, phi_fall, u, u_fall.
 
     Raises
     ------
@@ -284,8 +292,9 @@ def motion_of(cam: Cam, values: Mapping[str, float]) -> Motion:
         law_of_curve(curve) if (curve := cam.curve(name)) else law_of_motion(name, part)
         for name, part in ((cam.law, u), (cam.falls_by, values.get("u_fall", u)))
     )
-    stroke = values["h"] if "h" in values else values["psi"]
-    return Motion(stroke, values["phi_rise"], values.get("phi_upper", 0.0), values["phi_fall"], rise, fall, cam.fall)
+    return Motion(
+        values["h"], values["phi_rise"], values.get("phi_upper", 0.0), values["phi_fall"], rise, fall, cam.fall
+    )
 
 
 def _placed(pieces: tuple[Smooth, ...], h: float, length: float, start: float) -> tuple[Smooth, ...]:

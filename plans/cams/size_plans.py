@@ -90,6 +90,12 @@ def smallest_roller_cam(board: Board) -> None:
         board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
 
 
+def permitted_offsets(board: Board) -> None:
+    """Calculate between which offsets a given r_0 keeps the limits."""
+    board.calc("e_least", "part_of_travel", "h", "_e_least")
+    board.calc("e_most", "part_of_travel", "h", "_e_most")
+
+
 def plate_sizes(board: Board, division: Division) -> None:
     """Draw S over d2s/dphi2 and the tangent at 45 degrees to its negative branch."""
     board.pole(f"{PLATE_SIZES}.0")

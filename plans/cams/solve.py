@@ -10,16 +10,15 @@ from ..board import Program
 from ..boards.exact import run
 from ..quantities import quantities, shown_on
 from ..solved import Solved
-from .cam import PLANS, PLATE, ROLLER, Cam
+from .cam import PLANS, PLATE, ROCKER, ROLLER, Cam
 from .construction import Layout, construct, with_needs
-from .givens import diagram_givens, limit_givens, profile_givens
+from .followers import PlateCam, RockerCam, RollerCam, limits_of, plate_cam, rocker_cam, roller_cam
+from .givens import diagram_givens, profile_givens
 from .integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
 from .inversion import PLATE_PROFILE, PROFILE
-from .motion import FALL, RISE, Array, Motion, motion_of
-from .pressure import least_transmission
-from .profile import PlateProfile, RollerProfile, StraightPath
-from .size_plans import PLATE_SIZES, SIZES, phase_of
-from .sizes import BACK, Limits, PlateSizes, RollerSizes, apex, smallest_plate, smallest_roller, wedge
+from .motion import Array, Motion, motion_of
+from .rocker_plans import ROCKER_SIZES
+from .size_plans import PLATE_SIZES, SIZES
 
 # the scale factor in which each plan shows values; on the diagrams that of the axis of ordinates
 SCALES = {
@@ -28,6 +27,7 @@ SCALES = {
     TRAVEL: "mu_s",
     SIZES: "mu_s",
     PLATE_SIZES: "mu_d2s",
+    ROCKER_SIZES: "mu_s",
     PROFILE: "mu_l",
     PLATE_PROFILE: "mu_l",
 }
@@ -64,24 +64,6 @@ def unit_of(name: str) -> str:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RollerCam:
-    """The smallest cam for a roller, the cam whose centre is where the limit tangents meet, and the profile."""
-
-    limits: Limits
-    sizes: RollerSizes
-    by_tangents: RollerSizes
-    profile: RollerProfile
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PlateCam:
-    """The smallest cam for a plate, and its profile."""
-
-    sizes: PlateSizes
-    profile: PlateProfile
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class SolvedCam(Solved):
     """A cam solved; `angles` are those of the section lines, rad."""
 
@@ -91,6 +73,7 @@ class SolvedCam(Solved):
     layout: Layout
     roller: RollerCam | None
     plate: PlateCam | None
+    rocker: RockerCam | None
 
     def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
         """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""
@@ -114,22 +97,31 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     InputError
         A law that cannot be had with these numbers.
     """
+    if ROCKER in cam.followers:  # the travel of its roller runs along an arc
+        values = {**values, "h": values["psi"] * values["l_rocker"]}
     motion = motion_of(cam, values)
     angles, division = motion.division(cam.sections)
     given = VELOCITY if any(jump.order == 1 for jump in motion.jumps) else ACCELERATION
     wanted = with_needs(plans)
-    sized = PLANS[1] in wanted
-    roller = _roller(cam, motion, values) if ROLLER in cam.followers and sized else None
-    plate = _plate(cam, motion, values) if PLATE in cam.followers and sized and given == ACCELERATION else None
-    made = [name for name, found in ((ROLLER, roller), (PLATE, plate)) if found is not None]
-    fastest = int(abs(angles - motion.ds_max.phi).argmin())
-    layout = Layout(division, tuple(made), given, fastest, _limits(cam), roller.by_tangents.on if roller else ())
+    cams = _cams(cam, motion, values, given) if PLANS[1] in wanted else {}
+    roller, plate, rocker = (cams.get(follower) for follower in (ROLLER, PLATE, ROCKER))
+    layout = Layout(
+        division,
+        tuple(cams),
+        given,
+        fastest=int(abs(angles - motion.ds_max.phi).argmin()),
+        limits=limits_of(cam),
+        corner=roller.by_tangents.on if roller else (),
+        ranged=roller is not None and roller.offsets is not None,
+    )
     program = construct(layout, wanted)
     givens = {
         **values,
         **diagram_givens(motion, angles, division, given),
         **profile_givens(motion, angles, division, cam.sense),
-        **_size_givens(cam, motion, values, roller, plate),
+        **(roller.givens(cam) if roller else {}),
+        **(plate.givens() if plate else {}),
+        **(rocker.givens(cam, angles, division) if rocker else {}),
     }
     board = run(program, givens)
     return SolvedCam(
@@ -148,50 +140,29 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
         layout=layout,
         roller=roller,
         plate=plate,
+        rocker=rocker,
     )
 
 
 def _shown_on(program: Program) -> dict[str, str]:
     drawn = {*program.plans}
-    return shown_on(program) | {name: plan for name, plan in SHOWN_ON.items() if plan in drawn}
+    shown = SHOWN_ON | ({"r_0": ROCKER_SIZES, "l_OC": ROCKER_SIZES} if ROCKER_SIZES in drawn else {})
+    return shown_on(program) | {name: plan for name, plan in shown.items() if plan in drawn}
 
 
-def _limits(cam: Cam) -> tuple[str, ...]:
-    sides = (RISE, FALL)
-    return (*sides, *(phase + BACK for phase in sides)) if cam.two_sided else sides
-
-
-def _roller(cam: Cam, motion: Motion, values: Mapping[str, float]) -> RollerCam:
-    limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
-    planes = wedge(motion, limits, cam.sense)
-    sizes = smallest_roller(planes)
-    profile = RollerProfile(StraightPath(motion, sizes), values["R_roller"], cam.sense)
-    return RollerCam(limits=limits, sizes=sizes, by_tangents=apex(planes), profile=profile)
-
-
-def _plate(cam: Cam, motion: Motion, values: Mapping[str, float]) -> PlateCam:
-    sizes = smallest_plate(motion, values["rho_flat"], values["margin"])
-    return PlateCam(sizes=sizes, profile=PlateProfile(motion, sizes.r_0, cam.sense))
-
-
-def _size_givens(
-    cam: Cam, motion: Motion, values: Mapping[str, float], roller: RollerCam | None, plate: PlateCam | None
-) -> dict[str, float]:
-    """Return the sizes as parts of the stroke, to which they are proportional, and the limits' tangents."""
-    found: dict[str, float] = {}
-    if roller is not None:
-        gammas = {RISE: roller.limits.gamma_rise, FALL: roller.limits.gamma_fall}
-        found |= limit_givens({limit: gammas[phase_of(limit)] for limit in _limits(cam)}, cam.sense)
-        parts = {"e": roller.sizes.e, "s_0": roller.sizes.s_0, "rho": roller.profile.rho_min}
-        found |= {f"_{name}_part": size / motion.h for name, size in parts.items()}
-        for phase in (RISE, FALL):
-            least = least_transmission(motion, roller.sizes, phase, cam.sense, cam.two_sided)
-            found[f"_gamma_{phase}_least"] = least.value
-    if plate is not None:
-        found["_r_0_flat_part"] = plate.sizes.r_0_min / motion.h
+def _cams(cam: Cam, motion: Motion, values: Mapping[str, float], given: str) -> dict[str, Any]:
+    """Return the cam for every follower; a plate cannot follow a velocity that jumps."""
+    found: dict[str, Any] = {}
+    for follower in cam.followers:
+        if follower == ROLLER:
+            found[ROLLER] = roller_cam(cam, motion, values)
+        elif follower == ROCKER:
+            found[ROCKER] = rocker_cam(cam, values)
+        elif given == ACCELERATION:
+            found[PLATE] = plate_cam(cam, motion, values)
     return found
 
 
 def _lengths(values: Mapping[str, Any]) -> dict[str, float]:
     """Return the given lengths that are results, too."""
-    return {name: values[name] for name in ("H_a", "H_v", "R_roller") if name in values}
+    return {name: values[name] for name in ("H_a", "H_v", "R_roller", "l_rocker") if name in values}

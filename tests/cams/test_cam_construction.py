@@ -16,6 +16,7 @@ from kulman.plans.cams.motion import motion_of
 from kulman.plans.cams.solve import SolvedCam, solve_cam
 from kulman.plans.hands.hand import preset
 from kulman.plans.hands.shaky import draw, paper_of
+from kulman.scales.errors import InputError
 
 DEGREE = math.radians(1.0)
 MADI = {
@@ -220,3 +221,59 @@ def test_a_hand_draws_the_cam_as_well_as_its_pencil_lets_it() -> None:
         assert 1e-4 < spread < 0.3, name
         assert abs(np.mean(board.values[name]) / exact - 1.0) < spread
     assert np.std(board.values["mu_s"]) == 0.0  # calculated from data
+
+
+ROCKER = {name: value for name, value in MADI.items() if name != "h"} | {
+    "psi": 25 * DEGREE,
+    "l_rocker": 0.1,
+    "gamma_rise": 50 * DEGREE,
+    "gamma_fall": 45 * DEGREE,
+}
+
+
+@pytest.mark.parametrize("rotation", ["ccw", "cw"])
+@pytest.mark.parametrize("distance", [{}, {"l_OC": 0.12}])
+def test_the_profile_under_a_rocker_is_the_exact_one(rotation: str, distance: dict[str, float]) -> None:
+    solved = solve_cam(Cam(("rocker",), "modified-sine", rotation=rotation), ROCKER | distance)
+    profile = solved.rocker.profile
+    pitch, practical = profile.pitch(solved.angles, -1), profile.practical(solved.angles, -1)
+
+    for i in solved.layout.division.lines:
+        assert solved.point(f"profile.B{i}") == pytest.approx(complex(pitch[i]), abs=1e-12)
+        assert solved.point(f"profile.K{i}") == pytest.approx(complex(practical[i]), abs=1e-12)
+    assert solved.quantities["l_OC"].value == pytest.approx(distance.get("l_OC", solved.rocker.sizes.l_OC), rel=1e-12)
+    assert solved.quantities["r_0"].value == pytest.approx(abs(complex(pitch[0])), rel=1e-12)
+
+
+def test_limits_of_a_rocker_do_not_cut_off_the_centre_and_one_runs_through_it() -> None:
+    solved = solve_cam(Cam(("rocker",), "sine", sections=48), ROCKER)
+    centre = solved.point("rocker_sizes.C")
+    distances = []
+    for i in solved.layout.division.lines:
+        way = solved.point(f"_limit{i}")
+        across = centre - solved.point(f"rocker_sizes.D{i}")
+        distances.append((way.conjugate() * across).imag)
+
+    assert max(distances) < 1e-12  # all on one side, below
+    assert max(distances) > -2e-4
+
+
+def test_sizes_that_are_given_are_kept() -> None:
+    at_r_0, at_e, at_both = (
+        solve_cam(Cam(("roller",), "sine"), MADI | given).quantities
+        for given in ({"r_0": 0.05}, {"e": 0.0}, {"r_0": 0.05, "e": 0.012})
+    )
+
+    assert at_r_0["r_0"].value == pytest.approx(0.05, rel=1e-14)
+    assert at_r_0["e_least"].value < at_r_0["e"].value < at_r_0["e_most"].value
+    assert at_r_0["gamma_rise_min"].value >= MADI["gamma_rise"]
+    assert (at_e["e"].value, "e_least" in at_e) == (0.0, False)
+    assert at_e["gamma_rise_min"].value == pytest.approx(MADI["gamma_rise"], rel=1e-12)
+    assert (at_both["e"].value, at_both["r_0"].value) == pytest.approx((0.012, 0.05))
+
+
+def test_no_offset_and_no_place_are_explained() -> None:
+    with pytest.raises(InputError, match=r"r_0 = 20 mm .* at least 2[0-9.]+ mm"):
+        solve_cam(Cam(("roller",), "sine"), MADI | {"r_0": 0.02})
+    with pytest.raises(InputError, match="no place for the cam's centre"):
+        solve_cam(Cam(("rocker",), "sine"), ROCKER | {"psi": 80 * DEGREE, "gamma_rise": 85 * DEGREE})

@@ -1,0 +1,169 @@
+"""The cams that one motion has for each kind of follower: sizes, profile, and what the board begins with."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ...scales.errors import InputError
+from .cam import Cam
+from .division import Division
+from .motion import FALL, RISE, Array, Motion, motion_of
+from .pressure import least_transmission
+from .profile import PlateProfile, RollerProfile, StraightPath
+from .rocker import (
+    NoPlace,
+    Rocker,
+    RockerPath,
+    RockerSizes,
+    least_rocker_transmission,
+    smallest_rocker,
+    smallest_rocker_at,
+)
+from .size_plans import phase_of, side_of
+from .sizes import (
+    BACK,
+    Limits,
+    NoOffset,
+    Offsets,
+    PlateSizes,
+    RollerSizes,
+    apex,
+    central,
+    offsets,
+    smallest_plate,
+    smallest_roller,
+    wedge,
+)
+
+Values = Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RollerCam:
+    """A cam for a roller: its sizes, those where the limit tangents meet, and the offsets permitted at a given r_0."""
+
+    limits: Limits
+    sizes: RollerSizes
+    by_tangents: RollerSizes
+    profile: RollerProfile
+    offsets: Offsets | None = None
+
+    def givens(self, cam: Cam) -> dict[str, float]:
+        """Return the sizes as parts of the stroke, to which they are proportional, and the limits' tangents."""
+        motion, sizes = self.profile.motion, self.sizes
+        found = {"_e_part": sizes.e / motion.h, "_s_0_part": sizes.s_0 / motion.h}
+        found["_rho_part"] = self.profile.rho_min / motion.h
+        if self.offsets is not None:
+            found |= {"_e_least": self.offsets.least / motion.h, "_e_most": self.offsets.most / motion.h}
+        gammas = {RISE: self.limits.gamma_rise, FALL: self.limits.gamma_fall}
+        for limit in limits_of(cam):
+            gamma, side = gammas[phase_of(limit)], side_of(limit, cam.sense)
+            found |= {f"_slope_{limit}": side / math.tan(gamma), f"_side_{limit}": float(side)}
+            found[f"_inclination_{limit}"] = gamma if side > 0 else math.pi - gamma
+        for phase in (RISE, FALL):
+            least = least_transmission(motion, sizes, phase, cam.sense, cam.two_sided)
+            found[f"_gamma_{phase}_least"] = least.value
+        return found
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlateCam:
+    """A cam for a plate."""
+
+    sizes: PlateSizes
+    profile: PlateProfile
+
+    def givens(self) -> dict[str, float]:
+        """Return the least radius as a part of the stroke."""
+        return {"_r_0_flat_part": self.sizes.r_0_min / self.profile.motion.h}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RockerCam:
+    """A cam for a rocker with a roller; `rocker` has the motion as angles, rad."""
+
+    limits: Limits
+    rocker: Rocker
+    sizes: RockerSizes
+    profile: RollerProfile
+
+    def givens(self, cam: Cam, angles: Array, division: Division) -> dict[str, float]:
+        """Return the rocker's positions, the directions of the limits, and sizes as parts of its length."""
+        psi, dpsi, _ = self.rocker.motion.at(angles, -1)
+        pivot, length = RockerPath(self.rocker.motion, self.sizes).pivot, self.sizes.l
+        found = {"_centre_x_part": -pivot.real / length, "_centre_y_part": -pivot.imag / length}
+        found["_rho_part"] = self.profile.rho_min / length
+        start = math.atan2(pivot.imag, pivot.real)
+        for i in division.lines:
+            turned = cam.sense * float(angles[i])
+            found |= {f"_swing{i}": float(psi[i]), f"_analogue{i}": cam.sense * float(dpsi[i])}
+            found |= {f"_arm_angle{i}": float(psi[i]) - turned, f"_pivot_angle{i}": start - turned}
+            way, gamma = (1, self.limits.gamma_rise) if i in division.rise else (-1, self.limits.gamma_fall)
+            found[f"_limit_angle{i}"] = float(psi[i]) - way * cam.sense * gamma
+        for phase in (self.rocker.motion.rise, self.rocker.motion.fall):
+            least = least_rocker_transmission(self.rocker, self.sizes, phase, cam.two_sided)
+            found[f"_gamma_{phase.name}_least"] = least.value
+        return found
+
+
+def limits_of(cam: Cam) -> tuple[str, ...]:
+    """Return the names of the limits of the pressure angle."""
+    return (RISE, FALL, RISE + BACK, FALL + BACK) if cam.two_sided else (RISE, FALL)
+
+
+def roller_cam(cam: Cam, motion: Motion, values: Values) -> RollerCam:
+    """Return the smallest cam for a roller, or the one with the given r_0, e, or both.
+
+    Raises
+    ------
+    InputError
+        No offset is permitted at the given r_0.
+    """
+    limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
+    planes = wedge(motion, limits, cam.sense)
+    r_0, e, permitted = values.get("r_0"), values.get("e"), None
+    if r_0 is not None:
+        found = offsets(planes, r_0)
+        permitted = found if isinstance(found, Offsets) else None
+        if e is None and isinstance(found, NoOffset):
+            raise _no_offset(found, r_0)
+    if r_0 is None:
+        sizes = smallest_roller(planes) if e is None else central(planes, e)
+    else:
+        if e is None:
+            assert permitted is not None
+            e = 0.5 * (permitted.least + permitted.most)
+        sizes = RollerSizes(r_0, e, math.sqrt((r_0 - e) * (r_0 + e)))
+    profile = RollerProfile(StraightPath(motion, sizes), values["R_roller"], cam.sense)
+    return RollerCam(limits=limits, sizes=sizes, by_tangents=apex(planes), profile=profile, offsets=permitted)
+
+
+def _no_offset(found: NoOffset, r_0: float) -> InputError:
+    said = {"r_0": f"{r_0 * 1e3:.6g}", "least": f"{found.r_0_min * 1e3:.6g}"}
+    return InputError("cam-no-offset", **said)
+
+
+def plate_cam(cam: Cam, motion: Motion, values: Values) -> PlateCam:
+    """Return the smallest cam for a plate."""
+    sizes = smallest_plate(motion, values["rho_flat"], values["margin"])
+    return PlateCam(sizes=sizes, profile=PlateProfile(motion, sizes.r_0, cam.sense))
+
+
+def rocker_cam(cam: Cam, values: Values) -> RockerCam:
+    """Return the smallest cam for a rocker, with the pivot at the given l_OC or wherever it is best.
+
+    Raises
+    ------
+    InputError
+        The limits permit no place of the cam's centre.
+    """
+    limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
+    rocker = Rocker(motion_of(cam, {**values, "h": values["psi"]}), values["l_rocker"], cam.sense)
+    distance = values.get("l_OC")
+    found = smallest_rocker(rocker, limits) if distance is None else smallest_rocker_at(rocker, limits, distance)
+    if isinstance(found, NoPlace):
+        raise InputError("cam-no-place")
+    profile = RollerProfile(RockerPath(rocker.motion, found), values["R_roller"], cam.sense)
+    return RockerCam(limits=limits, rocker=rocker, sizes=found, profile=profile)
