@@ -68,7 +68,7 @@ NUMBERS = {
     "rho_flat": Number(Bound.NOT_NEGATIVE, (PLATE,), 0.01),
     "margin": Number(Bound.NOT_NEGATIVE, (PLATE,), 0.005),
     "l_rocker": Number(needed_by=(ROCKER,)),
-    "l_OC": Number(needed_by=(ROCKER,)),
+    "l_OC": Number(needed_by=()),  # else the pivot is where the cam is smallest
     "r_0": Number(needed_by=()),
     "e": Number(Bound.FREE, ()),
 }
