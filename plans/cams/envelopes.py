@@ -134,7 +134,9 @@ def _sign_changes(envelope: Envelope, places: Places, i: int) -> float:
 
 
 def _undercut(envelope: Envelope, places: Places, run: tuple[int, int]) -> Undercut:
-    start, end = _crossing(envelope, places.cell(run[0] - 1), places.cell(run[1]))
+    (a, b, left), (c, d, right) = places.cell(run[0] - 1), places.cell(run[1])
+    # what cuts the envelope's point a or d a little may be between two positions that were looked at
+    start, end = _crossing(envelope, (2.0 * a - b, b, left), (c, 2.0 * d - c, right))
     end = start + (end - start) % TURN
     corner = complex(envelope.practical(start))
 

@@ -130,9 +130,11 @@ class Motion:
     ) -> None:
         h, phi_rise, phi_upper, phi_fall = map(float, (h, phi_rise, phi_upper, phi_fall))
         top, leave = phi_rise, phi_rise + phi_upper
-        last = min(leave + phi_fall, TURN)
-        if leave + phi_fall > TURN * (1.0 + NEAR):
-            raise InputError("cam-phases", angle=f"{math.degrees(leave + phi_fall):.7g}")
+        last = leave + phi_fall
+        if last > TURN + NEAR:
+            raise InputError("cam-phases", angle=f"{math.degrees(last):.7g}")
+        if last > TURN - NEAR:
+            last = TURN
         back = fall or rise
         falling = back.mirrored() if order == MIRROR else back.turned()
         self.h = h

@@ -244,6 +244,32 @@ def test_plate_that_is_too_low_cuts_its_own_profile(r_0: float, sense: int) -> N
     assert Polygon(np.column_stack((points.real, points.imag))).area == pytest.approx(cam.area, rel=1e-4)
 
 
+@pytest.mark.parametrize("count", [pytest.param(12, id="12"), pytest.param(300, id="300", marks=pytest.mark.soak)])
+def test_cams_are_undercut_exactly_when_a_radius_is_too_small(count: int) -> None:
+    random = np.random.default_rng(SEED + 13)
+
+    for k in range(count):
+        motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
+        if k % 3:
+            sizes = smallest_roller(wedge(motion, limits, sense))
+            rho = RollerProfile(path := StraightPath(motion, sizes), 0.0, sense).rho_min
+            R = min(max(rho, 0.1 * sizes.r_0) * math.exp(random.uniform(-0.3, 0.7)), 0.97 * sizes.r_0)
+            profile: RollerProfile | PlateProfile = RollerProfile(path, R, sense)
+            expected = rho < R
+        else:
+            motion = random_motion(random, SMOOTH)
+            profile = PlateProfile(motion, (r_0 := smallest_plate(motion, 0.0, 0.0).r_0_min) * 0.8 + 1e-3, sense)
+            expected = r_0 * 0.8 + 1e-3 < r_0
+        cuts, points = profile.undercuts, profile.outline()
+        assert bool(cuts) == expected
+        assert Polygon(np.column_stack((points.real, points.imag))).is_valid
+        for cut in cuts:
+            assert cut.lost > 0.0
+            for end in (cut.start, cut.end):
+                gaps = [abs(complex(profile.practical(end, side)) - cut.corner) for side in (-1, 1)]
+                assert min(gaps) < 1e-12
+
+
 def test_contact_of_a_plate_is_beside_its_axis_by_the_analogue_of_velocity() -> None:
     profile = PlateProfile(madi_motion(), 0.04, -1)
     phi = np.linspace(0.0, 6.2, 40)

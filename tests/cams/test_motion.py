@@ -10,6 +10,7 @@ import pytest
 from kulman.plans.cams.cam import Cam, Curve
 from kulman.plans.cams.laws_of_motion import law_of_motion
 from kulman.plans.cams.motion import PHASES, Motion, motion_of
+from kulman.scales.errors import InputError
 from kulman.tests.support.cams import SEED, dense, madi_motion, random_motion
 
 COUNTS = [pytest.param(40, id="40"), pytest.param(500, id="500", marks=pytest.mark.soak)]
@@ -122,6 +123,21 @@ def test_inflexions_of_smooth_laws_lie_on_section_lines() -> None:
     for phi in motion.inflexions:
         assert np.min(np.abs(angles - phi)) < 1e-12
     assert division.top == division.leave
+
+
+def test_phases_that_fill_the_turn_leave_no_sliver_of_a_dwell() -> None:
+    third = math.radians(120.0)
+
+    motion = Motion(0.01, third, third, third, law_of_motion("cosine"))
+
+    assert motion.lower.pieces == ()
+    assert motion.corners[-1] == TURN
+    assert len(motion.corners) == len(set(motion.corners))
+
+
+def test_phases_longer_than_a_turn_are_refused() -> None:
+    with pytest.raises(InputError, match="361"):
+        Motion(0.01, *np.radians([120.0, 121.0, 120.0]), law_of_motion("cosine"))
 
 
 def test_cam_as_data_gives_its_motion() -> None:
