@@ -62,7 +62,5 @@ def test_printed_least_radius_is_not_that_of_the_sharpest_place() -> None:
 def test_printed_radius_under_the_plate_is_an_amplitude_on_paper() -> None:
     sizes = smallest_plate(madi_motion(), 10.0 * MM, 5.0 * MM)
 
-    assert sizes.r_0_min == pytest.approx(
-        28.60 * MM, rel=1e-3
-    )  # printed 55 mm, A_2 as drawn: not scaled, not less s
+    assert sizes.r_0_min == pytest.approx(28.60 * MM, rel=1e-3)  # printed 55 mm, as many as A_2 has on paper
     assert sizes.R_plate == pytest.approx(25.8 * MM, rel=0.005)
