@@ -80,7 +80,7 @@ def random_views(seed):
     return views
 
 
-@pytest.mark.parametrize("count", [30, pytest.param(150, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("count", [60, pytest.param(150, marks=pytest.mark.soak)])
 @pytest.mark.parametrize("paper", AREAS)
 def test_random_views_fit_their_pages(paper, count):
     area = AREAS[paper]
