@@ -47,6 +47,11 @@ class Solved:
         """Return what a millimetre of every plan is worth to the board, SI, by the scale factors of the plans."""
         return dict(mus)
 
+    @property
+    def edges(self) -> tuple[str, ...]:
+        """Names of the directions of the sheet's edges, along which a drafting machine draws without an error."""
+        return ()
+
     def error(self) -> PositionError | None:
         """Return why there is no plan, or None."""
         return None if self.trouble is None else self.reason(self.trouble)

@@ -266,4 +266,4 @@ def _drawing(solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> D
     if solved.trouble is not None:
         return None
     mus = solved.worth({plan: scale.mu for plan, scale in scales.items()})
-    return drawing(Paper(solved.program, solved.givens, mus), hand)
+    return drawing(Paper(solved.program, solved.givens, mus, solved.edges), hand)

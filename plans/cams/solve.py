@@ -14,7 +14,7 @@ from .cam import PLANS, PLATE, ROCKER, ROLLER, Cam
 from .construction import Layout, construct, with_needs
 from .followers import PlateCam, RockerCam, RollerCam, limits_of, plate_cam, rocker_cam, roller_cam
 from .givens import diagram_givens, profile_givens
-from .integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
+from .integration import ACCELERATION, DIAGRAMS, RIGHT, TRAVEL, UP, VELOCITY
 from .inversion import PLATE_PROFILE, PROFILE
 from .motion import Array, Motion, motion_of
 from .rocker_plans import ROCKER_SIZES
@@ -74,6 +74,11 @@ class SolvedCam(Solved):
     roller: RollerCam | None
     plate: PlateCam | None
     rocker: RockerCam | None
+
+    @property
+    def edges(self) -> tuple[str, ...]:
+        """The directions of axes and section lines."""
+        return RIGHT, UP
 
     def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
         """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""

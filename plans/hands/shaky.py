@@ -46,17 +46,20 @@ class Paper:
         The data, SI: numbers, or arrays that broadcast against the shape of the drawings.
     mus : mapping of str to float
         Scale factors by plan, value in SI per mm.
+    edges : collection of str
+        Names of the directions of the sheet's edges, along which a drafting machine draws without error.
     """
 
     program: Program
     givens: Mapping[str, Any]
     mus: Mapping[str, Any]
+    edges: Collection[str] = ()
 
 
 def paper_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
     """Return the drawing of what is solved with scale factors by symbol, `mu_V`, in SI per mm."""
     by_plan = {plan: mus[symbol] for plan, symbol in solved.scale_of_plan.items()}
-    return Paper(solved.program, solved.givens, solved.worth(by_plan))
+    return Paper(solved.program, solved.givens, solved.worth(by_plan), solved.edges)
 
 
 class ShakyBoard(ArrayBoard):
@@ -73,6 +76,7 @@ class ShakyBoard(ArrayBoard):
         self.erred: list[str] = []
         self.missed: set[str] = set()
         self._hand, self._mus, self._random, self._only = hand, paper.mus, random, only
+        self._edges = frozenset(paper.edges)
         self._steps = {step.name: step for step in paper.program}
         self._drawn = frozenset(name for step in paper.program if step.verb != "calc" for name in step.operands)
 
@@ -119,6 +123,10 @@ class ShakyBoard(ArrayBoard):
     def _swung(self, direction: Any) -> Any:
         """Miss a direction."""
         return swung(direction, self._direction_error())
+
+    def _parallel(self, direction: Any, name: str) -> Any:
+        """Draw a line parallel to the direction `name`, which a drafting machine has for the sheet's edges."""
+        return direction if name in self._edges else self._swung(direction)
 
     def _aside(self, mark: Any, direction: Any, name: str) -> Any:
         """Draw a line along `direction` a little aside of the mark."""
@@ -215,7 +223,7 @@ def _normal(b: ShakyBoard, exact: Operate, vector: Any) -> Any:
 
 def _lay(b: ShakyBoard, exact: Operate, start: Any, direction: Any, length: Any) -> Any:
     if not b._lies_there(b._operands[1]):
-        direction = b._swung(direction)
+        direction = b._parallel(direction, b._operands[1])
     return b._off(exact(start, direction, length), b._name)
 
 
@@ -224,7 +232,7 @@ def _chain(b: ShakyBoard, exact: Operate, start: Any, vector: Any) -> Any:
 
 
 def _meet(b: ShakyBoard, exact: Operate, p: Any, u: Any, q: Any, w: Any) -> Any:
-    u, w = b._swung(u), b._swung(w)
+    u, w = b._parallel(u, b._operands[1]), b._parallel(w, b._operands[3])
     p, q = b._aside(p, u, b._name), b._aside(q, w, b._name)
     b._sine_of = {}  # each crossing has lines of its own
     return exact(p, u, q, w)

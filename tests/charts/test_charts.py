@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import importlib.util
 import json
 import math
 import re
@@ -17,15 +16,15 @@ from tempfile import TemporaryDirectory
 import pytest
 from matplotlib.figure import Figure
 
-import kulman
 from kulman import KulmanError, cli
+from kulman.docs import refresh
 from kulman.drawing.charts.depth import equal
 from kulman.drawing.charts.stability import _log, _lost, _widen
 from kulman.drawing.words import Words
 from kulman.plans.linkages.accuracy import comparison as contests
 from kulman.plans.linkages.accuracy.comparison import Effort
 from kulman.scales.errors import LANGUAGES
-from kulman.variants.charts import charts
+from kulman.variants.charts import linkage as charts
 from kulman.variants.charts.charts import Charts, chart
 
 TASK = "nau-slider-crank"
@@ -337,13 +336,7 @@ def test_a_slider_that_drives_has_its_charts(tmp_path: Path) -> None:
 
 
 def test_what_the_document_shows_is_what_is_printed(tmp_path: Path) -> None:
-    folder = Path(kulman.__file__).parent / "docs"
-    spec = importlib.util.spec_from_file_location("refresh", folder / "refresh.py")
-    assert spec is not None
-    assert spec.loader is not None
-    refresh = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(refresh)
-    blocks = refresh.BLOCK.findall((folder / "accuracy.md").read_text(encoding="utf-8"))
+    blocks = refresh.BLOCK.findall((refresh.ROOT / "docs" / "accuracy.md").read_text(encoding="utf-8"))
 
     assert len(blocks) == 2
     for block in blocks:

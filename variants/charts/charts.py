@@ -1,4 +1,4 @@
-"""Charts of a task: speed against accuracy, stability over the cycle, depth of the model; tables, files, JSON."""
+"""Charts of a task, those that its kind has: tables, files, JSON."""
 
 from __future__ import annotations
 
@@ -14,38 +14,30 @@ from ...drawing.charts.paper import SUFFIXES as PICTURES
 from ...drawing.charts.paper import saved
 from ...drawing.words import Words
 from ...drawing.writers import save_all
-from ...plans.linkages.chain import with_needs
-from ...plans.linkages.cycles.cycle import Cycle, cycle
 from ...scales.arguments import of_kind
-from ...scales.errors import InputError, KulmanError, PositionError
+from ...scales.errors import InputError, KulmanError
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import parse, unit
 from ..arguments import names_of, positions_of
 from ..case import Case, Settings, solve_case
-from ..kinds.linkage import mechanism_of
 from ..task import LocatedError, Task
-from .accuracy import AccuracyChart, accuracy_chart
 from .data import Scene
-from .depth import DepthChart, depth_chart
-from .stability import StabilityChart, stability_chart
+from .gallery import Asked, Chart, Gallery
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-CHARTS = ("accuracy", "stability", "depth")
-POSITIONS = {"accuracy": 36, "stability": 360, "depth": 360}
 SUFFIXES = (*PICTURES, ".csv")
 PAGED = ".pdf"  # one file holds all pictures
 TOLERANCE = 1.0  # per cent
 HAND = "normal"
-USED_BY = {"quantities": ("accuracy", "stability"), "hand": ("accuracy", "stability"), "tolerance": ("depth",)}
-Chart = AccuracyChart | StabilityChart | DepthChart
+WRONG = ("quantity-unknown", "quantity-unknown-like")  # what is wrong on every chart
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Charts:
-    """Charts of one variant of a task, by name: `accuracy`, `stability`, `depth`.
+    """Charts of one variant of a task, by name: of a linkage `accuracy`, `stability`, `depth`.
 
     `warnings` say which chart has been left out, and why, and what changes nothing on those that are wanted.
     """
@@ -128,19 +120,19 @@ def chart(
     notation: str | None = None,
     lang: str | None = None,
 ) -> Charts:
-    """Measure one variant of a task over its cycle.
+    """Measure one variant of a task.
 
     Parameters
     ----------
     task, variant, set, only, scales, notation, lang
         As for `solve`.
     chart : str or iterable of str, optional
-        Of `accuracy`, `stability`, `depth`; all when left out.
+        Of a linkage `accuracy`, `stability`, `depth`, of a cam `sections`, `accuracy`, `stability`; all when left out.
     positions : int, optional
-        Positions of the cycle that are looked at: 36 for `accuracy`, 360 for the others when left out.
+        Positions of the cycle of a linkage that are looked at: 36 for `accuracy`, else 360 when left out.
     quantities : str or iterable of str, optional
-        Names of quantities, `"V_B,a_B,M_bal"`; when left out all that can be compared, for `stability` the motion of
-        the output and what balances the driver.
+        Names of quantities, `"V_B,a_B,M_bal"`; when left out all that can be compared, for `stability` of a linkage the
+        motion of the output and what balances the driver.
     tolerance : str or number
         Per cent by which a simpler model may miss.
     hand : str
@@ -162,26 +154,30 @@ def chart(
     ('F_i2', 'M_i2', 'F_i3')
     """
     case = solve_case(task, variant, set, only, scales)
+    gallery = case.kind.gallery(case.task)
     names, wanted = names_of("chart", chart), names_of("quantities", quantities)
     for name in names:
-        if name not in CHARTS:
-            raise unknown("chart-unknown", name, CHARTS)
+        if name not in gallery.charts:
+            raise unknown("chart-unknown", name, gallery.charts)
     if positions is not None:
         positions_of("positions", positions)
     most = _per_cent(tolerance)
     words = case.words(lang, notation)
     of_kind("hand", hand, (str,), "str")
     scene = Scene(case, words, hand)
-    unused = tuple(_unused(names, {"quantities": bool(wanted), "hand": hand != HAND, "tolerance": most != TOLERANCE}))
-    found = _made(scene, names, wanted, positions, most)
+    changed = {"quantities": bool(wanted), "hand": hand != HAND, "tolerance": most != TOLERANCE}
+    changed["positions"] = positions is not None
+    unused = tuple(_unused(gallery, names, changed))
+    found = _made(gallery, scene, names, Asked(wanted, positions, most))
     return replace(found, warnings=unused + found.warnings)
 
 
-def _unused(names: tuple[str, ...], asked: dict[str, bool]) -> Iterator[InputError]:
-    """Go through the arguments that change nothing on any of the charts that are named."""
-    for argument, wanted in asked.items():
-        if wanted and names and not any(name in USED_BY[argument] for name in names):
-            yield InputError("chart-unused", name=argument, charts=", ".join(names))
+def _unused(gallery: Gallery, names: tuple[str, ...], changed: dict[str, bool]) -> Iterator[InputError]:
+    """Go through the arguments that change nothing on any of the charts that are made."""
+    made = names or gallery.charts
+    for argument, wanted in changed.items():
+        if wanted and not any(name in gallery.used_by.get(argument, ()) for name in made):
+            yield InputError("chart-unused", name=argument, charts=", ".join(made))
 
 
 def _per_cent(tolerance: str | float) -> float:
@@ -197,49 +193,17 @@ def _per_cent(tolerance: str | float) -> float:
     return most
 
 
-def _made(
-    scene: Scene, names: tuple[str, ...], wanted: tuple[str, ...], positions: int | None, tolerance: float
-) -> Charts:
+def _made(gallery: Gallery, scene: Scene, names: tuple[str, ...], asked: Asked) -> Charts:
     """Make the charts; of all of them one that the task cannot have is left out."""
-    case, cycles = scene.case, dict[int, Cycle]()
     charts: dict[str, Chart] = {}
     warnings: list[KulmanError] = []
-    for name in names or CHARTS:
-        count = positions or POSITIONS[name]
-        if count not in cycles:
-            cycles[count] = _cycle(case, count)
-        whole = cycles[count]
-        for one in wanted:
-            if one not in whole.quantities:
-                raise unknown("quantity-unknown", one, whole.quantities)
+    for name in names or gallery.charts:
         try:
-            charts[name] = _one(name, scene, whole, wanted, tolerance)
+            charts[name] = gallery.make(name, scene, asked)
         except InputError as error:
-            if names:
+            if names or error.key in WRONG:
                 raise
             warnings.append(error)
-    return Charts(case, scene.words, charts, tuple(warnings))
-
-
-def _one(name: str, scene: Scene, whole: Cycle, wanted: tuple[str, ...], tolerance: float) -> Chart:
-    if name == "accuracy":
-        return accuracy_chart(scene, whole, wanted)
-    if name == "stability":
-        return stability_chart(scene, whole, wanted)
-    return depth_chart(scene, whole, tolerance)
-
-
-def _cycle(case: Case, positions: int) -> Cycle:
-    """Return the cycle with the plans of the case.
-
-    Raises
-    ------
-    PositionError
-        No position at all can be assembled.
-    """
-    wanted = with_needs((*case.plans, "position"))
-    plans = tuple(plan for plan in wanted if plan not in ("cycle", "compound"))
-    found = cycle(mechanism_of(case.task, "chart"), case.task.values(case.variant, case.settings), plans, positions)
-    if not found.reach.stretches:
-        raise case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
-    return found
+    if not charts:
+        raise warnings[0]
+    return Charts(scene.case, scene.words, charts, tuple(warnings))

@@ -1,0 +1,33 @@
+"""The charts of cams: error against the number of sections, speed against accuracy, stability of the diagrams."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+from ...plans.cams.solve import SolvedCam
+from ...scales.errors import InputError
+from .data import Scene
+from .gallery import Asked, Chart
+from .sections import sections_chart
+
+
+class CamCharts:
+    """Makes the charts of one cam."""
+
+    charts: ClassVar[tuple[str, ...]] = ("sections",)
+    used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {"quantities": ("sections",)}
+
+    def make(self, name: str, scene: Scene, asked: Asked) -> Chart:
+        """Make one of the charts.
+
+        Raises
+        ------
+        InputError
+            An unknown quantity, no diagrams, or diagrams that have no errors.
+        """
+        solved = scene.case.solved
+        assert isinstance(solved, SolvedCam)
+        if not solved.program.plans:
+            raise InputError("chart-no-diagrams")
+        return sections_chart(scene, solved, asked.quantities)
