@@ -30,10 +30,10 @@ def tolerances(
     Of a segment that is read |difference| <= max(mm, part of it, tilt) / |sin gamma|, gamma being the angle of the
     lines whose meeting is read, the worst of those behind the segment's ends on its own plan. The tilt is what the
     longest segment of the plan misses at its end when its direction misses, by the degrees of the preset and by what
-    the marks at the ends of a short link do to its direction: a short side closes a plan of long vectors no better. Of
-    an arm it is that of the way to the point of the force. A part that is calculated and laid off (a_BA_n) misses no
-    more than its calculation and its two marks, where that is less. A calculated quantity inherits what the segments
-    in it may miss; data have none.
+    the marks at the ends of a short link do to its direction, those of a slider with the guide that misses its own: a
+    short side closes a plan of long vectors no better. Of an arm it is that of the way to the point of the force. A
+    part that is calculated and laid off (a_BA_n) misses no more than its calculation and its two marks, where that is
+    less. A calculated quantity inherits what the segments in it may miss; data have none.
 
     Parameters
     ----------
@@ -44,6 +44,8 @@ def tolerances(
     """
     rule = _Rule(paper, values, worst_behind(paper.program, sines, same_plan), most, {}, _longest(paper, values))
     for step in paper.program:
+        if step.verb == "arc":  # on a line that misses its direction
+            rule.aside[step.name] = rule._tilt(abs(values[step.name] - values[step.operands[2]]))
         rule.slants[step.name] = rule.slant(step)
         rule.allowed[step.name] = float(rule.of(step))
     return {step.name: rule.allowed[step.name] for step in results(paper.program)}
@@ -60,6 +62,7 @@ class _Rule:
     allowed: dict[str, float]
     longest: Mapping[str, float]
     slants: dict[str, float] = field(default_factory=dict)
+    aside: dict[str, float] = field(default_factory=dict)
 
     def of(self, step: Step) -> Any:
         """Return by how much the result of a step may differ, SI."""
@@ -96,8 +99,9 @@ class _Rule:
         if step.verb in (*RESULTS, "moment"):
             return 0.0
         if step.verb == "direction" and not step.name.startswith("_"):
-            length = abs(self.values[step.operands[2]])
-            return MARKS * self.most.mm * self._mu(step.operands[0]) / length if length > 0.0 else 0.0
+            length, ends = abs(self.values[step.operands[2]]), step.operands[:2]
+            missed = math.hypot(MARKS * self.most.mm * self._mu(ends[0]), *(self.aside.get(end, 0.0) for end in ends))
+            return missed / length if length > 0.0 else 0.0
         return max((self.slants.get(name, 0.0) for name in step.operands), default=0.0)
 
     def _tilt(self, length: float, slant: float = 0.0) -> float:

@@ -157,7 +157,7 @@ class _Marker:
             shown = [self._drawn_to(name) for name in long]
             if _agree(shown):
                 self.true[plan] = median(shown)
-            mu = written or self.true.get(plan) or self._likeliest(names)
+            mu = written or self._likeliest(names)
             self.mus.update({name: mu for name in names if not self.mus[name]})
             drawn[plan] = _nearest(mu, self.key.paper.mus.get(plan, mu))
         if redraw:
@@ -170,7 +170,7 @@ class _Marker:
         """Return the scale, of those that single segments show, at which most are right, and miss least."""
 
         def misses(mu: float) -> float:
-            missed = ((abs((self.answers[n].mm or 0.0) * mu - abs(self.key[n])), self.key.allowed[n]) for n in names)
+            missed = ((abs((self.answers[n].mm or 0.0) * mu - abs(self.key[n])), self._measured(n)) for n in names)
             return sum(min(ratio(off, allowed), 1.0) ** 2 for off, allowed in missed)
 
         return min((self._drawn_to(name) for name in names), key=misses)
@@ -284,13 +284,16 @@ class _Marker:
         size, allowed = abs(self.key[name]), self.key.allowed[name]
         if size and abs(value) > size:
             allowed *= abs(value) / size
-        if self.answers[name].value is None and self.key.questions[name].step.verb == "calc":
-            allowed = math.hypot(allowed, self._marks(name))
+        if self.answers[name].value is None:
+            allowed *= self._measured(name) / self.key.allowed[name] if self.key.allowed[name] else 1.0
         return miss(way, value, allowed, self.key.angles.get(name, math.pi))
 
-    def _marks(self, name: str) -> float:
-        """Return what two marks miss of a vector that is calculated, laid off, and told by its millimetres alone."""
-        return MARKS * self.key.tolerance.mm * float(self.key.paper.mus.get(self.key.questions[name].plan, 0.0))
+    def _measured(self, name: str) -> float:
+        """Return what an answer in millimetres alone may miss, SI: a calculated vector by its two marks, too."""
+        allowed, question = self.key.allowed[name], self.key.questions[name]
+        if question.step.verb != "calc":
+            return allowed
+        return math.hypot(allowed, MARKS * self.key.tolerance.mm * float(self.key.paper.mus.get(question.plan, 0.0)))
 
     def _is_unit(self, name: str, value: Any) -> bool:
         """Whether a line is right in another unit that its quantity may have."""

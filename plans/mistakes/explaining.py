@@ -120,6 +120,8 @@ class _Search:
         found = [c for i in near if (c := self._candidate((self.book.signatures[i],))) is not None]
         if not any(self._fits(c) and not ANGLED.intersection(c.ids) for c, _ in found):
             found += self._turned()
+        if not found:
+            found += self._adrift()
         if all(self._clear(c) for c, _ in found):
             found += self._pairs(off)
         ranked = sorted(found, key=lambda pair: self._rank(pair[0]))
@@ -141,6 +143,19 @@ class _Search:
         near = [int(i) for i in np.argsort(means, kind="stable")[:ANGLES] if means[i] <= 1.0]
         made = [signature(book.key, book.turned.broken(i)) for i in near]
         return [c for one in made if one is not None and (c := self._candidate((one,))) is not None]
+
+    def _adrift(self) -> list[tuple[Candidate, Signature]]:
+        """Return mistakes at the first wrong line of a drawing that has gone far astray before it, by no error.
+
+        There it is the ratio to what follows from the answers before it that tells, not the size.
+        """
+        line = self.marking[str(self.marking.first_wrong)]
+        if not line.follows or line.follows != line.follows:
+            return []
+        size = self.said.size[self.first] * abs(line.right) / abs(line.follows)
+        off = _parts(np.abs(size - np.abs(self.book.table[:, self.first])), self.book.most[:, self.first])
+        near = [self.book.signatures[i] for i in np.argsort(off, kind="stable")[:FIRSTS] if off[i] <= 1.0]
+        return [c for one in near if (c := self._candidate((one,))) is not None]
 
     def _put_right(self, off: Floats) -> tuple[Candidate, ...]:
         """Return the mistakes that explain every line that is not right, where right values were taken after them."""

@@ -196,6 +196,16 @@ def _explained(task: str, count: int) -> Iterator[tuple[Candidate, ...]]:
         yield explain(mistakes(task), mark(key(task), answers)).candidates
 
 
+@pytest.mark.parametrize("place", [("M20", "R_54", "10.0 alone"), ("M74", "forces_1", "forces_45")])
+def test_a_mistake_is_told_on_a_drawing_that_its_flat_angles_have_led_astray(place: tuple[str, str, str]) -> None:
+    task = "scheme-13-toggle-press"
+    found = next(one for one in mistakes(task).signatures if one.broken.place == place)
+
+    told = [explain(mistakes(task), mark(key(task), planted(mistakes(task), found, SEED + i))) for i in range(8)]
+
+    assert sum(any(place[0] in candidate.ids for candidate in one.candidates) for one in told) >= 7
+
+
 def test_right_answers_have_no_explanation() -> None:
     for task in FEW:
         explanation = explain(mistakes(task), mark(key(task), right_answers(key(task))))

@@ -57,6 +57,15 @@ def test_answers_of_honest_hands_are_right(task: str, count: int, directions: bo
     assert passed >= 0.97
 
 
+@pytest.mark.parametrize("task", ["scheme-01-compressor", "scheme-08-planer"])
+def test_no_line_of_an_honest_hand_fails_often(task: str) -> None:
+    marked = [mark(key(task), answers) for answers in students(key(task), paper(task), 40, SEED, directions=False)]
+
+    failed = {name: np.mean([marking[name].verdict.faulty for marking in marked]) for name in key(task).questions}
+
+    assert max(failed.values()) <= 0.25, failed
+
+
 NO_SCALES = ["madi-four-bar", "scheme-13-toggle-press", "scheme-16-hay-baler", "scheme-20-press-automaton"]
 
 
