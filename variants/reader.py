@@ -226,7 +226,7 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
     names = _names(checker, givens, choices)
     mechanism = kind.read(checker, raw[table], names, givens) if table in raw else None
     givens = {key: _bounded(given, names) for key, given in givens.items()}
-    variants = read_variants(checker, raw["variant"], givens) if "variant" in raw else {}
+    variants = read_variants(checker, raw["variant"], givens, names.optional) if "variant" in raw else {}
     _signs(checker, names, choices)
     if head.get("display", AS_INSIDE).length != METRE and WITH_FORCES.intersection(head.get("plans", ())):
         checker.fault(("display", "length"), InputError("display-forces"))

@@ -187,12 +187,13 @@ def _numbers(checker: Checker, names: Names, followers: tuple[str, ...]) -> None
         else:
             names.bounds[name] = NUMBERS[name].bound
     for name, number in NUMBERS.items():
-        if name in names.dimensions or not {*number.needed_by} & {*followers}:
-            continue
-        if number.default is None:
+        needed = bool({*number.needed_by} & {*followers})
+        if not needed or number.default is not None:
+            names.optional.add(name)
+        if needed and number.default is not None:
+            names.named[name] = number.default  # a variant may say another
+        elif needed and name not in names.dimensions:
             checker.fault(("givens",), InputError("key-missing", name=name))
-        else:
-            names.named[name] = number.default
 
 
 def impossible(values: Mapping[str, float]) -> Iterator[InputError]:

@@ -141,15 +141,22 @@ def literal(checker: Checker, path: Path, raw: object) -> Setting | None:
         return None
 
 
-def read_variants(checker: Checker, raw: object, givens: Mapping[str, Given]) -> dict[str, Variant]:
-    """Read `[[variant]]`: every row states every given that has no default, and no two rows share an id."""
+def read_variants(
+    checker: Checker, raw: object, givens: Mapping[str, Given], optional: Container[str] = ()
+) -> dict[str, Variant]:
+    """Read `[[variant]]`: every row states every given that has no default, and no two rows share an id.
+
+    Those that are `optional` may be left out.
+    """
     variants: dict[str, Variant] = {}
     stated: dict[str, Path] = {}
     for path, row in rows(checker, ("variant",), raw):
         if not isinstance(row, dict):
             checker.wrong_type(path, "type-table")
             continue
-        fields = {key: Field(_given(given), given.default is None) for key, given in givens.items()}
+        fields = {
+            key: Field(_given(given), given.default is None and key not in optional) for key, given in givens.items()
+        }
         fields |= {key: Field(as_is, required=False) for key in checker.unread}
         fields |= {"id": Field(label), "reconstructed": Field(array_of(text), required=False)}
         read = record(checker, path, row, fields)

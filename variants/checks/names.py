@@ -23,7 +23,8 @@ class Names:
 
     A name whose own line is at fault has no dimension, and may stand anywhere. `stated` says where each name stands.
     `literals` are constants by value and dimension, `named` those of them that have customary names, such as links;
-    `bounds` say which values a name may have: without a length or a speed of the crank there is no plan.
+    `bounds` say which values a name may have: without a length or a speed of the crank there is no plan; givens that
+    are `optional` need no value.
     """
 
     dimensions: dict[str, Dimension | None]
@@ -31,6 +32,7 @@ class Names:
     literals: dict[tuple[float, Dimension], str] = field(default_factory=dict)
     named: dict[str, float] = field(default_factory=dict)
     bounds: dict[str, Bound] = field(default_factory=dict)
+    optional: set[str] = field(default_factory=set)
     signs: set[str] = field(default_factory=set)
 
     def place(self, checker: Checker, path: Path, raw: object) -> str | None:

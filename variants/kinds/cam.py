@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ...plans.cams.cam import DIAGRAMS, PLANS, ROLLER, Cam
+from ...plans.cams.cam import DIAGRAMS, PLANS, PLATE, ROCKER, ROLLER, Cam
 from ...scales.choose import Choosers, Fixed
+from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.scale import Scale
 from ..checks.cam import impossible, read_cam, words_of
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from ...drawing.pens import Norm
     from ...drawing.titleblock import Stamp
     from ...drawing.words import Words
+    from ...plans.cams.profile import PlateProfile, RollerProfile
     from ...plans.cams.solve import SolvedCam
     from ...plans.hands.hand import Tolerance
     from ...plans.marking.key import Question
@@ -29,7 +32,8 @@ if TYPE_CHECKING:
     from ..checks.names import Names
 
 SYMBOLS = ("mu_l",)  # the others follow from the drawn amplitude and the pole distances
-MM = 1e-3
+MM, MILLI = 1e-3, 1e3
+ROUNDING = 1e-9  # part of a limit
 AXES = ("diagram_a", "diagram_v", "diagram_s")  # the plans of the diagrams on one axis of angles
 DRAWN = ("_chord", "_tangents")  # what the name of a quantity ends with that is drawn, and so asked in place of another
 UNASKED = ("s_0", "r_0_flat_tangent")  # what goes with a size that is asked
@@ -76,9 +80,8 @@ class Cams(Kind[Cam, "SolvedCam"]):
         for error in impossible(values):
             raise error
         solved = solve_cam(subject.chosen(words), {**values, "mu_phi": values["mu_phi"] * MM}, plans)
-        size = solved.quantities.get("r_0")
-        if ROLLER in subject.followers and size is not None and size.value is not None:
-            for error in impossible({**values, "r_0": size.value}):
+        if "R_roller" in values and "r_0" in solved.values:
+            for error in impossible({**values, "r_0": solved.values["r_0"]}):
                 raise error
         return solved
 
@@ -98,9 +101,44 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
         return CamCharts()
 
+    def warnings(self, solved: SolvedCam) -> tuple[InputError, ...]:
+        """Tell where a profile does not give the motion."""
+        return tuple(
+            InputError(
+                f"cam-undercut-{PLATE if follower == PLATE else ROLLER}",
+                start=_degrees(undercut.start),
+                end=_degrees(undercut.end),
+                lost=f"{undercut.lost * MILLI:.3g}",
+            )
+            for follower, profile in _profiles(solved)
+            for undercut in profile.undercuts
+        )
+
     def checks(self, solved: SolvedCam, quantities: Mapping[str, Quantity]) -> Verdicts:
-        """Return what the rules of good design say."""
-        return {}
+        """Return what the rules of good design say, each with the value that it compares with its limit, SI.
+
+        `roller_of_radius` and `roller_of_curvature` hold the roller against 0.4 r_0 and 0.7 rho_min, `gamma_rise` and
+        `gamma_fall` the least transmission angles against the permitted ones; `undercut_...` tells how much travel a
+        profile loses, `convex` how sharp the profile under a plate is.
+        """
+        from ...plans.cams.profile import largest_roller
+
+        found: Verdicts = {}
+        rolling = solved.roller or solved.rocker
+        if rolling is not None:
+            roller, r_0, rho_min = (solved.values[name] for name in ("R_roller", "r_0", "rho_min"))
+            of_r_0, of_rho_min = largest_roller(r_0, rho_min)
+            found["roller_of_radius"] = _at_most(roller, of_r_0, "m")
+            found["roller_of_curvature"] = _at_most(roller, of_rho_min, "m")
+            for phase in ("rise", "fall"):
+                least, permitted = solved.values[f"gamma_{phase}_min"], solved.values[f"gamma_{phase}"]
+                found[f"gamma_{phase}"] = _at_least(least, permitted, "rad")
+        for follower, profile in _profiles(solved):
+            lost = max((undercut.lost for undercut in profile.undercuts), default=0.0)
+            found[f"undercut_{follower}"] = {"ok": not profile.undercuts, "value": lost, "limit": 0.0, "unit": "m"}
+        if solved.plate is not None:
+            found["convex"] = _at_least(solved.plate.profile.rho_min, 0.0, "m")
+        return found
 
     def asks(self, solved: SolvedCam, question: Question) -> bool:
         """Ask for what a drawing gives rather than for what only a formula gives."""
@@ -122,10 +160,46 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a cam."""
-        raise NotImplementedError
+        from ...drawing.cams.sheet import Contents, draw
+
+        contents = Contents(cam(case.solved), case.plans, case.choosers, case.givens, words, norm)
+        return draw(contents, stamp, paper)
+
+    def lettered(self, words: Words, solved: SolvedCam) -> Words:
+        """Return the words with the letters of a cam's quantities."""
+        from ...drawing.cams.letters import lettered
+
+        return lettered(words)
 
 
 KIND = Cams()
+
+
+def cam(solved: Any) -> SolvedCam:
+    """Return what has been solved as the cam that it is."""
+    from ...plans.cams.solve import SolvedCam
+
+    assert isinstance(solved, SolvedCam)
+    return solved
+
+
+def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlateProfile]]:
+    """Go through the profiles, each with the follower that it moves."""
+    for follower, found in ((ROLLER, solved.roller), (PLATE, solved.plate), (ROCKER, solved.rocker)):
+        if found is not None:
+            yield follower, found.profile
+
+
+def _at_most(value: float, limit: float, unit: str) -> dict[str, Any]:
+    return {"ok": value <= limit * (1.0 + ROUNDING), "value": float(value), "limit": float(limit), "unit": unit}
+
+
+def _at_least(value: float, limit: float, unit: str) -> dict[str, Any]:
+    return {"ok": value >= limit * (1.0 - ROUNDING), "value": float(value), "limit": float(limit), "unit": unit}
+
+
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.4g}"
 
 
 def _size(solved: SolvedCam) -> float:

@@ -92,7 +92,7 @@ def scale_factor(text: str, written: str, per_mm: str, display_per_mm: str) -> M
 
 
 def value(text: str, written: str, name: str, asked: Asked) -> float:
-    """Return a value in SI; its unit stands in the cell, or beside it, or is that of the form.
+    """Return a value in the unit of its quantity; its own stands in the cell, or beside it, or is that of the form.
 
     Raises
     ------
@@ -100,13 +100,14 @@ def value(text: str, written: str, name: str, asked: Asked) -> float:
         No number, an unknown unit, or one that does not fit the quantity.
     """
     number, rest = split_number(text)
-    return converted(number, known(rest or written or asked.unit(name)), unit(asked.quantities[name].unit))
+    own = unit(asked.quantities[name].unit)  # SI, but of a scale factor SI per millimetre
+    return own.from_si(converted(number, known(rest or written or asked.unit(name)), own))
 
 
 def bare(text: str, name: str, asked: Asked) -> float | None:
     """Return the number alone, as if it were in the form's unit; None where there is none."""
     try:
-        return unit(asked.unit(name)).to_si(split_number(text)[0])
+        return unit(asked.quantities[name].unit).from_si(unit(asked.unit(name)).to_si(split_number(text)[0]))
     except InputError:
         return None
 
