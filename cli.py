@@ -358,7 +358,8 @@ def _print_class(
     from .variants.marking.filing import write_tables
 
     write_tables(asked, results, found, files, moodle)
-    for line in class_lines(results, asked.request.language):
+    absent = asked.roster.missing(found) if asked.roster else []
+    for line in class_lines(results, absent, asked.request.language):
         click.echo(line)
 
 

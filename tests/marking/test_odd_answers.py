@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from kulman import check
+from kulman import check, load_task
 from kulman.tests.support.marking_cases import key, right_answers
 from kulman.variants.marking.answers import Answers
 from kulman.variants.marking.report_html import report_html
+from kulman.variants.marking.result import result_of
+from kulman.variants.sheet_id import sheet_id
 
 TASK = "nau-slider-crank"
 HEAD = "величина;відрізок, мм;масштаб;значення;одиниця;напрям\n"
 
 
-def read(tmp_path: Path, rows: str, variant: str = "example") -> Answers:
+def read(tmp_path: Path, rows: str, variant: str | None = "example") -> Answers:
     """Return the answers of a form with these rows."""
     file = tmp_path / "answers.csv"
     file.write_text(HEAD + rows, encoding="utf-8")
@@ -42,15 +46,58 @@ def rows_of(variant: str) -> str:
     return "".join(f"{one.name};;;{abs(one.value or 0.0):.4g};;\n" for one in given)
 
 
-@pytest.mark.parametrize(("rows", "flags"), [("5", ("the answers fit variant 5",)), ("3", ())])
-def test_answers_to_another_variant_are_told(tmp_path: Path, rows: str, flags: tuple[str, ...]) -> None:
+@pytest.mark.parametrize(("rows", "another"), [("5", True), ("3", False)])
+def test_answers_to_another_variant_are_told(tmp_path: Path, rows: str, another: bool) -> None:
     answers = read(tmp_path, rows_of(rows), "3")
 
     report = check(TASK, "3", lang="en").mark(answers)
     own = check(TASK, "3", lang="en", own=True).mark(answers)
 
-    assert report.flags == flags
+    assert [flag.startswith("the answers fit variant 5") for flag in report.flags] == [True] * another
     assert own.flags == ()
+    assert [line.startswith("the variant:") for line in own.again[:1]] == [True] * another
+    assert not any("5" in line.partition(":")[0] for line in own.again)
+
+
+@pytest.mark.parametrize(("sheet", "variant", "told"), [("", "0", True), (sheet_id(load_task(TASK), "5"), "5", False)])
+def test_a_form_without_a_variant_has_that_of_its_sheet_id(
+    tmp_path: Path, sheet: str, variant: str, told: bool
+) -> None:
+    answers = replace(read(tmp_path, rows_of("5"), None), about={"sheet": sheet} if sheet else {})
+
+    marked = check(TASK, lang="en").mark(answers).marked
+
+    assert marked.keyed.solution.variant == variant
+    assert ["nowhere said" in note.text("en") for note in marked.notes if "nowhere" in note.text("en")] == [True] * told
+
+
+def test_a_single_slip_of_the_hand_is_called_one(tmp_path: Path) -> None:
+    right, allowed = abs(key(TASK, "3")["V_BA"]), key(TASK, "3").allowed["V_BA"]
+    reports = [
+        check(TASK, "3", lang="en").mark(read(tmp_path, f"V_BA;;;{right + times * allowed:.5g};;\n", "3"))
+        for times in (1.5, 4.0)
+    ]
+
+    assert [report.marked.slips for report in reports] == [True, False]
+    assert [report.candidates[:1] != () and "inaccurate" in report.candidates[0] for report in reports] == [True, False]
+    assert result_of(reports[0].marked, "en").mistakes == ()
+
+
+def test_one_degree_is_the_direction_of_a_vector_and_the_sense_of_a_scalar(tmp_path: Path) -> None:
+    lines = read(tmp_path, "V_B;;;5,6;;1\nV_A;;;5,9;;-1\nomega_2;;;15,7;;1\n", "3").lines
+
+    assert lines["V_B"].direction == pytest.approx(math.radians(1.0))
+    assert lines["V_A"].direction == pytest.approx(math.radians(-1.0))
+    assert (lines["omega_2"].direction, lines["omega_2"].sense) == (None, 1)
+
+
+def test_a_student_is_told_how_to_go_on_where_something_is_wrong(tmp_path: Path) -> None:
+    own = check(TASK, "3", lang="en", own=True)
+
+    wrong, right = (own.mark(read(tmp_path, rows, "3")) for rows in ("V_B;;;9;;\n", rows_of("3")))
+
+    assert wrong.again[-1].startswith("then: begin with the first wrong step")
+    assert right.again == ()
 
 
 def test_a_page_sets_scripts_and_writes_numbers_and_directions_in_full(tmp_path: Path) -> None:

@@ -112,8 +112,8 @@ def bare(text: str, name: str, asked: Asked) -> float | None:
         return None
 
 
-def direction(text: str) -> tuple[float | None, int | None]:
-    """Return an angle in radians from the x axis, or a sense.
+def direction(text: str, vector: bool = False) -> tuple[float | None, int | None]:
+    """Return an angle in radians from the x axis, or a sense; of a vector a number is an angle, also 1.
 
     Raises
     ------
@@ -123,7 +123,7 @@ def direction(text: str) -> tuple[float | None, int | None]:
     if text in ("+", "-", "−", "–"):
         return None, 1 if text == "+" else -1
     word = tidy(text)
-    if word in SENSES:
+    if word in SENSES and not (vector and word[-1:].isdigit()):
         return None, SENSES[word]
     if word in SIDES:
         return math.radians(SIDES[word]), None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from ...plans.marking.verdicts import Verdict
 from .answers import WHO
@@ -80,15 +80,24 @@ def summary(results: Sequence[Result], language: str) -> str:
     return said["class.summary"].format(n=len(results), marked=len(marks), mean=_number(f"{mean:.1f}", language))
 
 
-def class_lines(results: Sequence[Result], language: str) -> Iterator[str]:
-    """Go through what is printed of a class: a line per student, then the whole."""
+def class_lines(results: Sequence[Result], absent: Sequence[Entry], language: str) -> Iterator[str]:
+    """Go through what is printed of a class: a line per student, those without answers, then the whole."""
+    said = texts(language)
     width = max((len(_called(result)) for result in results), default=0)
     for result, flags in zip(results, flags_of(results, language), strict=True):
         mark = "–" if result.mark is None else _number(f"{result.mark:g}", language)
-        told = [result.first and texts(language)["class.feedback_first"].format(symbol=result.first)]
-        told += [", ".join(result.mistakes), *flags, *(result.notes if result.mark is None else ())]
+        told = [result.first and said["class.feedback_first"].format(symbol=result.first)]
+        told += [", ".join(result.mistakes), *flags, *_noted(result, said)]
         yield f"{_called(result):{width}}  {mark:>5}  {'  '.join(filter(None, told))}".rstrip()
+    yield from (f"{entry.who.student:{width}}  {'–':>5}  {said['class.absent']}" for entry in absent)
     yield summary(results, language)
+
+
+def _noted(result: Result, said: Mapping[str, str]) -> Sequence[str]:
+    """Return why there is no mark; where there is one, how many notes the report has, and the file they are on."""
+    if result.mark is None or not result.notes:
+        return result.notes
+    return [said["class.notes"].format(n=len(result.notes), file=result.source)]
 
 
 def _number(text: str, language: str) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ...plans.marking.answers import Answer
-from ...plans.marking.verdicts import Line, Marking, Verdict, mark
+from ...plans.marking.verdicts import CLEAR, Line, Marking, Verdict, mark
 from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
@@ -41,6 +41,12 @@ class Marked:
     notes: tuple[KulmanError, ...]
     misfits: Mapping[str, Misfit] = field(default_factory=dict)
     fits: str = ""
+
+    @property
+    def slips(self) -> bool:
+        """Whether all that is wrong misses by so little that only the hand may have slipped."""
+        faulty = [line for line in self.marking.lines if line.verdict.faulty]
+        return bool(faulty) and all(line.verdict is Verdict.WRONG and line.off <= CLEAR for line in faulty)
 
     def count(self, verdict: Verdict) -> int:
         """Return how many lines have a verdict."""
@@ -115,7 +121,10 @@ class Desk:
         found = found or self.check.request.variant or (said if said in task.variants else "")
         if not found and book:
             found = variant_of_book(task, book, self.check.digits)
-        found = found or next(iter(task.variants))
+        found = found or variant_of_id(task, answers.about.get("sheet", "")) or ""
+        if not found:
+            found = next(iter(task.variants))
+            notes += [InputError("marked-no-variant", variant=found)] if len(task.variants) > 1 else []
         if said and said != found:
             notes.append(InputError("marked-variant", text=quote(said), variant=found))
         return found, notes

@@ -118,7 +118,7 @@ class _Sheet:
         if text in cells.NONE - {"-", "–"}:
             return None, None
         try:
-            angle, sense = cells.direction(text)
+            angle, sense = cells.direction(text, self.asked.quantities[name].kind == "vector")
             if angle is not None and self.asked.quantities[name].kind == "scalar":
                 raise InputError("answer-sense", text=quote(text))
         except InputError as error:

@@ -138,13 +138,17 @@ class _Teller:
             yield said["report.first"].format(symbol=self.symbol(first), heading=self._heading(first).lower())
 
     def again(self) -> Iterator[str]:
-        """Go through what to look at again, the first wrong step first."""
+        """Go through what to look at again, the first wrong step first; a student is told how to go on."""
+        if self.own and self.marked.fits:
+            yield self.said["again.variant"]
         for line in self.marked.marking.lines:
             misfit = self.marked.misfits.get(line.name)
             if misfit is not None:
                 yield self._scale(misfit)
             if line.verdict.faulty and not (misfit and line.verdict is Verdict.SCALE):
                 yield self.hint(line)
+        if self.own and self.marked.marking.first_wrong is not None:
+            yield self.said["again.then"]
 
     def _scale(self, misfit: Misfit) -> str:
         """Return what is wrong with a scale factor that stands in its own row."""
@@ -174,6 +178,8 @@ class _Teller:
 
     def candidates(self) -> Iterator[str]:
         """Go through the mistakes that explain the answers, the simplest first, each with those that look the same."""
+        if self.marked.slips:
+            yield self.said["report.slip"]
         for number, candidate in enumerate(self.marked.candidates[:SHOWN_CANDIDATES], start=1):
             names = ", ".join(self.symbol(name) for name in candidate.explained)
             explains = f"; {self.said['report.explains'].format(names=names)}" if names else ""

@@ -76,7 +76,7 @@ def result_of(marked: Marked, language: str, reports: tuple[str, ...] = ()) -> R
     """Return what is kept of a student who was marked."""
     key, first = marked.keyed, marked.marking.first_wrong
     segments = measured(marked.answers, marked.marking.key, students_scales(marked))
-    best = marked.candidates[0].mistakes if marked.candidates else ()
+    best = marked.candidates[0].mistakes if marked.candidates and not marked.slips else ()
     return Result(
         marked.answers.source,
         marked.entry.who if marked.entry else marked.answers.who,
