@@ -16,6 +16,7 @@ from . import __version__
 from .scales.choices import HANDS, SIZES
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import system_language
+from .variants.kinds import KINDS
 from .variants.options import (
     Word,
     count,
@@ -363,11 +364,16 @@ def _print_class(
         click.echo(line)
 
 
-@commands.command(epilog=example("kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk"))
+@commands.command(
+    epilog=example(
+        "kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk", "kulman new my-cam.toml --kind cam"
+    )
+)
 @click.argument("file")
+@click.option("--kind", type=Word(*KINDS), default=KINDS[0], show_default=True, help="What the task is about.")
 @click.option("--lang", type=Word(*LANGUAGES), help="Language of the comments.")
-def new(file: str, lang: str | None) -> None:
+def new(file: str, kind: str, lang: str | None) -> None:
     """Write FILE, a task file with comments, to begin a mechanism of one's own: a four-bar linkage, ready to solve."""
     from .variants.starter import start
 
-    click.echo(str(start(file, lang or system_language())))
+    click.echo(str(start(file, lang or system_language(), kind)))

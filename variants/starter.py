@@ -1,4 +1,4 @@
-"""A task file to begin with: a four-bar linkage with comments, valid as it stands and easy to change."""
+"""A task file to begin with, one for each kind of task: with comments, valid as it stands and easy to change."""
 
 from __future__ import annotations
 
@@ -9,19 +9,27 @@ from pathlib import Path
 from ..scales.errors import InputError
 from ..scales.numbers import quote
 from ..scales.packaged import home
+from .kinds import KINDS
 
 SUFFIX = ".toml"
-_NAME = "my-mechanism"  # what the templates call themselves
+_OWN = re.compile(r'^id = "([^"]+)"', re.MULTILINE)  # what a template calls itself
 _SHOWN = 200
 
 
-def template(language: str) -> str:
-    """Return the task file that `start` writes, with its comments in `language`."""
-    return (home(__package__) / "templates" / f"{language}.toml").read_text(encoding="utf-8")
+def template(language: str, kind: str = KINDS[0]) -> str:
+    """Return the task file of a kind that `start` writes, with its comments in `language`."""
+    return (home(__package__) / "templates" / f"{kind}.{language}.toml").read_text(encoding="utf-8")
 
 
-def start(file: str | os.PathLike[str], language: str) -> Path:
+def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0]) -> Path:
     """Write a task file to begin with, and return its path; a name without a suffix gets one.
+
+    Parameters
+    ----------
+    language : str
+        Of the comments.
+    kind : str
+        What the task is about, of `kinds.KINDS`: a linkage, a cam.
 
     Raises
     ------
@@ -40,7 +48,9 @@ def start(file: str | os.PathLike[str], language: str) -> Path:
     if not path.parent.is_dir():
         raise InputError("output-folder-missing", file=shown, folder=quote(path.parent, _SHOWN))
     called = f'"{path}"' if " " in str(path) else str(path)
-    text = template(language).replace(f'"{_NAME}"', f'"{_label(path.stem)}"').replace(f"{_NAME}{SUFFIX}", called)
+    text = template(language, kind)
+    own = _OWN.findall(text)[0]
+    text = text.replace(f'"{own}"', f'"{_label(path.stem) or own}"').replace(f"{own}{SUFFIX}", called)
     try:
         with path.open("x", encoding="utf-8", newline="\n") as stream:
             stream.write(text)
@@ -52,5 +62,5 @@ def start(file: str | os.PathLike[str], language: str) -> Path:
 
 
 def _label(stem: str) -> str:
-    """Return the id of a task out of the name of its file."""
-    return re.sub(r"^[.-]+|[^\w.-]+", "-", stem).strip("-") or _NAME
+    """Return the id of a task out of the name of its file, nothing where there is none in it."""
+    return re.sub(r"^[.-]+|[^\w.-]+", "-", stem).strip("-")

@@ -10,6 +10,7 @@ import pytest
 from kulman import cli
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants import load_task, solve
+from kulman.variants.kinds import KINDS, MODULES
 from kulman.variants.reader import read_text
 from kulman.variants.starter import start, template
 
@@ -21,27 +22,30 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_file_is_valid_at_once_in_every_language(language: str) -> None:
-    path = start("four-bar.toml", language)
+def test_file_is_valid_at_once_in_every_language(language: str, kind: str) -> None:
+    path = start("own-task.toml", language, kind)
 
     task = load_task(path)
 
-    assert task.id == "four-bar"
-    assert "four-bar.toml" in path.read_text(encoding="utf-8")
-    assert "my-mechanism" not in path.read_text(encoding="utf-8")
+    assert (task.id, MODULES[task.kind]) == ("own-task", kind)
+    assert "own-task.toml" in path.read_text(encoding="utf-8")
+    assert not re.search("my-(mechanism|cam)", path.read_text(encoding="utf-8"))
     for variant in task.variants:
         solution = solve(path, variant)
         assert (solution.status, solution.warnings) == ("ok", ())
+        assert all(check["ok"] for check in solution.checks.values())
 
 
-def test_templates_differ_in_words_alone() -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_templates_differ_in_words_alone(kind: str) -> None:
     def plain(language: str) -> str:
-        lines = (line.partition("#")[0].rstrip() for line in template(language).splitlines())
+        lines = (line.partition("#")[0].rstrip() for line in template(language, kind).splitlines())
         return re.sub('source = ".*"', "", "\n".join(line for line in lines if line))
 
     assert plain("uk") == plain("ru") == plain("en")
-    assert all(len(line) <= 120 for language in LANGUAGES for line in template(language).splitlines())
+    assert all(len(line) <= 120 for language in LANGUAGES for line in template(language, kind).splitlines())
 
 
 def test_file_is_easy_to_change() -> None:

@@ -96,7 +96,7 @@ def read_cam(checker: Checker, raw: object, names: Names, givens: Mapping[str, G
     fields |= {
         "followers": Field(array_of(one_of("follower-unknown", lambda: FOLLOWERS))),
         "sections": Field(_sections, required=False),
-        "curve": Field(lambda checker, path, raw: curves, required=False),
+        "curve": Field(lambda checker, path, raw: None, required=False),  # read before what names them
     }
     read = record(checker, path, raw, fields)
     followers = tuple(dict.fromkeys(read.get("followers", ())))

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .kind import Kind
 
 MODULES = {"mechanism": "linkage", "cam": "cam"}  # module of each kind by its table
+KINDS = tuple(MODULES.values())
 
 
 @cache
