@@ -19,7 +19,6 @@ from .scales.language import system_language
 from .variants.kinds import KINDS
 from .variants.options import (
     Word,
-    count,
     count_if_given,
     example,
     given,
@@ -210,16 +209,15 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
         "kulman sweep nau-slider-crank -v 3 --only velocity",
         "kulman sweep nau-slider-crank -v 3 --positions 24 -o cycle.csv -o cycle.pdf",
         "kulman sweep nau-slider-crank --points B,S2 --chords B --from '30 deg'",
+        "kulman sweep madi-cam -o profile.csv",
     )
 )
 @of_task
 @click.option(
     "--positions",
     metavar="N",
-    default="12",
-    show_default=True,
-    callback=count,
-    help="How many positions: 8, 12, 24, ...",
+    callback=count_if_given,
+    help="How many positions: 8, 12, 24, ...; without it 12, of a cam its section lines, and every degree in files.",
 )
 @click.option(
     "--points", metavar="POINT,...", multiple=True, callback=given, help="Only these points, or numbered links."
@@ -229,7 +227,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 @click.option(
     "--chords", metavar="POINT", help="Velocities and accelerations of a point or link by plans and by chords."
 )
-@output(".sweeps.sweeps", "Where to: all columns to a .csv, the drawing to .svg, .pdf, .png.")
+@output(".sweeps.sweeps", "Where to: all columns, points of profiles too, to a .csv; the drawing to .svg, .pdf, .png.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def sweep(
     task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, chords: str | None, **options: Any
@@ -253,11 +251,16 @@ def sweep(
         "kulman chart nau-slider-crank -v 3 --chart stability,depth --positions 72 -o charts.pdf",
         "kulman chart nau-slider-crank --chart stability --quantities V_B,a_B,M_bal -o stability.csv",
         "kulman chart nau-slider-crank --chart depth --tolerance 0.5",
+        "kulman chart madi-cam --chart sections -o sections.pdf",
     )
 )
 @of_task
 @click.option(
-    "--chart", metavar="CHART,...", multiple=True, callback=given, help="Of accuracy, stability, depth; else all three."
+    "--chart",
+    metavar="CHART,...",
+    multiple=True,
+    callback=given,
+    help="Of accuracy, stability, depth, of a cam sections, accuracy, stability; else all three.",
 )
 @click.option("--quantities", metavar="NAME,...", multiple=True, callback=given, help="Only these: V_B,a_B,M_bal.")
 @click.option(
@@ -268,7 +271,7 @@ def sweep(
 @output(".charts.charts", "Where to: pictures to .svg, .pdf, .png, rows to .csv; of several charts x-accuracy.svg, ...")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> None:
-    """Measure TASK over its cycle: speed against accuracy, stability, and which parts of the model it needs."""
+    """Measure TASK: speed against accuracy, stability, which parts of the model it needs, or how many sections."""
     from .variants.charts.charts import chart as measured
 
     language = options.pop("lang") or system_language()

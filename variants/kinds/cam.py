@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from ..charts.cam import CamCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
+    from ..sweeps.asked import Asked
+    from ..sweeps.cam import CamSweep
 
 SYMBOLS = ("mu_l",)  # the others follow from the drawn amplitude and the pole distances
 MM, MILLI = 1e-3, 1e3
@@ -94,6 +96,12 @@ class Cams(Kind[Cam, "SolvedCam"]):
         mu_l = choosers.get("mu_l", Fixed(FULL_SIZE)).ladder(lambda name: _size(solved))[0]
         values = {**solved.values, "mu_l": mu_l}
         return {plan: Scale(symbol, values[symbol], "m") for plan, symbol in solved.scale_of_plan.items()}
+
+    def sweep(self, case: Case, words: Words, asked: Asked) -> CamSweep:
+        """Look at a cam over its turn."""
+        from ..sweeps.cam import cam_sweep
+
+        return cam_sweep(case, words, asked)
 
     def gallery(self, task: Task) -> CamCharts:
         """Return who makes the charts of a cam."""

@@ -26,6 +26,9 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..charts.gallery import Gallery
     from ..checks.basics import Checker
     from ..checks.names import Names
+    from ..sweeps.asked import Asked
+    from ..sweeps.cam import CamSweep
+    from ..sweeps.sweeps import Sweep
 
 Subject = TypeVar("Subject")  # what is described: a mechanism, a cam
 Answer = TypeVar("Answer", bound=Solved)
@@ -104,6 +107,16 @@ class Kind(ABC, Generic[Subject, Answer]):
             There are none.
         """
         raise InputError("linkages-only", task=task.id, text="chart")
+
+    def sweep(self, case: Case, words: Words, asked: Asked) -> Sweep | CamSweep:
+        """Look at a case over its whole cycle.
+
+        Raises
+        ------
+        InputError
+            It has none.
+        """
+        raise InputError("linkages-only", task=case.task.id, text="sweep")
 
     # Drawing.
 

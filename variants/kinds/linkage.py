@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from ..charts.linkage import LinkageCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
+    from ..sweeps.asked import Asked
+    from ..sweeps.sweeps import Sweep
 
 LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
 COMPOUND_AGREES = 1e-9  # part of the longest vector by which two routes to one vector may differ
@@ -111,6 +113,12 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         from ...plans.linkages.accuracy.conditions import conditions_of  # needs numpy, which plain solutions do without
 
         return conditions_of(linkage(case.solved))
+
+    def sweep(self, case: Case, words: Words, asked: Asked) -> Sweep:
+        """Solve a linkage over its whole cycle."""
+        from ..sweeps.sweeps import linkage_sweep
+
+        return linkage_sweep(case, words, asked)
 
     def gallery(self, task: Task) -> LinkageCharts:
         """Return who makes the charts of a linkage."""

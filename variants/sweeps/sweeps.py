@@ -27,12 +27,14 @@ from ..kinds.linkage import mechanism_of
 from ..sheets import Sheet
 from ..tables import csv_bytes
 from ..task import LocatedError, Task
+from .asked import Asked
+from .cam import CamSweep
 from .columns import letters
 from .data import as_json
 from .sheet import cycle_sheet
 from .table import as_chords, as_csv, as_table
 
-SECTIONS = 12
+SECTIONS = POSITIONS = 12
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -158,21 +160,22 @@ def sweep(
     set: Settings | None = None,
     only: str | Iterable[str] | None = None,
     scales: Settings | None = None,
-    positions: int = 12,
+    positions: int | None = None,
     points: str | Iterable[str] | None = None,
     start: str | float | None = None,
     end: str | float | None = None,
     notation: str | None = None,
     lang: str | None = None,
-) -> Sweep:
+) -> Sweep | CamSweep:
     """Solve one variant of a task over its whole cycle.
 
     Parameters
     ----------
     task, variant, set, only, scales, notation, lang
         As for `solve`.
-    positions : int
-        How many positions: they divide the circle of the crank evenly.
+    positions : int, optional
+        How many positions: they divide the circle of the crank evenly, into 12 when left out. Of a cam the section
+        lines in the table, every degree in files when left out.
     points : str or iterable of str, optional
         Letters of points and numbers of links, `"B,S2,3"`: only their columns are shown.
     start : str or number, optional
@@ -183,7 +186,7 @@ def sweep(
 
     Returns
     -------
-    Sweep
+    Sweep, or CamSweep of a cam
         Also when some positions, or all, have no plan: each has its status.
 
     Raises
@@ -196,18 +199,30 @@ def sweep(
     >>> round(swept.cycle.motions[0].travel.length, 6)
     0.1
     """
-    positions_of("positions", positions)
+    if positions is not None:
+        positions_of("positions", positions)
     case = solve_case(task, variant, set, only, scales)
-    words = case.words(lang, notation)
+    found: Sweep | CamSweep = case.kind.sweep(case, case.words(lang, notation), Asked(positions, points, start, end))
+    return found
+
+
+def linkage_sweep(case: Case, words: Words, asked: Asked) -> Sweep:
+    """Solve a linkage over its whole cycle.
+
+    Raises
+    ------
+    InputError
+        An unknown point, a place of the driver that is none, an end where a crank goes round.
+    """
     mechanism = mechanism_of(case.task, "sweep")
-    chosen = _chosen(mechanism, points)
-    first, last = (_place(case.task, *item) for item in (("start", start), ("end", end)))
+    chosen = _chosen(mechanism, asked.points)
+    first, last = (_place(case.task, *item) for item in (("start", asked.start), ("end", asked.end)))
     if last is not None and isinstance(mechanism.driver, Driver):
         raise InputError("sweep-end")
     values = case.task.values(case.variant, case.settings)
     plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
-    done = cycle(mechanism, values, plans, positions, first, last)
-    return Sweep(case, done, chosen, words)
+    count = POSITIONS if asked.positions is None else asked.positions
+    return Sweep(case, cycle(mechanism, values, plans, count, first, last), chosen, words)
 
 
 def _chosen(mechanism: Mechanism, points: str | Iterable[str] | None) -> tuple[str, ...]:

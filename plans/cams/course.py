@@ -1,0 +1,171 @@
+"""The course of a cam over its turn, column by column: motion, pressure angle, points and curvature of the profiles.
+
+Points are those of the cam as it stands at phi = 0, its centre at the origin, the follower's line upwards.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .cam import PLATE, ROCKER, ROLLER
+from .envelopes import Undercut
+from .motion import TURN, Array, Jump
+from .places import minima
+from .pressure import pressure_angle
+from .profile import RollerProfile
+from .rocker import rocker_pressure
+from .solve import SolvedCam
+
+SMOOTH = ("s", "v", "a", "theta", "theta_rocker")  # whose extremes a reader looks for
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Columned:
+    """One column: its name, its SI unit, its values."""
+
+    name: str
+    unit: str
+    values: NDArray[Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """The largest and the smallest value of a column, SI, with the angles of the cam where they are, rad."""
+
+    name: str
+    unit: str
+    most: float
+    most_at: float
+    least: float
+    least_at: float
+
+
+@dataclass(frozen=True, slots=True)
+class Sharpest:
+    """The least radius of curvature of a curve, m, and where."""
+
+    curve: str
+    rho: float
+    phi: float
+
+
+def columns(solved: SolvedCam, phi: Any, side: int = 1) -> list[Columned]:
+    """Return the columns at the angles `phi` of the cam, rad; where something jumps, the limits from one side."""
+    phi = np.asarray(phi, float)
+    omega = solved.givens["omega"]
+    found = [Columned("phi", "rad", phi), Columned("t", "s", phi / omega), *_motion(solved, phi, side, omega)]
+    if solved.roller is not None:
+        profile = solved.roller.profile
+        theta = pressure_angle(solved.motion, solved.roller.sizes, phi, profile.sense, side)
+        found += _angles("", theta) + _of_roller("", profile, phi, side)
+    if solved.rocker is not None:
+        of = solved.rocker
+        theta = np.asarray(rocker_pressure(of.rocker, of.sizes, phi, side))
+        found += _angles("_rocker", theta) + _of_roller("_rocker", of.profile, phi, side)
+    if solved.plate is not None:
+        plate = solved.plate.profile
+        found += _point("profile_plate", plate.practical(phi, side))
+        found.append(Columned("rho_plate", "m", np.asarray(plate.bend(phi, side))))
+    return found
+
+
+def _motion(solved: SolvedCam, phi: Array, side: int, omega: float) -> list[Columned]:
+    s, ds, d2s = solved.motion.at(phi, side)
+    found = [Columned("s", "m", s), Columned("ds", "m", ds), Columned("d2s", "m", d2s)]
+    found += [Columned("v", "m/s", omega * ds), Columned("a", "m/s^2", omega * omega * d2s)]
+    if solved.rocker is not None:
+        found.append(Columned("psi", "rad", solved.rocker.rocker.motion.at(phi, side)[0]))
+    return found
+
+
+def _angles(of: str, theta: Array) -> list[Columned]:
+    return [Columned(f"theta{of}", "rad", theta), Columned(f"gamma{of}", "rad", 0.5 * math.pi - np.abs(theta))]
+
+
+def _of_roller(of: str, profile: RollerProfile, phi: Array, side: int) -> list[Columned]:
+    with np.errstate(divide="ignore"):
+        rho = 1.0 / profile.curvature(phi, side)
+    pitch = [*_point(f"pitch{of}", profile.pitch(phi, side)), Columned(f"rho_pitch{of}", "m", rho)]
+    return [*pitch, *_point(f"profile{of}", profile.practical(phi, side)), Columned(f"rho{of}", "m", rho - profile.R)]
+
+
+def _point(name: str, points: NDArray[Any]) -> list[Columned]:
+    return [Columned(f"{name}.x", "m", points.real), Columned(f"{name}.y", "m", points.imag)]
+
+
+def extremes(solved: SolvedCam) -> list[Ends]:
+    """Return the extremes of travel, velocity, acceleration and pressure angles; at jumps both limits count."""
+    found = []
+    corners = solved.motion.corners
+    for column in columns(solved, np.zeros(1)):
+        if column.name in SMOOTH:
+            best = []
+            for sign in (-1.0, 1.0):
+                least = min(minima(_signed(solved, column.name, sign), corners), key=lambda minimum: minimum.value)
+                best += [sign * least.value, least.phi]
+            found.append(Ends(column.name, column.unit, *best))
+    return found
+
+
+def _signed(solved: SolvedCam, name: str, sign: float) -> Any:
+    """Return a column, or its opposite, as a function of the angle and the side."""
+
+    def values(phi: Any, side: int) -> Array:
+        column = next(column for column in columns(solved, phi, side) if column.name == name)
+        signed: Array = sign * column.values
+        return signed
+
+    return values
+
+
+def sharpest(solved: SolvedCam) -> list[Sharpest]:
+    """Return where the pitch curves and the profile of a plate are curved most."""
+    return [Sharpest(curve, profile.sharpest.value, profile.sharpest.phi) for curve, _, profile in _profiles(solved)]
+
+
+def undercuts(solved: SolvedCam) -> list[tuple[str, Undercut]]:
+    """Return what profiles do not give of the motion, each with its follower."""
+    return [(follower, cut) for _, follower, profile in _profiles(solved) for cut in profile.undercuts]
+
+
+def _profiles(solved: SolvedCam) -> Iterator[tuple[str, str, Any]]:
+    if solved.roller is not None:
+        yield "pitch", ROLLER, solved.roller.profile
+    if solved.rocker is not None:
+        yield "pitch_rocker", ROCKER, solved.rocker.profile
+    if solved.plate is not None:
+        yield "profile_plate", PLATE, solved.plate.profile
+
+
+def cut_at(solved: SolvedCam, phi: Array) -> list[str]:
+    """Return for every angle the followers, joined by +, that rest on a corner of an undercut profile there."""
+    found: list[list[str]] = [[] for _ in phi]
+    for follower, cut in undercuts(solved):
+        inside = np.mod(phi - cut.start, TURN) < cut.end - cut.start
+        for i in np.flatnonzero(inside):
+            if follower not in found[i]:
+                found[i].append(follower)
+    return ["+".join(followers) for followers in found]
+
+
+def lines(solved: SolvedCam) -> list[tuple[int, float, int]]:
+    """Return the section lines: number, angle, side; where velocity or acceleration jumps inside, one for each."""
+    found = []
+    for number, phi in enumerate(solved.angles.tolist()):
+        jump = jump_at(solved, phi)
+        first = number == 0
+        sides = (1,) if first or jump is None else (-1, 1)
+        found += [(number, phi, side) for side in sides]
+    return found
+
+
+def jump_at(solved: SolvedCam, phi: float) -> Jump | None:
+    """Return the jump at an angle."""
+    near = 1e-9
+    return next((jump for jump in solved.motion.jumps if abs(jump.phi - phi) < near), None)
