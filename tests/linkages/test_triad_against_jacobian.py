@@ -1,8 +1,8 @@
 """Triads, all outer joints moving, turning and accelerating, against a solver by the Jacobian.
 
 Of each case 34 random mechanisms, more than 300 together; with the marker `soak` 1,250 of more cases, that is 10,000
-hinged triads and more than 10,000 with prismatic legs. Errors are parts of the largest value of a kind (points,
-velocities, forces ...) in the same mechanism.
+hinged triads and more than 10,000 with prismatic legs. A third of them are ten million times as large or as small.
+Errors are parts of the largest value of a kind (points, velocities, forces ...) in the same mechanism.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ from kulman.tests.linkages.test_dyads_against_jacobian import (
     ALL_KINDS,
     TOLERANCE,
     Both,
-    of_other_sizes,
     solve_both,
     wrong,
 )
@@ -110,7 +109,7 @@ def test_legs_are_rigid_and_sliders_in_their_guides(both: Both) -> None:
 
                 stretched = np.abs(np.abs(results[second] - results[first]) - length)
 
-                assert np.max(stretched / length.clip(0.1)) <= 1e-12
+                assert np.max(stretched / length.clip(0.1 * both.k)) <= 1e-12
 
 
 def test_reactions_of_guides_stand_where_their_moments_say(both: Both) -> None:
@@ -124,17 +123,17 @@ def test_reactions_of_guides_stand_where_their_moments_say(both: Both) -> None:
 
             moment = second.moment_at(own, other, points[pin])
 
-            largest = np.max([np.abs(moment), np.abs(results[f"R_{other}{own}"])], axis=0)
+            largest = np.max([np.abs(moment), np.abs(results[f"R_{other}{own}"]) * both.k], axis=0)
             assert np.max(np.abs(results[f"M_{other}{own}"] - moment) / largest) <= TOLERANCE
             arm = np.abs(moment) / np.abs(results[f"R_{other}{own}"])
-            assert np.max(np.abs(results[f"h_{other}{own}"] - arm) / arm.clip(1.0)) <= TOLERANCE
+            assert np.max(np.abs(results[f"h_{other}{own}"] - arm) / arm.clip(both.k)) <= TOLERANCE
 
 
 def test_balancing_moment_balances_the_power_of_all_loads(both: Both) -> None:
-    power = both.second.power + both.results["M_bal"] * both.results["omega_1"]
+    loads, drive = (power / both.k**2 for power in (both.second.power, both.results["M_bal"] * both.results["omega_1"]))
 
-    size = np.abs(both.second.power) + np.abs(both.results["M_bal"] * both.results["omega_1"])
-    assert np.max(np.abs(power) / size.clip(np.max(size) * 1e-6)) <= TOLERANCE * 10
+    size = np.abs(loads) + np.abs(drive)
+    assert np.max(np.abs(loads + drive) / size.clip(np.max(size) * 1e-6)) <= TOLERANCE * 10
 
 
 def test_many_at_once_equal_one_at_a_time_to_the_last_bit(both: Both) -> None:
@@ -147,13 +146,6 @@ def test_many_at_once_equal_one_at_a_time_to_the_last_bit(both: Both) -> None:
         different = [n for n in names if np.asarray(board.values[n]).tobytes() != both.results[n][index].tobytes()]
         assert (index, different) == (index, [])
         assert board.status == STATUSES[both.codes[index]]
-
-
-def test_mechanisms_of_other_sizes_agree(both: Both) -> None:
-    scaled = of_other_sizes(both)
-
-    assert max(scaled.codes) == STATUSES.index("ok")
-    assert wrong(scaled.results, scaled.second.expected(), ALL_KINDS) == {}
 
 
 def test_triad_has_its_class_and_central_link(both: Both) -> None:
