@@ -6,6 +6,7 @@ import cmath
 import math
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 FREE = re.compile(r"R_\w+$|M_\d\d$|[MF]_bal(_lever)?$")  # whose sense is assumed, and found by the sign
@@ -95,6 +96,7 @@ def nearest(values: tuple[float, ...], ours: float) -> float:
     return min(values, key=lambda x: abs(math.log(abs(x)) - math.log(ours)) if x and ours else math.inf)
 
 
+@lru_cache(maxsize=1024)  # the same answers are held against one candidate after the other
 def readings(answer: Answer, values: tuple[float, ...]) -> tuple[Said, ...]:
     """Return all ways to take an answer whose value is one of `values`.
 

@@ -34,7 +34,9 @@ class StudentBoard(ExactBoard):
     """
 
     def __init__(self, program: Program, values: Mapping[str, Any], take: Take, made: bool = False) -> None:
-        super().__init__(values)
+        super().__init__({} if made else values)
+        if made:
+            self.values = {**values}
         self.follows: dict[str, Any] = {}
         self._program, self._take = program, take
         self._done = 0

@@ -98,7 +98,8 @@ def _run(key: Key, found: Broken) -> ExactBoard | None:
     """
     givens = key.paper.givens
     changed = [name for name, value in found.givens.items() if name not in givens or givens[name] is not value]
-    board = ExactBoard(key.values)
+    board = ExactBoard({})
+    board.values = {**key.values}
     board.values.update((name, found.givens[name]) for name in changed)
     board.sines.update(key.sines)
     try:

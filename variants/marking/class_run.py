@@ -210,6 +210,7 @@ class Journal:
     def __init__(self, folder: Path, job: Job) -> None:
         self.path, self.folder, self.job = folder / ".kulman-check.jsonl", folder, job.digest()
         self.roster = job.check.roster
+        self._named: dict[int, tuple[Answers, str]] = {}
         self.before: dict[str, Result] = {}
         with suppress(FileNotFoundError):
             for line in self.path.read_text(encoding="utf-8").splitlines():
@@ -218,8 +219,12 @@ class Journal:
                     self.before[item["digest"]] = Result.from_json(item["result"])
 
     def _name(self, number: int, answers: Answers) -> str:
-        entry = self.roster.find(answers.who) if self.roster else None
-        return _digest(f"{self.job} {number} {answers!r} {entry!r}")
+        of, name = self._named.get(number, (None, ""))
+        if of is not answers:  # a name is asked for before the answers are marked, and after
+            entry = self.roster.find(answers.who) if self.roster else None
+            name = _digest(f"{self.job} {number} {answers!r} {entry!r}")
+            self._named[number] = answers, name
+        return name
 
     def found(self, number: int, answers: Answers) -> Result | None:
         """Return what an earlier run found of the same answers, if its reports are still there."""

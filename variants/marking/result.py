@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 from ...plans.marking.verdicts import Verdict
@@ -40,7 +40,9 @@ class Result:
 
     def to_json(self) -> dict[str, Any]:
         """Return the result as plain data."""
-        return asdict(self)
+        data = {item.name: getattr(self, item.name) for item in fields(self)}
+        segments = {name: _plain(one) for name, one in self.segments.items()}
+        return {**data, "who": _plain(self.who), "segments": segments}
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Result:
@@ -54,6 +56,10 @@ class Result:
         segments = {name: Measured(**of) for name, of in data["segments"].items()}
         lists = {name: tuple(data[name]) for name in ("mistakes", "notes", "reports")}
         return cls(**{**data, "who": Who(**data["who"]), "segments": segments, **lists})
+
+
+def _plain(data: Who | Measured) -> dict[str, Any]:
+    return {item.name: getattr(data, item.name) for item in fields(data)}
 
 
 def students_scales(marked: Marked) -> dict[str, float]:
