@@ -155,6 +155,10 @@ def main() -> None:
         row(f"{name}, a million times, each", ours, "ns", goal, ratio)
         if goal == 100:
             row("peak memory of that run", memory, "MB", 150, "")
+    from classes import students
+
+    for name, taken, solutions in students():  # 40 ms on each of two cores: a class of 1,000 in 20 s
+        row(name, taken * 1e3, "ms", 40, f"{solutions:.1f} solutions of the task")
 
 
 if __name__ == "__main__":
