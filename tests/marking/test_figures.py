@@ -28,16 +28,18 @@ def test_letters_of_many_vectors_lie_on_no_other() -> None:
     ends = [complex(*xy) for xy in random.uniform(0.0, 150.0, (24, 2))]
     vectors = [(tail, tip, 4) for tail, tip in zip(ends[::2], ends[1::2], strict=True)]
 
-    placed = list(boxes(vectors, complex(75.0, 75.0)))
+    placed = list(boxes(vectors, complex(150.0, 150.0)))
 
     assert len(placed) == len(vectors)
+    assert all(box.lies_in(complex(150.0, 150.0)) for box in placed)
     assert not any(one.meets(other) for one, other in combinations(placed, 2))
     assert Box(0j, 2.0).meets(Box(3.9 + 3.5j, 2.0))
 
 
 @pytest.mark.parametrize(("tail", "tip"), [(0j, 100 + 0j), (0j, 100j), (0j, 60 + 80j), (50 + 0j, 0j), (9j, 9j)])
 def test_letters_stand_beside_their_vector(tail: complex, tip: complex) -> None:
-    (box,) = boxes([(tail, tip, 3)], complex(20.0, 20.0))
+    tail, tip = tail + complex(20.0, 20.0), tip + complex(20.0, 20.0)
+    (box,) = boxes([(tail, tip, 3)], complex(140.0, 140.0))
 
     along = np.linspace(0.0, 1.0, 400) * (tip - tail) + tail - box.middle
 

@@ -21,26 +21,32 @@ class Box(NamedTuple):
         """Where the text begins, on its line."""
         return self.middle + complex(-self.half, 0.3 * HEIGHT)
 
+    def lies_in(self, figure: complex) -> bool:
+        """Whether the text lies within a figure of this width and height."""
+        x, y = self.middle.real, self.middle.imag
+        return self.half <= x <= figure.real - self.half and 0.5 * HEIGHT <= y <= figure.imag - 0.5 * HEIGHT
+
     def meets(self, other: Box) -> bool:
         """Whether two texts lie on each other."""
         apart = self.middle - other.middle
         return abs(apart.real) < self.half + other.half and abs(apart.imag) < HEIGHT
 
 
-def boxes(vectors: Sequence[tuple[complex, complex, int]], centre: complex) -> Iterator[Box]:
+def boxes(vectors: Sequence[tuple[complex, complex, int]], figure: complex) -> Iterator[Box]:
     """Go through the rooms of the texts of vectors, in their order.
 
     Parameters
     ----------
     vectors : sequence of (complex, complex, int)
         Tail, tip and number of letters, mm, y down.
-    centre : complex
-        The middle of the figure, from which texts turn away.
+    figure : complex
+        Its width and height; texts turn away from its middle, and keep within it.
     """
     taken: list[Box] = []
     for tail, tip, letters in vectors:
-        spots = list(_spots(tail, tip, 0.5 * WIDTH * letters, centre))
-        box = next((spot for spot in spots if not any(map(spot.meets, taken))), spots[0])
+        spots = list(_spots(tail, tip, 0.5 * WIDTH * letters, figure * 0.5))
+        within = [spot for spot in spots if spot.lies_in(figure)] or spots
+        box = next((spot for spot in within if not any(map(spot.meets, taken))), within[0])
         taken.append(box)
         yield box
 

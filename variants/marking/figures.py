@@ -95,7 +95,7 @@ def _svg(vectors: list[Vector], caption: str) -> str:
     drawn = [(vector, at(vector.tail), at(vector.tip)) for vector in vectors]
     shapes = "".join(_shape(*one, span * scale * LEAST) for one in drawn)
     own = [(vector, tail, tip) for vector, tail, tip in drawn if vector.line is not None]
-    rooms = boxes([(tail, tip, len(vector.text)) for vector, tail, tip in own], complex(width, height) * 0.5)
+    rooms = boxes([(tail, tip, len(vector.text)) for vector, tail, tip in own], complex(width, height))
     letters = "".join(_label(vector, room.start) for (vector, _, _), room in zip(own, rooms, strict=True))
     title = f"<title>{escape(caption)}</title>"
     return f'<svg viewBox="0 0 {width:.2f} {height:.2f}" role="img">{title}{shapes}{letters}</svg>'
