@@ -7,20 +7,17 @@ import string
 from collections.abc import Iterator
 from functools import cache
 from importlib.resources import files
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-import kulman
 from kulman.drawing.words import Words, notations
 from kulman.scales.errors import LANGUAGES, messages
 from kulman.scales.packaged import packaged
+from kulman.tests.support.sources import trees
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
 
-ROOT = Path(kulman.__file__).parent
-LAYERS = ("scales", "plans", "drawing", "variants", "cli.py")
 PACKAGE = "kulman.drawing"
 
 
@@ -41,13 +38,12 @@ def patterns() -> frozenset[str]:
 
 
 def _patterns() -> Iterator[str]:
-    for layer in LAYERS:
-        for file in [ROOT / layer] if layer.endswith(".py") else sorted((ROOT / layer).rglob("*.py")):
-            for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.JoinedStr):
-                    yield "".join(str(p.value) if isinstance(p, ast.Constant) else "*" for p in node.values)
-                elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-                    yield node.value
+    for tree in trees().values():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.JoinedStr):
+                yield "".join(str(p.value) if isinstance(p, ast.Constant) else "*" for p in node.values)
+            elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+                yield node.value
 
 
 def words_of(stem: str) -> frozenset[str]:
