@@ -27,7 +27,10 @@ OWN = "own"
 BETWEEN = re.compile(r"\s*;\s*|,\s+|(?<=[^\d\s]),")  # not a decimal comma
 DIGITS = 4
 STEP = 7  # the column of the worst step
-PLANS = ("position", "velocity", "acceleration", "forces", "lever")  # those of compound motion have names of their own
+PLANS = (  # those of compound motion have names of their own
+    *("position", "velocity", "acceleration", "forces", "lever"),
+    *("diagram", "sizes", "plate", "rocker", "profile"),
+)
 READINGS = ("read", "measure", "distance", "angle")
 LINES = ("turn", "incline", "decline", "direction", "tangent", "normal")
 

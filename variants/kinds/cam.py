@@ -110,8 +110,10 @@ class Cams(Kind[Cam, "SolvedCam"]):
         return CamCharts()
 
     def warnings(self, solved: SolvedCam) -> tuple[InputError, ...]:
-        """Tell where a profile does not give the motion."""
-        return tuple(
+        """Tell where a profile does not give the motion, or cannot."""
+        jumps = any(jump.order == 1 for jump in solved.motion.jumps)
+        left_out = (InputError("cam-no-plate"),) if jumps and PLATE in solved.cam.followers else ()
+        return left_out + tuple(
             InputError(
                 f"cam-undercut-{PLATE if follower == PLATE else ROLLER}",
                 start=_degrees(undercut.start),
@@ -168,7 +170,8 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a cam."""
-        from ...drawing.cams.sheet import Contents, draw
+        from ...drawing.cams.fitting import Contents
+        from ...drawing.cams.sheet import draw
 
         contents = Contents(cam(case.solved), case.plans, case.choosers, case.givens, words, norm)
         return draw(contents, stamp, paper)
