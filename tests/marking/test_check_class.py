@@ -331,12 +331,13 @@ def test_a_killed_run_leaves_no_process_and_goes_on(tmp_path: Path) -> None:
 def test_a_class_is_told_who_is_missing_and_where_notes_are(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     roster, answers = tmp_path / "roster.csv", tmp_path / "answers.csv"
     roster.write_bytes(table([["student", "variant"], ["Student 01", "3"], ["Student 02", "4"]]))
-    answers.write_bytes(table([["student", "V_B", "omega_2", "V_Q"], ["Student 01", "5,6", "-15,7", "1"]]))
+    answers.write_bytes(table([["student", "V_B", "omega_2", "a_B", "V_Q"], ["Student 01", "5,6", "-15,7", "", "1"]]))
 
     status, out, _ = run(capsys, str(answers), "--roster", str(roster), "-o", str(tmp_path / "m.csv"), "--lang", "en")
 
     assert status == 0
-    assert f"notes in the report: 1 ({answers}" in out
+    assert "  missing 1  " in out
+    assert f"  notes in the report: 1 ({answers}" in out
     assert [line.split() for line in out.splitlines() if "Student 02" in line] == [
         ["Student", "02", "–", "nothing", "handed", "in"]
     ]

@@ -86,7 +86,9 @@ def class_lines(results: Sequence[Result], absent: Sequence[Entry], language: st
     width = max((len(_called(result)) for result in results), default=0)
     for result, flags in zip(results, flags_of(results, language), strict=True):
         mark = "–" if result.mark is None else _number(f"{result.mark:g}", language)
+        missing = result.counts.get(str(Verdict.MISSING), 0)
         told = [result.first and said["class.feedback_first"].format(symbol=result.first)]
+        told += [f"{said['verdict.missing']} {missing}"] if missing else []
         told += [", ".join(result.mistakes), *flags, *_noted(result, said)]
         yield f"{_called(result):{width}}  {mark:>5}  {'  '.join(filter(None, told))}".rstrip()
     yield from (f"{entry.who.student:{width}}  {'–':>5}  {said['class.absent']}" for entry in absent)
