@@ -105,6 +105,11 @@ def compose(views: Sequence[View], places: Sequence[Placement], sheet: Format, n
     return pages
 
 
+def usable(sheet: Format, norm: Norm) -> tuple[float, float, float, float]:
+    """Return the box in which views may stand, but for reserved boxes."""
+    return _area(sheet, norm)
+
+
 def _gap(sheet: Format) -> float:
     return CLOSE if sheet.letters == "A4" else GAP
 

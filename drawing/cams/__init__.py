@@ -1,0 +1,1 @@
+"""The sheet of a cam: diagrams, smallest sizes, profiles, pressure angles."""

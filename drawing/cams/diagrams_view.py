@@ -1,0 +1,185 @@
+"""The three diagrams over one axis of angles: exact curves, and chords of graphical integration with their poles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from ...plans.cams.integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
+from ...plans.cams.motion import TURN
+from ..diagram import Axis, Field, Pole, axes, rays
+from ..dimensions import linear
+from ..shapes import Circle, Group, Line, Pen, Polyline, Text
+from ..text import Box, box
+from ..view import Canvas, View
+from .scene import CamScene, pieces
+
+ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a diagram shows
+LETTER = {TRAVEL: "s", VELOCITY: "ds", ACCELERATION: "d2s"}
+POLES = {ACCELERATION: ("H_a", "O_{a}"), VELOCITY: ("H_v", "O_{v}")}
+RATES = {VELOCITY: ("mu_v", "m/s"), ACCELERATION: ("mu_a", "m/s^2")}  # scale factors of v and a
+ABOVE = 13.0  # mm for the arrow of an axis
+RAISED = 5.5  # mm of a text above the highest place of a diagram, clear of the numbers of section lines
+SAME = 1e-6  # mm, of ends of a jump
+GAP = 2.0
+
+
+def diagrams_view(scene: CamScene) -> View:
+    """Draw the diagrams under one another, the one that the law gives on top."""
+    canvas, solved = Canvas(scene.style), scene.solved
+    drawn = [plan for plan in DIAGRAMS if f"{plan}.0" in solved.values]
+    fields: list[Field] = []
+    low = 0.0
+    for plan in drawn:
+        most = _ends(scene, plan)[1]
+        if fields:
+            below = GAP + 2.4 * scene.style.text * (DIAGRAMS.index(plan) > 0)
+            low -= most + ABOVE + scene.style.label * 1.6 + below
+        fields.append(_field(scene, plan, 1j * low))
+        low += _ends(scene, plan)[0]
+    boxes = [_scales(canvas, scene, plan, field) for plan, field in zip(drawn, fields, strict=True)]
+    _section_lines(canvas, scene, fields, boxes)
+    for plan, field in zip(drawn, fields, strict=True):
+        axes(canvas, field, lettered=False)
+        _exact(canvas, scene, plan, field)
+        _board(canvas, scene, plan, field)
+        _amplitudes(canvas, scene, plan, field)
+    _phases(canvas, scene, fields[-1])
+    per_mm = scene.words["said.cam_axis"].format(angle=scene.degrees(scene.across.mu))
+    heading = (scene.words["heading.cam_diagrams"], f"{scene.factor(scene.across)}  ({per_mm})")
+    return canvas.finish("diagrams", heading, _notes(scene))
+
+
+def _ends(scene: CamScene, plan: str) -> tuple[float, float]:
+    """Return the least and the greatest ordinate of a diagram, mm, those of the chords among them."""
+    mu = scene.scale(plan).mu
+    values = [v for phase in scene.solved.motion.phases for part in pieces(scene.solved, phase) for v in part[1:]]
+    exact = np.concatenate(values[ORDER[plan] :: 3]) / mu
+    marks = [scene.mm(f"{plan}.{i}").imag for i in _nodes(scene, plan)]
+    return min(0.0, float(exact.min()), *marks), max(0.0, float(exact.max()), *marks)
+
+
+def _nodes(scene: CamScene, plan: str) -> list[int]:
+    """Return the section lines on which a diagram has nodes of chords."""
+    return [i for i in scene.solved.layout.division.lines if f"{plan}.{i}" in scene.solved.values]
+
+
+def _field(scene: CamScene, plan: str, origin: complex) -> Field:
+    scale, words = scene.scale(plan), scene.words
+    low, high = _ends(scene, plan)
+    across = Axis(words.symbol("phi"), scene.across, 0.0, float(scene.solved.angles[-1]), {})
+    return Field(origin, across, Axis(words.symbol(LETTER[plan]), scale, low * scale.mu, high * scale.mu, {}))
+
+
+def _scales(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> Box:
+    """Write the scale factors of a diagram beside the top of its axis; return the box that they fill."""
+    texts = [scene.factor(scene.scale(plan))]
+    if plan in RATES:
+        texts.append(scene.factors(RATES[plan][0], unit=RATES[plan][1]))
+    text = Text(
+        field.at(0.0, field.y.high) + complex(4.0, RAISED + scene.style.text), ";  ".join(texts), scene.style.text
+    )
+    canvas.add(text)
+    x0, y0, x1, y1 = box(text)
+    return x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
+
+
+def _section_lines(canvas: Canvas, scene: CamScene, fields: Sequence[Field], boxes: Sequence[Box]) -> None:
+    """Draw each section line through all diagrams, broken where a text stands, with its number below and above."""
+    top, bottom, height = fields[0], fields[-1], scene.style.text
+    for i, phi in enumerate(scene.solved.angles.tolist()):
+        a, b = top.at(phi, top.y.high) + 1.5j, bottom.at(phi, bottom.y.low) - 1.5j
+        gaps = [(y1, y0) for x0, y0, x1, y1 in boxes if x0 < a.real < x1 and b.imag < y0 and y1 < a.imag]
+        ends = [a.imag, *(y for gap in sorted(gaps, reverse=True) for y in gap), b.imag]
+        parts = ((complex(a.real, y), complex(a.real, z)) for y, z in zip(ends[::2], ends[1::2], strict=True))
+        canvas.add(Group(tuple(Line(*part, Pen.THIN) for part in parts), "section", str(i)))
+        if i:
+            canvas.add(Text(a + 0.8j, str(i), height, "middle"))
+        canvas.add(Text(b - 1j * (0.8 + height), str(i), height, "middle"))
+
+
+def _exact(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:
+    """Draw the exact curve; at a jump a line across, between its two ends."""
+    curves: list[list[complex]] = []
+    for phase in scene.solved.motion.phases[:3]:
+        for part in pieces(scene.solved, phase):
+            values = part[1 + ORDER[plan]]
+            curves.append([field.at(x, y) for x, y in zip(part[0].tolist(), values.tolist(), strict=True)])
+    ends = [[field.at(0.0, 0.0)], *curves, [field.at(field.x.high, 0.0)]]
+    steps = [(a[-1], b[0]) for a, b in pairwise(ends) if abs(b[0] - a[-1]) > SAME]
+    canvas.add(Group(tuple(Polyline(tuple(points), Pen.MAIN) for points in curves), "curve", plan))
+    for k, (a, b) in enumerate(steps, start=1):
+        canvas.add(Group((Line(a, b, Pen.MAIN),), "jump", f"{plan}.{k}"))
+
+
+def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:
+    """Draw what the board has constructed: mean ordinates, the pole and its rays, chords and their nodes."""
+    solved, words, origin = scene.solved, scene.words, field.origin
+    sections = [*solved.layout.division.sections]
+    nodes = [(i, origin + scene.mm(f"{plan}.{i}")) for i in _nodes(scene, plan)]
+    if len(nodes) == len(sections) + 1 and plan != solved.layout.given:
+        chords = tuple(Line(a, b, Pen.THIN, name=str(i)) for (_, a), (i, b) in pairwise(nodes))
+        canvas.add(Group(chords, "chords", plan))
+        canvas.add(*(_mark(scene, at, "node", str(i)) for i, at in nodes))
+    if f"{plan}.O" not in solved.values:
+        return
+    shown: dict[float, complex] = {}
+    for i in sections:
+        mean, foot = (origin + scene.mm(f"{plan}.{letter}{i}") for letter in "mp")
+        canvas.add(_mark(scene, mean, "mean", str(i)))
+        shown.setdefault(round(foot.imag, 4), mean)
+    for mean in shown.values():
+        canvas.add(Line(mean, complex(origin.real, mean.imag), Pen.DASHED, role="projection"))
+    name, letter = POLES[plan]
+    text = f"{words.symbol(name)} = {words.short(round(scene.paper(name), 2))}"
+    pole = Pole(scene.paper(name), letter, name, text)
+    rays(canvas, field, pole, ((i, scene.mm(f"{plan}.p{i}").imag) for i in sections))
+
+
+def _mark(scene: CamScene, at: complex, role: str, name: str) -> Group:
+    return Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), role, name)
+
+
+def _amplitudes(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:
+    """Dimension the greatest ordinates in mm, to the right of the diagram."""
+    last, words = field.x.high, scene.words
+    motion = scene.solved.motion
+    s, ds, d2s = (float(order == ORDER[plan]) for order in range(3))
+    up, down = motion.maximum(s, ds, d2s), motion.minimum(s, ds, d2s)
+    names = {TRAVEL: ("S_max", ""), VELOCITY: ("V_max", "V_min"), ACCELERATION: ("l_A1", "l_A2")}[plan]
+    for name, extreme in zip(names, (up, down), strict=True):
+        if not name or abs(extreme.value) < SAME * field.y.scale.mu:
+            continue
+        peak, foot = field.at(last, extreme.value), field.at(last, 0.0)
+        place = field.at(extreme.phi, extreme.value)
+        canvas.add(Line(place, peak, Pen.THIN, role="extension"))
+        symbol = words.symbol("V_max" if name == "V_min" else name)
+        linear(canvas, (foot, peak), 14.0, f"{symbol} = {words.short(round(abs(peak - foot), 2))}", name)
+
+
+def _phases(canvas: Canvas, scene: CamScene, field: Field) -> None:
+    """Dimension the phases in degrees under the lowest diagram."""
+    motion = scene.solved.motion
+    for phase in motion.phases[:3]:
+        below = field.y.low - field.y.scale.measured(3.5 + scene.style.text)  # clear of the numbers
+        ends = field.at(phase.start, below), field.at(phase.end, below)
+        symbol = scene.words.symbol(f"phi_{phase.name}")
+        text = f"{symbol} = {scene.degrees(phase.length)}"
+        linear(canvas, ends, -1j * (2.4 * scene.style.text), text, f"phi_{phase.name}")
+
+
+def _notes(scene: CamScene) -> tuple[str, ...]:
+    """Say what the lines are, that the curves close, and what is not drawn."""
+    words, solved = scene.words, scene.solved
+    closing = ", ".join(
+        f"{words.symbol(name)} = {words.number(scene.paper(name), 2)}"
+        for name in ("s_close", "v_close")
+        if name in solved.values
+    )
+    rest = TURN - float(solved.angles[-1])
+    lower = f"{words.symbol('phi_lower')} = {scene.degrees(rest)}"
+    said = [words["said.cam_closing"].format(values=closing)]
+    said += [words["said.cam_lower"].format(angle=lower)] * (rest > SAME)
+    return words["said.cam_curves"], "; ".join(said)

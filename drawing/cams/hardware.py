@@ -1,0 +1,103 @@
+"""What belongs to a follower that moves up along a line, and to the cam's shaft: rod, spring, guides, key, support."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ..shapes import Circle, Group, Line, Pen, Polyline, Shape
+from ..style import Style
+from ..symbols import guide, hatching
+
+COILS = 5
+SHAFT, KEY = 1.8, 0.45  # radius of the shaft in heights of letters; half width of its key in radii
+
+
+@dataclass(frozen=True, slots=True)
+class Rod:
+    """A follower's rod along x = const: from `low` up; its guide begins at `guide`, and it is lifted by `stroke` mm."""
+
+    x: float
+    low: float
+    collar: float
+    stroke: float
+    style: Style
+
+    @property
+    def half(self) -> float:
+        """Half the width of the rod."""
+        return 0.5 * self.style.label
+
+    @property
+    def guide(self) -> tuple[float, float]:
+        """Where the guide begins and ends: with room for the spring pressed together by the stroke."""
+        low = self.collar + self.stroke + 2.5 * self.style.label
+        return low, low + self.style.slider[0]
+
+    @property
+    def top(self) -> float:
+        """The end of the rod."""
+        return self.guide[1] + 4.0
+
+    def shapes(self) -> tuple[Shape, ...]:
+        """Return the rod with its collar, the spring on it, and the guide of the frame."""
+        x, w = self.x, self.half
+        body = _box(x - w, self.low, x + w, self.top)
+        collar = _box(x - 2.2 * w, self.collar - 0.5 * w, x + 2.2 * w, self.collar)
+        link = Group((body, collar), "link", "rod")
+        return link, self._spring(), *self._guides()
+
+    def _spring(self) -> Group:
+        low, high, wide = self.collar, self.guide[0], 1.9 * self.half
+        step = (high - low) / (2 * COILS)
+        points = [complex(self.x + wide * (-1.0 if k % 2 else 1.0), low + step * k) for k in range(2 * COILS + 1)]
+        return Group((Polyline(tuple(points), Pen.THIN),), "spring", "spring")
+
+    def _guides(self) -> tuple[Shape, ...]:
+        low, high = self.guide
+        found: list[Shape] = []
+        for side in (-1.0, 1.0):
+            x = self.x + side * (self.half + 0.8)
+            foot = complex(x, low), complex(x + side * 2.4 * self.half, low)
+            found.append(guide(((complex(x, low), complex(x, high)),), complex(-side, 0.0), "guide", self.style))
+            found.append(Line(*foot, Pen.MAIN))
+        return tuple(found)
+
+
+def shaft(centre: complex, style: Style) -> Group:
+    """Return the shaft of the cam with its key, on a support of the frame below it."""
+    r = SHAFT * style.label
+    key = KEY * r
+    width, height, base = style.pivot
+    foot = centre - 1j * (r + 0.6 * height)
+    legs = (
+        Line(centre + r * complex(side * 0.5, -math.sqrt(0.75)), foot + side * width / 2, Pen.MAIN)
+        for side in (-1.0, 1.0)
+    )
+    ground = foot - base / 2, foot + base / 2
+    slot = (
+        centre + complex(-key, math.sqrt(r * r - key * key)),
+        centre + complex(-key, r + key),
+        centre + complex(key, r + key),
+        centre + complex(key, math.sqrt(r * r - key * key)),
+    )
+    bottom = Line(centre + complex(-key, r - key), centre + complex(key, r - key), Pen.THIN)
+    sides = (Line(centre + complex(s * key, r - key), centre + complex(s * key, r), Pen.THIN) for s in (-1.0, 1.0))
+    return Group(
+        (
+            *legs,
+            Line(*ground, Pen.MAIN),
+            *hatching(*ground, -1j, style),
+            Circle(centre, r, Pen.MAIN),
+            Polyline(slot, Pen.MAIN),
+            bottom,
+            *sides,
+        ),
+        "shaft",
+        "O",
+    )
+
+
+def _box(x0: float, y0: float, x1: float, y1: float) -> Polyline:
+    corners = (complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1))
+    return Polyline(corners, Pen.MAIN, closed=True, fill="white")

@@ -1,0 +1,42 @@
+"""Hatching of an area that half planes bound."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from math import hypot
+
+from ..shapes import Group, Line, Pen
+from ..text import Box
+
+SLACK = 1e-9  # mm
+Side = tuple[complex, float]  # unit normal into the area, its least component
+
+
+def hatched(sides: Sequence[Side], box: Box, apart: float, name: str) -> Group:
+    """Return strokes at 45 degrees over the part of a box that lies inside of all `sides`."""
+    x0, y0, x1, y1 = box
+    frame: list[Side] = [(1 + 0j, x0), (-1 + 0j, -x1), (1j, y0), (-1j, -y1)]
+    along = complex(1.0, 1.0) / 2**0.5
+    across = along * 1j
+    corners = [complex(x, y) for x in (x0, x1) for y in (y0, y1)]
+    reach = [(corner * across.conjugate()).real for corner in corners]
+    count = int((max(reach) - min(reach)) / apart)
+    lines = (across * (min(reach) + (k + 0.5) * apart) for k in range(count))
+    return Group(tuple(_clipped(lines, along, [*frame, *sides], hypot(x1 - x0, y1 - y0))), "permitted", name)
+
+
+def _clipped(lines: Iterable[complex], along: complex, sides: Sequence[Side], reach: float) -> Iterator[Line]:
+    """Go through the parts of lines, through points along a direction, that lie inside of all sides."""
+    for point in lines:
+        low, high = -1e3 * reach, 1e3 * reach
+        for normal, least in sides:
+            slope = (normal.conjugate() * along).real
+            lack = least - (normal.conjugate() * point).real
+            if abs(slope) < SLACK:
+                low = high if lack > 0.0 else low
+            elif slope > 0.0:
+                low = max(low, lack / slope)
+            else:
+                high = min(high, lack / slope)
+        if high - low > SLACK * reach:
+            yield Line(point + along * low, point + along * high, Pen.THIN, role="hatch")

@@ -1,0 +1,106 @@
+"""The plan of S over d2s/dphi2: the tangent at 45 degrees to the negative branch, the smallest cam for a plate."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+from ...plans.cams.size_plans import PLATE_SIZES
+from ..dimensions import linear
+from ..shapes import Circle, Group, Head, Line, Pen, Polyline
+from ..symbols import angle_dimension
+from ..view import Canvas, View
+from .diagrams_view import SAME
+from .scene import CamScene, pieces
+from .sizes_view import on_lines
+
+PAST = 8.0  # mm by which axes run past the curve
+OUT = {"r_0_flat_min": 14.0, "r_0_flat": 46.0}  # mm from the axis to the dimensions
+LINE = 12.0  # mm by which the tangent runs past the place where it touches
+
+
+def plate_sizes_view(scene: CamScene) -> View:
+    """Draw the diagram, and what it gives: r_0min, and r_0 with the radius of curvature wanted."""
+    solved, words = scene.solved, scene.words
+    plate = solved.plate
+    assert plate is not None
+    canvas, mu = Canvas(scene.style), scene.scale(PLATE_SIZES).mu
+    outline = _curve(canvas, scene)
+    left, right = (end(p.real for p in outline) for end in (min, max))
+    top, foot = max(p.imag for p in outline), -plate.sizes.r_0 / mu
+    for a, b in ((complex(left - PAST, 0.0), complex(right + PAST, 0.0)), (1j * (foot - PAST), 1j * (top + PAST))):
+        canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
+    canvas.label(words.symbol("s"), 1j * (top + PAST), prefer=1 + 0j, clear=1.2)
+    canvas.label(words.symbol("d2s"), complex(right + PAST, 0.0), prefer=-1j, clear=1.2)
+    _tangent(canvas, scene, plate.sizes.r_0_min / mu, plate.sizes.phi)
+    _nodes(canvas, scene)
+    _sizes(canvas, scene, right)
+    equal = f"{words.symbol('mu_s')} = {scene.factor(scene.scale(PLATE_SIZES))}"
+    slope = solved.values["mu_s"] / solved.values["mu_d2s"]
+    ratio = f"{words.symbol('mu_s')}/{words.symbol('mu_d2s')} = {scene.value(slope)}"
+    notes = (words["said.cam_equal"], words["said.cam_reduced"].format(ratio=ratio))
+    return canvas.finish("plate_sizes", (words["heading.cam_plate_sizes"], equal), notes)
+
+
+def _curve(canvas: Canvas, scene: CamScene) -> list[complex]:
+    """Draw the exact curve by smooth pieces, and the lines across where the acceleration jumps."""
+    motion, mu = scene.solved.motion, scene.scale(PLATE_SIZES).mu
+    every: list[complex] = []
+    for phase in (motion.rise, motion.fall):
+        curves = [
+            [complex(x, y) for x, y in zip((d2s / mu).tolist(), (s / mu).tolist(), strict=True)]
+            for _, s, _, d2s in pieces(scene.solved, phase)
+        ]
+        canvas.add(Group(tuple(Polyline(tuple(points), Pen.MAIN) for points in curves), "curve", phase.name))
+        ends = [[complex(0.0, curves[0][0].imag)], *curves, [complex(0.0, curves[-1][-1].imag)]]
+        steps = [(a[-1], b[0]) for a, b in pairwise(ends) if abs(b[0] - a[-1]) > SAME]
+        for k, (a, b) in enumerate(steps, start=1):
+            canvas.add(Group((Line(a, b, Pen.MAIN),), "jump", f"{phase.name}.{k}"))
+        every += [point for points in curves for point in points]
+    return every
+
+
+def _tangent(canvas: Canvas, scene: CamScene, r_0_min: float, phi: float) -> None:
+    """Draw the tangent at 45 degrees from past the place where it touches to the axis, with its angle."""
+    motion, mu = scene.solved.motion, scene.scale(PLATE_SIZES).mu
+    ends = [motion.at(phi, side) for side in (1, -1)]
+    s, _, d2s = min(ends, key=lambda at: float(at[0] + at[2]))
+    touch, foot = complex(float(d2s), float(s)) * (1.0 / mu), -1j * r_0_min
+    along = complex(-1.0, 1.0) / math.sqrt(2.0)
+    canvas.add(Line(touch + along * LINE, foot - along * LINE, Pen.THIN, role="limit", name="convex"))
+    canvas.add(Group((Circle(touch, scene.style.node, Pen.THIN, fill="black"),), "touch", "convex"))
+    radius = 3.0 * scene.style.label
+    canvas.add(angle_dimension(foot, radius, math.pi / 2, math.pi / 4, "tangent", scene.style))
+    at = foot + radius * complex(math.cos(0.625 * math.pi), math.sin(0.625 * math.pi))
+    canvas.label("45°", at, prefer=at - foot, clear=1.0, height=scene.style.text)
+
+
+def _nodes(canvas: Canvas, scene: CamScene) -> None:
+    """Mark and number the points on the section lines; at a jump both ends."""
+    shared: dict[complex, list[str]] = {}
+    for i, _ in on_lines(scene):
+        for end in ("before", "after"):
+            mark = f"{PLATE_SIZES}.{i}_{end}"
+            if mark not in scene.solved.values:
+                continue
+            at = scene.mm(mark)
+            key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
+            if str(i) not in shared.setdefault(key, []):
+                shared[key].append(str(i))
+                canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"{i}_{end}"))
+    for at, numbers in shared.items():
+        canvas.label(", ".join(numbers), at, prefer=1j, clear=0.8, height=scene.style.text)
+
+
+def _sizes(canvas: Canvas, scene: CamScene, right: float) -> None:
+    """Dimension r_0min and r_0 downwards from the lowest place of the plate."""
+    words, style, plate = scene.words, scene.style, scene.solved.plate
+    assert plate is not None
+    mu = scene.scale(PLATE_SIZES).mu
+    low, centre = (-1j * size / mu for size in (plate.sizes.r_0_min, plate.sizes.r_0))
+    canvas.add(Group((Circle(centre, 1.5 * style.node, Pen.MAIN, fill="white"),), "point", "O"))
+    canvas.label("O", centre, prefer=1 - 1j, clear=1.0)
+    sizes = ((low, "r_0_flat_min", plate.sizes.r_0_min), (centre, "r_0_flat", plate.sizes.r_0))
+    for at, name, size in sizes:
+        text = f"{words.symbol(name)} = {scene.length(size)}"
+        linear(canvas, (at, 0j), complex(OUT[name], 0.0), text, name)

@@ -1,0 +1,83 @@
+"""The plan of a cam with a flat-faced follower by inversion: the plate in all positions, and the profile."""
+
+from __future__ import annotations
+
+import math
+
+from ...plans.cams.inversion import PLATE_PROFILE
+from ..dimensions import linear
+from ..shapes import Circle, Group, Line, Pen, Polyline
+from ..view import Canvas, View
+from .hardware import Rod
+from .inversion import centre, dwelling, heading, numbers, phases, radius_at, unit_at
+from .roller_view import NUMBERS, PHASES
+from .scene import CamScene
+
+SPOT = 2.0  # mm of a plate's line beyond the farthest contact
+THICK = 0.5  # thickness of the plate, in heights of letters
+
+
+def plate_view(scene: CamScene) -> View:
+    """Draw the cam as it stands when the follower is lowest."""
+    solved, canvas, mu = scene.solved, Canvas(scene.style), scene.mu_l
+    plate = solved.plate
+    assert plate is not None
+    r_0, stroke, R = plate.sizes.r_0 / mu, solved.motion.h / mu, plate.sizes.R_plate / mu
+    label = scene.style.label
+    outer = math.hypot(r_0 + stroke, R)
+    rod = Rod(0.0, r_0 + THICK * label, outer + (PHASES + 1.5) * label, stroke, scene.style)
+    reach = outer + NUMBERS * label
+    centre(canvas, scene, r_0, rod.top + 6.0)
+    canvas.add(Circle(0j, r_0, Pen.THIN, role="circle", name="r_0_flat"))
+    _positions(canvas, scene, R, reach - 0.9 * label)
+    outline = plate.profile.outline() * (1.0 / mu)
+    canvas.add(Group((Polyline(tuple(outline.tolist()), Pen.MAIN, closed=True),), "curve", "practical"))
+    numbers(canvas, scene, 0.0, reach)
+    phases(canvas, scene, 0.0, outer + PHASES * label)
+    _follower(canvas, scene, rod, R)
+    _sizes(canvas, scene, rod, R)
+    edge = outer + (PHASES + 1.2) * label
+    canvas.bounds = -edge, -edge, edge, rod.top + 16.0
+    return canvas.finish("plate_profile", heading(scene, "heading.cam_plate_profile", PLATE_PROFILE))
+
+
+def _positions(canvas: Canvas, scene: CamScene, R: float, reach: float) -> None:
+    """Draw the axis and the plate of each position, its centre, and where it touches the profile."""
+    solved = scene.solved
+    for i, phi in enumerate(solved.angles.tolist()):
+        up = unit_at(phi, solved.cam.sense)
+        at, contact = (scene.mm(f"{PLATE_PROFILE}.{letter}{i}") for letter in "BK")
+        canvas.add(Line(0j, up * reach, Pen.THIN, role="position", name=str(i)))
+        if i:
+            canvas.add(Line(at + 1j * up * R, at - 1j * up * R, Pen.THIN, role="plate", name=str(i)))
+        for role, place in (("node", at), ("contact", contact)):
+            canvas.add(Group((Circle(place, scene.style.node, Pen.THIN, fill="white"),), role, str(i)))
+
+
+def _follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
+    """Draw the plate and its rod in position 0."""
+    low = rod.low - THICK * scene.style.label
+    corners = (complex(-R, low), complex(R, low), complex(R, rod.low), complex(-R, rod.low))
+    canvas.add(Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "plate", "0"))
+    canvas.add(*rod.shapes())
+
+
+def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
+    """Dimension the radii, the plate, how far to both sides it touches the profile, and the stroke."""
+    solved, words, mu, sense = scene.solved, scene.words, scene.mu_l, scene.solved.cam.sense
+    plate, motion = solved.plate, solved.motion
+    assert plate is not None
+    middle = dwelling(motion, sense)
+    radius_at(canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (plate.sizes.r_0 / mu, plate.sizes.r_0 / mu))
+    level = rod.low
+    text = f"{words.symbol('R_plate')} = {scene.length(plate.sizes.R_plate)}"
+    linear(canvas, (complex(0.0, level), complex(-sense * R, level)), 9j, text, "R_plate")
+    for side in (1.0, -1.0):
+        far = motion.maximum(0.0, side, 0.0).value / mu
+        text = scene.length(far * mu)
+        ends = complex(0.0, level), complex(sense * side * far, level)
+        linear(canvas, ends, 18j, f"|{words.symbol('ds')}|_{{max}} = {text}", "ds_max" if side > 0 else "ds_min")
+    top = solved.layout.division.top
+    up = unit_at(float(solved.angles[top]), sense)
+    ends = up * (plate.sizes.r_0 / mu), scene.mm(f"{PLATE_PROFILE}.B{top}")
+    linear(canvas, ends, up * (-1j * sense) * 4.0, f"{words.symbol('h')} = {scene.length(motion.h)}", "h")

@@ -1,0 +1,108 @@
+"""What every view of a cam needs: the cam solved, scale factors as they are drawn, words, sizes of the format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...plans.cams.integration import ACCELERATION, TRAVEL, VELOCITY
+from ...plans.cams.inversion import PLATE_PROFILE, PROFILE
+from ...plans.cams.motion import Phase
+from ...plans.cams.size_plans import PLATE_SIZES, SIZES
+from ...plans.cams.solve import PAPER, SolvedCam
+from ...scales.scale import Scale
+from ..givens import Given
+from ..printed import decimals_for
+from ..style import Style
+from ..words import Words
+
+Array = NDArray[np.float64]
+MU_DIGITS = 5  # of a scale factor that follows from a drawing: enough for 0.01 mm
+FINE = np.radians(0.5)  # between points of a curve
+DIAGRAM_SCALES = {ACCELERATION: "mu_d2s", VELOCITY: "mu_ds", TRAVEL: "mu_s"}
+
+
+@dataclass(frozen=True, slots=True)
+class CamScene:
+    """A solved cam on a certain format, in certain words.
+
+    `reduction` is what a millimetre of the board's diagrams is on the sheet, `coarser` how many times the scale factor
+    of the S-ds/dphi diagram is that of the travels, `mu_l` the scale factor of the profiles, m/mm.
+    """
+
+    solved: SolvedCam
+    words: Words
+    style: Style
+    givens: Mapping[str, Given]
+    reduction: float
+    coarser: float
+    mu_l: float
+
+    def mu(self, symbol: str) -> float:
+        """Return a scale factor of the diagrams as they are drawn, SI per mm."""
+        return float(self.solved.values[symbol]) / self.reduction
+
+    def scale(self, plan: str) -> Scale:
+        """Return the scale factor of a plan as it is drawn."""
+        if plan in DIAGRAM_SCALES:
+            symbol = DIAGRAM_SCALES[plan]
+            return Scale(symbol, self.mu(symbol), "m")
+        if plan in (PROFILE, PLATE_PROFILE):
+            return Scale("mu_l", self.mu_l, "m")
+        symbol, times = {SIZES: ("mu_s", self.coarser), PLATE_SIZES: ("mu_d2s", 1.0)}[plan]
+        return Scale(symbol, self.mu(symbol) * times, "m")
+
+    @property
+    def across(self) -> Scale:
+        """The scale factor of the axis of angles, rad/mm."""
+        return Scale("mu_phi", self.mu("mu_phi"), "rad")
+
+    def mm(self, mark: str) -> complex:
+        """Return a mark in mm from the origin of its plan."""
+        plan = mark.rpartition(".")[0]
+        if plan in DIAGRAM_SCALES:
+            return self.solved.point(mark) * (self.reduction / PAPER)
+        return self.solved.point(mark) * (1.0 / self.scale(plan).mu)
+
+    def paper(self, name: str) -> float:
+        """Return a length on the diagrams, mm as drawn."""
+        return float(self.solved.values[name]) * (self.reduction / PAPER)
+
+    def factor(self, scale: Scale) -> str:
+        """Return a scale factor with as many digits as drawings of 0.01 mm need."""
+        rounded = Scale(scale.symbol, float(f"{scale.mu:.{MU_DIGITS}g}"), scale.unit, scale.paper)
+        return self.words.scale(rounded)
+
+    def factors(self, *symbols: str, unit: str = "m", times: float = 1.0) -> str:
+        """Return a value of several scale factors at once: mu_s = mu_ds = 0.0002 m/mm."""
+        last = self.factor(Scale(symbols[-1], self.mu(symbols[0]) * times, unit))
+        return " = ".join([*(self.words.symbol(symbol) for symbol in symbols[:-1]), last])
+
+    def length(self, value: float) -> str:
+        """Return a length of the mechanism in mm, as a dimension has it."""
+        return self.words.number(value * 1e3, 2)
+
+    def degrees(self, angle: float) -> str:
+        """Return an angle as a dimension has it: to a hundredth of a degree, without zeros at the end."""
+        return f"{self.words.short(round(float(np.degrees(angle)), 2))}°"
+
+    def value(self, value: float) -> str:
+        """Return a value with the usual digits."""
+        return self.words.number(value, decimals_for(value))
+
+
+def pieces(solved: SolvedCam, phase: Phase) -> list[tuple[Array, Array, Array, Array]]:
+    """Return the smooth pieces of a phase, densely: phi, s, s', s'' of each, with the limits at both its ends."""
+    found = []
+    for low, high in pairwise(phase.corners):
+        phi = np.linspace(low, high, max(2, int(np.ceil((high - low) / FINE))) + 1)
+        here: list[Any] = [np.array(v) for v in solved.motion.at(phi)]
+        for value, last in zip(here, solved.motion.at(phi[-1:], -1), strict=True):
+            value[-1] = last[0]
+        found.append((phi, *here))
+    return found

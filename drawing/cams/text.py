@@ -1,0 +1,183 @@
+"""Calculations of a cam with their numbers: scale factors, sizes, rules of design and whether they are kept."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from ...plans.cams.integration import ACCELERATION
+from ...plans.cams.profile import OF_R_0, OF_RHO_MIN
+from ..printed import Input, calculation
+from ..table import text_block
+from ..view import View
+from .scene import CamScene
+
+Lines = list[tuple[str, ...]]
+Terms = Sequence[tuple[str, float, bool]]  # symbol, number as it is printed, whether it is exact
+
+
+def scales_block(scene: CamScene, width: float) -> View:
+    """Return the calculation of amplitudes, scale factors and greatest rates."""
+    lines = [*_amplitudes(scene), *_factors(scene), *_chords(scene), *_rates(scene)]
+    return text_block("equations_scales", scene.words["heading.cam_scales"], lines, scene.style, width)
+
+
+def roller_block(scene: CamScene, width: float) -> View:
+    """Return the sizes of the cam for a roller, with the rules for its radius and the transmission angles."""
+    solved, words = scene.solved, scene.words
+    roller = solved.roller
+    assert roller is not None
+    mm = words.unit("mm")
+    sizes = roller.sizes
+    e, s_0 = (sizes.e * 1e3, True), (sizes.s_0 * 1e3, True)
+    lines: Lines = [
+        _worked(
+            scene,
+            "r_0",
+            "√({e}^{{2}} + {s_0}^{{2}})",
+            math.hypot,
+            [("e", abs(e[0]), False), ("s_0", s_0[0], False)],
+            "mm",
+        )
+    ]
+    if "r_0_tangents" in solved.values:
+        pair = ((name, float(solved.values[name]) * 1e3) for name in ("r_0_tangents", "e_tangents"))
+        texts = (f"{words.symbol(name)} = {words.number(value, 2)} {mm}" for name, value in pair)
+        lines.append((f"{words['said.cam_tangents']}:", "; ".join(texts)))
+    lines += _rules(
+        scene, roller.profile.R, (("r_0", OF_R_0, sizes.r_0), ("rho_min", OF_RHO_MIN, roller.profile.rho_min))
+    )
+    for phase, gamma in (("rise", roller.limits.gamma_rise), ("fall", roller.limits.gamma_fall)):
+        name = f"gamma_{phase}"
+        least = float(solved.values[f"{name}_min"])
+        verdict = _verdict(scene, least >= gamma * (1.0 - 1e-9))
+        sides = (
+            f"{words.symbol(f'{name}_min')} = {scene.degrees(least)} ≥ {words.symbol(name)} = {scene.degrees(gamma)}"
+        )
+        lines.append((sides, verdict))
+    return text_block("equations_roller", words["heading.cam_roller"], lines, scene.style, width)
+
+
+def plate_block(scene: CamScene, width: float) -> View:
+    """Return the sizes of the cam for a plate."""
+    words, plate = scene.words, scene.solved.plate
+    assert plate is not None
+    values = scene.solved.values
+    lines: Lines = []
+    if "r_0_flat_tangent" in values:
+        tangent = float(values["r_0_flat_tangent"]) * 1e3
+        text = f"{words.symbol('r_0_flat_tangent')} = {words.number(tangent, 2)} {words.unit('mm')}"
+        lines.append((f"{words['said.cam_tangents']}:", text))
+    sizes = plate.sizes
+    lines.append(
+        _worked(
+            scene,
+            "r_0_flat",
+            "{r_0_flat_min} + {rho_flat}",
+            lambda a, b: a + b,
+            [("r_0_flat_min", sizes.r_0_min * 1e3, False), ("rho_flat", float(values["rho_flat"]) * 1e3, True)],
+            "mm",
+        )
+    )
+    lines.append(
+        _worked(
+            scene,
+            "R_plate",
+            "|{ds}|_{{max}} + {margin}",
+            lambda a, b: a + b,
+            [("ds", scene.solved.motion.ds_max.value * 1e3, False), ("margin", float(values["margin"]) * 1e3, True)],
+            "mm",
+        )
+    )
+    return text_block("equations_plate", words["heading.cam_plate"], lines, scene.style, width)
+
+
+def _worked(
+    scene: CamScene, name: str, formula: str, law: Callable[..., float], terms: Terms, unit: str, more: str = ""
+) -> tuple[str, ...]:
+    """Return `name = formula = numbers = result unit`, printed so that it recomputes."""
+    words = scene.words
+    texts, result = calculation(words, law, [Input(value, exact) for _, value, exact in terms])
+    symbols = formula.format(**{term: words.symbol(term) for term, _, _ in terms})
+    numbers = formula.format(**{term: text for (term, _, _), text in zip(terms, texts, strict=True)})
+    said = f"= {result} {words.unit(unit)}" if unit else f"= {result}"
+    return tuple(filter(None, (f"{words.symbol(name)} = {symbols}", f"= {numbers}", said, more)))
+
+
+def _given_a(scene: CamScene) -> bool:
+    return scene.solved.layout.given == ACCELERATION
+
+
+def _amplitudes(scene: CamScene) -> Lines:
+    if "l_A2" not in scene.solved.values:
+        return []
+    u = float(scene.solved.values["u"])
+    terms = [("l_A1", scene.paper("l_A1"), True), ("u", u, False)]
+    return [_worked(scene, "l_A2", "{l_A1}·{u}/(1 − {u})", lambda a, b: a * b / (1.0 - b), terms, "mm")]
+
+
+def _factors(scene: CamScene, mark: str = "") -> Lines:
+    """Return mu_s from the drawn stroke, and what follows from it; `mark` is that of chords."""
+    solved, mu = scene.solved, scene.mu
+    h, omega = (float(solved.values[name]) for name in ("h", "omega"))
+    highest = scene.paper("S_max_chord") if mark else solved.motion.h / mu("mu_s")
+    lines = [
+        _worked(
+            scene,
+            f"mu_s{mark}",
+            "{h}/{S_max" + mark + "}",
+            lambda a, b: a / b,
+            [("h", h, True), (f"S_max{mark}", highest, False)],
+            "m/mm",
+        )
+    ]
+    chain = [("mu_ds", "mu_s", "H_v")] + [("mu_d2s", "mu_ds", "H_a")] * _given_a(scene)
+    for name, base, pole in chain:
+        terms = [
+            (f"{base}{mark}", mu(f"{base}{mark}"), False),
+            ("mu_phi", mu("mu_phi"), False),
+            (pole, scene.paper(pole), True),
+        ]
+        formula = f"{{{base}{mark}}}/({{mu_phi}}·{{{pole}}})"
+        lines.append(_worked(scene, f"{name}{mark}", formula, lambda a, b, c: a / (b * c), terms, "m/mm"))
+    if mark:
+        return lines
+    terms = [("omega", omega, True), ("mu_ds", mu("mu_ds"), False)]
+    lines.append(_worked(scene, "mu_v", "{omega}·{mu_ds}", lambda a, b: a * b, terms, "(m/s)/mm"))
+    if _given_a(scene):
+        terms = [("omega", omega, True), ("mu_d2s", mu("mu_d2s"), False)]
+        lines.append(_worked(scene, "mu_a", "{omega}^{{2}}·{mu_d2s}", lambda a, b: a * a * b, terms, "(m/s^2)/mm"))
+    return lines
+
+
+def _chords(scene: CamScene) -> Lines:
+    return [(f"{scene.words['said.cam_by_chords']}:",), *_factors(scene, "_chord")]
+
+
+def _rates(scene: CamScene) -> Lines:
+    """Return the greatest velocity and acceleration of the follower."""
+    solved = scene.solved
+    omega = float(solved.values["omega"])
+    terms = [("omega", omega, True), ("ds_max", solved.motion.ds_max.value, False)]
+    lines = [_worked(scene, "v_max", "{omega}·{ds_max}", lambda a, b: a * b, terms, "m/s")]
+    if _given_a(scene):
+        terms = [("omega", omega, True), ("d2s", solved.motion.d2s_max.value, False)]
+        lines.append(_worked(scene, "a_max", "{omega}^{{2}}·|{d2s}|_{{max}}", lambda a, b: a * a * b, terms, "m/s^2"))
+    return lines
+
+
+def _rules(scene: CamScene, R: float, rules: Sequence[tuple[str, float, float]]) -> Lines:
+    """Return the rules for the roller's radius, each with its numbers and whether it is kept."""
+    words, lines = scene.words, Lines()
+    for name, part, size in rules:
+        if not math.isfinite(size):
+            continue
+        texts, limit = calculation(words, lambda a, b: a * b, [Input(part, True), Input(size * 1e3)])
+        sides = f"{words.symbol('R_roller')} = {words.short(round(R * 1e3, 6))} {words.unit('mm')} ≤ "
+        rule = f"{words.short(part)}·{words.symbol(name)} = {texts[0]}·{texts[1]} = {limit} {words.unit('mm')}"
+        lines.append((sides + rule, _verdict(scene, part * size >= R)))
+    return lines
+
+
+def _verdict(scene: CamScene, kept: bool) -> str:
+    return f"({scene.words['said.cam_ok' if kept else 'said.cam_fails']})"

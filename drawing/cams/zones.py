@@ -1,0 +1,43 @@
+"""The customary arrangement of a cam's sheet of format A1: diagrams on the left, profiles on top, tables below."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..compose import usable
+from ..formats import Format, reserved_boxes
+from ..nesting import column, names, nested, row
+from ..packing import Placement
+from ..pens import Norm
+from ..view import View
+
+BLOCK, TURNED = "block", "turned"  # the title block below the last column, column 26 above the first one
+LAYOUT = row(
+    column(TURNED, "diagrams", "equations_plate"),
+    column(
+        row("profile", "plate_profile", "sizes"),
+        row(
+            "motion",
+            column("givens", "pressure", "equations_roller"),
+            column("plate_sizes", "equations_scales", BLOCK),
+        ),
+    ),
+)
+GAP = 5.0  # mm between views
+
+
+def zoned(views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] | None:
+    """Return the places of the views on one page; None if they have no room, or are others than those of a cam."""
+    x0, y0, x1, y1 = usable(sheet, norm)
+    block, *turned = reserved_boxes(sheet, norm)
+    sizes = {view.name: view.size for view in views}
+    if not sizes.keys() <= set(names((LAYOUT,))):
+        return None
+    sizes[BLOCK] = x1 - block[0], block[3] - y0
+    for box in turned:
+        sizes[TURNED] = box[2] - x0, y1 - box[1]
+    found = nested(LAYOUT, sizes, (x1 - x0, y1 - y0), GAP)
+    if found is None:
+        return None
+    places = {name: Placement(0, x0 + x, y0 + y) for name, x, y in found}
+    return [places[view.name] for view in views]
