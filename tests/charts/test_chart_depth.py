@@ -76,7 +76,7 @@ def test_all_inertia_is_listed_once_where_there_is_no_weight() -> None:
     assert WEIGHTS not in keys
 
 
-@pytest.mark.parametrize("tolerance", [0.0, 0.5, 5.0, 200.0])
+@pytest.mark.parametrize("tolerance", [0.0, 5.0, 200.0, pytest.param(0.5, marks=pytest.mark.soak)])
 def test_what_may_go_costs_less_than_the_tolerance(tolerance: float) -> None:
     whole = of_task("scheme-09-shaper")
     found = depth(whole, tolerance)

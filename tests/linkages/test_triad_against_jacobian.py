@@ -83,7 +83,7 @@ def still(mechanism: Mechanism) -> set[str]:
 def test_every_two_legs_give_the_same(both: Both) -> None:
     expected = both.second.expected()
 
-    for legs in PAIRS:
+    for legs in PAIRS if len(both.codes) == MANY else PAIRS[::2]:  # two of three by default
         other = solve_by(both, legs)
 
         assert wrong(other, expected, ALL_KINDS) == {}
