@@ -105,7 +105,7 @@ def test_json_has_jumps_with_both_limits_and_si(capsys: pytest.CaptureFixture[st
 
 
 def test_what_an_undercut_profile_loses_is_marked_in_the_csv_and_said() -> None:
-    found = swept(set={"R_roller": "12 mm", "u": "0.2", "gamma_rise": "40 deg", "gamma_fall": "40 deg"})
+    found = swept(set={"R_roller": "13 mm", "u": "0.2", "gamma_rise": "40 deg", "gamma_fall": "40 deg"})
     _, rows = rows_of(found.csv())
     cuts = found.to_json()["undercut"]
 

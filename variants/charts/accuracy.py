@@ -7,7 +7,7 @@ import platform
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -36,6 +36,7 @@ TIMES = ("seconds [s]", "at_once", "failed", "front")
 class AccuracyChart:
     """Speed against accuracy: `contest` holds an entry for every method, setting and kind of quantities."""
 
+    heading: ClassVar[str] = "chart.accuracy"
     scene: Scene
     cycle: Cycle
     contest: Contest
@@ -103,7 +104,7 @@ class AccuracyChart:
         """Draw the picture."""
         from ...drawing.charts.accuracy import accuracy_page
 
-        title, turns = self.scene.title("chart.accuracy"), self.cycle.drive.turns
+        title, turns = self.scene.title(self.heading), self.cycle.drive.turns
         return accuracy_page(self.contest, words, title, "\n".join(self.notes(words)), self.scene.hand, turns)
 
 

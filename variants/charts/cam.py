@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from ...plans.cams.solve import SolvedCam
 from ...scales.errors import InputError
+from .cam_stability import cam_stability_chart
 from .data import Scene
 from .gallery import Asked, Chart
 from .sections import sections_chart
@@ -15,7 +16,7 @@ from .sections import sections_chart
 class CamCharts:
     """Makes the charts of one cam."""
 
-    charts: ClassVar[tuple[str, ...]] = ("sections",)
+    charts: ClassVar[tuple[str, ...]] = ("sections", "stability")
     used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {"quantities": ("sections",)}
 
     def make(self, name: str, scene: Scene, asked: Asked) -> Chart:
@@ -30,4 +31,6 @@ class CamCharts:
         assert isinstance(solved, SolvedCam)
         if not solved.program.plans:
             raise InputError("chart-no-diagrams")
+        if name == "stability":
+            return cam_stability_chart(scene, solved)
         return sections_chart(scene, solved, asked.quantities)

@@ -54,7 +54,7 @@ class Charts:
     def table(self, language: str | None = None) -> str:
         """Return all charts as text."""
         words = self.words if language is None else self.words.speaking(language)
-        parts = (f"{words[f'chart.{name}']}\n\n{chart.table(words)}" for name, chart in self.charts.items())
+        parts = (f"{words[chart.heading]}\n\n{chart.table(words)}" for chart in self.charts.values())
         return "\n\n\n".join(parts)
 
     def to_json(self) -> dict[str, Any]:

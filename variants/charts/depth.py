@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...drawing.charts.depth import verdict
 from ...drawing.words import Words
@@ -23,6 +23,7 @@ HEAD = ("without", "parts", "balance_max [%]", "balance_rms [%]", "reaction_max 
 class DepthChart:
     """What simplifications cost over the cycle."""
 
+    heading: ClassVar[str] = "chart.depth"
     scene: Scene
     cycle: Cycle
     found: Depth
@@ -88,7 +89,7 @@ class DepthChart:
         """Draw the picture."""
         from ...drawing.charts.depth import depth_page
 
-        return depth_page(self.found, words, self.scene.title("chart.depth"))
+        return depth_page(self.found, words, self.scene.title(self.heading))
 
 
 def depth_chart(scene: Scene, cycle: Cycle, tolerance: float) -> DepthChart:

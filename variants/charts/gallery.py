@@ -14,7 +14,9 @@ if TYPE_CHECKING:
 
 
 class Chart(Protocol):
-    """One chart of a variant: a table, rows, data, a picture."""
+    """One chart of a variant: a table, rows, data, a picture; `heading` is the key of what it shows."""
+
+    heading: ClassVar[str]
 
     def table(self, words: Words) -> str:
         """Return it as text."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...drawing.words import Words
 from ...plans.cams.convergence import DRAWINGS, Convergence, convergence, exact_values
@@ -25,6 +25,7 @@ NOBODY = "exact"  # draws chords without errors
 class SectionsChart:
     """Errors of the diagrams by chords against the number of sections, with and without errors of drawing."""
 
+    heading: ClassVar[str] = "chart.sections"
     scene: Scene
     found: Convergence
 
@@ -91,7 +92,7 @@ class SectionsChart:
         """Draw the picture."""
         from ...drawing.charts.sections import sections_page
 
-        return sections_page(self.found, words, self.scene.title("chart.sections"))
+        return sections_page(self.found, words, self.scene.title(self.heading))
 
 
 def sections_chart(scene: Scene, solved: SolvedCam, quantities: Sequence[str]) -> SectionsChart:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -44,6 +44,7 @@ LOOKED = 12  # positions at which scale factors are looked for
 class StabilityChart:
     """What is lost over the cycle; `scales` are the scale factors of the hand, by plan."""
 
+    heading: ClassVar[str] = "chart.stability"
     scene: Scene
     cycle: Cycle
     found: Stability
@@ -146,7 +147,7 @@ class StabilityChart:
         symbol = GREEK.get(name.partition("_")[0], name.partition("_")[0])
         unit = "°" if self.cycle.drive.turns else words.unit("mm")
         along = Abscissa(f"{symbol}, {unit}", self.cycle.drive.turns)
-        title, apart = self.scene.title("chart.stability"), self.cycle.reach.apart
+        title, apart = self.scene.title(self.heading), self.cycle.reach.apart
         return stability_page(self.found, apart, words, title, along, self.scene.hand)
 
 
