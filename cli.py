@@ -251,7 +251,7 @@ def sweep(
         "kulman chart nau-slider-crank -v 3 --chart depth -o depth.pdf",
         "kulman chart nau-slider-crank --chart stability --quantities V_B,a_B,M_bal -o stability.csv",
         "kulman chart nau-slider-crank --chart stability,depth --positions 24 --tolerance 0.5",
-        "kulman chart madi-cam --chart sections -o sections.pdf",
+        "kulman chart madi-cam --chart sections -o sections.csv",
     )
 )
 @of_task
