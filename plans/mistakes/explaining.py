@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..marking.answers import FREE, Said
-from ..marking.verdicts import CLEAR, Line, Marking, Verdict, judge
+from ..marking.verdicts import CLEAR, Line, Marking, Verdict, behind, judge
 from .book import Book, Signature, broken, key_of, signature
 from .rules import Broken
 
@@ -235,12 +235,15 @@ class _Search:
         return None if made is None else self._candidate((one, made))
 
     def _carried(self, candidate: Candidate) -> Marking:
-        """Return the marking in which lines after the first wrong one that the candidate explains are carried."""
+        """Return the marking in which the first line that the candidate explains is wrong, and the others are carried.
+
+        That line may miss by so little that it seemed a slip of the hand.
+        """
         if candidate.misses > 1.0:
             return self.marking  # it fits in part, but not within the tolerances
-        explained = set(candidate.explained) - {self.marking.first_wrong}
-        lines = tuple(_carried(line) if line.name in explained else line for line in self.marking.lines)
-        return replace(self.marking, lines=lines)
+        first, *others = candidate.explained
+        lines = tuple(_carried(line) if line.name in others else line for line in self.marking.lines)
+        return replace(self.marking, lines=lines, first_wrong=first, step=behind(self.marking.key, first))
 
 
 def _carried(line: Line) -> Line:

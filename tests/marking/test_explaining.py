@@ -206,6 +206,19 @@ def test_a_mistake_is_told_on_a_drawing_that_its_flat_angles_have_led_astray(pla
     assert sum(any(place[0] in candidate.ids for candidate in one.candidates) for one in told) >= 7
 
 
+def test_a_line_that_seemed_a_slip_is_the_first_wrong_one_where_the_mistake_explains_it() -> None:
+    task, place = "scheme-08-planer", ("M67", "_R_03_t", "")
+    found = next(one for one in mistakes(task).signatures if one.broken.place == place)
+    marked = [mark(key(task), planted(mistakes(task), found, SEED + i, directions=False)) for i in range(8)]
+
+    told = [explain(mistakes(task), one).marking for one in marked]
+
+    assert sum(one.first_wrong == "h_3" for one in told) > sum(one.first_wrong == "h_3" for one in marked)
+    assert {one.first_wrong for one in told} == {"h_3"}
+    assert {one.step and one.step.name for one in told} == {"h_3"}
+    assert {one["h_3"].verdict for one in told} == {Verdict.WRONG}
+
+
 def test_right_answers_have_no_explanation() -> None:
     for task in FEW:
         explanation = explain(mistakes(task), mark(key(task), right_answers(key(task))))
@@ -252,10 +265,11 @@ def plant(task: str, found: Signature, seed: int, directions: bool) -> Planted:
     explanation = explain(mistakes(task), marking)
     ids = [candidate.ids for candidate in explanation.candidates]
     id = found.broken.mistake
-    after = [x for x in explanation.marking.answered if moved.get(x.name, 0.0) > 1.0 and x.name != marking.first_wrong]
+    first = explanation.marking.first_wrong
+    after = [x for x in explanation.marking.answered if moved.get(x.name, 0.0) > 1.0 and x.name != first]
     return Planted(
         (task, *found.broken.place),
-        apart(of_task, moved, marking.first_wrong),
+        apart(of_task, moved, first),
         any(id in some for some in ids),
         bool(ids) and id in ids[0],
         len(after),
