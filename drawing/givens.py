@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from .words import Words
@@ -12,6 +13,8 @@ if TYPE_CHECKING:
     from .style import Style
     from .view import View
 
+LONG, DENOMINATOR, ROUNDING = 10, 100, 1e-11  # characters of a number that may be a simple fraction
+
 
 @dataclass(frozen=True, slots=True)
 class Given:
@@ -19,6 +22,19 @@ class Given:
 
     value: float | str
     unit: str = ""
+
+
+def choice(words: Words, name: str, value: str) -> tuple[str, str]:
+    """Return what a given that is a choice is about, and the word chosen."""
+    return words.texts.get(f"given.{name}", name), words.texts.get(f"choice.{value}", value)
+
+
+def _number(words: Words, value: float) -> str:
+    """Return a number as short as it is: a third as a fraction."""
+    simple = Fraction(value).limit_denominator(DENOMINATOR)
+    if len(text := words.short(value)) > LONG and abs(value - simple) < ROUNDING * abs(value):
+        return f"{simple.numerator}/{simple.denominator}"
+    return text
 
 
 def givens_view(
@@ -30,9 +46,8 @@ def givens_view(
     rows = [[words["table.symbol"], words["table.value"], words["table.unit"]]]
     for name, given in givens.items():
         if isinstance(given.value, str):
-            label = words.texts.get(f"given.{name}", name)
-            rows.append([label, words.texts.get(f"choice.{given.value}", given.value), ""])
+            rows.append([*choice(words, name, given.value), ""])
         else:
-            rows.append([words.symbol(name), words.short(given.value), words.unit(given.unit)])
+            rows.append([words.symbol(name), _number(words, given.value), words.unit(given.unit)])
     rows += map(list, more)
     return table("givens", words["heading.givens"], rows, style)

@@ -22,6 +22,7 @@ from .scene import CamScene
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
 REDUCTIONS = (1.0, 0.8, 0.5, 0.4, 0.25, 0.2, 0.1)  # of the diagrams, whose scale factors grow as much
 COARSER = (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)  # scale factors of the S-ds/dphi diagram, in those of the travel
+NARROW = 0.65  # part of the width of lines that those on the sizes of a cam may have
 MU_L = 0.001  # m/mm, M 1:1, where nothing is said
 
 
@@ -73,9 +74,12 @@ def _views(scene: CamScene, plan: str, width: float) -> Iterator[View]:
     if plan == DIAGRAMS:
         from .diagrams_view import diagrams_view
         from .tables import motion_table
-        from .text import scales_block
+        from .text import choices_block, scales_block
 
-        yield givens_view(scene.givens, scene.words, scene.style)
+        numbers = {name: given for name, given in scene.givens.items() if not isinstance(given.value, str)}
+        yield givens_view(numbers, scene.words, scene.style)
+        if len(numbers) < len(scene.givens):
+            yield choices_block(scene, NARROW * width)
         yield diagrams_view(scene)
         yield scales_block(scene, width)
         yield motion_table(scene)
@@ -86,7 +90,7 @@ def _views(scene: CamScene, plan: str, width: float) -> Iterator[View]:
 
         if solved.roller is not None:
             yield sizes_view(scene)
-            yield roller_block(scene, width)
+            yield roller_block(scene, NARROW * width)
         if solved.plate is not None:
             yield plate_sizes_view(scene)
             yield plate_block(scene, width)

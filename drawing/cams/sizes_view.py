@@ -169,5 +169,6 @@ def pressed(scene: CamScene, part: float) -> int:
     assert solved.roller is not None
     lines = [*range(1, solved.layout.division.top)]
     theta = pressure_angle(solved.motion, solved.roller.sizes, solved.angles[lines], solved.cam.sense)
-    pressure: list[float] = (solved.cam.sense * theta).tolist()
-    return min(zip(lines, pressure, strict=True), key=lambda one: abs(one[1] - part * max(pressure)))[0]
+    pressure: dict[int, float] = dict(zip(lines, (solved.cam.sense * theta).tolist(), strict=True))
+    most = part * max(pressure.values())
+    return min(pressure, key=lambda line: abs(pressure[line] - most))

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.profile import OF_R_0, OF_RHO_MIN
+from ..givens import choice
 from ..printed import Input, calculation
 from ..table import text_block
 from ..view import View
@@ -20,6 +21,14 @@ def scales_block(scene: CamScene, width: float) -> View:
     """Return the calculation of amplitudes, scale factors and greatest rates."""
     lines = [*_amplitudes(scene), *_factors(scene), *_chords(scene), *_rates(scene)]
     return text_block("equations_scales", scene.words["heading.cam_scales"], lines, scene.style, width)
+
+
+def choices_block(scene: CamScene, width: float) -> View:
+    """Return the choices that the task makes in words."""
+    words = scene.words
+    chosen = (choice(words, name, given.value) for name, given in scene.givens.items() if isinstance(given.value, str))
+    lines: Lines = [(f"{about}:", said) for about, said in chosen]
+    return text_block("choices", words["heading.cam_choices"], lines, scene.style, width)
 
 
 def roller_block(scene: CamScene, width: float) -> View:

@@ -17,8 +17,8 @@ LAYOUT = row(
     column(
         row("profile", "plate_profile", "sizes"),
         row(
-            "motion",
-            column("givens", "pressure", "equations_roller"),
+            column("motion", "equations_roller"),
+            column("givens", "choices", "pressure"),
             column("plate_sizes", "equations_scales", BLOCK),
         ),
     ),
