@@ -201,15 +201,15 @@ def test_a_mistake_is_told_on_a_drawing_that_its_flat_angles_have_led_astray(pla
     task = "scheme-13-toggle-press"
     found = next(one for one in mistakes(task).signatures if one.broken.place == place)
 
-    told = [explain(mistakes(task), mark(key(task), planted(mistakes(task), found, SEED + i))) for i in range(8)]
+    told = [explain(mistakes(task), mark(key(task), planted(mistakes(task), found, SEED + i))) for i in range(4)]
 
-    assert sum(any(place[0] in candidate.ids for candidate in one.candidates) for one in told) >= 7
+    assert sum(any(place[0] in candidate.ids for candidate in one.candidates) for one in told) >= 3
 
 
 def test_a_line_that_seemed_a_slip_is_the_first_wrong_one_where_the_mistake_explains_it() -> None:
     task, place = "scheme-08-planer", ("M67", "_R_03_t", "")
     found = next(one for one in mistakes(task).signatures if one.broken.place == place)
-    marked = [mark(key(task), planted(mistakes(task), found, SEED + i, directions=False)) for i in range(8)]
+    marked = [mark(key(task), planted(mistakes(task), found, SEED + i, directions=False)) for i in range(4)]
 
     told = [explain(mistakes(task), one).marking for one in marked]
 

@@ -59,7 +59,7 @@ def test_answers_of_honest_hands_are_right(task: str, count: int, directions: bo
 
 @pytest.mark.parametrize("task", ["scheme-01-compressor", "scheme-08-planer"])
 def test_no_line_of_an_honest_hand_fails_often(task: str) -> None:
-    marked = [mark(key(task), answers) for answers in students(key(task), paper(task), 40, SEED, directions=False)]
+    marked = [mark(key(task), answers) for answers in students(key(task), paper(task), 24, SEED, directions=False)]
 
     failed = {name: np.mean([marking[name].verdict.faulty for marking in marked]) for name in key(task).questions}
 
@@ -74,7 +74,7 @@ def test_millimetres_of_honest_hands_are_right_without_scale_factors(everything:
     lines = [
         line
         for task in NO_SCALES
-        for answers in students(key(task), paper(task), 4, SEED, directions=False)
+        for answers in students(key(task), paper(task), 2, SEED, directions=False)
         for line in mark(key(task), in_millimetres(key(task), answers, everything)).answered
     ]
 
