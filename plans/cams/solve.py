@@ -8,7 +8,7 @@ from typing import Any
 
 from ..board import Program
 from ..boards.exact import run
-from ..quantities import quantities, shown_on
+from ..quantities import Quantity, quantities, shown_on
 from ..solved import Solved
 from .cam import PLANS, PLATE, ROCKER, ROLLER, Cam
 from .construction import Layout, construct, with_needs
@@ -46,6 +46,7 @@ PAPER = 1e-3  # metres of paper in a millimetre: the diagrams are drawn in these
 UNITS = {
     "v_max": "m/s",
     "a_max": "m/s^2",
+    "mu_phi": "rad/mm",
     "mu_v": "(m/s)/mm",
     "mu_a": "(m/s^2)/mm",
     "mu_s": "m/mm",
@@ -132,7 +133,7 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     return SolvedCam(
         program=program,
         values=board.values,
-        quantities=quantities(program, board.values, _lengths(values), unit_of),
+        quantities=_stated(values) | quantities(program, board.values, _lengths(values), unit_of),
         sines=board.sines,
         status=board.status,
         trouble=board.trouble,
@@ -166,6 +167,11 @@ def _cams(cam: Cam, motion: Motion, values: Mapping[str, float], given: str) -> 
         elif given == ACCELERATION:
             found[PLATE] = plate_cam(cam, motion, values)
     return found
+
+
+def _stated(values: Mapping[str, Any]) -> dict[str, Quantity]:
+    """Return the given scale factor of the axis of angles, which is a result, too."""
+    return {name: Quantity(name, float(values[name]), unit_of(name)) for name in ("mu_phi",) if name in values}
 
 
 def _lengths(values: Mapping[str, Any]) -> dict[str, float]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ...plans.cams.cam import DIAGRAMS, PLANS, PLATE, ROCKER, ROLLER, Cam
+from ...plans.cams.cam import DIAGRAMS, PLANS, PLATE, PROFILE, ROCKER, ROLLER, Cam
 from ...scales.choose import Choosers, Fixed
 from ...scales.errors import InputError
 from ...scales.names import unknown
@@ -136,17 +136,18 @@ class Cams(Kind[Cam, "SolvedCam"]):
         found: Verdicts = {}
         rolling = solved.roller or solved.rocker
         if rolling is not None:
-            roller, r_0, rho_min = (solved.values[name] for name in ("R_roller", "r_0", "rho_min"))
-            of_r_0, of_rho_min = largest_roller(r_0, rho_min)
+            roller, rho_min = solved.values["R_roller"], solved.values.get("rho_min")
+            of_r_0, of_rho_min = largest_roller(solved.values["r_0"], rho_min or 0.0)
             found["roller_of_radius"] = _at_most(roller, of_r_0, "m")
-            found["roller_of_curvature"] = _at_most(roller, of_rho_min, "m")
+            if rho_min is not None:
+                found["roller_of_curvature"] = _at_most(roller, of_rho_min, "m")
             for phase in ("rise", "fall"):
                 least, permitted = solved.values[f"gamma_{phase}_min"], solved.values[f"gamma_{phase}"]
                 found[f"gamma_{phase}"] = _at_least(least, permitted, "rad")
         for follower, profile in _profiles(solved):
             lost = max((undercut.lost for undercut in profile.undercuts), default=0.0)
             found[f"undercut_{follower}"] = {"ok": not profile.undercuts, "value": lost, "limit": 0.0, "unit": "m"}
-        if solved.plate is not None:
+        if solved.plate is not None and "undercut_plate" in found:
             found["convex"] = _at_least(solved.plate.profile.rho_min, 0.0, "m")
         return found
 
@@ -195,9 +196,10 @@ def cam(solved: Any) -> SolvedCam:
 
 
 def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlateProfile]]:
-    """Go through the profiles, each with the follower that it moves."""
+    """Go through the profiles that are drawn, each with the follower that it moves."""
+    drawn = {plan.removeprefix("plate_") for plan in solved.program.plans}
     for follower, found in ((ROLLER, solved.roller), (PLATE, solved.plate), (ROCKER, solved.rocker)):
-        if found is not None:
+        if found is not None and PROFILE in drawn:
             yield follower, found.profile
 
 
