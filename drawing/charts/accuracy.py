@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+from ...plans.cams.rivals import BOARD, CLOSED, MIDPOINT, MISSED, SIMPSON, TRAVELS, VELOCITIES
+from ...plans.contest import Contest, Entry
 from ...plans.linkages.accuracy.comparison import (
     CHORDS,
     DIFFERENCES,
@@ -16,8 +18,6 @@ from ...plans.linkages.accuracy.comparison import (
     NEWTON,
     PLAN,
     SINGLE,
-    Contest,
-    Entry,
 )
 from ..words import Words
 from .lettering import Label, put
@@ -31,6 +31,8 @@ FIELDS = ((24.0, 116.0), (164.0, 116.0), (24.0, 25.0), (164.0, 25.0))  # left an
 SIZE = (126.0, 60.0)
 BAND, PAPER = 14.0, 3.2  # mm above a field with bars of the hand, which has no time; a row of it
 RING = 10.0  # pixels around the middle of a ring that stay free of labels
+ERRORS = {TRAVELS: "chart.error.travel", VELOCITIES: "chart.error.speed"}  # in parts of something else than vectors
+SECTIONED = (CHORDS, BOARD, MIDPOINT, MISSED, SIMPSON)  # methods whose setting is a number of sections
 LARGEST = 3.0  # error beyond which a method means nothing
 
 
@@ -52,6 +54,11 @@ LOOKS: Mapping[str, Look] = {
     NEWTON: Look("^", False, (0, (5, 2)), (0, 1), "newton"),
     DIFFERENCES: Look("D", True, (0, (1, 1.5)), (0, -1), "differences"),
     CHORDS: Look("x", True, (0, (6, 1.5, 1, 1.5)), (1, 0), "chords"),
+    CLOSED: Look("o", True, "-", (1, 0), "closed"),
+    BOARD: Look("x", True, (0, (6, 1.5, 1, 1.5)), (0, 1), "board"),
+    MIDPOINT: Look("D", True, (0, (1, 1.5)), (0, -1), "midpoint"),
+    MISSED: Look("s", False, (0, (5, 2)), (0, 1), "missed"),
+    SIMPSON: Look("^", False, (0, (3, 1, 1, 1)), (0, -1), "simpson"),
 }
 
 
@@ -109,7 +116,7 @@ def field(figure: Figure, place: tuple[float, float], contest: Contest, kind: st
     axes.plot(xs, ys, "o", ms=9.5, mfc="none", mec=BLACK, mew=0.7, zorder=2)
     if xs:
         axes.step(xs, ys, where="post", color=BLACK, lw=0.5, zorder=1)
-    axes.set_xlabel(words["chart.error"], labelpad=1.0)
+    axes.set_xlabel(words[ERRORS.get(kind, "chart.error")], labelpad=1.0)
     axes.set_ylabel(words["chart.time"], labelpad=1.0)
     return axes
 
@@ -181,7 +188,7 @@ def setting(entry: Entry) -> str:
     >>> setting(Entry("plan", 1000, "velocity", None, None, "", 0.0, None, 1, 0.0))
     '$10^{3}$'
     """
-    if entry.method == CHORDS or isinstance(entry.setting, str):
+    if entry.method in SECTIONED or isinstance(entry.setting, str):
         return str(entry.setting)
     power = math.log10(entry.setting)
     return f"$10^{{{round(power)}}}$".replace("-", "−") if entry.setting != 1 else "1"

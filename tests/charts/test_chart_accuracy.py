@@ -10,9 +10,10 @@ from functools import cache
 import numpy as np
 import pytest
 
+from kulman.plans import contest as contests
+from kulman.plans.contest import Contest, Effort, Entry
 from kulman.plans.hands.hand import preset
-from kulman.plans.linkages.accuracy import comparison as contests
-from kulman.plans.linkages.accuracy.comparison import Contest, Effort, Entry, contest, places_of, truth
+from kulman.plans.linkages.accuracy.comparison import contest, places_of, truth
 from kulman.plans.linkages.accuracy.hand_drawn import DrawnSheet, by_hand
 from kulman.plans.linkages.accuracy.methods import Rivals, kinds_of
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle

@@ -21,8 +21,8 @@ from kulman.docs import refresh
 from kulman.drawing.charts.depth import equal
 from kulman.drawing.charts.stability import _log, _lost, _widen
 from kulman.drawing.words import Words
-from kulman.plans.linkages.accuracy import comparison as contests
-from kulman.plans.linkages.accuracy.comparison import Effort
+from kulman.plans import contest as contests
+from kulman.plans.contest import Effort
 from kulman.scales.errors import LANGUAGES
 from kulman.variants.charts import linkage as charts
 from kulman.variants.charts.charts import Charts, chart

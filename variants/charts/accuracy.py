@@ -14,8 +14,9 @@ import numpy as np
 from ... import __version__
 from ...drawing.formats import format_named
 from ...drawing.words import Words
+from ...plans.contest import FULL, Contest, Effort, Entry
 from ...plans.hands.hand import preset
-from ...plans.linkages.accuracy.comparison import FULL, Contest, Effort, Entry, contest
+from ...plans.linkages.accuracy.comparison import contest
 from ...plans.linkages.accuracy.hand_drawn import DrawnSheet, by_hand
 from ...plans.linkages.cycles.cycle import Cycle
 from ...scales.choices import SIZES
@@ -34,12 +35,16 @@ TIMES = ("seconds [s]", "at_once", "failed", "front")
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class AccuracyChart:
-    """Speed against accuracy: `contest` holds an entry for every method, setting and kind of quantities."""
+    """Speed against accuracy: `contest` holds an entry for every method, setting and kind of quantities.
+
+    `turns` tells whether the driver does; `compared` is the key of what errors and times are.
+    """
 
     heading: ClassVar[str] = "chart.accuracy"
     scene: Scene
-    cycle: Cycle
+    turns: bool
     contest: Contest
+    compared: str = "chart.compared"
 
     def table(self, words: Words) -> str:
         """Return a row for every method and setting: error and time by kinds; * where no other method beats it."""
@@ -63,16 +68,16 @@ class AccuracyChart:
     def notes(self, words: Words) -> tuple[str, str]:
         """Return how and on what it was measured."""
         batch = words.number(self.contest.effort.at_once, 0)
-        return words["chart.compared"].format(positions=len(self.contest.places), batch=batch), machine(words)
+        return words[self.compared].format(positions=len(self.contest.places), batch=batch), machine(words)
 
     def csv(self, words: Words) -> bytes:
         """Return all entries."""
         fronts = {id(entry) for kind in self.contest.kinds for entry in self.contest.front(kind.name)}
         rows = [self._row(entry, id(entry) in fronts) for entry in self.contest.entries]
-        return as_csv((*HEAD, place_column(self.cycle), *TIMES), rows, words)
+        return as_csv((*HEAD, place_column(self.turns), *TIMES), rows, words)
 
     def _row(self, e: Entry, front: bool) -> list[Cell]:
-        at = place_value(self.cycle, e.place)
+        at = place_value(self.turns, e.place)
         head: list[Cell] = [e.method, e.setting, e.kind, e.error, e.typical, e.name, at]
         return [*head, e.seconds, e.at_once, e.failed, int(front)]
 
@@ -81,7 +86,7 @@ class AccuracyChart:
         return {
             "machine": machine(Words.of("en", self.scene.case.task.notation)),
             "hand": self.scene.hand,
-            "places": [place_si(self.cycle, at) for at in self.contest.places],
+            "places": [place_si(self.turns, at) for at in self.contest.places],
             "entries": [self._item(entry) for entry in self.contest.entries],
         }
 
@@ -93,7 +98,7 @@ class AccuracyChart:
             "error": finite(entry.error),
             "typical": finite(entry.typical),
             "quantity": entry.name,
-            "at": place_si(self.cycle, entry.place),
+            "at": place_si(self.turns, entry.place),
             "seconds": finite(entry.seconds),
             "at_once": entry.at_once,
             "failed": entry.failed,
@@ -104,8 +109,8 @@ class AccuracyChart:
         """Draw the picture."""
         from ...drawing.charts.accuracy import accuracy_page
 
-        title, turns = self.scene.title(self.heading), self.cycle.drive.turns
-        return accuracy_page(self.contest, words, title, "\n".join(self.notes(words)), self.scene.hand, turns)
+        title, note = self.scene.title(self.heading), "\n".join(self.notes(words))
+        return accuracy_page(self.contest, words, title, note, self.scene.hand, self.turns)
 
 
 def accuracy_chart(scene: Scene, cycle: Cycle, names: Sequence[str], effort: Effort = FULL) -> AccuracyChart:
@@ -120,7 +125,7 @@ def accuracy_chart(scene: Scene, cycle: Cycle, names: Sequence[str], effort: Eff
     if not found.kinds:
         raise InputError("chart-no-rivals")
     hands = tuple(_hands(scene, cycle, found))
-    return AccuracyChart(scene, cycle, replace(found, entries=found.entries + hands))
+    return AccuracyChart(scene, cycle.drive.turns, replace(found, entries=found.entries + hands))
 
 
 def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:

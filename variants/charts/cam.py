@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from typing import ClassVar
 
+from ...plans.cams.rivals import rivals
 from ...plans.cams.solve import SolvedCam
+from ...plans.contest import FULL, Effort
+from ...plans.hands.hand import preset
 from ...scales.errors import InputError
+from .accuracy import AccuracyChart
 from .cam_stability import cam_stability_chart
 from .data import Scene
 from .gallery import Asked, Chart
@@ -16,8 +21,8 @@ from .sections import sections_chart
 class CamCharts:
     """Makes the charts of one cam."""
 
-    charts: ClassVar[tuple[str, ...]] = ("sections", "stability")
-    used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {"quantities": ("sections",)}
+    charts: ClassVar[tuple[str, ...]] = ("sections", "accuracy", "stability")
+    used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {"quantities": ("sections",), "hand": ("accuracy",)}
 
     def make(self, name: str, scene: Scene, asked: Asked) -> Chart:
         """Make one of the charts.
@@ -31,6 +36,14 @@ class CamCharts:
         assert isinstance(solved, SolvedCam)
         if not solved.program.plans:
             raise InputError("chart-no-diagrams")
+        if name == "accuracy":
+            return cam_accuracy_chart(scene, solved)
         if name == "stability":
             return cam_stability_chart(scene, solved)
         return sections_chart(scene, solved, asked.quantities)
+
+
+def cam_accuracy_chart(scene: Scene, solved: SolvedCam, effort: Effort = FULL) -> AccuracyChart:
+    """Let all ways to the motion of a cam compete."""
+    found = rivals(solved, time.process_time, preset(scene.hand).hand, effort)
+    return AccuracyChart(scene, True, found, "chart.cam_compared")

@@ -51,19 +51,19 @@ def place_head(cycle: Cycle, words: Words) -> str:
     return f"{driver_name(cycle)}, {format_unit('deg' if cycle.drive.turns else 'mm', words.language)}"
 
 
-def place_value(cycle: Cycle, at: float) -> float:
-    """Return a place of the driver in the unit of `place_head`."""
-    return float(round(unit("deg").from_si(at) % 360.0, 9) % 360.0 if cycle.drive.turns else at * 1e3)
+def place_value(turns: bool, at: float) -> float:
+    """Return a place of a driver that turns, or slides, in the unit of `place_head`."""
+    return float(round(unit("deg").from_si(at) % 360.0, 9) % 360.0 if turns else at * 1e3)
 
 
-def place_column(cycle: Cycle) -> str:
-    """Return the head of a CSV's column with places of the driver."""
-    return f"place [{'deg' if cycle.drive.turns else 'mm'}]"
+def place_column(turns: bool) -> str:
+    """Return the head of a CSV's column with places of a driver that turns, or slides."""
+    return f"place [{'deg' if turns else 'mm'}]"
 
 
-def place_si(cycle: Cycle, at: float) -> float:
-    """Return a place of the driver for JSON: an angle in [0, 2 pi), or metres."""
-    return float(at % TURN % TURN) if cycle.drive.turns else float(at)  # -1e-17 % TURN is TURN
+def place_si(turns: bool, at: float) -> float:
+    """Return a place of a driver for JSON: an angle in [0, 2 pi), or metres."""
+    return float(at % TURN % TURN) if turns else float(at)  # -1e-17 % TURN is TURN
 
 
 def short(words: Words, value: float | None, digits: int = DIGITS) -> str:

@@ -54,10 +54,10 @@ class DepthChart:
             [c.key, " ".join(c.parts), c.balance, c.balance_rms, c.reaction, c.reaction_rms, self._place(c)]
             for c in self.found.costs
         ]
-        return as_csv((*HEAD, place_column(self.cycle)), rows, words)
+        return as_csv((*HEAD, place_column(self.cycle.drive.turns)), rows, words)
 
     def _place(self, cost: Cost) -> float:
-        return place_value(self.cycle, cost.place)
+        return place_value(self.cycle.drive.turns, cost.place)
 
     def to_json(self) -> dict[str, Any]:
         """Return all simplifications as data."""
@@ -82,7 +82,7 @@ class DepthChart:
             "parts": list(cost.parts),
             "balance": {"max": cost.balance, "rms": cost.balance_rms},
             "reaction": None if cost.reaction is None else {"max": cost.reaction, "rms": finite(cost.reaction_rms)},
-            "at": place_si(self.cycle, cost.place),
+            "at": place_si(self.cycle.drive.turns, cost.place),
         }
 
     def figure(self, words: Words) -> Figure:

@@ -6,7 +6,7 @@ its unit's largest over the cycle; of a method the worst one counts, over all qu
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -16,88 +16,18 @@ from numpy.typing import NDArray
 
 from ...boards.exact import run
 from ...boards.precision import run_in
+from ...contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
 from ...references import plans_of, references
 from ..cycles.cycle import Cycle
-from .methods import Kind, Newton, Rivals, Values, Way, kinds_of
+from .methods import Newton, Rivals, Values, Way, kinds_of
 
 Array = NDArray[Any]
-Clock = Callable[[], float]  # seconds
 SINGLE, EXTENDED = "plan-single", "plan-extended"
 PLAN, NEWTON, DIFFERENCES, CHORDS, HAND = "plan", "newton", "differences", "chords", "hand"
 TOLERANCES = (1e-1, 1e-2, 1e-4, 1e-8)
 STEPS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 SECTIONS = (12, 24, 48, 96, 192, 384)
-ROUNDS = 3  # runs of a piece of work
-ENOUGH = 0.05  # seconds of work that need no repeating
 LONG = 1.0  # seconds that are too many
-
-
-@dataclass(frozen=True, slots=True)
-class Effort:
-    """What times are measured on: the sizes of batches of plans, and the positions at once of all other methods."""
-
-    batches: tuple[int, ...] = (1, 10, 100, 1_000, 10_000, 100_000, 1_000_000)
-    at_once: int = 10_000
-
-
-FULL = Effort()
-
-
-@dataclass(frozen=True, slots=True)
-class Entry:
-    """One method with its setting, for quantities of one kind.
-
-    Parameters
-    ----------
-    method : str
-        `plan`, `plan-single`, `plan-extended`, `newton`, `differences`, `chords` or `hand`.
-    setting : float or str
-        Positions in a batch, tolerance, step (rad), sections of the cycle, or the paper on which a hand draws.
-    error, typical : float or None
-        The worst error over all positions and quantities; the median over positions of the worst quantity.
-    name, place : str, float
-        The quantity and the place of the driver where the error is worst.
-    seconds : float or None
-        Processor time per position; None for a hand.
-    at_once : int
-        Positions in a batch.
-    failed : float
-        Part of the positions where the method gives nothing.
-    """
-
-    method: str
-    setting: float | str
-    kind: str
-    error: float | None
-    typical: float | None
-    name: str
-    place: float
-    seconds: float | None
-    at_once: int
-    failed: float
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Contest:
-    """Speed against accuracy of all methods: `places` of the driver at which they were compared."""
-
-    kinds: tuple[Kind, ...]
-    places: Array
-    entries: tuple[Entry, ...]
-    effort: Effort = FULL
-
-    def of(self, kind: str) -> tuple[Entry, ...]:
-        """Return the entries for one kind of quantities."""
-        return tuple(entry for entry in self.entries if entry.kind == kind)
-
-    def front(self, kind: str) -> tuple[Entry, ...]:
-        """Return the entries that no other beats in both speed and accuracy, the slowest first."""
-        timed = [e for e in self.of(kind) if e.seconds is not None and e.error is not None]
-        found: list[Entry] = []
-        for entry in sorted(timed, key=lambda e: (e.seconds, e.error)):
-            if not found or (entry.error or 0.0) < (found[-1].error or 0.0):
-                found.append(entry)
-        return tuple(reversed(found))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -153,19 +83,6 @@ def beside(cycle: Cycle, name: str, sizes: Array) -> Array:
 def one_of(givens: Mapping[str, Any], position: int) -> dict[str, float]:
     """Return the givens of one of many positions."""
     return {name: float(value[position] if np.ndim(value) else value) for name, value in givens.items()}
-
-
-def timed(work: Callable[[], object], clock: Clock) -> float:
-    """Return what a piece of work takes by a clock, seconds: the shortest of some runs."""
-    best, total = float("inf"), 0.0
-    for _ in range(ROUNDS):
-        start = clock()
-        work()
-        spent = clock() - start
-        best, total = min(best, spent), total + spent
-        if total > ENOUGH * ROUNDS:
-            break
-    return best
 
 
 def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (), effort: Effort = FULL) -> Contest:

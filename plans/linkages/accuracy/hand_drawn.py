@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ...board import POSITION, Program
 from ...boards.exact import ExactBoard, run
+from ...contest import Entry, Kind
 from ...hands.hand import Hand
 from ...hands.shaky import Paper, draw
 from ...hands.spread import kept
@@ -18,8 +19,7 @@ from ...laws import TURN
 from ...references import plans_of, references
 from ..cycles.cycle import Cycle
 from ..solved import SolvedLinkage
-from .comparison import HAND, Entry, beside, one_of, places_of, summed
-from .methods import Kind
+from .comparison import HAND, beside, one_of, places_of, summed
 
 Array = NDArray[Any]
 SEED = 1  # the same hand on every paper

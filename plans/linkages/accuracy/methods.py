@@ -17,6 +17,7 @@ from ...board import Program
 from ...boards.batch import batch
 from ...boards.exact import STATUSES
 from ...boards.precision import batch_in
+from ...contest import Kind
 from ...graphs import chords
 from ...laws import inclination
 from ...quantities import BALANCES
@@ -33,14 +34,6 @@ Way = Callable[[Array, Sequence[str]], Values]
 PLANNED = tuple(name for name in BALANCES if not name.endswith("_lever"))  # what force plans give
 GRID = 72  # places round the cycle at which Newton's method knows where the links lie
 ORDERS = {"V": 1, "omega": 1, "a": 2, "epsilon": 2}  # how many times a quantity is a derivative of a place
-
-
-@dataclass(frozen=True, slots=True)
-class Kind:
-    """Quantities of one kind: `velocity`, `acceleration` or `forces`."""
-
-    name: str
-    names: tuple[str, ...]
 
 
 def kinds_of(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Kind, ...]:

@@ -1,0 +1,231 @@
+"""Speed against accuracy of a cam's motion: closed forms, chords on the board, and numerical integration.
+
+All rivals begin with the acceleration, or with the velocity where that is given, and find the travel, scaled by its own
+stroke as on paper. An error is the worst over the section lines, in parts of the stroke or of the greatest velocity;
+that of closed forms is their rounding, beside the same forms with longer numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..boards.exact import run
+from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
+from ..hands.hand import Hand
+from ..hands.shaky import draw
+from ..hands.spread import kept
+from .convergence import DRAWINGS, SEED, drawn_on, equal_division, inner_jumps
+from .division import Division
+from .integration import ACCELERATION, TRAVEL, VELOCITY
+from .motion import TURN, Motion
+from .solve import SolvedCam
+
+Array = NDArray[np.float64]
+Course = tuple[NDArray[Any], NDArray[Any]]  # travel and its derivative on section lines, in any scale
+CLOSED, BOARD, MIDPOINT, MISSED, SIMPSON, HAND = "closed", "board", "midpoint", "missed", "simpson", "hand"
+ON_BOARD = (12, 24, 48, 96, 192)  # sections of a phase
+NUMERICAL = (12, 24, 48, 96, 192, 768, 3072, 12288)
+BY_HAND = (12, 24, 48)
+TRAVELS, VELOCITIES = "travel", "speed"
+MM = 1e3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cut:
+    """A turn divided: section lines, and accelerations at the ends and in the middle of every section."""
+
+    angles: Array
+    division: Division
+
+    def fractions(self, motion: Motion, order: int) -> tuple[Array, Array, Array, Array]:
+        """Return widths of sections, and a derivative at their beginnings, middles and ends."""
+        angles = self.angles
+        middles = 0.5 * (angles[:-1] + angles[1:])
+        at = (motion.at(angles[:-1], 1), motion.at(middles), motion.at(angles[1:], -1))
+        begin, middle, end = (values[order] for values in at)
+        return np.diff(angles), begin, middle, end
+
+
+def on_lines(motion: Motion, sections: int) -> Cut:
+    """Return a turn divided so that jumps lie on section lines."""
+    return Cut(*motion.division(sections))
+
+
+def beside_lines(motion: Motion, sections: int) -> Cut:
+    """Return a turn divided into equal sections, jumps within them."""
+    return Cut(*equal_division(motion, sections + 1))
+
+
+def midpoint(motion: Motion, given: str, cut: Cut) -> Course:
+    """Integrate by mean ordinates, as the chords do, without a board."""
+    width, begin, middle, end = cut.fractions(motion, 2 if given == ACCELERATION else 1)
+    del begin, end
+    if given != ACCELERATION:
+        return _summed(middle * width), motion.at(cut.angles, -1)[1]
+    speed = _summed(middle * width)
+    return _summed(0.5 * (speed[1:] + speed[:-1]) * width), speed
+
+
+def simpson(motion: Motion, given: str, cut: Cut) -> Course:
+    """Integrate by parabolas through both ends and the middle of every section."""
+    width, begin, middle, end = cut.fractions(motion, 2 if given == ACCELERATION else 1)
+    areas = (begin + 4.0 * middle + end) * width * (1.0 / 6.0)
+    if given != ACCELERATION:
+        return _summed(areas), motion.at(cut.angles, -1)[1]
+    speed = _summed(areas)
+    return _summed(speed[:-1] * width + (begin + 2.0 * middle) * width * width * (1.0 / 6.0)), speed
+
+
+def closed(motion: Motion, angles: Array) -> Course:
+    """Take the closed forms."""
+    s, ds, _ = motion.at(angles, -1)
+    return s, ds
+
+
+def in_extended(motion: Motion, angles: Array) -> Course:
+    """Take the closed forms with longer numbers than float64, where the machine has them."""
+    s, ds = np.zeros(angles.shape, np.longdouble), np.zeros(angles.shape, np.longdouble)
+    for piece in (piece for phase in motion.phases for piece in phase.pieces):
+        there = (angles > piece.low) & (angles <= piece.high)
+        for values, curve in ((s, piece), (ds, piece.derivative())):
+            t = angles[there].astype(np.longdouble) - curve.origin
+            found = np.zeros_like(t)
+            for coefficient in reversed(curve.coefficients):
+                found = found * t + coefficient
+            values[there] = found + (curve.sine * np.sin(curve.rate * t) + curve.cosine * np.cos(curve.rate * t))
+    return s, ds
+
+
+def _summed(parts: Array) -> Array:
+    found: Array = np.concatenate((np.zeros(1), np.cumsum(parts)))
+    return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Race:
+    """The rivals for one cam."""
+
+    solved: SolvedCam
+    clock: Clock
+    effort: Effort
+
+    def closed(self) -> Iterator[Entry]:
+        """Go through closed forms for so many positions at once."""
+        motion = self.solved.motion
+        cut = on_lines(motion, max(ON_BOARD))
+        found = in_extended(motion, cut.angles)
+        course = closed(motion, cut.angles)
+        for size in self.effort.batches:
+            places = TURN * ((np.arange(size) + 0.5) / size)
+            spent = timed(partial(closed, motion, places), self.clock) / size
+            yield from self._entries(CLOSED, size, cut, course, found, spent, size)
+
+    def board(self) -> Iterator[Entry]:
+        """Go through chords on the board, one drawing at a time."""
+        for sections in ON_BOARD:
+            cut = on_lines(self.solved.motion, sections)
+            paper = drawn_on(self.solved, cut.angles, cut.division, marks(self.solved, cut.division))
+            course = _drawn(self.solved, cut.division, run(paper.program, paper.givens).values)
+            spent = timed(partial(run, paper.program, paper.givens), self.clock) / len(cut.angles)
+            yield from self._entries(BOARD, cut.division.top, cut, course, None, spent, 1)
+
+    def numerical(self) -> Iterator[Entry]:
+        """Go through sums of numbers, with jumps on section lines, and within sections where there are any."""
+        motion, given = self.solved.motion, self.solved.layout.given
+        ways: list[tuple[str, Callable[..., Course], Callable[[Motion, int], Cut]]] = [
+            (MIDPOINT, midpoint, on_lines),
+            (SIMPSON, simpson, on_lines),
+        ]
+        if inner_jumps(motion):
+            ways.append((MISSED, midpoint, beside_lines))
+        for method, way, divided in ways:
+            for sections in NUMERICAL:
+                cut = divided(motion, sections)
+                course = way(motion, given, cut)
+                spent = timed(partial(way, motion, given, cut), self.clock) / len(cut.angles)
+                yield from self._entries(method, cut.division.top, cut, course, None, spent, len(cut.angles))
+
+    def _entries(
+        self, method: str, setting: int, cut: Cut, course: Course, exact: Course | None, seconds: float, at_once: int
+    ) -> Iterator[Entry]:
+        """Go through the errors of a course beside the exact one."""
+        motion = self.solved.motion
+        right = closed(motion, cut.angles) if exact is None else exact
+        for kind, error in errors(motion, cut.division, course, right).items():
+            if kind == VELOCITIES and self.solved.layout.given != ACCELERATION:
+                continue
+            worst = int(np.argmax(error))
+            at = float(cut.angles[worst])
+            name = "s" if kind == TRAVELS else "ds"
+            most, middle = float(error[worst]), float(np.median(error))
+            yield Entry(method, setting, kind, most, middle, name, at, seconds, at_once, 0.0)
+
+
+def errors(motion: Motion, division: Division, course: Course, exact: Course) -> dict[str, Array]:
+    """Return errors of travel and velocity on the section lines, in parts of the stroke and of the greatest velocity.
+
+    Both are scaled by the stroke that the course has at the end of the rise.
+    """
+    scale = motion.h / course[0][division.top]
+    sizes = (motion.h, motion.ds_max.value)
+    return {
+        kind: (np.abs(found * scale - right) * (1.0 / size)).astype(float)
+        for kind, found, right, size in zip((TRAVELS, VELOCITIES), course, exact, sizes, strict=True)
+    }
+
+
+def rivals(solved: SolvedCam, clock: Clock, hand: Hand, effort: Effort = FULL) -> Contest:
+    """Let closed forms, chords, sums and a hand compete.
+
+    Parameters
+    ----------
+    clock : function
+        Returns seconds, best those of the processor: `time.process_time`.
+    """
+    race = _Race(solved, clock, effort)
+    found = [*race.closed(), *race.board(), *race.numerical(), *by_hand(solved, hand)]
+    kinds = [Kind(VELOCITIES, ("ds",))] if solved.layout.given == ACCELERATION else []
+    return Contest((Kind(TRAVELS, ("s",)), *kinds), solved.angles, tuple(found), effort)
+
+
+def by_hand(solved: SolvedCam, hand: Hand) -> Iterator[Entry]:
+    """Go through what 95 % of the drawings of a hand keep, on the worst line and on the middle one."""
+    motion = solved.motion
+    for sections in BY_HAND:
+        cut = on_lines(motion, sections)
+        paper = drawn_on(solved, cut.angles, cut.division, marks(solved, cut.division))
+        board = draw(paper, hand, np.random.default_rng(SEED), DRAWINGS)
+        course = _drawn(solved, cut.division, board.values, DRAWINGS)
+        s, ds = (values[:, None] for values in closed(motion, cut.angles))
+        for kind, error in errors(motion, cut.division, course, (s, ds)).items():
+            if kind == VELOCITIES and solved.layout.given != ACCELERATION:
+                continue
+            lines = kept(error, 0.0)
+            at = float(cut.angles[int(np.argmax(lines))])
+            name = "s" if kind == TRAVELS else "ds"
+            most, middle = float(lines.max()), float(np.median(lines))
+            yield Entry(HAND, f"n = {cut.division.top}", kind, most, middle, name, at, None, 1, 0.0)
+
+
+def marks(solved: SolvedCam, division: Division) -> tuple[str, ...]:
+    """Return the marks of the nodes that are drawn: of the travel, and of the velocity where it is not given."""
+    plans = (TRAVEL, VELOCITY) if solved.layout.given == ACCELERATION else (TRAVEL,)
+    return tuple(f"{plan}.{i}" for plan in plans for i in division.lines)
+
+
+def _drawn(solved: SolvedCam, division: Division, values: Any, *shape: int) -> Course:
+    """Return the course that has been drawn: slopes of the travel are worth the velocity's ordinates by H_v."""
+
+    def ordinates(plan: str) -> Array:
+        return np.array([np.broadcast_to(np.imag(values[f"{plan}.{i}"]), shape) for i in division.lines])
+
+    travel = ordinates(TRAVEL)
+    if solved.layout.given != ACCELERATION:
+        return travel, np.zeros_like(travel)
+    return travel, ordinates(VELOCITY) * (1.0 / (solved.givens["H_v"] * solved.givens["mu_phi"] * MM))
