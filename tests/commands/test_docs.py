@@ -12,16 +12,20 @@ import pytest
 
 from kulman.cli import commands
 from kulman.drawing.words import notations
+from kulman.plans.cams.cam import FOLLOWERS, LAWS
+from kulman.plans.cams.cam import PLANS as CAM_PLANS
 from kulman.plans.linkages.chain import PLANS
 from kulman.scales.packaged import packaged
 from kulman.variants import reader
 from kulman.variants.checks import basics as checks
+from kulman.variants.checks import cam as checks_cam
 from kulman.variants.checks import driver as checks_driver
 from kulman.variants.checks import givens as checks_givens
 from kulman.variants.checks import loads as checks_loads
 from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
+from kulman.variants.starter import template
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 TASK_FILE = (DOCS / "task-file.md").read_text(encoding="utf-8")
@@ -34,7 +38,7 @@ EXAMPLES = sorted((DOCS / "examples").glob("*.toml"))
 
 def example_texts() -> list[str]:
     """Return the task files from which the documents quote."""
-    tasks = [bundled_text(task) for task in (TASK, "scheme-20-press-automaton")]
+    tasks = [*map(bundled_text, (TASK, "scheme-20-press-automaton", "madi-cam")), template("en", "cam")]
     return [*tasks, *(path.read_text(encoding="utf-8") for path in EXAMPLES)]
 
 
@@ -46,7 +50,8 @@ def keys_read(text: str, monkeypatch: pytest.MonkeyPatch) -> set[str]:
         keys.update(fields)
         return checks.record(checker, path, raw, fields)
 
-    modules: tuple[ModuleType, ...] = (reader, checks_givens, checks_mechanism, checks_driver, checks_loads)
+    own = (checks_mechanism, checks_driver, checks_loads, checks_cam)
+    modules: tuple[ModuleType, ...] = (reader, checks_givens, *own)
     for module in modules:
         monkeypatch.setattr(module, "record", noting)
     task, faults = reader.read_text(text, "t.toml")
@@ -58,7 +63,7 @@ def keys_read(text: str, monkeypatch: pytest.MonkeyPatch) -> set[str]:
 def test_every_key_of_a_task_file_is_explained(monkeypatch: pytest.MonkeyPatch) -> None:
     keys = {key for text in example_texts() for key in keys_read(text, monkeypatch)}
 
-    assert {"id", "link", "points", "branch", "reconstructed", "uk", "travel", "back", "gravity"} <= keys
+    assert {"id", "link", "points", "branch", "reconstructed", "uk", "travel", "back", "gravity", "curve"} <= keys
     explained = set(re.findall(r"`(\w+)`", TASK_FILE)) | set(re.findall(r"^(\w+) = ", TASK_FILE, re.MULTILINE))
     assert keys - explained == set()
 
@@ -83,7 +88,8 @@ def test_every_example_is_solved(path: Path) -> None:
 def test_the_words_that_a_task_file_may_use_are_named() -> None:
     assert all(f"`{name}`" in TASK_FILE for name in notations())
     assert all(f"`{name}`" in NOTATIONS for name in notations())
-    assert all(f'"{plan}"' in TASK_FILE for plan in PLANS)
+    assert all(f'"{word}"' in TASK_FILE for word in (*PLANS, *CAM_PLANS, *FOLLOWERS, *LAWS))
+    assert all(f"`{name}`" in TASK_FILE for name in checks_cam.NUMBERS)
 
 
 def test_every_key_of_a_notation_is_explained() -> None:
