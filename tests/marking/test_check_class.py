@@ -19,10 +19,11 @@ import pytest
 from kulman import check, cli
 from kulman.tests.support.marking_cases import answer, key, students
 from kulman.variants.marking import class_run
-from kulman.variants.marking.answers import Answers
+from kulman.variants.marking.answers import Answers, Who
 from kulman.variants.marking.class_run import Job, mark_class, slug
 from kulman.variants.marking.flags import Measured, shared, too_exact
 from kulman.variants.marking.result import Result
+from kulman.variants.marking.roster import Entry, Roster
 
 TASK = "nau-slider-crank"
 ASKED = ("V_A", "V_BA", "V_B", "V_S2", "omega_2", "a_BA_n", "a_BA_t", "a_B", "a_S2", "R_12", "R_32", "M_bal")
@@ -341,3 +342,22 @@ def test_a_class_is_told_who_is_missing_and_where_notes_are(tmp_path: Path, caps
     assert [line.split() for line in out.splitlines() if "Student 02" in line] == [
         ["Student", "02", "–", "nothing", "handed", "in"]
     ]
+
+
+def test_a_roster_finds_who_is_named_once_by_the_surest_key() -> None:
+    def entry(number: str, student: str) -> Entry:
+        return Entry(Who(student=student, number=number), "3", {}, "")
+
+    first, second, _, fourth = found = [
+        entry("1", "О'Коннор І."),
+        entry("2", "Same Name"),
+        entry("3", "same  name."),
+        entry("", "Ёлкин"),
+    ]
+    roster = Roster(tuple(found))
+
+    assert roster.find(Who(number="2", student="О'Коннор І.")) is second
+    assert roster.find(Who(student="оконнор і")) is first
+    assert roster.find(Who(student="Same name")) is None
+    assert roster.find(Who(number="9", student="елкин")) is fourth
+    assert roster.find(Who()) is None
