@@ -1,0 +1,1 @@
+"""Involute spur gear pairs: their sizes, checks, profiles and meshing."""

@@ -1,0 +1,131 @@
+"""The laws of calculation of gear pairs: the formulas of GOST 16532-70 for external spur gears cut by a rack.
+
+Each takes and gives numbers or arrays, in SI, angles in radians. Own and other mean the wheel itself and its mate.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..laws import NAN, define
+from .involute import angle_of_involute, involute
+
+
+def _angle_of(base: Any, diameter: Any) -> Any:
+    """Return the profile angle at a diameter: cos = base / diameter; NaN inside the base circle."""
+    square = (diameter - base) * (diameter + base)
+    return np.arctan2(np.sqrt(np.where(square >= 0.0, square, NAN)), base)
+
+
+def _sliding(own: Any, other: Any, ratio: Any) -> Any:
+    """Return 1 - other / (own * ratio): minus infinity on the own base circle, NaN beyond either line's end."""
+    positive = np.where(own > 0.0, own, 1.0)
+    at_end = np.where(own == 0.0, -np.inf, NAN)
+    return np.where(other >= 0.0, np.where(own > 0.0, 1.0 - other / (positive * ratio), at_end), NAN)
+
+
+def _fillet(h_a: Any, h_l: Any, c: Any, alpha: Any) -> Any:
+    """Return the radius of the rack's corner in modules: it begins where the straight edge ends, or fills the tip."""
+    sine, cosine = np.sin(alpha), np.cos(alpha)
+    joined = (2.0 * h_a + c - h_l) / (1.0 - sine)
+    round_tip = (0.25 * math.pi * cosine - (h_a + c) * sine) / (1.0 - sine)
+    return np.minimum(joined, round_tip)
+
+
+def _spanned(z: Any, x: Any, alpha: Any) -> Any:
+    """Return over how many teeth the common normal is measured, so that it touches about half way up the flanks."""
+    base, middle = z * np.cos(alpha), np.maximum(z + 2.0 * x, z * np.cos(alpha))
+    touched = np.tan(_angle_of(base, middle)) - 2.0 * x * np.tan(alpha) / z - involute(alpha)
+    return np.maximum(np.floor(z / math.pi * touched + 1.0), 1.0)
+
+
+def _tip_thickness(m: Any, z: Any, x: Any, alpha: Any, alpha_a: Any) -> Any:
+    half = 0.5 * math.pi + 2.0 * x * np.tan(alpha) + z * (involute(alpha) - involute(alpha_a))
+    return half * m * np.cos(alpha) / np.cos(alpha_a)
+
+
+def _contact_ratio(z_1: Any, alpha_a1: Any, z_2: Any, alpha_a2: Any, alpha_w: Any) -> Any:
+    tips = z_1 * np.tan(alpha_a1) + z_2 * np.tan(alpha_a2)
+    return (tips - (z_1 + z_2) * np.tan(alpha_w)) / (2.0 * math.pi)
+
+
+def _middle(first: Any, second: Any, third: Any) -> Any:
+    return np.maximum(np.minimum(first, second), np.minimum(np.maximum(first, second), third))
+
+
+define(
+    # a = m (z_1 + z_2) / 2
+    reference_centre=lambda m, z_1, z_2: 0.5 * m * (z_1 + z_2),
+    involute=involute,
+    # inv alpha_w = inv alpha + 2 x_sum tg alpha / (z_1 + z_2)
+    working_involute=lambda inv, x_sum, alpha, z_1, z_2: inv + 2.0 * x_sum * np.tan(alpha) / (z_1 + z_2),
+    angle_of_involute=angle_of_involute,
+    # a_w = a cos alpha / cos alpha_w, and the angle and the sum of shifts from a given a_w
+    working_centre=lambda a, alpha, alpha_w: a * np.cos(alpha) / np.cos(alpha_w),
+    working_angle=lambda a, alpha, a_w: _angle_of(a * np.cos(alpha), a_w),
+    sum_of_shifts=lambda z_1, z_2, alpha, inv, inv_w: (z_1 + z_2) * (inv_w - inv) / (2.0 * np.tan(alpha)),
+    reference_diameter=lambda m, z: m * z,
+    gear_ratio=lambda z_1, z_2: z_2 / z_1,
+    # d_w1 = 2 a_w / (u + 1), d_w2 = u d_w1
+    rolling_diameter_of_pinion=lambda a_w, u: 2.0 * a_w / (u + 1.0),
+    rolling_diameter_of_wheel=lambda a_w, u: 2.0 * a_w * u / (u + 1.0),
+    # y = (a_w - a) / m
+    perceived_shift=lambda a_w, a, m: (a_w - a) / m,
+    # d_a = d + 2 (h_a + x - delta_y) m, d_f = d - 2 (h_a + c - x) m
+    tip_diameter=lambda d, h_a, x, delta_y, m: d + 2.0 * (h_a + x - delta_y) * m,
+    root_diameter=lambda d, h_a, c, x, m: d - 2.0 * (h_a + c - x) * m,
+    # the distance of the centres in other ways
+    centre_by_rolling=lambda d_w1, d_w2: 0.5 * d_w1 + 0.5 * d_w2,
+    centre_by_shift=lambda d_1, d_2, y, m: 0.5 * d_1 + 0.5 * d_2 + y * m,
+    centre_by_clearance=lambda d_a, d_f, c, m: 0.5 * d_a + 0.5 * d_f + c * m,
+    # d_b = d cos alpha
+    base_diameter=lambda d, alpha: d * np.cos(alpha),
+    # tau = 2 pi / z, P = d sin(tau / 2)
+    angular_pitch=lambda z: 2.0 * math.pi / z,
+    pitch_chord=lambda d, tau: d * np.sin(0.5 * tau),
+    pitch=lambda m: math.pi * m,
+    base_pitch=lambda p, alpha: p * np.cos(alpha),
+    # s = (pi / 2 + 2 x tg alpha) m, and at another circle s_y = d_y (s / d + inv alpha - inv alpha_y)
+    tooth_thickness=lambda m, x, alpha: (0.5 * math.pi + 2.0 * x * np.tan(alpha)) * m,
+    thickness_at=lambda d_y, s, d, inv, inv_y: d_y * (s / d + inv - inv_y),
+    # h = (2 h_a + c - delta_y) m
+    tooth_depth=lambda h_a, c, delta_y, m: (2.0 * h_a + c - delta_y) * m,
+    # cos alpha_a = d_b / d_a
+    tip_angle=_angle_of,
+    # N1N2 = a_w sin alpha_w
+    line_of_action=lambda a_w, alpha_w: a_w * np.sin(alpha_w),
+    # rho = r_b tg alpha, rho_p = a_w sin alpha_w - r_b tg alpha_a of the mate
+    radius_of_curvature=lambda d_b, angle: 0.5 * d_b * np.tan(angle),
+    lower_curvature=lambda a_w, alpha_w, d_b, alpha_a: a_w * np.sin(alpha_w) - 0.5 * d_b * np.tan(alpha_a),
+    # nu = 2 rho / d_b, and the circle there
+    unrolled_angle=lambda rho, d_b: 2.0 * rho / d_b,
+    diameter_of_curvature=lambda rho, d_b: np.hypot(2.0 * rho, d_b),
+    # x_min = h_l - h_a - z sin^2 alpha / 2
+    least_shift=lambda h_l, h_a, z, alpha: h_l - h_a - 0.5 * z * np.sin(alpha) ** 2,
+    # rho_l = (d sin alpha) / 2 - (h_l - h_a - x) m / sin alpha
+    boundary_curvature=lambda d, alpha, h_l, h_a, x, m: 0.5 * d * np.sin(alpha) - (h_l - h_a - x) * m / np.sin(alpha),
+    contact_ratio=_contact_ratio,
+    # s_a = (pi / 2 + 2 x tg alpha + z (inv alpha - inv alpha_a)) m cos alpha / cos alpha_a
+    tip_thickness=_tip_thickness,
+    # theta_12 = 1 - (rho_2 / rho_1) / u, theta_21 = 1 - u rho_1 / rho_2
+    sliding_of_pinion=_sliding,
+    sliding_of_wheel=lambda own, other, ratio: _sliding(own, other, 1.0 / ratio),
+    # chord that touches a tooth where the rack does, and its height; common normal over z_W teeth
+    constant_chord=lambda m, x, alpha: (0.5 * math.pi * np.cos(alpha) ** 2 + x * np.sin(2.0 * alpha)) * m,
+    height_of_chord=lambda d_a, d, s_c, alpha: 0.5 * (d_a - d - s_c * np.tan(alpha)),
+    spanned_teeth=_spanned,
+    common_normal=lambda s, d, inv, d_b, p_b, z_W: (s / d + inv) * d_b + (z_W - 1.0) * p_b,
+    rack_corner=lambda h_a, h_l, c, alpha, m: _fillet(h_a, h_l, c, alpha) * m,
+    # places along N1N2 for a table of sliding
+    within_line=lambda rho, line: np.minimum(np.maximum(rho, 0.0), line),
+    least_of_three=lambda first, second, third: np.minimum(np.minimum(first, second), third),
+    middle_of_three=_middle,
+    most_of_three=lambda first, second, third: np.maximum(np.maximum(first, second), third),
+    part_between=lambda begin, end, part: begin + (end - begin) * part,
+    # y = PW rho / rho at the pole; theta = (y - y of the mate) / y
+    velocity_ordinate=lambda PW, rho, rho_P: PW * (rho / rho_P),
+    sliding_by_ordinates=lambda own, other: _sliding(own, other, 1.0),
+)

@@ -1,0 +1,63 @@
+"""An external spur gear pair as data; all numbers by name.
+
+The numbers come separately, in SI, under the names of `VALUES`, so that one pair serves a variant, a sweep and a batch.
+A field may also hold the name of a given that is a choice between words: `chosen` puts the word of a variant there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+CCW, CW = ROTATIONS = ("ccw", "cw")
+HOMOGENEOUS, HARDENED = MATERIALS = ("homogeneous", "hardened")
+WHEELS = (1, 2)  # the pinion, which drives, and the wheel
+# names of the numbers, and what they are
+VALUES = {
+    "m": "m",  # module
+    "z_1": "",
+    "z_2": "",
+    "x_1": "",  # shifts of the rack in modules; of x_1, x_2 and one of a_w, x_sum two are given, or one of the latter
+    "x_2": "",
+    "x_sum": "",
+    "a_w": "m",
+    "alpha": "rad",  # of the rack: profile angle, addendum, depth of its straight edge, clearance in modules
+    "h_a": "",
+    "h_l": "",
+    "c": "",
+    "PW": "m",  # drawn length of the velocity along the profiles at the pole
+}
+# what is not given: the basic rack of GOST 13755-81, and a drawn length
+STANDARD = {"alpha": math.radians(20.0), "h_a": 1.0, "h_l": 2.0, "c": 0.25, "PW": 40e-3}
+
+
+@dataclass(frozen=True, slots=True)
+class GearPair:
+    """A pinion that drives a wheel, both cut by one rack.
+
+    Parameters
+    ----------
+    rotation : {"ccw", "cw"}
+        Sense in which the pinion turns.
+    material : {"homogeneous", "hardened"}
+        Whether the teeth are of one structure, or hard outside: these must be thicker at the tip.
+    """
+
+    rotation: str = CCW
+    material: str = HOMOGENEOUS
+
+    def chosen(self, words: Mapping[str, str]) -> GearPair:
+        """Return the pair with the words of a variant in the place of the names of the choices."""
+        rotation, material = (words.get(word, word) for word in (self.rotation, self.material))
+        return replace(self, rotation=rotation, material=material)
+
+    @property
+    def sense(self) -> int:
+        """+1 when the pinion turns counter-clockwise, else -1."""
+        return 1 if self.rotation == CCW else -1
+
+    @property
+    def least_tip(self) -> float:
+        """The least thickness of a tooth at its tip, in modules."""
+        return 0.4 if self.material == HARDENED else 0.3

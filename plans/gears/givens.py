@@ -1,0 +1,163 @@
+"""The givens of a gear pair made complete: the standard rack, the shifts; and what cannot be, told.
+
+Of x_1, x_2 two fix the pair, or one of them with a_w or x_sum. Of a_w or x_sum alone the shifts follow by which both
+wheels slide alike: the specific sliding at the root of the pinion, theta_12 at A1, equals that at the root of the
+wheel, theta_21 at A2.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ...scales.errors import InputError
+from ..laws import LAWS
+from . import formulas as formulas  # its laws of calculation
+from .gear import STANDARD, WHEELS
+from .geometry import geometry
+from .profile import tooth_of
+
+FEWEST = 3  # teeth
+ALPHA = math.radians(10.0), math.radians(35.0)
+NEAR = 1e-12  # by which a limit may be passed: rounding
+HALVINGS = 200
+BALANCE = ("theta_12_A1", "theta_21_A2")
+SHIFTS = ("x_1", "x_2", "x_sum", "a_w")
+BASIC = ("a", "x_sum", "a_w", "alpha_w", "inv_alpha", "inv_alpha_w")
+
+
+def complete(values: Mapping[str, float]) -> dict[str, float]:
+    """Return the givens with the standard rack where nothing else is given, and with both shifts.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        `m z_1 z_2` and, of `x_1 x_2 x_sum a_w`, what fixes the shifts; what `STANDARD` has may be left out.
+
+    Raises
+    ------
+    InputError
+        Numbers of which no pair can be made: the wheels, the rack, the shifts, the teeth, the meshing.
+    """
+    found = {**STANDARD, **values}
+    _wheels(found)
+    _rack(found)
+    x_1, x_2 = shifts(found)
+    found = {name: float(value) for name, value in found.items() if name not in SHIFTS} | {"x_1": x_1, "x_2": x_2}
+    _meshes(found)
+    return found
+
+
+def shifts(values: Mapping[str, float]) -> tuple[float, float]:
+    """Return x_1 and x_2 of a pair of which those are given, or one and a_w or x_sum, or one of the latter alone."""
+    given = tuple(name for name in SHIFTS if name in values)
+    if not all(math.isfinite(values[name]) for name in given):
+        raise InputError("gear-shifts", given=", ".join(given))
+    match given:
+        case ("x_1", "x_2"):
+            return float(values["x_1"]), float(values["x_2"])
+        case ("x_1", "x_sum" | "a_w"):
+            return float(values["x_1"]), sum_of_shifts(values) - values["x_1"]
+        case ("x_2", "x_sum" | "a_w"):
+            return sum_of_shifts(values) - values["x_2"], float(values["x_2"])
+        case ("x_sum" | "a_w",):
+            return balanced(values, sum_of_shifts(values))
+    raise InputError("gear-shifts", given=", ".join(given) or "-")
+
+
+def sum_of_shifts(values: Mapping[str, float]) -> float:
+    """Return x_1 + x_2 of a pair with given x_sum or a_w.
+
+    Raises
+    ------
+    InputError
+        When the centres are nearer to each other than the base circles allow.
+    """
+    if "x_sum" in values:
+        return float(values["x_sum"])
+    z_1, z_2, alpha, a_w = (values[name] for name in ("z_1", "z_2", "alpha", "a_w"))
+    a = LAWS["reference_centre"](values["m"], z_1, z_2)
+    least = LAWS["base_diameter"](a, alpha)
+    if not a_w > least:
+        raise InputError("gear-centre", a_w=f"{a_w * 1e3:.7g}", least=f"{least * 1e3:.7g}")
+    inv, inv_w = (LAWS["involute"](angle) for angle in (alpha, LAWS["working_angle"](a, alpha, a_w)))
+    return float(LAWS["sum_of_shifts"](z_1, z_2, alpha, inv, inv_w))
+
+
+def balanced(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
+    """Return x_1 and x_2 with the given sum by which both wheels slide alike.
+
+    The larger x_1 is, the nearer A1 is to the pole and the farther A2: theta_12 at A1 only rises, theta_21 at A2 only
+    falls, between the shifts that put A1 into N1 and A2 into N2.
+
+    Raises
+    ------
+    InputError
+        When no shifts have both ends of the active line between N1 and N2.
+    """
+    least, most = _between(values, x_sum)
+    low, high = least, most
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if not low < middle < high:
+            break
+        found = geometry({**values, "x_1": middle, "x_2": x_sum - middle}, BALANCE)
+        low, high = (middle, high) if found[BALANCE[0]] < found[BALANCE[1]] else (low, middle)
+    if not least < low < high < most:
+        raise InputError("gear-no-balance", x_sum=f"{x_sum:.6g}")
+    return low, x_sum - low
+
+
+def _between(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
+    """Return the x_1 that puts A1 into N1, and that which puts A2 into N2."""
+    wanted = ("l_N1N2", "d_b1", "d_b2", "d_a1", "d_a2", "alpha_w")
+    found = geometry({**values, "x_1": 0.0, "x_2": x_sum}, wanted)
+    if not found["alpha_w"] > 0.0:
+        raise _no_mesh(values, x_sum)
+    most = [math.hypot(2.0 * found["l_N1N2"], found[f"d_b{i}"]) - found[f"d_a{i}"] for i in WHEELS]
+    return -0.5 * most[1] / values["m"], 0.5 * most[0] / values["m"]
+
+
+def _wheels(values: Mapping[str, float]) -> None:
+    m = values["m"]
+    if not (math.isfinite(m) and m > 0.0):
+        raise InputError("gear-module", text=f"{m * 1e3:.7g}")
+    for i in WHEELS:
+        z = values[f"z_{i}"]
+        if not (math.isfinite(z) and z >= FEWEST and z == round(z)):
+            raise InputError("gear-teeth", name=f"z_{i}", text=f"{z:.7g}", least=FEWEST)
+
+
+def _rack(values: Mapping[str, float]) -> None:
+    """Look at the rack: its angle, and that its tooth has a tip, a straight edge and room for a corner."""
+    alpha, h_a, h_l, c = (values[name] for name in ("alpha", "h_a", "h_l", "c"))
+    if not ALPHA[0] - NEAR <= alpha <= ALPHA[1] + NEAR:
+        low, high = (f"{math.degrees(angle):.0f}" for angle in ALPHA)
+        raise InputError("gear-alpha", text=f"{math.degrees(alpha):.7g}", low=low, high=high)
+    depth = h_a + c
+    widest = 0.25 * math.pi / math.tan(alpha)
+    if not (h_a > 0.0 and c >= 0.0 and h_a < h_l <= h_a + depth + NEAR and depth <= widest + NEAR):
+        raise InputError("gear-rack", h_a=f"{h_a:.6g}", h_l=f"{h_l:.6g}", c=f"{c:.6g}", most=f"{widest:.4g}")
+
+
+def _meshes(values: Mapping[str, float]) -> None:
+    """Look whether the wheels have teeth, and whether these can touch each other."""
+    found = geometry(values, BASIC)
+    if not found["inv_alpha_w"] > 0.0:
+        raise _no_mesh(values, found["x_sum"])
+    for i in WHEELS:
+        if not tooth_of(values, i).whole:
+            raise InputError("gear-no-tooth", name=f"x_{i}", text=f"{values[f'x_{i}']:.6g}", wheel=i)
+    line = geometry(values, ("g_alpha",))["g_alpha"]
+    if not line > 0.0:
+        raise InputError("gear-no-contact", gap=f"{-line * 1e3:.4g}")
+
+
+def _no_mesh(values: Mapping[str, Any], x_sum: float) -> InputError:
+    """Return the error of a sum of shifts by which the centres come nearer than the base circles allow."""
+    z_1, z_2, alpha = (values[name] for name in ("z_1", "z_2", "alpha"))
+    least = float(LAWS["sum_of_shifts"](z_1, z_2, alpha, LAWS["involute"](alpha), np.float64(0.0)))
+    return InputError("gear-no-mesh", x_sum=f"{x_sum:.6g}", least=f"{least:.4g}")

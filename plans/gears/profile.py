@@ -1,0 +1,225 @@
+"""The profile of a tooth as a rack cuts it: involute flank, the fillet that the rack's corner leaves, root and tip.
+
+All points are complex numbers, m; the wheel's centre is the origin and the tooth's centre line the real axis. Only the
+upper flank is computed, the lower one is its mirror image. A point of the involute is known by its radius of curvature
+rho, the length of the line that touches the base circle. A point of the fillet is known by the angle beta at which
+the rack's corner is there inclined to the wheel's radius: a right angle at the root, alpha at the flank.
+
+While the rack moves, the contact normal always passes the pole, so the corner's centre is h_0 cot(beta) beside the pole
+and h_0 below it when its arc touches the tooth at beta. The distance from the wheel's centre grows steadily
+from the root to the flank. Where the straight edge reaches below the end N of the line of action, rho_l is negative and
+the corner cuts away the involute's beginning: the flank then begins where both curves cross.
+
+Source: Litvin, Gear geometry and applied theory (generation by rack-cutters); GOST 13755-81 (the rack).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .geometry import geometry
+from .involute import tangent_of_involute, unrolled
+
+Array = NDArray[np.float64]
+Points = NDArray[Any]  # complex
+RIGHT_ANGLE = 0.5 * math.pi
+HALVINGS = 100
+POINTS = 48  # of a flank, of a fillet
+ARC = math.radians(1.0)  # between points of the tip and the root
+SEEN = 400  # places of a fillet at which it is looked whether the tooth is there
+NEEDED = ("d_1", "d_2", "s_1", "s_2", "inv_alpha", "d_b1", "d_b2", "d_a1", "d_a2", "d_f1", "d_f2", "rho_f")
+
+
+@dataclass(frozen=True)
+class Tooth:
+    """One tooth of a wheel.
+
+    Parameters
+    ----------
+    z : float
+        Number of teeth.
+    alpha : float
+        Profile angle of the rack, rad.
+    r, r_b, r_a, r_f : float
+        Radii of the reference, base, tip and root circles, m.
+    psi_b : float
+        Half the angle of the tooth on the base circle, rad; the flanks are thought to reach it.
+    rho_f : float
+        Radius of the rack's corner, m.
+    e_f : float
+        Distance of the corner's centre from the centre line of the rack's tooth, m.
+    """
+
+    z: float
+    alpha: float
+    r: float
+    r_b: float
+    r_a: float
+    r_f: float
+    psi_b: float
+    rho_f: float
+    e_f: float
+
+    @property
+    def h_0(self) -> float:
+        """How far the centre of the rack's corner is inside the reference circle when it is nearest, m."""
+        return self.r - self.r_f - self.rho_f
+
+    @property
+    def rho_l(self) -> float:
+        """Radius of curvature where the rack's straight edge ends, m: negative for an undercut tooth."""
+        sine = math.sin(self.alpha)
+        return self.r * sine - self.rho_f - self.h_0 / sine
+
+    @property
+    def undercut(self) -> bool:
+        """Whether the corner of the rack cuts away a part of the involute."""
+        return self.rho_l < 0.0
+
+    @cached_property
+    def rho_point(self) -> float:
+        """Radius of curvature where both flanks meet, m."""
+        return self.r_b * float(tangent_of_involute(self.psi_b))
+
+    @property
+    def pointed(self) -> bool:
+        """Whether the flanks meet inside the tip circle."""
+        return self.rho_point < self._rho_tip
+
+    @property
+    def _rho_tip(self) -> float:
+        square = (self.r_a - self.r_b) * (self.r_a + self.r_b)
+        return math.sqrt(square) if square > 0.0 else 0.0
+
+    @property
+    def rho_end(self) -> float:
+        """Radius of curvature where the flank ends, m: on the tip circle, or at the point of a pointed tooth."""
+        return min(self._rho_tip, self.rho_point)
+
+    @property
+    def tip(self) -> float:
+        """Distance of the tip from the wheel's centre, m: less than r_a for a pointed tooth."""
+        return math.hypot(self.r_b, self.rho_point) if self.pointed else self.r_a
+
+    @cached_property
+    def beta_start(self) -> float:
+        """Where the fillet ends and the involute begins, rad."""
+        if not self.undercut:
+            return self.alpha
+        low, high = self.alpha, RIGHT_ANGLE
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            point = complex(self.fillet(middle))
+            before = abs(point) < self.r_b or math.atan2(point.imag, point.real) < float(self.half_angle(abs(point)))
+            low, high = (low, middle) if before else (middle, high)
+        return high
+
+    @cached_property
+    def rho_start(self) -> float:
+        """Radius of curvature where the involute begins, m."""
+        if not self.undercut:
+            return self.rho_l
+        start = abs(complex(self.fillet(self.beta_start)))
+        return math.sqrt(max((start - self.r_b) * (start + self.r_b), 0.0))
+
+    @property
+    def whole(self) -> bool:
+        """Whether a tooth with a flank is left: the fillets of both sides do not meet below its involutes."""
+        if not 0.0 < self.r_f < self.r_a or not self.psi_b > 0.0 or not self.rho_start < self.rho_end:
+            return False
+        return bool(np.all(self.fillet(np.linspace(self.beta_start, RIGHT_ANGLE, SEEN)).imag > 0.0))
+
+    def half_angle(self, radius: Any) -> Array:
+        """Return half the angle of the tooth at distances from the centre, rad, between its involutes."""
+        radius = np.asarray(radius, float)
+        square = np.maximum((radius - self.r_b) * (radius + self.r_b), 0.0)
+        found: Array = self.psi_b - unrolled(np.sqrt(square) / self.r_b)
+        return found
+
+    def flank(self, rho: Any) -> Points:
+        """Return points of the upper involute at radii of curvature, m."""
+        t = np.asarray(rho, float) / self.r_b
+        points: Points = self.r_b * (1.0 + 1j * t) * np.exp(1j * (self.psi_b - t))
+        return points
+
+    def normal(self, rho: Any) -> Points:
+        """Return unit normals of the upper involute, out of the tooth: each lies on a tangent of the base circle."""
+        direction: Points = 1j * np.exp(1j * (self.psi_b - np.asarray(rho, float) / self.r_b))
+        return direction
+
+    def fillet(self, beta: Any) -> Points:
+        """Return points of the upper fillet at angles from `beta_start` to a right angle, rad."""
+        beta = np.asarray(beta, float)
+        sine, cosine = np.sin(beta), np.cos(beta)
+        beside = self.h_0 * cosine / sine
+        corner = self.r - self.h_0 - self.rho_f * sine - 1j * (beside + self.rho_f * cosine)
+        points: Points = corner * np.exp(1j * ((beside - self.e_f) / self.r + math.pi / self.z))
+        return points
+
+    @cached_property
+    def root_angle(self) -> float:
+        """The angle of the fillet's end on the root circle, rad: pi/z where the rack's tip is round."""
+        return math.pi / self.z - self.e_f / self.r
+
+    def half(self, points: int = POINTS, arc: float = ARC) -> Points:
+        """Return points of the upper half, from the middle of the tip to the middle of the space.
+
+        Parameters
+        ----------
+        points : int
+            Number of points of the flank, and of the fillet.
+        arc : float
+            Largest angle between points of the tip and the root, rad.
+        """
+        end = 0.0 if self.pointed else float(self.half_angle(self.r_a))
+        top = self.tip * np.exp(1j * _steps(0.0, end, arc))
+        flank = self.flank(np.linspace(self.rho_end, self.rho_start, points))
+        fillet = self.fillet(np.linspace(self.beta_start, RIGHT_ANGLE, points))
+        root = self.r_f * np.exp(1j * _steps(self.root_angle, math.pi / self.z, arc))
+        return np.concatenate((top[:-1], flank[:-1], fillet[:-1], root))
+
+    def outline(self, points: int = POINTS, arc: float = ARC) -> Points:
+        """Return points of one tooth counter-clockwise, from the middle of one space to that of the next."""
+        half = self.half(points, arc)
+        return np.concatenate((half[:0:-1].conj(), half))
+
+    def teeth(self, count: int, points: int = POINTS, arc: float = ARC) -> Points:
+        """Return points of neighbouring teeth counter-clockwise, the first of them on the real axis."""
+        turn = np.exp(2j * math.pi / self.z * np.arange(count))
+        outline = self.outline(points, arc)
+        return np.append((outline[:-1] * turn[:, np.newaxis]).ravel(), outline[-1] * turn[-1])
+
+    def wheel(self, points: int = POINTS, arc: float = ARC) -> Points:
+        """Return points of the whole wheel counter-clockwise, closed without a repeated point."""
+        return self.teeth(round(self.z), points, arc)[:-1]
+
+
+def tooth_of(values: Mapping[str, Any], i: int) -> Tooth:
+    """Return the tooth of the wheel `i`, 1 or 2, of a pair with its givens by name."""
+    found = geometry(values, NEEDED)
+    m, alpha, rho_f = found["m"], found["alpha"], found["rho_f"]
+    r, r_f = 0.5 * found[f"d_{i}"], 0.5 * found[f"d_f{i}"]
+    straight = (found["h_a"] + found["c"]) * m - rho_f  # of the corner's centre from the rack's middle line
+    return Tooth(
+        z=found[f"z_{i}"],
+        alpha=alpha,
+        r=r,
+        r_b=0.5 * found[f"d_b{i}"],
+        r_a=0.5 * found[f"d_a{i}"],
+        r_f=r_f,
+        psi_b=found[f"s_{i}"] / found[f"d_{i}"] + found["inv_alpha"],
+        rho_f=rho_f,
+        e_f=0.25 * math.pi * m - straight * math.tan(alpha) - rho_f / math.cos(alpha),
+    )
+
+
+def _steps(begin: float, end: float, most: float) -> Array:
+    """Return angles from `begin` to `end`, at most `most` apart."""
+    return np.linspace(begin, end, max(1, math.ceil(abs(end - begin) / most)) + 1)
