@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from .formats import Format, drawing_area, reserved_boxes
+from ..scales.choices import SIZES
+from .formats import FORMATS, Format, drawing_area, reserved_boxes
 from .frame import frame_shapes
 from .packing import Placement, pack
 from .page import Page
@@ -17,7 +18,16 @@ from .view import View
 MARGIN = 4.0  # mm between the frame and any view
 GAP = 7.0  # mm between views
 CLOSE = 4.0  # mm between views on the smallest format
+# part of the area on the largest format that the same figures take on a smaller one, with its smaller letters
+LIGHTER = {"A4": 0.5, "A3": 0.55, "A2": 0.9, "A1": 1.0}
 SHARES = (0.0, 0.02, -0.02, 0.04, -0.04, 0.06, -0.06, 0.09, -0.09)  # of the width, by which halves may be unequal
+
+
+def worth_trying(views: Sequence[View]) -> list[Format]:
+    """Return the formats that views drawn for the largest one can fit by their area, and that one, small ones first."""
+    area = sum(view.size[0] * view.size[1] for view in views)
+    names = [name for name in SIZES if area * LIGHTER[name] < FORMATS[name].width * FORMATS[name].height]
+    return [FORMATS[name] for name in dict.fromkeys([*names, SIZES[-1]])]
 
 
 def room(sheet: Format, norm: Norm, first: bool = False) -> tuple[float, float]:

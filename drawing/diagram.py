@@ -42,14 +42,15 @@ class Field:
         return self.origin + complex(self.x.mm(x), self.y.mm(y))
 
 
-def axes(canvas: Canvas, field: Field, lettered: bool = True) -> None:
+def axes(canvas: Canvas, field: Field, lettered: bool = True, past: float = PAST) -> None:
     """Draw both axes with arrows, letters and divisions; a thin line through each division of x.
 
-    `lettered` is false for the upper of several diagrams over one axis x: its divisions have their numbers below.
+    `lettered` is false for the upper of several diagrams over one axis x: its divisions have their numbers below. The
+    axes run `past` mm past their ends.
     """
     x, y = field.x, field.y
-    left, right = field.at(x.low, 0.0), field.at(x.high, 0.0) + PAST
-    foot, top = field.at(0.0, y.low), field.at(0.0, y.high) + 1j * PAST
+    left, right = field.at(x.low, 0.0), field.at(x.high, 0.0) + past
+    foot, top = field.at(0.0, y.low), field.at(0.0, y.high) + 1j * past
     for a, b in ((left, right), (foot, top)):
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
     canvas.label(y.letter, top, prefer=1.0 - 0.3j, clear=1.2)

@@ -8,7 +8,6 @@ from itertools import pairwise
 import numpy as np
 
 from ...plans.cams.integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
-from ...plans.cams.motion import TURN
 from ..diagram import Axis, Field, Pole, axes, rays
 from ..dimensions import linear
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
@@ -20,10 +19,10 @@ ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a di
 LETTER = {TRAVEL: "s", VELOCITY: "ds", ACCELERATION: "d2s"}
 POLES = {ACCELERATION: ("H_a", "O_{a}"), VELOCITY: ("H_v", "O_{v}")}
 RATES = {VELOCITY: ("mu_v", "m/s"), ACCELERATION: ("mu_a", "m/s^2")}  # scale factors of v and a
-ABOVE = 13.0  # mm for the arrow of an axis
-RAISED = 5.5  # mm of a text above the highest place of a diagram, clear of the numbers of section lines
+BETWEEN = 4.0  # heights of letters between diagrams
+PAST = 1.6  # heights of letters by which axes run past their curves
+RAISED = 3.3  # mm between the numbers of section lines and what is below or above them
 SAME = 1e-6  # mm, of ends of a jump
-GAP = 2.0
 
 
 def diagrams_view(scene: CamScene) -> View:
@@ -35,21 +34,20 @@ def diagrams_view(scene: CamScene) -> View:
     for plan in drawn:
         most = _ends(scene, plan)[1]
         if fields:
-            below = GAP + 2.4 * scene.style.text * (DIAGRAMS.index(plan) > 0)
-            low -= most + ABOVE + scene.style.label * 1.6 + below
+            low -= most + BETWEEN * scene.style.label
         fields.append(_field(scene, plan, 1j * low))
         low += _ends(scene, plan)[0]
     boxes = [_scales(canvas, scene, plan, field) for plan, field in zip(drawn, fields, strict=True)]
     _section_lines(canvas, scene, fields, boxes)
     for plan, field in zip(drawn, fields, strict=True):
-        axes(canvas, field, lettered=False)
+        axes(canvas, field, False, PAST * scene.style.label)
         _exact(canvas, scene, plan, field)
         _board(canvas, scene, plan, field)
         _amplitudes(canvas, scene, plan, field)
     _phases(canvas, scene, fields[-1])
     per_mm = scene.words["said.cam_axis"].format(angle=scene.degrees(scene.across.mu))
     heading = (scene.words["heading.cam_diagrams"], f"{scene.factor(scene.across)}  ({per_mm})")
-    return canvas.finish("diagrams", heading, _notes(scene))
+    return canvas.finish("diagrams", heading)
 
 
 def _ends(scene: CamScene, plan: str) -> tuple[float, float]:
@@ -74,13 +72,16 @@ def _field(scene: CamScene, plan: str, origin: complex) -> Field:
 
 
 def _scales(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> Box:
-    """Write the scale factors of a diagram beside the top of its axis; return the box that they fill."""
+    """Write the scale factors of a diagram beside the top of its axis; return the box that they fill.
+
+    On top of all they stand above the numbers of the section lines.
+    """
     texts = [scene.factor(scene.scale(plan))]
     if plan in RATES:
         texts.append(scene.factors(RATES[plan][0], unit=RATES[plan][1]))
-    text = Text(
-        field.at(0.0, field.y.high) + complex(4.0, RAISED + scene.style.text), ";  ".join(texts), scene.style.text
-    )
+    top = RAISED + scene.style.text * (plan == scene.solved.layout.given)
+    at = field.at(0.0, field.y.high) + complex(0.8 * scene.style.label, top)
+    text = Text(at, ";  ".join(texts), scene.style.text)
     canvas.add(text)
     x0, y0, x1, y1 = box(text)
     return x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
@@ -168,18 +169,3 @@ def _phases(canvas: Canvas, scene: CamScene, field: Field) -> None:
         symbol = scene.words.symbol(f"phi_{phase.name}")
         text = f"{symbol} = {scene.degrees(phase.length)}"
         linear(canvas, ends, -1j * (2.4 * scene.style.text), text, f"phi_{phase.name}")
-
-
-def _notes(scene: CamScene) -> tuple[str, ...]:
-    """Say what the lines are, that the curves close, and what is not drawn."""
-    words, solved = scene.words, scene.solved
-    closing = ", ".join(
-        f"{words.symbol(name)} = {words.number(scene.paper(name), 2)}"
-        for name in ("s_close", "v_close")
-        if name in solved.values
-    )
-    rest = TURN - float(solved.angles[-1])
-    lower = f"{words.symbol('phi_lower')} = {scene.degrees(rest)}"
-    said = [words["said.cam_closing"].format(values=closing)]
-    said += [words["said.cam_lower"].format(angle=lower)] * (rest > SAME)
-    return words["said.cam_curves"], "; ".join(said)

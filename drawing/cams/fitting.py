@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 
 from ...plans.cams.cam import DIAGRAMS, PRESSURE, PROFILE, SIZES
 from ...plans.cams.solve import SolvedCam
@@ -40,74 +40,113 @@ class Contents:
 
 @dataclass(frozen=True, slots=True)
 class Rungs:
-    """How small things are drawn: the diagrams, the S-ds/dphi diagram beside them, the profiles."""
+    """How small things are drawn: the diagrams, the S-ds/dphi diagram beside them, the profiles; each a rung."""
 
-    reduction: float
-    coarser: float
-    mu_l: float
-
-
-def mu_ladder(contents: Contents) -> tuple[float, ...]:
-    """Return the scale factors of the profiles, the one wanted first."""
-    chosen = contents.choosers.get("mu_l", Fixed(MU_L))
-    sizes = [part.sizes.r_0 for part in (contents.solved.roller, contents.solved.plate) if part is not None]
-    across = 2.0 * (max(sizes, default=0.1) + contents.solved.motion.h)
-    return chosen.ladder(lambda _: across)
+    reduction: int = 0
+    coarser: int = 0
+    mu_l: int = 0
 
 
-def scene_of(contents: Contents, sheet: Format, rungs: Rungs) -> CamScene:
-    """Return the scene of a sheet on a format."""
-    style, words = STYLES[sheet.letters], lettered(contents.words)
-    return CamScene(contents.solved, words, style, contents.givens, rungs.reduction, rungs.coarser, rungs.mu_l)
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """One figure of the sheet: how it is drawn, and the ladders that it depends on, the one that sizes it first."""
+
+    draw: Callable[[CamScene], View]
+    ladders: tuple[str, ...] = ()
 
 
-def views(contents: Contents, sheet: Format, rungs: Rungs) -> list[View]:
-    """Return the views of a sheet in the order of the work."""
-    scene = scene_of(contents, sheet, rungs)
-    width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
-    return [view for plan in contents.plans for view in _views(scene, plan, width)]
+@dataclass(slots=True)
+class Fitting:
+    """Draws the figures of `contents` for any format, each only once."""
+
+    contents: Contents
+    ladders: Mapping[str, tuple[float, ...]] = field(init=False)
+    _words: Words = field(init=False)
+    _drawn: dict[tuple[str, int, tuple[int, ...]], View] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Find the ladders."""
+        self._words = lettered(self.contents.words)
+        self.ladders = {"reduction": REDUCTIONS, "coarser": COARSER, "mu_l": self._mu_l()}
+
+    def _mu_l(self) -> tuple[float, ...]:
+        """Return the scale factors of the profiles, the one wanted first."""
+        solved = self.contents.solved
+        sizes = [part.sizes.r_0 for part in (solved.roller, solved.plate) if part is not None]
+        across = 2.0 * (max(sizes, default=MU_L) + solved.motion.h)
+        return self.contents.choosers.get("mu_l", Fixed(MU_L)).ladder(lambda _: across)
+
+    def scene(self, sheet: Format, rungs: Rungs) -> CamScene:
+        """Return the scene of a sheet on a format."""
+        reduction, coarser, mu_l = (self.ladders[name][getattr(rungs, name)] for name in self.ladders)
+        contents, style = self.contents, STYLES[sheet.letters]
+        return CamScene(contents.solved, self._words, style, contents.givens, reduction, coarser, mu_l)
+
+    def views(self, sheet: Format, rungs: Rungs) -> list[tuple[View, Figure]]:
+        """Return the views of a sheet in the order of the work."""
+        scene = self.scene(sheet, rungs)
+        width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
+        found = []
+        for number, figure in enumerate(figures(self.contents, width)):
+            key = sheet.name, number, tuple(getattr(rungs, name) for name in figure.ladders)
+            if key not in self._drawn:
+                self._drawn[key] = figure.draw(scene)
+            found.append((self._drawn[key], figure))
+        return found
+
+    def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
+        """Return the scale factors of the plans as they are drawn."""
+        scene = self.scene(sheet, rungs)
+        return {plan: scene.scale(plan) for plan in self.contents.solved.scale_of_plan if scene.shows(plan)}
 
 
-def _views(scene: CamScene, plan: str, width: float) -> Iterator[View]:
-    """Go through the views of a plan; a view is imported when it is drawn."""
-    solved = scene.solved
-    if plan == DIAGRAMS:
-        from .diagrams_view import diagrams_view
-        from .tables import motion_table
-        from .text import choices_block, scales_block
-
-        numbers = {name: given for name, given in scene.givens.items() if not isinstance(given.value, str)}
-        yield givens_view(numbers, scene.words, scene.style)
-        if len(numbers) < len(scene.givens):
-            yield choices_block(scene, NARROW * width)
-        yield diagrams_view(scene)
-        yield scales_block(scene, width)
-        yield motion_table(scene)
-    elif plan == SIZES:
-        from .plate_sizes_view import plate_sizes_view
-        from .sizes_view import sizes_view
-        from .text import plate_block, roller_block
-
-        if solved.roller is not None:
-            yield sizes_view(scene)
-            yield roller_block(scene, NARROW * width)
-        if solved.plate is not None:
-            yield plate_sizes_view(scene)
-            yield plate_block(scene, width)
-    elif plan == PROFILE:
-        from .plate_view import plate_view
-        from .roller_view import roller_view
-
-        if solved.roller is not None:
-            yield roller_view(scene)
-        if solved.plate is not None:
-            yield plate_view(scene)
-    elif plan == PRESSURE and solved.roller is not None:
-        from .pressure_view import pressure_view
-
-        yield pressure_view(scene)
+def figures(contents: Contents, width: float) -> list[Figure]:
+    """Return the figures of a sheet in the order of the work; lines of text are at most `width` long."""
+    made = {DIAGRAMS: _diagrams, SIZES: _sizes, PROFILE: _profiles, PRESSURE: _pressure}
+    return [figure for plan in contents.plans for figure in made[plan](contents, width)]
 
 
-def scales(contents: Contents, scene: CamScene) -> dict[str, Scale]:
-    """Return the scale factors of the plans as they are drawn."""
-    return {plan: scene.scale(plan) for plan in contents.solved.scale_of_plan}
+# A view is imported when its plan is wanted.
+
+
+def _diagrams(contents: Contents, width: float) -> Iterator[Figure]:
+    from .diagrams_view import diagrams_view
+    from .tables import motion_table
+    from .text import choices_block, scales_block
+
+    numbers = {name: given for name, given in contents.givens.items() if not isinstance(given.value, str)}
+    yield Figure(lambda scene: givens_view(numbers, scene.words, scene.style))
+    yield Figure(lambda scene: choices_block(scene, NARROW * width))
+    yield Figure(motion_table)
+    yield Figure(diagrams_view, ("reduction",))
+    yield Figure(lambda scene: scales_block(scene, width), ("reduction",))
+
+
+def _sizes(contents: Contents, width: float) -> Iterator[Figure]:
+    from .plate_sizes_view import plate_sizes_view
+    from .sizes_view import sizes_view
+    from .text import plate_block, roller_block
+
+    if contents.solved.roller is not None:
+        yield Figure(sizes_view, ("coarser", "reduction"))
+        yield Figure(lambda scene: roller_block(scene, NARROW * width))
+    if contents.solved.plate is not None:
+        yield Figure(plate_sizes_view, ("reduction",))
+        yield Figure(lambda scene: plate_block(scene, width))
+
+
+def _profiles(contents: Contents, width: float) -> Iterator[Figure]:
+    from .plate_view import plate_view
+    from .roller_view import roller_view
+
+    if contents.solved.roller is not None:
+        yield Figure(roller_view, ("mu_l",))
+    if contents.solved.plate is not None:
+        yield Figure(plate_view, ("mu_l",))
+
+
+def _pressure(contents: Contents, width: float) -> Iterator[Figure]:
+    from .pressure_view import pressure_view
+
+    if contents.solved.roller is not None:
+        yield Figure(pressure_view, ("reduction",))

@@ -57,6 +57,10 @@ class CamScene:
         symbol, times = {SIZES: ("mu_s", self.coarser), PLATE_SIZES: ("mu_d2s", 1.0)}[plan]
         return Scale(symbol, self.mu(symbol) * times, "m")
 
+    def shows(self, plan: str) -> bool:
+        """Whether the sheet has a view of a plan."""
+        return plan in DIAGRAM_SCALES or plan in (SIZES, PLATE_SIZES, PROFILE, PLATE_PROFILE)
+
     @property
     def across(self) -> Scale:
         """The scale factor of the axis of angles, rad/mm."""

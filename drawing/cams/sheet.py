@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from itertools import product
+from dataclasses import replace
 
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
-from ..compose import arrange, compose, room
+from ..compose import arrange, compose, room, worth_trying
 from ..formats import FORMATS, Format
 from ..packing import Placement
 from ..page import Drawn
 from ..titleblock import Stamp
 from ..view import View
-from .fitting import COARSER, REDUCTIONS, Rungs, mu_ladder, scales, scene_of, views
 from .fitting import Contents as Contents
+from .fitting import Fitting, Rungs
 from .zones import zoned
 
-FULL = 1.05  # parts of a page whose figures no arrangement brings on one page
+Found = tuple[Rungs, list[View], list[Placement]]
 
 
 def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn:
@@ -27,42 +27,56 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
     InputError
         When a view has no room on a page of the format.
     """
-    formats = [sheet] if sheet is not None else [FORMATS[name] for name in SIZES]
+    fitting, largest = Fitting(contents), FORMATS[SIZES[-1]]
+    formats = [sheet] if sheet is not None else worth_trying([v for v, _ in fitting.views(largest, Rungs())])
     for candidate in formats:
-        found = _single(contents, candidate)
+        found = _single(fitting, candidate)
         if found is not None:
-            return _drawn(contents, stamp, candidate, *found)
-    return _drawn(contents, stamp, formats[-1], *_several(contents, formats[-1]))
+            return _drawn(fitting, stamp, candidate, found)
+    return _drawn(fitting, stamp, formats[-1], _several(fitting, formats[-1]))
 
 
-def _single(contents: Contents, sheet: Format) -> tuple[Rungs, list[View], list[Placement]] | None:
-    """Try one page: diagrams as they are given, the S-ds/dphi diagram smaller if it must be."""
-    for coarser in COARSER:
-        rungs = Rungs(1.0, coarser, mu_ladder(contents)[0])
-        drawn = views(contents, sheet, rungs)
-        if sum(view.size[0] * view.size[1] for view in drawn) > FULL * sheet.width * sheet.height:
-            continue
-        places = zoned(drawn, sheet, contents.norm) or arrange([view.size for view in drawn], sheet, contents.norm, 1)
+def _single(fitting: Fitting, sheet: Format) -> Found | None:
+    """Try one page: diagrams and profiles as they are wanted, the S-ds/dphi diagram smaller if it must be."""
+    norm = fitting.contents.norm
+    for coarser in range(len(fitting.ladders["coarser"])):
+        rungs = Rungs(coarser=coarser)
+        views = [view for view, _ in fitting.views(sheet, rungs)]
+        places = zoned(views, sheet, norm)
+        if places is None and sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height:
+            places = arrange([view.size for view in views], sheet, norm, 1)
         if places is not None:
-            return rungs, drawn, places
+            return rungs, views, places
     return None
 
 
-def _several(contents: Contents, sheet: Format) -> tuple[Rungs, list[View], list[Placement]]:
+def _several(fitting: Fitting, sheet: Format) -> Found:
     """Take as many pages as are needed; what no page can hold is drawn smaller."""
-    wide, high = room(sheet, contents.norm)
-    for mu_l, reduction, coarser in product(mu_ladder(contents), REDUCTIONS, COARSER):
-        rungs = Rungs(reduction, coarser, mu_l)
-        drawn = views(contents, sheet, rungs)
-        if all(view.size[0] <= wide and view.size[1] <= high for view in drawn):
-            places = arrange([view.size for view in drawn], sheet, contents.norm, None)
-            if places is not None:
-                return rungs, drawn, places
-    raise InputError("sheet-too-small", format=sheet.name)
+    wide, high = room(sheet, fitting.contents.norm)
+    rungs = Rungs()
+    while True:
+        drawn = fitting.views(sheet, rungs)
+        tight = {f.ladders for v, f in drawn if v.size[0] > wide or v.size[1] > high}
+        if not tight:
+            break
+        for ladders in tight:
+            name = next((ladder for ladder in ladders if _next(fitting, rungs, ladder)), None)
+            if name is None:
+                raise InputError("sheet-too-small", format=sheet.name)
+            rungs = replace(rungs, **{name: getattr(rungs, name) + 1})
+    views = [view for view, _ in drawn]
+    places = arrange([view.size for view in views], sheet, fitting.contents.norm, None)
+    if places is None:
+        raise InputError("sheet-too-small", format=sheet.name)
+    return rungs, views, places
 
 
-def _drawn(
-    contents: Contents, stamp: Stamp, sheet: Format, rungs: Rungs, drawn: list[View], places: list[Placement]
-) -> Drawn:
-    factors = scales(contents, scene_of(contents, sheet, rungs))
-    return Drawn(compose(drawn, places, sheet, contents.norm, stamp), factors, sheet.name)
+def _next(fitting: Fitting, rungs: Rungs, ladder: str) -> bool:
+    """Whether a ladder has a further rung."""
+    return bool(getattr(rungs, ladder) + 1 < len(fitting.ladders[ladder]))
+
+
+def _drawn(fitting: Fitting, stamp: Stamp, sheet: Format, found: Found) -> Drawn:
+    rungs, views, places = found
+    pages = compose(views, places, sheet, fitting.contents.norm, stamp)
+    return Drawn(pages, fitting.scales(sheet, rungs), sheet.name)

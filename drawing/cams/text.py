@@ -13,6 +13,7 @@ from ..table import text_block
 from ..view import View
 from .scene import CamScene
 
+SMALL = 1e-6  # rad, of a dwell
 Lines = list[tuple[str, ...]]
 Terms = Sequence[tuple[str, float, bool]]  # symbol, number as it is printed, whether it is exact
 
@@ -24,10 +25,10 @@ def scales_block(scene: CamScene, width: float) -> View:
 
 
 def choices_block(scene: CamScene, width: float) -> View:
-    """Return the choices that the task makes in words."""
+    """Return the choices that the task makes in words, and what the lines of the diagrams are."""
     words = scene.words
     chosen = (choice(words, name, given.value) for name, given in scene.givens.items() if isinstance(given.value, str))
-    lines: Lines = [(f"{about}:", said) for about, said in chosen]
+    lines: Lines = [*((f"{about}:", said) for about, said in chosen), *_about(scene)]
     return text_block("choices", words["heading.cam_choices"], lines, scene.style, width)
 
 
@@ -160,7 +161,22 @@ def _factors(scene: CamScene, mark: str = "") -> Lines:
 
 
 def _chords(scene: CamScene) -> Lines:
-    return [(f"{scene.words['said.cam_by_chords']}:",), *_factors(scene, "_chord")]
+    """Return the scale factors by the curves of chords, and by how much these do not close."""
+    words, values = scene.words, scene.solved.values
+    names = [name for name in ("s_close", "v_close") if name in values]
+    gaps = (f"{words.symbol(name)} = {words.number(scene.paper(name), 2)} {words.unit('mm')}" for name in names)
+    closing = words["said.cam_closing"].format(values=", ".join(gaps))
+    return [(f"{words['said.cam_by_chords']}:",), *_factors(scene, "_chord"), (closing,)]
+
+
+def _about(scene: CamScene) -> Lines:
+    """Say what the lines of the diagrams are, and what is not drawn."""
+    words, rest = scene.words, scene.solved.motion.lower.length
+    said: Lines = [tuple(words["said.cam_curves"].split("|"))]
+    if rest > SMALL:
+        lower = f"{words.symbol('phi_lower')} = {scene.degrees(rest)}"
+        said.append((words["said.cam_lower"].format(angle=lower),))
+    return said
 
 
 def _rates(scene: CamScene) -> Lines:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from operator import is_
 
-from ...scales.choices import SIZES
 from ...scales.errors import InputError
-from ..compose import arrange, arrange_halves, compose
+from ..compose import arrange, arrange_halves, compose, worth_trying
 from ..formats import FORMATS, Format
 from ..packing import Placement
 from ..page import Drawn
@@ -17,8 +16,6 @@ from .fitting import Contents, Fitted, Fitting
 from .several import forces_begin, several
 from .zones import zoned
 
-# part of the area on the largest format that the same figures take on a smaller one, with its smaller letters
-LIGHTER = {"A4": 0.5, "A3": 0.55, "A2": 0.9, "A1": 1.0}
 COARSER = 5  # steps below the wanted scales, pa = 50 mm, beyond which several pages are better than one
 CROWDED = 1.6  # parts of a page whose figures no coarser rung brings on one page
 
@@ -39,7 +36,7 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         if laid_out is not None:
             zoned_views, zoned_scales, zoned_places = laid_out
             return _drawn(fitting, stamp, customary, (zoned_views, zoned_scales), zoned_places)
-    formats = [sheet] if sheet is not None else _worth_trying(fitting)
+    formats = [sheet] if sheet is not None else worth_trying(fitting.views(customary)[0])
     for candidate in formats:
         found = _single(fitting, candidate, COARSER if candidate is formats[-1] else 0)
         if found is not None:
@@ -49,14 +46,6 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
 
 def _area(fitted: Fitted) -> float:
     return sum(view.size[0] * view.size[1] for view in fitted[0])
-
-
-def _worth_trying(fitting: Fitting) -> list[Format]:
-    """Return the formats that the figures can fit by their area, and the largest one."""
-    largest = FORMATS[SIZES[-1]]
-    area = _area(fitting.views(largest))
-    names = [name for name in SIZES if area * LIGHTER[name] < FORMATS[name].width * FORMATS[name].height]
-    return [FORMATS[name] for name in dict.fromkeys([*names, largest.name])]
 
 
 def _single(fitting: Fitting, sheet: Format, coarser: int) -> tuple[Fitted, list[Placement]] | None:

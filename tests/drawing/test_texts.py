@@ -120,4 +120,4 @@ def test_words_can_be_looked_up_by_key(language: str) -> None:
 def test_every_table_of_words_is_read() -> None:
     names = {path.name for path in files(PACKAGE).joinpath("texts").iterdir()}
 
-    assert names == {f"{kind}{language}.toml" for kind in ("", "titleblock.") for language in LANGUAGES}
+    assert names == {f"{kind}{language}.toml" for kind in ("", "titleblock.", "cams.") for language in LANGUAGES}
