@@ -17,10 +17,14 @@ METRE = "m"
 
 @dataclass(frozen=True, slots=True)
 class Display:
-    """`length` stands for the metre in units of lengths, velocities, accelerations; `paper` measures segments."""
+    """`length` stands for the metre in units of lengths, velocities, accelerations; `paper` measures segments.
+
+    With `size` lengths alone have this unit, those of a cam millimetres, say, while its velocities stay in m/s.
+    """
 
     length: str = METRE
     paper: str = "mm"
+    size: str = ""
 
     def unit(self, si: str) -> str:
         """Return the unit in which a value of an SI unit is shown.
@@ -28,10 +32,17 @@ class Display:
         >>> Display("cm").unit("m/s^2"), Display("cm").unit("rad/s")
         ('cm/s^2', 'rad/s')
         """
+        if self.size and si == METRE:
+            return self.size
         powers = unit(si).powers
         if self.length == METRE or all(name != METRE for name, _ in powers):
             return si
         return Unit(tuple((self.length if name == METRE else name, power) for name, power in powers)).name
+
+    @property
+    def of_scales(self) -> Display:
+        """The units in which scale factors are shown, and what they draw."""
+        return replace(self, size="")
 
     def value(self, value: float, si: str) -> float:
         """Return a value of an SI unit as it is shown.
@@ -52,6 +63,8 @@ class Display:
         >>> Display("cm", "cm").scale(Scale("mu_V", 0.00075, "m/s"))
         Scale(symbol='mu_V', mu=0.75, unit='cm/s', paper='cm')
         """
+        if self.size:
+            return self.of_scales.scale(scale)
         if scale.paper == self.paper and self.unit(scale.unit) == scale.unit:
             return scale
         per_mm = self.value(scale.mu, scale.unit)

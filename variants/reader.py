@@ -194,8 +194,8 @@ def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
 
 
 def _display(checker: Checker, path: Path, raw: object) -> Display:
-    """Read `[display]`: the unit of lengths in results, and that of segments."""
-    units = {"length": LENGTHS, "paper": PAPER}
+    """Read `[display]`: the units of lengths in results, and that of segments."""
+    units = {"length": LENGTHS, "size": LENGTHS, "paper": PAPER}
     fields = {
         name: Field(one_of("display-unit", partial(tuple, known)), required=False) for name, known in units.items()
     }

@@ -32,6 +32,8 @@ UNITS = {
     "m/s^2": DECIMALS,
     "N": (1e-6, 1e-3, 0.1, 10.0, 1e3, 1e6),  # kN, MPa in what it comes from, cm on the plan
     "N*m": (1e-6, *DECIMALS, 1e6),
+    "m/mm": DECIMALS,
+    "rad": ANGLES[:2],
     "rad/s": ANGLES,
     "rad/s^2": (*ANGLES[:2], *(x * x for x in ANGLES[2:])),
 }  # by what factors a value is wrong when only its unit is

@@ -397,7 +397,7 @@ def test_right_answers_get_the_full_mark(tmp_path: Any, solution: Solution) -> N
     for line in lines:
         cells = line.split(",")
         if cells[0] in solution and len(cells) > 6:
-            cells[5] = f"{solution[cells[0]].value:.4g}"
+            cells[5] = f"{solution[cells[0]].shown(solution.words.display).value:.4g}"
         filled.append(",".join(cells))
     form.write_text("\n".join(filled), encoding="utf-8-sig")
 

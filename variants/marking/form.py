@@ -66,7 +66,7 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
     for part in filter(attrgetter("asked"), keyed.parts):
         yield (plain(part.heading),)
         for name in part.scales:
-            unit = _written(f"({asked.display.unit(asked.scales[name])})/{asked.display.paper}", words)
+            unit = _written(f"({asked.display.of_scales.unit(asked.scales[name])})/{asked.display.paper}", words)
             yield (name, keyed.symbol(name), "", "", "", "", unit)
         for question in part.asked:
             name, unit = question.name, _written(asked.unit(question.name), words)

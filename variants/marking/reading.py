@@ -94,7 +94,7 @@ class _Sheet:
         if not text:
             return None
         drawn = self.asked.scales.get(symbol or "") or self.asked.quantities[name].unit
-        shown, paper = self.asked.display.unit(drawn), self.asked.display.paper
+        shown, paper = self.asked.display.of_scales.unit(drawn), self.asked.display.paper
         try:
             return cells.scale_factor(text, written, _per(drawn, "mm"), _per(shown, paper))
         except InputError as error:

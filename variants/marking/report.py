@@ -152,7 +152,7 @@ class _Teller:
 
     def _scale(self, misfit: Misfit) -> str:
         """Return what is wrong with a scale factor that stands in its own row."""
-        si, display = self.marked.keyed.asked.scales[misfit.symbol], self.words.display
+        si, display = self.marked.keyed.asked.scales[misfit.symbol], self.words.display.of_scales
         unit = format_unit(f"({display.unit(si)})/mm", self.language)
         ratio = misfit.written / misfit.fits
         return self.said["again.large" if ratio > 1.0 else "again.small"].format(
