@@ -6,6 +6,7 @@ when one lies between lines. A hand errs the more the more chords it draws, so t
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -33,6 +34,7 @@ SECTIONS = (6, 12, 24, 48, 96, 192, 384)  # of a phase
 DRAWN = (6, 9, 12, 18, 24, 36, 48, 72)
 FINE = 24  # sections from which on errors show their order
 ROUNDING = 1e-11  # error that is none
+THIRD, ROUNDED = 1.0 / 3.0, 9  # of a section; decimals
 NEAR = 1e-6  # part of a section within which a jump lies on a line
 DRAWINGS, SEED = 400, 1
 ENOUGH = 1.1  # times the least error that is as good
@@ -156,15 +158,17 @@ def at_nodes(solved: SolvedCam, sections: int, names: Iterable[str]) -> Sectione
 
 
 def between(solved: SolvedCam, sections: int, names: Iterable[str]) -> Sectioned:
-    """Draw the diagrams with about so many equal sections of a phase, jumps as far from section lines as can be."""
+    """Draw the diagrams with about so many equal sections of a phase, jumps about a third of a section beside lines.
+
+    The first jump lies behind the line: so errors of all numbers of sections have the same sign.
+    """
     parts = inner_jumps(solved.motion)
 
-    def nearest_line(count: int) -> float:
-        return min(abs(part * count - round(part * count)) for part in parts)
+    def off(count: int) -> float:
+        beside = [part * count - math.floor(part * count) for part in parts]
+        return abs(beside[0] - THIRD) + sum(abs(min(x, 1.0 - x) - THIRD) for x in beside)
 
-    counts = range(sections, sections + max(3, sections // 8))
-    most = max(nearest_line(count) for count in counts)
-    count = next(count for count in counts if nearest_line(count) > most - NEAR)
+    count = min(range(sections, sections + max(5, sections // 8)), key=lambda count: round(off(count), ROUNDED))
     return _sectioned(solved, *equal_division(solved.motion, count), tuple(names))
 
 

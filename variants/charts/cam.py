@@ -10,7 +10,6 @@ from ...plans.cams.rivals import rivals
 from ...plans.cams.solve import SolvedCam
 from ...plans.contest import FULL, Effort
 from ...plans.hands.hand import preset
-from ...scales.errors import InputError
 from .accuracy import AccuracyChart
 from .cam_stability import cam_stability_chart
 from .data import Scene
@@ -30,12 +29,10 @@ class CamCharts:
         Raises
         ------
         InputError
-            An unknown quantity, no diagrams, or diagrams that have no errors.
+            An unknown quantity, or diagrams that have no errors.
         """
         solved = scene.case.solved
         assert isinstance(solved, SolvedCam)
-        if not solved.program.plans:
-            raise InputError("chart-no-diagrams")
         if name == "accuracy":
             return cam_accuracy_chart(scene, solved)
         if name == "stability":
