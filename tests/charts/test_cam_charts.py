@@ -204,7 +204,7 @@ def test_sums_of_mean_ordinates_are_the_chords_of_the_board() -> None:
 
 @pytest.mark.parametrize(("way", "order"), [(midpoint, 2.0), (simpson, 4.0)])
 def test_sums_have_their_orders_where_the_law_bends(way: object, order: float) -> None:
-    motion = cam("sine", u="1/2").motion
+    motion = cam("polynomial-345", u="1/2").motion
 
     coarse, fine = (motion_errors(motion, way, n) for n in (12, 24))
 
