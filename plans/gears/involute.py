@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 SMALL = 0.5  # below it the series is summed
 TERMS = tuple((-1.0) ** k / (2 * k + 3) for k in range(26))  # t - arctan(t) = t^3 (1/3 - t^2/5 + t^4/7 - ...)
-STEPS = 12  # of Newton, which needs seven from the start that it has
+STEPS = 6  # of Newton, which needs four from the start that it has
 
 
 def unrolled(t: Any) -> Array:

@@ -1,0 +1,84 @@
+"""What a gear pair is judged by: values, limits and verdicts, and the distance of the centres in other ways.
+
+Source: GOST 16532-70, appendix on quality by geometry.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from .gear import WHEELS, GearPair
+
+EPSILON = 1.2  # the least contact ratio advised for spur gears
+ROUNDING = 1e-12  # part of a length by which two ways to it may differ, and a limit may be missed
+CENTRES = ("a_w_rolling", "a_w_shift", "a_w_tip1", "a_w_tip2")
+AT_LEAST, AT_MOST, EQUAL = RELATIONS = ("at-least", "at-most", "equal")
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One check of a pair.
+
+    Parameters
+    ----------
+    name : str
+        What is looked at: `undercut_1`, `interference_1`, `contact_ratio`, `tip_1`, `centre_a_w_shift`, ...
+    quantity : str
+        Name of the quantity that is compared.
+    value, limit : float
+        In SI.
+    relation : {"at-least", "at-most", "equal"}
+        How the value has to stand to its limit.
+    of : str
+        Name of the quantity that is the limit, if one is.
+    """
+
+    name: str
+    quantity: str
+    value: float
+    limit: float
+    relation: str
+    of: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """The verdict; what is undefined is not in order."""
+        room = ROUNDING * max(abs(self.value), abs(self.limit))
+        if self.relation == AT_LEAST:
+            return self.value >= self.limit - room
+        if self.relation == AT_MOST:
+            return self.value <= self.limit + room
+        return math.isclose(self.value, self.limit, rel_tol=ROUNDING)
+
+
+def checks(pair: GearPair, found: Mapping[str, float]) -> list[Check]:
+    """Return the checks of a pair with its quantities by name, in the order of the note.
+
+    Interference is looked for where the rack has cut: the curvature at the lower point of contact must not be less than
+    at the boundary point. Of an undercut tooth that is negative, and the check of undercutting tells it.
+    """
+    return [*_centres(found), *_roots(found), *_contact(found), *_tips(pair, found)]
+
+
+def _centres(found: Mapping[str, float]) -> list[Check]:
+    return [Check(f"centre_{name}", name, found[name], found["a_w"], EQUAL, "a_w") for name in CENTRES]
+
+
+def _roots(found: Mapping[str, float]) -> list[Check]:
+    undercut, interference = [], []
+    for i in WHEELS:
+        x, least, rho_l, rho_p = (f"{name}{i}" for name in ("x_", "x_min", "rho_l", "rho_p"))
+        undercut.append(Check(f"undercut_{i}", x, found[x], found[least], AT_LEAST, least))
+        interference.append(Check(f"interference_{i}", rho_l, found[rho_l], found[rho_p], AT_MOST, rho_p))
+    return undercut + interference
+
+
+def _contact(found: Mapping[str, float]) -> list[Check]:
+    return [Check("contact_ratio", "epsilon_alpha", found["epsilon_alpha"], EPSILON, AT_LEAST)]
+
+
+def _tips(pair: GearPair, found: Mapping[str, float]) -> list[Check]:
+    limit = pair.least_tip * found["m"]
+    return [Check(f"tip_{i}", f"s_a{i}", found[f"s_a{i}"], limit, AT_LEAST) for i in WHEELS]

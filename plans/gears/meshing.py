@@ -1,0 +1,124 @@
+"""How the two wheels of a pair mesh: centres, line of action, contacts, and both wheels turned together.
+
+All points are complex numbers, m. The pole is the origin, the line of centres the imaginary axis, the pinion below. A
+contact is known by rho_1, its distance from N1 along N1N2: the radius of curvature of the pinion's flank there. Angles
+of the pinion count from the contact at the pole in the sense in which it turns, so rho_1 grows by r_b1 times the angle.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .geometry import geometry
+from .profile import ARC, POINTS, Points, Tooth, tooth_of
+
+Array = NDArray[np.float64]
+WANTED = ("a_w", "alpha_w", "d_w1", "d_w2", "d_b1", "d_b2", "rho_p1", "rho_a1", "l_N1N2", "p_b", "rho_w1", "rho_w2")
+
+
+@dataclass(frozen=True)
+class Meshing:
+    """A pair in mesh without backlash.
+
+    Parameters
+    ----------
+    teeth : tuple of Tooth
+        Of the pinion and of the wheel.
+    sizes : mapping of str to float
+        The quantities of the pair.
+    sense : int
+        +1 when the pinion turns counter-clockwise, else -1.
+    """
+
+    teeth: tuple[Tooth, Tooth]
+    sizes: Mapping[str, float]
+    sense: int = 1
+
+    @property
+    def centres(self) -> tuple[complex, complex]:
+        """O1 and O2."""
+        return complex(0.0, -0.5 * self.sizes["d_w1"]), complex(0.0, 0.5 * self.sizes["d_w2"])
+
+    @property
+    def along(self) -> complex:
+        """The unit direction from N1 to N2, in which contacts move."""
+        alpha_w = self.sizes["alpha_w"]
+        return complex(-self.sense * math.cos(alpha_w), math.sin(alpha_w))
+
+    @property
+    def ends(self) -> tuple[complex, complex]:
+        """N1 and N2, where the line of action touches the base circles."""
+        return self.place(0.0), self.place(self.sizes["l_N1N2"])
+
+    @property
+    def active(self) -> tuple[complex, complex]:
+        """A1 and A2, where the tip circles cut the line of action: of the wheel, of the pinion."""
+        return self.place(self.sizes["rho_p1"]), self.place(self.sizes["rho_a1"])
+
+    def place(self, rho_1: float) -> complex:
+        """Return the point of the line of action at the distance `rho_1` from N1."""
+        return self.along * (rho_1 - self.sizes["rho_w1"])
+
+    @property
+    def touching(self) -> tuple[float, float]:
+        """Between which rho_1 the flanks touch: the active line, less what undercut and pointed teeth lack."""
+        pinion, wheel = self.teeth
+        line = self.sizes["l_N1N2"]
+        return max(pinion.rho_start, line - wheel.rho_end), min(pinion.rho_end, line - wheel.rho_start)
+
+    @property
+    def single(self) -> tuple[float, float]:
+        """Between which rho_1 one pair alone touches; in reverse order where there are always two."""
+        first, last = self.touching
+        return last - self.sizes["p_b"], first + self.sizes["p_b"]
+
+    def angle(self, rho_1: float) -> float:
+        """Return the pinion's angle from the contact at the pole to that at `rho_1`, rad."""
+        return (rho_1 - self.sizes["rho_w1"]) / self.teeth[0].r_b
+
+    def contacts(self, angle: float) -> Array:
+        """Return rho_1 of all pairs that touch at an angle of the pinion, from first to last to leave, rising."""
+        first, last = self.touching
+        pitch = self.sizes["p_b"]
+        base = self.sizes["rho_w1"] + self.teeth[0].r_b * angle
+        numbers = np.arange(math.ceil((first - base) / pitch), math.floor((last - base) / pitch) + 1)
+        return np.asarray(base + pitch * numbers)
+
+    def counted_ratio(self, steps: int = 1000) -> float:
+        """Return how many pairs touch on average over a pitch, counted in equal steps.
+
+        For teeth that are neither undercut where they touch nor pointed that is the contact ratio.
+        """
+        angles = 2.0 * math.pi / self.teeth[0].z * (np.arange(steps) + 0.5) / steps
+        return float(np.mean([len(self.contacts(angle)) for angle in angles]))
+
+    def directions(self, angle: float) -> tuple[complex, complex]:
+        """Return from each centre the direction of the tooth that touches at the pole when the angle is zero."""
+        found = []
+        for tooth, side, ratio in zip(self.teeth, (1j, -1j), (1.0, -self._ratio), strict=True):
+            half = float(tooth.half_angle(tooth.r_b / math.cos(self.sizes["alpha_w"])))
+            turned = self.sense * (ratio * angle - half)
+            found.append(side * complex(math.cos(turned), math.sin(turned)))
+        return found[0], found[1]
+
+    @property
+    def _ratio(self) -> float:
+        return self.teeth[0].z / self.teeth[1].z
+
+    def outlines(self, angle: float, points: int = POINTS, arc: float = ARC) -> tuple[Points, Points]:
+        """Return the outlines of both wheels at an angle of the pinion, closed without a repeated point."""
+        first, second = (
+            centre + tooth.wheel(points, arc) * direction
+            for tooth, centre, direction in zip(self.teeth, self.centres, self.directions(angle), strict=True)
+        )
+        return first, second
+
+
+def meshing_of(values: Mapping[str, float], sense: int = 1) -> Meshing:
+    """Return a pair in mesh with its complete givens by name."""
+    return Meshing((tooth_of(values, 1), tooth_of(values, 2)), geometry(values, WANTED), sense)
