@@ -50,12 +50,12 @@ def split_number(text: str) -> tuple[float, str]:
     rest = stripped[found.end() :].strip()
     under = _UNDER.match(rest) if found.group().isdigit() else None
     if under is not None:
-        return float(found.group()) / float(under[1]), rest[under.end() :].strip()
+        rest = rest[under.end() :].strip()
     # A second number ("55 5", "1,500.5") would otherwise be taken for a unit.
     if (rest[:1].isdigit() and not rest.startswith("1/")) or rest[:1] in {".", ","}:
         raise InputError("number-bad", text=quote(stripped))
     plain = found.group().translate(_PLAIN)
-    value = float(plain)
+    value = float(plain) if under is None else float(plain) / float(under[1])
     if not math.isfinite(value):
         raise InputError("number-infinite", text=quote(stripped))
     if value == 0.0 and any(digit in "123456789" for digit in re.split("[eE]", plain)[0]):

@@ -59,6 +59,9 @@ FINITE = st.floats(min_value=1e-9, max_value=1e9) | st.floats(min_value=-1e9, ma
         ("2 кВт", "W", 2000.0),
         (".5 m", "m", 0.5),
         ("5. m", "m", 5.0),
+        ("1/3", "1", 1 / 3),
+        ("3 / 4 mm", "m", 0.75e-3),
+        ("5 1/s", "1/s", 5.0),
     ],
 )
 def test_a_quantity_is_read_in_si(text: str, expected: str, value: float) -> None:
@@ -96,6 +99,11 @@ def test_conversion_rounds_no_more_than_the_textbook_formula(text: str, expected
         ("--5 mm", "m", "number-bad"),
         ("١٢ mm", "m", "number-bad"),
         ("0x10 mm", "m", "unit-unknown"),
+        ("1/0", "%", "unit-unknown"),
+        ("0.5/3", "%", "unit-unknown"),
+        ("1/3.5", "%", "unit-unknown"),
+        ("1/" + "9" * 400, "%", "number-infinite"),
+        ("9" * 400 + "/3", "%", "number-infinite"),
         ("5 furlong", "m", "unit-unknown"),
         ("5 m^99", "m", "unit-unknown"),
         ("5 (m", "m", "unit-unknown"),
