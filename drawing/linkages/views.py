@@ -12,18 +12,18 @@ from ...plans.linkages.mechanism import Diagram, Prismatic
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group
 from ..view import View
-from .driver_view import driver_view
-from .forces_text import LOADS, WHOLE, force_parts, forces_block
-from .group_view import group_view, link_view
-from .kinematics_text import KinematicsPart, kinematics_block, kinematics_parts
-from .lever_text import lever_block
-from .lever_view import lever_view
-from .load_diagram import load_diagram
-from .plan_view import plan_view
+from .calculations.forces import LOADS, WHOLE, force_parts, forces_block
+from .calculations.kinematics import KinematicsPart, kinematics_block, kinematics_parts
+from .calculations.lever import lever_block
+from .calculations.structure import structure_block
+from .calculations.tables import Part, givens_table, results_parts, results_table
+from .figures.driver import driver_view
+from .figures.group import group_view, link_view
+from .figures.lever import lever_view
+from .figures.load_diagram import load_diagram
+from .figures.plan import plan_view
+from .figures.scheme import scheme
 from .scene import Scene
-from .scheme import scheme
-from .structure_text import structure_block
-from .tables import Part, givens_table, results_parts, results_table
 
 if TYPE_CHECKING:
     from ...plans.linkages.cycles.cycle import Cycle
@@ -70,7 +70,7 @@ def _kinematics(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> 
 def _compound(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
     if "compound" not in plans:
         return
-    from .compound_view import velocity_figure  # few tasks split motions
+    from .figures.compound import velocity_figure  # few tasks split motions
 
     couplers = hinged(solved.mechanism, solved.structure)
     if couplers:
@@ -85,9 +85,9 @@ def _compound(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> It
 def _cycle(solved: SolvedLinkage, cycle: Cycle | None) -> Iterator[Figure]:
     if cycle is not None:
         # a sheet of one position does not pay for the import
-        from .diagrams_view import diagrams_view
-        from .field_view import coupler, field_view
-        from .positions_view import main_output, positions_view
+        from .figures.diagrams import diagrams_view
+        from .figures.field import coupler, field_view
+        from .figures.positions import main_output, positions_view
 
         yield Figure(lambda scene: positions_view(scene, cycle), "mu_l")
         if main_output(cycle) is not None:
@@ -160,14 +160,14 @@ def _lever(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Itera
 
 def _accelerations(coupler: Coupler, point: str) -> Figure:
     """Return the figure of the accelerations of one point of a coupler."""
-    from .compound_view import acceleration_figure
+    from .figures.compound import acceleration_figure
 
     symbol = scale_symbol(f"{ACCELERATION}{coupler.letters[point]}") or ""
     return Figure(lambda scene: acceleration_figure(scene, coupler, point), symbol, "mu_l")
 
 
 def _compound_text(coupler: Coupler, kind: str, width: float) -> Figure:
-    from .compound_text import compound_block
+    from .calculations.compound import compound_block
 
     return Figure(lambda scene: compound_block(scene, width, coupler, kind))
 

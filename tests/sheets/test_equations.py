@@ -9,15 +9,15 @@ from functools import lru_cache
 
 import pytest
 
-from kulman.drawing.linkages.equations import Lines
-from kulman.drawing.linkages.forces_text import force_lines, force_parts
-from kulman.drawing.linkages.kinematics_text import kinematics_lines
-from kulman.drawing.linkages.ladders import first_scales
+from kulman.drawing.linkages.calculations.equations import Lines
+from kulman.drawing.linkages.calculations.forces import force_lines, force_parts
+from kulman.drawing.linkages.calculations.kinematics import kinematics_lines
+from kulman.drawing.linkages.calculations.lever import lever_lines
+from kulman.drawing.linkages.calculations.structure import formula
+from kulman.drawing.linkages.calculations.tables import ROWS, results_parts
+from kulman.drawing.linkages.layout.ladders import first_scales
 from kulman.drawing.linkages.letters import lettered
-from kulman.drawing.linkages.lever_text import lever_lines
 from kulman.drawing.linkages.scene import Scene
-from kulman.drawing.linkages.structure_text import formula
-from kulman.drawing.linkages.tables import ROWS, results_parts
 from kulman.drawing.style import STYLES
 from kulman.drawing.words import Words, notations
 from kulman.plans.linkages.mechanism import Mechanism

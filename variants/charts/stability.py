@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ...drawing.charts.stability import SPOTS
-from ...drawing.linkages.ladders import first_scales
+from ...drawing.linkages.layout.ladders import first_scales
 from ...drawing.words import GREEK, Words
 from ...plans.boards.exact import SMALL
 from ...plans.hands.hand import preset

@@ -104,7 +104,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def first_scales(self, solved: SolvedLinkage, choosers: Choosers) -> dict[str, Scale]:
         """Return the scale factors as they are wanted, by plan."""
-        from ...drawing.linkages.ladders import first_scales
+        from ...drawing.linkages.layout.ladders import first_scales
 
         return first_scales(solved, choosers)
 
@@ -163,8 +163,8 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the plans of one position, and the cycle where the task wants it."""
-        from ...drawing.linkages.fitting import Contents
-        from ...drawing.linkages.sheet import draw
+        from ...drawing.linkages.layout.fitting import Contents
+        from ...drawing.linkages.layout.sheet import draw
 
         whole = None
         if "cycle" in case.plans:  # drawing a single position does not import it

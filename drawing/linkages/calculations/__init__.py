@@ -1,0 +1,1 @@
+"""What the sheet of a linkage says in equations, numbers and tables."""

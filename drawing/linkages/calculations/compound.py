@@ -1,0 +1,210 @@
+"""Equations of compound motion with their numbers: transport, relative motion and Coriolis for each hinged coupler."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from ....plans.board import POSITION
+from ....plans.linkages.compound import ACCELERATION, PARTS, VELOCITY, Closing, Coupler
+from ....plans.linkages.mechanism import ZERO
+from ...printed import Input, calculation, ruler_decimals, segment_decimals
+from ...table import text_block
+from ...view import View
+from ..at_point import direction_words
+from ..scene import Scene
+from .equations import Factor, Product, by_direction, factor, known, sensed, worked
+
+Line = tuple[str, ...]
+UNITS = {"V": "m/s", "a": "m/s^2", "omega": "rad/s", "epsilon": "rad/s^2"}
+
+
+def compound_block(scene: Scene, width: float, coupler: Coupler, kind: str) -> View:
+    """Return the equations of the velocities (`kind` "V") or of the accelerations ("a") of one coupler."""
+    lines = list(_velocities(scene, coupler) if kind == "V" else _accelerations(scene, coupler))
+    heading = scene.words[f"heading.equations_compound_{kind}"].format(link=_name(scene, coupler.number))
+    return text_block(f"equations_compound_{kind}_{coupler.number}", heading, lines, scene.style, width)
+
+
+def _velocities(scene: Scene, c: Coupler) -> Iterator[Line]:
+    """Go through the velocities: where the end is closed, omega_r follows from it, else it is known before."""
+    rate = f"omega_r_{c.number}"
+    yield _split(scene, c)
+    if c.closing is None:
+        yield _sum_of_rates(scene, rate, f"omega_{c.number}", c.omega_e, -1.0)
+        yield from _centre(scene, c)
+    for point, letter in c.letters.items():
+        distance = f"l_{c.pivot}{point}"
+        yield _vectors(scene, c, point, "V")
+        yield _measured(scene, distance, POSITION)
+        yield _product(scene, f"V_{letter}_e", factor(scene, c.omega_e), factor(scene, distance))
+        if _closing(c, point) is not None:
+            yield _measured(scene, f"V_{letter}_r", VELOCITY + letter)
+            yield _product(scene, rate, factor(scene, f"V_{letter}_r"), _arm(scene, c, point, -1))
+            yield _sum_of_rates(scene, f"omega_{c.number}", c.omega_e, rate, 1.0)
+            yield from _centre(scene, c)
+        else:
+            yield _product(scene, f"V_{letter}_r", factor(scene, rate), _arm(scene, c, point))
+        yield _measured(scene, f"V_{point}", VELOCITY + letter)
+
+
+def _accelerations(scene: Scene, c: Coupler) -> Iterator[Line]:
+    """Go through the accelerations in the order in which they are hung."""
+    rate = f"epsilon_r_{c.number}"
+    if c.closing is None:
+        yield _sum_of_rates(scene, rate, f"epsilon_{c.number}", c.epsilon_e, -1.0)
+    for point, letter in c.letters.items():
+        closing, plan = _closing(c, point), ACCELERATION + letter
+        yield _vectors(scene, c, point, "a")
+        yield from _known_parts(scene, c, point)
+        if closing is not None:
+            yield from _closed(scene, c, closing, plan)
+            yield _product(scene, rate, factor(scene, f"a_{letter}_rt"), _arm(scene, c, point, -1))
+            yield _sum_of_rates(scene, f"epsilon_{c.number}", c.epsilon_e, rate, 1.0)
+        else:
+            yield _product(scene, f"a_{letter}_rt", factor(scene, rate), _arm(scene, c, point))
+        yield _measured(scene, f"a_{point}", plan)
+
+
+def _split(scene: Scene, c: Coupler) -> Line:
+    """Say which rotation is the transport one, and which the relative one."""
+    words = scene.words
+    said = words["said.split"].format(
+        link=_name(scene, c.number),
+        carrier=_name(scene, c.carrier.link.number),
+        pivot=words.mark(c.pivot),
+        hinge=words.mark(c.hinge),
+    )
+    return tuple(said.split("|"))
+
+
+def _closing(c: Coupler, point: str) -> Closing | None:
+    """Return what is known of the absolute motion of a point."""
+    return c.closing if point == c.span.end else None
+
+
+def _known_parts(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
+    """Go through the parts that the velocities give: normal ones, the tangential one of transport, Coriolis."""
+    letter, distance = c.letters[point], factor(scene, f"l_{c.pivot}{point}")
+    yield _product(scene, f"a_{letter}_rn", factor(scene, f"omega_r_{c.number}", 2), _arm(scene, c, point))
+    yield _product(scene, f"a_{letter}_en", factor(scene, c.omega_e, 2), distance)
+    if c.epsilon_e == ZERO:
+        yield (f"{scene.words.symbol(f'a_{letter}_et')} = 0",)
+    else:
+        yield _product(scene, f"a_{letter}_et", factor(scene, c.epsilon_e), distance)
+    two = Factor("2", 2.0, exact=True)
+    yield _product(scene, f"a_{letter}_k", two, factor(scene, c.omega_e), factor(scene, f"V_{letter}_r"))
+
+
+def _closed(scene: Scene, c: Coupler, closing: Closing, plan: str) -> Iterator[Line]:
+    """Go through what closes the figure: the normal part on the circle of the end, and what was measured."""
+    letter = c.letters[c.span.end]
+    if closing.normal is not None:
+        group = next(group for group in scene.solved.structure.groups if c.number in group.links)
+        link = scene.solved.mechanism.link(next(number for number in group.links if number != c.number))
+        pivot = next(point for point in link.points if point in scene.solved.mechanism.frame_points)
+        rate = factor(scene, f"omega_{link.number}", 2)
+        yield _product(scene, closing.normal, rate, _length(scene, pivot, c.span.end))
+    yield _measured(scene, f"a_{letter}_rt", plan)
+    if closing.normal is not None:
+        yield _measured(scene, _tangential(closing.normal), plan)
+
+
+def _tangential(normal: str) -> str:
+    return normal.removesuffix("n") + "t"
+
+
+def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Line:
+    """Return the vector equation of a point, and along which lines its unknown vectors lie."""
+    closing, letter = _closing(c, point), c.letters[point]
+
+    def bar(name: str) -> str:
+        return scene.words.symbol(name, bar=True)
+
+    *parts, last = (bar(f"{kind}_{letter}_{part}") for part in PARTS[kind])
+    whole = bar(f"{kind}_{point}")
+    if closing is None:
+        return _equation(whole, [*map(known, parts), known(last)], [])
+    notes = [f"{last} {direction_words(scene, c.span.n)}"]
+    if kind == "a" and closing.normal is not None:
+        tangential = bar(_tangential(closing.normal))
+        notes.append(f"{tangential} {direction_words(scene, closing.direction)}")
+        whole = f"{known(bar(closing.normal))} + {by_direction(tangential)}"
+    else:
+        notes.append(f"{whole} {direction_words(scene, closing.direction)}")
+        whole = by_direction(whole)
+    return _equation(whole, [*map(known, parts), by_direction(last)], notes)
+
+
+def _equation(whole: str, terms: Sequence[str], notes: Sequence[str]) -> Line:
+    chunks = [f"{whole} = {terms[0]}", *(f"+ {term}" for term in terms[1:])]
+    return _listed(tuple(chunks[:-1]), (chunks[-1], *notes))
+
+
+def _listed(before: Line, items: Sequence[str]) -> Line:
+    """Put a comma after all but the last of `items`."""
+    return (*before, *(f"{item}," for item in items[:-1]), items[-1])
+
+
+def _centre(scene: Scene, c: Coupler) -> Iterator[Line]:
+    """Go through what places the instant centre: the two rotations cancel there."""
+    words = scene.words
+    if not scene.defined(c.centre):
+        yield tuple(words["said.no_centre"].format(link=_name(scene, c.number)).split("|"))
+        return
+    pivot, hinge = (words.symbol(f"l_{end}P{c.number}") for end in (c.pivot, c.hinge))
+    law = f"{pivot}·{words.symbol(c.omega_e)} = {hinge}·{words.symbol(f'omega_r_{c.number}')}"
+    rates = factor(scene, c.omega_e), factor(scene, f"omega_{c.number}", -1)
+    yield f"{law},", *_product(scene, f"l_{c.hinge}P{c.number}", _length(scene, c.pivot, c.hinge), *rates)
+
+
+def _product(scene: Scene, name: str, *factors: Factor) -> Line:
+    """Return a quantity as a product of magnitudes; of a rate the sense, too."""
+    head = name.partition("_")[0]
+    line = worked(scene.words, scene.words.symbol(name), [Product(factors)], UNITS.get(head, "m"))
+    sense = sensed(scene.words, scene.solved.values[name]) if head in ("omega", "epsilon") else ""
+    return _listed(line[:-1], [line[-1], sense]) if sense else line
+
+
+def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float) -> Line:
+    """Return a rate as the algebraic sum of two others; one that is zero by the form of the mechanism is left out."""
+    words, values = scene.words, scene.solved.values
+    terms = [(other, turn) for other, turn in ((first, 1.0), (second, sign)) if other != ZERO]
+    signs = ["" if i == 0 and turn > 0 else "+ " if turn > 0 else "− " for i, (_, turn) in enumerate(terms)]
+    formula = " ".join(f"{sign}{words.symbol(other)}" for sign, (other, _) in zip(signs, terms, strict=True))
+    inputs = [Input(float(values[other]) * turn) for other, turn in terms]
+    texts, result = calculation(words, lambda *x: sum(x), inputs)
+    numbers = " ".join([texts[0], *(f"− {t[1:]}" if t.startswith("−") else f"+ {t}" for t in texts[1:])])
+    last = f"{result} {words.unit(UNITS[name.partition('_')[0]])}"
+    sense = sensed(words, float(values[name]))
+    head = f"{words.symbol(name)} = {formula} =", *([f"{numbers} ="] if len(terms) > 1 else [])
+    return _listed(head, [last, sense]) if sense else (*head, last)
+
+
+def _measured(scene: Scene, name: str, plan: str) -> Line:
+    """Return what was measured: the segment and the scale factor."""
+    words, item = scene.words, scene.solved.quantities[name]
+    value, number = words.display.value(item.value or 0.0, item.unit), words.factor(scene.scales[plan])
+    mu = 1.0 / number if words.per_unit else number
+    places, decimals = segment_decimals(value, mu, ruler_decimals(words))
+    segment, unit = words.number(abs(value) / mu, places), words.unit(words.display.unit(item.unit))
+    times = "/" if words.per_unit else "·"
+    head = f"{words.symbol(name)} = {segment}{times}{words.short(number)} ="
+    return head, f"{words.number(abs(value), decimals)} {unit}"
+
+
+def _arm(scene: Scene, c: Coupler, point: str, power: int = 1) -> Factor:
+    """Return the distance of a point of the coupler from its hinge."""
+    return _length(scene, c.hinge, point, power)
+
+
+def _length(scene: Scene, start: str, end: str, power: int = 1) -> Factor:
+    """Return the distance of two points of a link; one that the task gives is exact."""
+    words, name = scene.words, f"l_{start}{end}"
+    size = words.display.value(abs(scene.solved.point(end) - scene.solved.point(start)), "m")
+    exact = name in scene.givens
+    return Factor(words.symbol(name), float(f"{size:.12g}") if exact else size, exact, power)
+
+
+def _name(scene: Scene, number: int) -> str:
+    """Return a link by its ends."""
+    return scene.words.ends.get(str(number), str(number))

@@ -1,0 +1,210 @@
+"""Equations of forces: loads and inertia, moments, force plans from the last group to the driver, its balance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+from ....plans.board import Step
+from ....plans.linkages.solved import SolvedLinkage
+from ....scales.display import AS_INSIDE
+from ...table import text_block
+from ...view import View
+from ..reading import plan_of, read
+from ..scene import Scene
+from .equations import Factor, Lines, Product, factor, noted, sensed, signs, size_of, stated, turned, worked
+from .moments import about, group_of, link_of, links_in, on_arm, terms
+from .vector_equations import closed, ends_of
+
+WHOLE, LOADS = "", "loads"
+Told = Callable[[Scene, Step], list[Factor]]
+
+
+def force_parts(solved: SolvedLinkage) -> tuple[str, ...]:
+    """Return into which blocks the equations are cut: one where there is one group, else loads, groups, driver."""
+    groups = [group.name for group in reversed(solved.structure.groups)]
+    return (WHOLE,) if len(groups) < 2 else (LOADS, *groups, str(solved.structure.driver))
+
+
+def forces_block(scene: Scene, width: float, part: str = WHOLE) -> View:
+    """Return the equations of forces, all of them or those of one part."""
+    name = f"equations_forces_{part}" if part else "equations_forces"
+    return text_block(name, _heading(scene, part), force_lines(scene, part), scene.style, width)
+
+
+def _heading(scene: Scene, part: str) -> str:
+    words, groups = scene.words, {group.name: group for group in scene.solved.structure.groups}
+    if part in groups:
+        return words["heading.equations_links"].format(links=", ".join(map(str, sorted(groups[part].links))))
+    if part in (WHOLE, LOADS):
+        return words["heading.equations_loads" if part else "heading.equations_forces"]
+    return words["heading.equations_link"].format(link=part)
+
+
+def force_lines(scene: Scene, part: str = WHOLE) -> Lines:
+    """Return the lines of the part in order of construction."""
+    scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
+    lines: Lines = []
+    for step in scene.solved.program:
+        told = _load(scene, step) if step.law in LOADING else _force(scene, step)
+        if told and part in (WHOLE, LOADS if step.law in LOADING else _part(scene, step)):
+            lines += told
+    return lines
+
+
+def load_lines(scene: Scene) -> Lines:
+    """Return how masses, loads, forces and moments of inertia were found."""
+    return force_lines(scene, LOADS)
+
+
+def _part(scene: Scene, step: Step) -> str:
+    """Return the name of the group to which a step of the force plans belongs, or the number of the driver."""
+    plan = plan_of(step.name).removeprefix("forces_")
+    known = [group.name for group in scene.solved.structure.groups]
+    acting = step.operands[1] if step.verb == "arm" else step.name
+    group = group_of(scene, int(plan) if plan and plan not in known else link_of(scene, acting))
+    return plan if plan in known else str(scene.solved.structure.driver) if group is None else group.name
+
+
+# Loads, weights and inertia
+
+
+FORMULAS: dict[str, Told] = {
+    "mass_by_length": lambda scene, s: [factor(scene, name) for name in s.operands],
+    "inertia_by_length": lambda scene, s: [
+        *(factor(scene, name) for name in s.operands[:2]),
+        factor(scene, s.operands[2], 2),
+    ],
+    "weight": lambda scene, s: [factor(scene, name) for name in s.operands[:2]],
+    "inertia_force": lambda scene, s: [factor(scene, name) for name in s.operands],
+    "inertia_moment": lambda scene, s: [factor(scene, name) for name in s.operands],
+}
+UNITS = {"mass_by_length": "kg", "inertia_by_length": "kg*m^2", "inertia_moment": "N*m"}
+RESISTING = ("resisting_force", "resisting_along", "resisting_moment")
+LOADING = (*FORMULAS, *RESISTING, "along", "signed", "sum")
+
+
+def _load(scene: Scene, step: Step) -> Lines:
+    """Tell a mass, a load, a weight, a force or moment of inertia, or a sum of couples."""
+    if step.name.startswith("_") or not scene.defined(step.name):
+        return []
+    words = scene.words
+    if step.law in FORMULAS:
+        product = Product(tuple(FORMULAS[step.law](scene, step)))
+        return [worked(words, words.symbol(step.name), [product], UNITS.get(step.law, "N"))]
+    if step.law == "sum":
+        return _sum_of_couples(scene, step)
+    mechanism = scene.solved.mechanism
+    loads = {load.name: load.magnitude for load in mechanism.loads}
+    loads |= {couple.name: couple.magnitude for couple in mechanism.couples}
+    if step.name not in loads:
+        return []
+    made = read(scene.solved.program).step(step.operands[0])
+    if made is None and step.law not in RESISTING:
+        return []
+    notes = [words["said.diagram"]] if loads[step.name] in {d.name for d in mechanism.diagrams} else []
+    size, unit = size_of(scene, step.name), scene.solved.quantities[step.name].unit
+    if step.law in RESISTING and size > 0.0:
+        against = words.symbol(step.operands[1], bar=step.law != "resisting_moment")
+        notes.append(words["said.against"].format(motion=against))
+    elif size == 0.0:
+        notes.append(words["said.idle"])
+    return [noted((stated(words, words.symbol(step.name), size, unit),), *notes)]
+
+
+def _sum_of_couples(scene: Scene, step: Step) -> Lines:
+    """Tell the sum of the couples on one link."""
+    words, value = scene.words, scene.solved.values[step.name]
+    products = terms(scene, step.operands)
+    if not products:
+        return [(f"{words.symbol(step.name)} = 0",)]
+    line = worked(words, words.symbol(step.name), turned(products, math.copysign(1.0, value)), "N*m")
+    return [noted(line, sensed(words, value))]
+
+
+# Moments and force plans
+
+
+def _force(scene: Scene, step: Step) -> Lines:
+    """Tell a step of the force plans: a sum of moments, or the sums of forces of a plan."""
+    if step.verb == "pole" and step.name.startswith("forces_"):
+        return list(closed(scene, plan_of(step.name)))
+    if step.law in SIGNS and not _on_lever(scene, step):
+        return _for_a_force(scene, step)
+    if step.law == "closing_moment":
+        return _for_a_moment(scene, step, step)
+    if step.law == "opposite" and step.operands[0].startswith("_M_"):
+        return _for_a_moment(scene, step, read(scene.solved.program).made[step.operands[0]])
+    if step.verb == "arm" and step.operands[0].startswith("M_"):
+        return _arm(scene, step)
+    return []
+
+
+SIGNS = {"moment_equation": -1.0, "closing_force": 1.0}  # of the force's own moment in the sum
+
+
+def _on_lever(scene: Scene, step: Step) -> bool:
+    """Whether moments are those about the pole of the lever."""
+    return step.operands[0].startswith("_V_")
+
+
+def _head(scene: Scene, links: str, point: str) -> str:
+    return f"ΣM_{{{scene.words.mark(point)}}}({links}) = 0:"
+
+
+def _for_a_force(scene: Scene, step: Step) -> Lines:
+    """Tell the moments about a joint, solved for a force: drawn as it acts, its moment turns against the others."""
+    words, reading = scene.words, read(scene.solved.program)
+    length, *moments = step.operands
+    name, found = reading.visible(step.name), terms(scene, moments)
+    laid = next((s for s in reading.users(step.name) if s.verb in ("lay", "back")), None)
+    point = about(scene, step)
+    if laid is not None and not any(m.startswith("_M_") for m in moments):
+        point = ends_of(reading, reading.made[laid.operands[1]].operands[0])[laid.verb == "lay"]
+    head = _head(scene, links_in(scene, link_of(scene, step.name), point), point)
+    arm = _reach(scene, name, length)
+    own = f"{words.symbol(name)}·{arm.symbols}"
+    if not found:
+        return [(head, f"{own} = 0,", f"{words.symbol(name)} = 0")]
+    values = scene.solved.values
+    sign, turn = math.copysign(SIGNS[step.law], SIGNS[step.law] * values[length]), math.copysign(1.0, values[step.name])
+    equation = signs([Product((), sign * turn), *found], [own, *(product.symbols for product in found)])
+    return [
+        (head, *equation, "= 0"),
+        worked(words, words.symbol(name), turned(found, -sign * turn), "N", arm),
+    ]
+
+
+def _reach(scene: Scene, name: str, length: str) -> Product:
+    """Return the arm of the force to be found: a length, or what was measured from the point to the force's line."""
+    reading = read(scene.solved.program)
+    made = reading.step(length)
+    if made is None or made.verb == "measure":
+        return Product((factor(scene, length),))
+    arm = next(s for s in reading.program if s.verb == "arm" and s.operands[1] == name)
+    return Product(on_arm(scene, arm.name))
+
+
+def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> Lines:
+    """Tell the moments about a joint, solved for a moment: of a guide's reaction, or the balancing one."""
+    words, value = scene.words, scene.solved.values[step.name]
+    found, point = terms(scene, sum_of.operands), about(scene, sum_of)
+    head = _head(scene, str(link_of(scene, step.name)), point)
+    if not found:
+        arm = next((s for s in read(scene.solved.program).users(step.name) if s.verb == "arm"), None)
+        zeros = [f"{words.symbol(arm.operands[1])}·{words.symbol(arm.name)}", words.symbol(arm.name)] if arm else []
+        return [(head, *(f"{zero} = 0," for zero in zeros[:-1]), f"{[words.symbol(step.name), *zeros][-1]} = 0")]
+    line = worked(words, words.symbol(step.name), turned(found, -math.copysign(1.0, value)), "N*m")
+    return [(head, *noted(line, sensed(words, value)))]
+
+
+def _arm(scene: Scene, step: Step) -> Lines:
+    """Tell the arm on which a guide's reaction has the moment found."""
+    words, (moment, reaction) = scene.words, step.operands
+    if scene.solved.values[moment] == 0.0:
+        return []  # told with the moment
+    if not scene.defined(step.name):
+        return [(f"{words.symbol(reaction)} = 0:", words["said.couple"].format(moment=words.symbol(moment)))]
+    product = Product((factor(scene, moment), factor(scene, reaction, -1)))
+    return [worked(words, words.symbol(step.name), [product], "m")]

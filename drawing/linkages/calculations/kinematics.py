@@ -1,0 +1,273 @@
+"""Equations of velocities and accelerations, with their numbers, told step by step from the recorded program."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+from ....plans.board import POSITION, Step
+from ....plans.linkages.compound import found_here
+from ....plans.linkages.mechanism import ZERO
+from ....plans.linkages.solved import SolvedLinkage
+from ....plans.quantities import unit_of
+from ...printed import Input, calculation
+from ...table import text_block
+from ...view import View
+from ..reading import Reading, plan_of, read
+from ..scene import Scene
+from .equations import Factor, Lines, Product, factor, noted, paper, rate_of, segment, sensed, size_of, stated, worked
+from .vector_equations import line_note, line_through, meeting, summed
+
+PLANS = ("velocity", "acceleration")
+STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
+Told = Callable[[Scene, Step], list[Factor]]
+
+
+@dataclass(frozen=True, slots=True)
+class KinematicsPart:
+    """A block of equations: the plans that it tells of, and those of which another block has told before."""
+
+    plans: tuple[str, ...]
+    before: tuple[str, ...] = ()
+
+
+def kinematics_parts(solved: SolvedLinkage, plans: tuple[str, ...]) -> tuple[KinematicsPart, ...]:
+    """Return the blocks for the plans wanted: one for both where there is one group, else one for each."""
+    drawn = tuple(plan for plan in PLANS if plan in plans)
+    if len(solved.structure.groups) > 1:
+        return tuple(KinematicsPart((plan,), drawn[:i]) for i, plan in enumerate(drawn))
+    return (KinematicsPart(drawn),) if drawn else ()
+
+
+def kinematics_block(scene: Scene, width: float, part: KinematicsPart) -> View:
+    """Return the equations of velocities, of accelerations or of both."""
+    told = {name for plan in part.before for name in _measured_for(scene, plan)}
+    lines = [line for plan in part.plans for line in kinematics_lines(scene, plan, told)]
+    if "velocity" not in (*part.plans, *part.before):
+        lines = [*_speed(scene), *lines]
+    key, single = "kinematics" if len(part.plans) > 1 else part.plans[0], len(scene.solved.structure.groups) < 2
+    name = "equations_kinematics" if single else f"equations_{key}"
+    return text_block(name, scene.words[f"heading.equations_{key}"], lines, scene.style, width)
+
+
+def _measured_for(scene: Scene, plan: str) -> set[str]:
+    """Return the names that the calculations of a plan take: lengths among them have been told with it."""
+    return {name for step in scene.solved.program if step.law and stage_of(step) == plan for name in step.operands}
+
+
+def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> Lines:
+    """Return the equations of one plan in order of construction, the vector equation of a group before its numbers.
+
+    `told` are the lengths of which other lines have told already.
+    """
+    story = _Story(scene, read(scene.solved.program), told if told is not None else set())
+    apart = found_here(scene.solved.program)
+    for step in scene.solved.program:
+        if stage_of(step) == plan and step.name not in apart:
+            story.tell(step)
+    return story.lines
+
+
+def stage_of(step: Step) -> str:
+    """Return the plan to which a step of the kinematics belongs; nothing for other steps."""
+    if "." in step.name:
+        return plan_of(step.name)
+    if step.verb == "read":
+        return step.plan
+    return STAGES.get(step.name.lstrip("_").partition("_")[0], "") if step.verb == "calc" else ""
+
+
+@dataclass(slots=True)
+class _Story:
+    """Lines as they are told; `held` are those of a group's known parts, which come after its vector equation."""
+
+    scene: Scene
+    reading: Reading
+    told: set[str]
+    lines: Lines = field(default_factory=list)
+    held: Lines = field(default_factory=list)
+
+    def tell(self, step: Step) -> None:
+        """Tell one step."""
+        if step.verb == "meet":
+            self.lines += [*_special_point(self.scene, step), meeting(self.scene, step), *self.held]
+            self.held.clear()
+        elif step.law in FORMULAS:
+            told = self.held if step.law in BEFORE_MEETING or self._is_met(step) else self.lines
+            told += [*self._lengths(step), *_formula(self.scene, self.reading, step)]
+        elif step.law == "given":
+            self.lines.append(_given(self.scene, self.reading, step))
+        elif step.law in ("signed", "same_turning"):
+            self.lines += _turning_alike(self.scene, step)
+        elif step.verb in ("divide", "similar"):
+            self.lines += _similarity(self.scene, step)
+        elif step.verb == "read":
+            self.lines += _absolute(self.scene, self.reading, step)
+        if step.name.startswith("epsilon_") and step.law != "same_turning":
+            self.lines.append(_comparison(self.scene, step.name))
+
+    def _is_met(self, step: Step) -> bool:
+        """Whether a line that finds a point begins at the end of the vector of a step, where no point has its end."""
+        hung = [user.name for user in self.reading.users(step.name) if user.verb == "chain"]
+        ends = [end for end in hung if self.reading.absolute(end) is None]
+        return any(user.verb == "meet" for end in ends for user in self.reading.users(end))
+
+    def _lengths(self, step: Step) -> Iterator[tuple[str, ...]]:
+        """Go through the lengths for this step that are not given, each told once.
+
+        They are measured on the plan of the mechanism, or follow from the coordinates of a link's joints.
+        """
+        words = self.scene.words
+        for name in step.operands:
+            made = self.reading.step(name)
+            if made is None or made.verb != "measure" or name in self.told:
+                continue
+            self.told.add(name)
+            symbol = words.symbol(name.lstrip("_"))
+            if made.operands[0].startswith("_"):
+                yield (stated(words, symbol, size_of(self.scene, name), "m"),)
+            else:
+                yield worked(words, symbol, [Product(_segment(self.scene, *made.operands))], "m")
+
+
+def _segment(scene: Scene, start: str, end: str) -> tuple[Factor, Factor]:
+    """Return a distance on the plan of the mechanism as its millimetres and the scale factor."""
+    words, size = scene.words, abs(scene.solved.point(end) - scene.solved.point(start))
+    own = segment(scene, words.mark(start) + words.mark(end), POSITION, size)
+    return own, paper(words, scene.scales[POSITION])
+
+
+def _arm(scene: Scene, name: str) -> tuple[Factor, Factor]:
+    """Return the arm of a turn about a pin, which was read off the plan of the mechanism."""
+    made = read(scene.solved.program).made[name]
+    return _segment(scene, made.operands[0], made.operands[1])
+
+
+FORMULAS: dict[str, Told] = {
+    "circular_speed": lambda scene, s: [factor(scene, s.operands[0]), factor(scene, s.operands[1])],
+    "centripetal": lambda scene, s: [factor(scene, s.operands[0], 2), factor(scene, s.operands[1])],
+    "circular_acceleration": lambda scene, s: [factor(scene, s.operands[0]), factor(scene, s.operands[1])],
+    "normal_part": lambda scene, s: [factor(scene, s.operands[0], 2), factor(scene, s.operands[1], -1)],
+    "turning": lambda scene, s: [factor(scene, s.operands[0]), factor(scene, s.operands[2], -1)],
+    "coriolis": lambda scene, s: [Factor("2", 2.0, exact=True), *(factor(scene, name) for name in s.operands)],
+    "transport_speed": lambda scene, s: [factor(scene, s.operands[0]), *_arm(scene, s.operands[1])],
+    "transport_normal": lambda scene, s: [factor(scene, s.operands[0], 2), *_arm(scene, s.operands[1])],
+    "transport_tangential": lambda scene, s: [factor(scene, s.operands[0]), *_arm(scene, s.operands[1])],
+}
+BEFORE_MEETING = ("normal_part", "coriolis")
+
+
+def _formula(scene: Scene, reading: Reading, step: Step) -> Lines:
+    """Return what a law gives, with its numbers, and how the vector lies."""
+    words, name = scene.words, reading.visible(step.name)
+    line = worked(words, words.symbol(name), [Product(tuple(FORMULAS[step.law](scene, step)))], unit_of(name))
+    first, *rest = _lies(scene, reading, step, name) or ("",)
+    return [(*noted(line, first), *rest)]
+
+
+def _lies(scene: Scene, reading: Reading, step: Step, name: str) -> tuple[str, ...]:
+    """Say in which sense a link turns, which way a normal part is laid off, how that of Coriolis is turned."""
+    words = scene.words
+    if step.law == "turning":
+        sense = sensed(words, rate_of(scene, name))
+        return (sense,) if sense else ()
+    if step.law == "normal_part":
+        back = next(s for s in reading.users(step.name) if s.verb == "back")
+        start, end = (words.mark(point) for point in reading.made[back.operands[1]].operands[:2])
+        return (f"{words.symbol(name, bar=True)} ∥ {start}{end} ({end} → {start})",)
+    if step.law == "coriolis":
+        omega, v = step.operands
+        said = words["said.coriolis"].format(
+            part=words.symbol(name, bar=True), vector=words.symbol(v, bar=True), omega=words.symbol(omega)
+        )
+        return tuple(said.split("|"))
+    return ()
+
+
+def _speed(scene: Scene) -> Lines:
+    """Return the crank's omega alone, for a plan of accelerations without that of velocities."""
+    given = (s for s in scene.solved.program if s.law == "signed" and s.name.startswith("omega_"))
+    return [line for step in given for line in _turning_alike(scene, step)]
+
+
+def _turning_alike(scene: Scene, step: Step) -> Lines:
+    """Return a rate that is given, from revolutions per minute where it is so, or that of another link."""
+    words, value = scene.words, rate_of(scene, step.name)
+    symbol, unit = words.symbol(step.name), unit_of(step.name)
+    sense = sensed(words, value)
+    if step.law == "same_turning":
+        symbol = f"{symbol} = {words.symbol(step.operands[0])}"
+    given, line = scene.givens.get(step.operands[0]), [stated(words, symbol, abs(value), unit)]
+    if given is not None and given.unit == "rpm" and not isinstance(given.value, str):
+        texts, result = calculation(words, lambda n: math.pi * n / 30.0, [Input(given.value, exact=True)])
+        line = [f"{symbol} = π{words.symbol(step.operands[0])}/30 =", f"π·{texts[0]}/30 ="]
+        line.append(f"{result} {words.unit(unit)}")
+    return [noted(line, sense)]
+
+
+def _special_point(scene: Scene, step: Step) -> Lines:
+    """Say where a point stands that no link has, such as Assur's special point, when it is found for the first time."""
+    point, reading = step.name.rpartition(".")[2], read(scene.solved.program)
+    lettered = {point for link in scene.solved.mechanism.links for point in link.points}
+    made = reading.step(point)
+    if step.plan != "velocity" or made is None or made.verb != "meet" or point in lettered:
+        return []
+    p, u, q, w = made.operands
+    lines = f"{line_through(scene, p, u)} ∩ {line_through(scene, q, w)}"
+    return [(scene.words["said.special_point"].format(point=scene.words.mark(point)), lines)]
+
+
+def _given(scene: Scene, reading: Reading, step: Step) -> tuple[str, ...]:
+    """Return a velocity or acceleration of the driver that the task states along its guide."""
+    words, name, given = scene.words, reading.visible(step.name), step.operands[0]
+    if given == ZERO:
+        return (f"{words.symbol(name)} = 0",)
+    head = " = ".join(dict.fromkeys((words.symbol(name), words.symbol(given))))
+    line = stated(words, head, float(scene.solved.values[given]), unit_of(name))
+    laid = next(user for user in reading.users(step.name) if user.verb == "lay")
+    return noted((line,), line_note(scene, name, laid.operands[1]))
+
+
+def _similarity(scene: Scene, step: Step) -> Lines:
+    """Return where a point of a link stands on a plan by the theorem of similarity."""
+    words = scene.words
+    start, end, first, second = step.operands
+    a, b, s = (words.mark(mark) for mark in (start, end, step.name))
+    if step.verb == "similar":
+        point, made = step.name.rpartition(".")[2], read(scene.solved.program).made
+        # at the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism
+        marks = [made[point].operands[i] if m.endswith(".p") else m for i, m in enumerate((start, end))]
+        A, B, S = (words.mark(mark.rpartition(".")[2]) for mark in (*marks, point))
+        return [tuple(words["said.similar"].format(plan=f"{a}{b}{s}", link=f"{A}{B}{S}").split("|"))]
+    if size_of(scene, first) == 0.0:
+        return []
+    ab = segment(scene, f"{a}{b}", step.plan, abs(scene.solved.point(end) - scene.solved.point(start)))
+    ratio = Product((ab, factor(scene, first), factor(scene, second, -1)))
+    return [worked(words, f"{a}{s}", [ratio], words.display.paper)]
+
+
+def _absolute(scene: Scene, reading: Reading, step: Step) -> Lines:
+    """Return the absolute vector of a point that was hung from parts, or moves like another."""
+    tail, tip = step.operands
+    made = reading.made[tip]
+    if not tail.endswith(".p") or made.name == tail:
+        return []
+    if made.verb == "same":
+        other = reading.absolute(made.operands[0])
+        return [summed(scene, step.name, [other.name])[:1]] if other is not None else []
+    whole = reading.absolute(tip)
+    if whole is None or whole.name != step.name:
+        return []
+    parts = reading.parts(whole)
+    return [summed(scene, step.name, [edge.name for edge in parts])] if parts else []
+
+
+def _comparison(scene: Scene, rate: str) -> tuple[str, ...]:
+    """Say whether a link speeds up or slows down."""
+    w, link = scene.words, rate.rpartition("_")[2]
+    speed = f"omega_{link}"
+    omega, epsilon = rate_of(scene, speed), rate_of(scene, rate)
+    still = "said.translates" if omega == 0.0 else "said.steady"
+    key = still if omega * epsilon == 0.0 else "said.speeds_up" if omega * epsilon > 0 else "said.slows_down"
+    return tuple(w[key].format(link=link, omega=w.symbol(speed), epsilon=w.symbol(rate)).split("|"))

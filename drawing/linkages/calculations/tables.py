@@ -1,0 +1,217 @@
+"""Tables of a linkage sheet: what is given, and what was measured and calculated; long ones cut by groups of links."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+from typing import TypeAlias
+
+from ....plans.board import POSITION
+from ....plans.linkages.compound import found_here
+from ....plans.linkages.solved import SolvedLinkage
+from ....plans.quantities import Quantity
+from ....scales.scale import Scale
+from ...givens import givens_view
+from ...printed import ruler_decimals, segment_decimals, value_text
+from ...table import table
+from ...view import View
+from ..figures.force_plan import enlarged
+from ..reading import read
+from ..scene import Scene
+from .equations import rate_of
+
+KINDS = ("velocity", "acceleration", "compound", "forces", "lever")
+HEADS = {"l": "velocity", "V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
+ROWS = 30  # most rows of a table
+_Piece: TypeAlias = tuple[tuple[int, ...], list[str]]  # links of a group, names
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One table of results: the kind of plan, the names of its rows, the links they belong to ("" for all).
+
+    Where a group of links has more rows than a table, the tables of its kind are numbered instead.
+    """
+
+    kind: str
+    names: tuple[str, ...]
+    links: str = ""
+    number: int = 0
+
+    @property
+    def name(self) -> str:
+        """The name of its view."""
+        part = str(self.number) if self.number else self.links.replace(", ", "_")
+        return f"results_{self.kind}_{part}" if part else f"results_{self.kind}"
+
+
+def givens_table(scene: Scene) -> View:
+    """Return the table of the givens in the task's own units."""
+    words = scene.words
+    factors = [(symbols, number, words["table.calculated"]) for symbols, number in _factors(scene)]
+    return givens_view(scene.givens, words, scene.style, factors)
+
+
+def _factors(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Go through the factors j of J_S = j m l^2 that the task fixes for all variants; links with one value share it."""
+    shared: dict[float, list[str]] = {}
+    for name in dict.fromkeys(link.inertia_factor for link in scene.solved.mechanism.links):
+        if name and name not in scene.givens and scene.defined(name):
+            shared.setdefault(float(scene.solved.values[name]), []).append(scene.words.symbol(name))
+    for value, symbols in shared.items():
+        yield " = ".join(symbols), scene.words.short(value)
+
+
+def results_parts(solved: SolvedLinkage) -> tuple[Part, ...]:
+    """Return the tables of results, in the order of the work; each quantity stands in one of them."""
+    by_kind: dict[str, list[str]] = {kind: [] for kind in KINDS}
+    number, apart = read(solved.program).number, _compound(solved)
+    lever = number.get("lever.p", len(number))
+    for q in _results(solved):
+        kind = HEADS.get(q.name.partition("_")[0], "forces")
+        by_kind["compound" if q.name in apart else "lever" if number[q.name] > lever else kind].append(q.name)
+    parts = []
+    for kind, names in by_kind.items():
+        parts += [Part(kind, tuple(names))] if 0 < len(names) <= ROWS else _cut(solved, kind, names)
+    return tuple(parts)
+
+
+def _compound(solved: SolvedLinkage) -> frozenset[str]:
+    """Return what belongs to compound motion: what it alone finds, and the distances measured for it."""
+    return found_here(solved.program) | {step.name for step in solved.program if step.verb == "distance"}
+
+
+def _results(solved: SolvedLinkage) -> Iterator[Quantity]:
+    """Go through what the tables show: all quantities but points, given lengths, and each force of a pair."""
+    made = read(solved.program).made
+    for q in solved.quantities.values():
+        if q.kind != "point" and q.value is not None and q.name in made and "_couple_" not in q.name:
+            yield q
+
+
+def _cut(solved: SolvedLinkage, kind: str, names: list[str]) -> list[Part]:
+    """Cut a long table by groups of links, in the order in which the groups are dealt with."""
+    order = [(solved.structure.driver,), *(group.links for group in solved.structure.groups)]
+    if kind == "forces":
+        order.reverse()
+    by_group: dict[tuple[int, ...], list[str]] = {links: [] for links in order}
+    for name in names:
+        by_group[_owner(solved, name)].append(name)
+    pieces = [(links, chunk) for links, own in by_group.items() for chunk in _chunks(own)]
+    whole, parts = all(len(own) <= ROWS for own in by_group.values()), []
+    for count, run in enumerate(_evenly(pieces), start=1):
+        links = ", ".join(map(str, sorted({number for own, _ in run for number in own})))
+        rows = tuple(name for _, chunk in run for name in chunk)
+        parts.append(Part(kind, rows, links) if whole else Part(kind, rows, number=count))
+    return parts
+
+
+def _evenly(pieces: list[_Piece]) -> list[list[_Piece]]:
+    """Put pieces into as few tables as there can be, in their order, so that the longest is as short as it can be."""
+
+    def longest(runs: list[list[_Piece]]) -> int:
+        return max(sum(len(chunk) for _, chunk in run) for run in runs)
+
+    for count in range(1, len(pieces) + 1):
+        inner = combinations(range(1, len(pieces)), count - 1)
+        ways = [[pieces[a:b] for a, b in pairwise((0, *cuts, len(pieces)))] for cuts in inner]
+        best = min(ways, key=longest)
+        if longest(best) <= ROWS:
+            return best
+    return []
+
+
+def _chunks(names: list[str]) -> Iterator[list[str]]:
+    """Cut what is too long for one table into equal pieces."""
+    count = math.ceil(len(names) / ROWS)
+    for k in range(count):
+        yield names[k * len(names) // count : (k + 1) * len(names) // count]
+
+
+def _owner(solved: SolvedLinkage, name: str) -> tuple[int, ...]:
+    """Return the links of the group to which a quantity belongs, the last of those that it concerns."""
+    groups = [(solved.structure.driver,), *(group.links for group in solved.structure.groups)]
+    links = _links_of(solved, name)
+    return next((group for group in reversed(groups) if links & {*group}), groups[0])
+
+
+def _links_of(solved: SolvedLinkage, name: str) -> set[int]:
+    """Return the links that a quantity concerns: of a point the first that has it, of a reaction both."""
+    mechanism = solved.mechanism
+    loads = {load.name: load.link for load in mechanism.loads} | {c.name: c.link for c in mechanism.couples}
+    head, _, rest = name.partition("_")
+    if name in loads or (head == "h" and rest in loads):
+        return {loads.get(name) or loads[rest]}
+    numbers = {link.number for link in mechanism.links}
+    if head in ("V", "a"):
+        return _first_with(solved, rest)
+    digits = re.sub(r"\D", "", rest.partition("_lever")[0])
+    if digits and int(digits) in numbers:
+        return {int(digits)}
+    found = {number for number in numbers if str(number) in digits}
+    if head == "h" and len(digits) == 2:
+        return {int(digits[1])} & numbers  # the arm of a reaction stands where the link on which it acts is dealt with
+    return found or {link.number for link in mechanism.links if {link.mass, link.inertia} & {name}}
+
+
+def _first_with(solved: SolvedLinkage, index: str) -> set[int]:
+    """Return the first link that has the point with which an index such as `BA`, `A3A2` or `X3` begins."""
+    links = [solved.structure.driver, *(number for group in solved.structure.groups for number in group.links)]
+    points = {point: number for number in reversed(links) for point in solved.mechanism.link(number).points}
+    ways = {**{f"{point}{number}": number for point in points for number in links}, **points}
+    found = max((way for way in ways if index.startswith(way)), key=len, default="")
+    return {ways[found]} if found else {number for number in links if str(number) in index}
+
+
+def results_table(scene: Scene, part: Part) -> View:
+    """Return a table of results."""
+    words = scene.words
+    heading = words[f"heading.results_{part.kind}"]
+    if part.number:
+        heading = f"{heading} ({part.number})"
+    elif part.links.isdigit():
+        heading = words["table.of_link"].format(heading=heading, link=part.links)
+    elif part.links:
+        heading = words["table.of_links"].format(heading=heading, links=part.links)
+    head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
+    head[1] = head[1].format(unit=words.unit(words.display.paper))
+    angles = [words["table.angle"]] if words.notation["angles"] else []
+    quantities = scene.solved.quantities
+    rows = [[*_row(scene, quantities[n]), *(_angle(scene, quantities[n]) for _ in angles)] for n in part.names]
+    return table(part.name, heading, [[*head, *angles], *rows], scene.style)
+
+
+def _row(scene: Scene, q: Quantity) -> list[str]:
+    words, turning = scene.words, q.name.startswith(("omega", "epsilon"))
+    value = rate_of(scene, q.name) if turning else words.display.value(q.value or 0.0, q.unit)
+    symbol, unit = words.symbol(q.name), words.unit(words.display.unit(q.unit))
+    plan = POSITION if q.name.startswith("l_") else scene.figure_of(q.name)
+    if plan not in scene.scales:
+        return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, tidy(q, value)), unit]
+    scale, times = scene.scales[plan], enlarged(scene, q.name, plan)
+    number = words.factor(Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit))
+    mu = 1.0 / number if words.per_unit else number
+    places, decimals = segment_decimals(value, mu, ruler_decimals(words))
+    return [
+        symbol,
+        words.number(abs(value) / mu, places),
+        words.short(number),
+        words.number(abs(value), decimals),
+        unit,
+    ]
+
+
+def _angle(scene: Scene, q: Quantity) -> str:
+    """Return the angle of a vector from the axis x, degrees."""
+    if q.x is None or q.y is None or math.hypot(q.x, q.y) == 0.0:
+        return scene.words["table.calculated"]
+    return scene.words.number(math.degrees(math.atan2(q.y, q.x)) % 360.0, 1)
+
+
+def tidy(q: Quantity, value: float) -> float:
+    """Return the value: of a force its magnitude, of a difference 0 where it is rounding noise."""
+    size = abs(value) if q.name.startswith("F") else value
+    return 0.0 if q.name.startswith("delta") and abs(size) < 1e-6 else size

@@ -1,0 +1,1 @@
+"""The figures of a linkage's sheet: schemes, plans, force plans, the lever, diagrams."""

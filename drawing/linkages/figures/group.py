@@ -1,0 +1,238 @@
+"""A group drawn apart with all its forces, and one of its links drawn apart with its own."""
+
+from __future__ import annotations
+
+import math
+from cmath import phase
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+from ....plans.board import POSITION
+from ....plans.linkages.mechanism import Pair, Prismatic
+from ....plans.linkages.structure import Group
+from ...shapes import Circle, Head, Line, Pen, Shape
+from ...shapes import Group as Shapes
+from ...symbols import arm, turning_arrow
+from ...view import Canvas, View
+from ..scene import Scene
+from ..skeleton import NEAR, Skeleton, guide_of
+from .acting import Contact, Moment, contact, couples, handed, loads, moments_of, pin_of, reactions
+from .arrows import Arrows
+from .construction import special_points
+from .links import draw_links, letter_links
+
+SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88)  # places on a link where a couple may stand
+
+
+@dataclass(slots=True)
+class Sketch:
+    """A part of the mechanism drawn apart, on which forces are hung: what lies at each place is known."""
+
+    canvas: Canvas
+    scene: Scene
+    figures: Sequence[Skeleton]
+    arrows: Arrows = field(init=False)
+    turning: list[complex] = field(default_factory=list)  # places of couples
+
+    def __post_init__(self) -> None:
+        """Take the lines of the links as what arrows keep clear of."""
+        strokes = [stroke for figure in self.figures for stroke in figure.strokes]
+        self.arrows = Arrows(self.canvas, self.scene, strokes)
+
+    @property
+    def zero(self) -> list[str]:
+        """Names of forces, couples and arms that are zero."""
+        return self.arrows.zero
+
+    def force(self, name: str, at: complex) -> None:
+        """Hang the arrow of a force on a point."""
+        self.arrows.hang(name, at, self._gap(at, self.scene.direction(name) if self.scene.defined(name) else 0j))
+
+    def _gap(self, at: complex, e: complex) -> float:
+        """Return where an arrow along `e` may begin beside a block at its point."""
+        gaps = [0.0]
+        if e == 0:
+            return 0.0
+        for figure in self.figures:
+            for (centre, u), (length, height) in zip(figure.blocks, figure.sizes, strict=True):
+                if abs(((at - centre) / u).imag) < NEAR and abs(at - centre) < self.scene.style.slider[0] / 2:
+                    along, across = abs((e / u).real), abs((e / u).imag)
+                    ahead = length / 2 + abs(at - centre) if along > across else length / 2
+                    gaps.append(min(ahead / max(along, 1e-9), height / 2 / max(across, 1e-9)))
+        return max(gaps)
+
+    def couple(self, name: str, figure: Skeleton) -> None:
+        """Draw the turning arrow of a couple about the middle of a link, `number` others being there already."""
+        value = self.scene.solved.values[name]
+        if self.scene.vanishes(name):
+            self.zero.append(name)
+            return
+        at, along = self._free_place(figure)
+        radius = self.scene.style.force * (0.5 + 0.25 * self.turning.count(at))  # round those that stand there already
+        self.turning.append(at)
+        self.canvas.add(turning_arrow(at, radius, phase(along), 2.0, math.copysign(1.0, value), name))
+        self.canvas.label(self.scene.words.symbol(couple_name(name, figure.number)), at + along * radius, clear=1.2)
+
+    def _free_place(self, figure: Skeleton) -> tuple[complex, complex]:
+        """Return the place on a link farthest from its joints, forces and couples so far, and the link's direction."""
+        if not figure.strokes:
+            return figure.blocks[0] if figure.blocks else (figure.pins[0], 1 + 0j)
+        a, b = max(figure.strokes, key=lambda stroke: round(abs(stroke[1] - stroke[0]), 3))
+        busy = [*figure.pins, *(at for at, _ in figure.blocks), *self.arrows.at]
+        places = [a + (b - a) * share for share in SHARES]
+
+        def room(at: complex) -> float:
+            others = [2.0 * abs(other - at) / self.scene.style.force for other in busy]
+            return round(min([*others, *(abs(other - at) / self.scene.style.force for other in self.turning)]), 3)
+
+        return max(places, key=lambda at: min(room(at), 1.5)), (b - a) / abs(b - a)
+
+    def contact(self, found: Contact | None, reaction: str) -> complex:
+        """Draw how far from its pin the reaction of a guide acts, and hang it there; return the place."""
+        scene = self.scene
+        if found is None:
+            return 0j
+        pin = scene.mm(found.pin)
+        at = pin + found.u * (found.offset / scene.scales[POSITION].mu)
+        if found.couple:
+            return pin
+        if abs(at - pin) > 0.05:
+            length_along(self.canvas, scene, found.arm, pin, at)
+        elif scene.defined(found.arm) and scene.direction(reaction) != 0:
+            self.zero.append(found.arm)
+        return at
+
+    def arms(self, moments: Iterable[Moment]) -> None:
+        """Draw the arm of each force from the joint about which its moment is taken."""
+        drawn: dict[tuple[str, complex], list[Moment]] = {}
+        for moment in moments:
+            e = self.scene.direction(moment.force)
+            if e == 0:
+                continue
+            at, about = self.scene.mm(moment.at), self.scene.mm(moment.about)
+            foot = at + e * ((about - at) / e).real
+            if self.scene.vanishes(moment.arm):
+                self.zero.append(moment.arm)
+            key = moment.about, complex(round(foot.real, 3), round(foot.imag, 3))
+            drawn.setdefault(key, []).append(moment)
+        for sharing in drawn.values():
+            at, about = self.scene.mm(sharing[0].at), self.scene.mm(sharing[0].about)
+            names = list(dict.fromkeys(moment.arm for moment in sharing))
+            force_arm(self.canvas, self.scene, [m.force for m in sharing], names, at, about)
+
+    def letter_others(self, points: Iterable[str]) -> None:
+        """Letter the points of other links at which their forces act on these: pins that slide along their guides."""
+        own = {p for figure in self.figures for p in self.scene.solved.mechanism.link(figure.number).points}
+        for point in dict.fromkeys(points):
+            if point not in own and point not in self.scene.solved.mechanism.frame_points:
+                at = self.scene.mm(point)
+                node = Circle(at, self.scene.style.node, Pen.MAIN, fill="white")
+                self.canvas.add(Shapes((node,), "point", point))
+                self.canvas.label(self.scene.words.mark(point), at, clear=self.scene.style.node + 0.8)
+
+    def notes(self) -> tuple[str, ...]:
+        """Say that arrows have no scale, and what is zero."""
+        return self.scene.words["said.arrows"], *zeros(self.scene, self.zero)
+
+
+def group_view(scene: Scene, group: Group) -> View:
+    """Draw a group without the links before it: its loads, reactions at its outer pairs, the arm of each moment."""
+    canvas = Canvas(scene.style)
+    sketch = Sketch(canvas, scene, draw_links(canvas, scene, group.links, framed=False))
+    for pair, own, names in reactions(scene, group):
+        _react(sketch, group, pair, own, names)
+    _load(sketch, group.links)
+    moments = moments_of(scene, group.links)
+    special_points(canvas, scene, {moment.about for moment in moments})
+    sketch.arms(moments)
+    letter_links(canvas, scene, group.links, sketch.figures)
+    links = ", ".join(map(str, group.links))
+    heading = scene.heading("heading.group", POSITION, links=links)
+    return canvas.finish(f"group_{group.name}", heading, sketch.notes())
+
+
+def _react(sketch: Sketch, group: Group, pair: Pair, own: int, names: list[str]) -> None:
+    """Hang a reaction on its joint, or where it acts on a slider; a pure couple stands in its place."""
+    scene = sketch.scene
+    if not isinstance(pair, Prismatic):
+        for name in names:
+            sketch.force(name, scene.mm(pair.point))
+        return
+    other = next(number for number in pair.links if number != own)
+    found = contact(scene, group, pair, own, other)
+    at = sketch.contact(found, names[0]) if found else scene.mm(pin_of(scene, group, pair))
+    on_guide = scene.mm(pair.point)
+    u = guide_of(scene, pair)
+    for name in names:
+        sketch.force(name, on_guide + u * ((at - on_guide) / u).real)
+    if found and found.couple:
+        sketch.couple(found.couple, next(figure for figure in sketch.figures if figure.number == own))
+
+
+def _load(sketch: Sketch, numbers: Iterable[int]) -> None:
+    """Hang all loads of links, what later groups hand on, and the couples."""
+    for number, figure in zip(numbers, sketch.figures, strict=True):
+        for name, point in (*loads(sketch.scene, number), *handed(sketch.scene, number)):
+            sketch.force(name, sketch.scene.mm(point))
+        for name in couples(sketch.scene, number):
+            sketch.couple(name, figure)
+    points = (point for number in numbers for _, point in handed(sketch.scene, number))
+    sketch.letter_others(points)
+
+
+def link_view(scene: Scene, group: Group, number: int) -> View:
+    """Draw a link of a group apart with all its forces, reactions of the rest of the group among them."""
+    canvas = Canvas(scene.style)
+    sketch = Sketch(canvas, scene, draw_links(canvas, scene, (number,), framed=False))
+    for pair in (p for p in group.inner if number in p.links):
+        other = next(n for n in pair.links if n != number)
+        _react(sketch, group, pair, number, [f"R_{other}{number}"])
+    _load(sketch, (number,))
+    for pair, own, names in reactions(scene, group):
+        if own == number:
+            _react(sketch, group, pair, own, names)
+    letter_links(canvas, scene, (number,), sketch.figures)
+    return canvas.finish(f"link_{number}", scene.heading("heading.link", POSITION, link=str(number)), sketch.notes())
+
+
+def couple_name(name: str, number: int) -> str:
+    """Return the name by which a couple is written: that of a guide on link 3 is `M_43`, also where it was a sum."""
+    return f"M_{name.removeprefix('_M_')}{number}" if name.startswith("_M_") else name
+
+
+def length_along(canvas: Canvas, scene: Scene, name: str, start: complex, end: complex) -> None:
+    """Draw the arm of a guide's reaction along the guide, from the pin to where it acts, with its millimetres."""
+    e = (end - start) / abs(end - start)
+    parts: list[Shape] = [Line(start, end, Pen.THIN)]
+    if abs(end - start) > 2.2 * scene.style.arrow:
+        parts += [Head(end, e), Head(start, -e)]
+    canvas.add(Shapes(tuple(parts), "arm", name))
+    text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
+    canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True, spare=text)
+
+
+def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str], at: complex, about: complex) -> None:
+    """Draw the line of forces that share it, thin, and the arm from `about` to it with its millimetres."""
+    e = scene.direction(forces[0])
+    if e == 0 or not scene.defined(names[0]):
+        return
+    foot = at + e * (((about - at) / e).real)
+    reach = 0.6 * scene.style.force
+    ends = sorted(((p - at) / e).real for p in (at - e * reach, at + e * reach, foot))
+    line = (at + e * (ends[0] - 4.0), at + e * (ends[-1] + 4.0))
+    canvas.add(Line(*line, Pen.THIN, role="line-of-action", name=" ".join(forces)))
+    if abs(foot - about) < 0.05:
+        return
+    canvas.add(*(arm(about, foot, name, e, scene.style) for name in names[:1]))
+    symbols = " = ".join(scene.words.symbol(name) for name in names)
+    # smaller than a node's letter: a number with its symbol is long, and the arms of a lever lie close together
+    text = f"{symbols} = {scene.segment(names[0])}"
+    canvas.label(text, (about, foot), clear=0.9, height=scene.style.text, strict=True, spare=text)
+
+
+def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
+    """Say in one line which of these forces, couples and arms are zero: the figure cannot show them."""
+    w = scene.words
+    gone = [name for name in dict.fromkeys(names) if scene.defined(name) and scene.vanishes(name)]
+    parts = [w.symbol(name.removeprefix("_"), bar=not name.startswith(("M", "h", "_M"))) for name in gone]
+    return (f"{' = '.join(parts)} = 0",) if parts else ()

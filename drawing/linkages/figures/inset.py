@@ -1,0 +1,258 @@
+"""Insets: the surroundings of vectors that are too short to be read, enlarged in a frame of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from ....scales.scale import Scale
+from ...page import extent
+from ...shapes import Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
+from ...style import Style
+from ...text import Box
+from ...view import Canvas, View, heading_shapes
+from ..marks import letter_marks, symbol
+from ..scene import Scene
+
+SHORT, READABLE = 1.25, 1.7  # arrowheads: a shorter vector cannot be read; the least length in an inset
+TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
+WIDEST, NARROWEST = 85.0, 60.0  # mm, the largest side of what an inset shows, the least side of the inset
+MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
+LEAST_FRAME = 5.0  # mm, the least side of the frame around what an inset shows
+NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
+
+
+class Plan(Protocol):
+    """A plan whose short vectors insets show."""
+
+    @property
+    def scene(self) -> Scene:
+        """The mechanism, its scale factors and words."""
+
+    @property
+    def plan(self) -> str:
+        """The name of the plan."""
+
+    def vectors(self) -> Iterator[Vector]:
+        """Go through the vectors as they are drawn."""
+
+    def lines(self) -> Iterator[tuple[complex, complex, complex, str]]:
+        """Go through the construction lines: whence, the point that they find, their end, what is said of it."""
+
+    def marks(self) -> Mapping[str, complex]:
+        """Return the places of lettered points, mm."""
+
+    def poles(self) -> Sequence[str]:
+        """Return those of the marks that are small circles."""
+
+
+def is_short(vector: Vector, style: Style) -> bool:
+    """Whether a vector is too short to be read in its figure."""
+    return abs(vector.tip - vector.tail) < SHORT * style.arrow
+
+
+Shown = tuple[Plan, "Window"]
+
+
+def shown_of(plans: Sequence[Plan]) -> list[Shown]:
+    """Return what the insets of several plans of one figure show."""
+    return [(plan, window) for plan in plans for window in windows(plan)]
+
+
+def with_insets(
+    canvas: Canvas, name: str, heading: tuple[str, ...], notes: tuple[str, ...], shown: Sequence[Shown]
+) -> View:
+    """Finish a figure: frame the surroundings of short vectors in it, and put each enlarged beside it."""
+    if not shown:
+        return canvas.finish(name, heading, notes)
+    numerals = [NUMERALS[i % len(NUMERALS)] for i in range(len(shown))]
+    hosts = [_host(i, [window for _, window in shown]) for i in range(len(shown))]
+    insets = []
+    for i, (plan, window) in enumerate(shown):
+        framed = [(shown[k][1].box, numerals[k]) for k, host in enumerate(hosts) if host == i]
+        insets.append(_inset(plan, window, f"{name}_{numerals[i]}", numerals[i], framed))
+    for k, host in enumerate(hosts):
+        if host is None:
+            _framed(canvas, shown[k][1].box, 1.0, f"{name}_{numerals[k]}", numerals[k])
+    return _together(canvas.finish(name), insets, heading, notes, canvas.style)
+
+
+def _host(i: int, shown: Sequence[Window]) -> int | None:
+    """Return the inset in which the frame of inset `i` stands: the finest of the coarser ones that show its middle."""
+    x0, y0, x1, y1 = shown[i].box
+    middle = complex(x0 + x1, y0 + y1) / 2
+    coarser = [k for k, window in enumerate(shown) if window.times < shown[i].times and shows(window, (middle,))]
+    return max(coarser, key=lambda k: shown[k].times, default=None)
+
+
+def _framed(canvas: Canvas, box: Box, times: float, name: str, numeral: str) -> None:
+    """Frame the surroundings that an inset shows, where they are seen `times` as large, under its numeral."""
+    x0, y0, x1, y1 = (side * times for side in box)
+    wide, high = (max(0.0, LEAST_FRAME - size) / 2 for size in (x1 - x0, y1 - y0))
+    frame = x0 - wide, y0 - high, x1 + wide, y1 + high
+    canvas.add(_frame(frame, "window", name))
+    canvas.label(numeral, _corners(frame)[2:], prefer=1j, clear=0.8)
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """What an inset shows: a box of the figure, mm, and how many times it is enlarged."""
+
+    box: Box
+    times: float
+
+
+def windows(plan: Plan) -> list[Window]:
+    """Return what the insets of a plan show: short vectors, each with those beside it that find room."""
+    vectors = [vector for vector in plan.vectors() if abs(vector.tip - vector.tail) > 1e-6]
+    left = [vector for vector in vectors if is_short(vector, plan.scene.style)]
+    found = []
+    while left:
+        first = min(left, key=lambda vector: abs(vector.tip - vector.tail))
+        window = _window(plan.scene, first, vectors)
+        left = [vector for vector in left if vector is not first and not shows(window, (vector.tail, vector.tip))]
+        found.append(window)
+    return found
+
+
+def _window(scene: Scene, short: Vector, vectors: Sequence[Vector]) -> Window:
+    """Choose the enlargement at which a short vector can be read, and take in the vectors that hang on it."""
+    least = abs(short.tip - short.tail)
+    times = next((m for m in TIMES if least * m >= READABLE * scene.style.arrow), TIMES[-1])
+    ends = {short.tail, short.tip}
+    for vector in sorted(vectors, key=lambda vector: abs(vector.tip - vector.tail)):
+        wider = ends | {vector.tail, vector.tip}
+        if (_near(vector.tail, ends) or _near(vector.tip, ends)) and max(size_of(wider)) * times <= WIDEST:
+            ends = wider
+    return window_about(ends, times, NARROWEST)
+
+
+def window_about(ends: set[complex], times: float, narrowest: float) -> Window:
+    """Return a window around points, whose inset has at least the sides `narrowest`, mm."""
+    x0, y0, x1, y1 = _box(ends)
+    wide, high = (max(MARGIN, (narrowest - size * times) / 2) / times for size in size_of(ends))
+    return Window((x0 - wide, y0 - high, x1 + wide, y1 + high), times)
+
+
+def shows(window: Window, ends: tuple[complex, ...]) -> bool:
+    """Whether both ends of a vector stand in a window."""
+    x0, y0, x1, y1 = window.box
+    return all(x0 <= end.real <= x1 and y0 <= end.imag <= y1 for end in ends)
+
+
+def _near(end: complex, ends: set[complex]) -> bool:
+    return any(abs(end - other) < 1e-6 for other in ends)
+
+
+def _box(ends: set[complex]) -> Box:
+    xs, ys = [end.real for end in ends], [end.imag for end in ends]
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def size_of(ends: set[complex]) -> tuple[float, float]:
+    """Return width and height of the box of points."""
+    x0, y0, x1, y1 = _box(ends)
+    return x1 - x0, y1 - y0
+
+
+def _frame(box: Box, role: str, name: str) -> Polyline:
+    return Polyline(_corners(box), Pen.THIN, closed=True, role=role, name=name)
+
+
+def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
+    """Return the corners of a box, counter-clockwise; the last two are the upper ones."""
+    x0, y0, x1, y1 = box
+    return complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1)
+
+
+def _inset(plan: Plan, window: Window, name: str, numeral: str, framed: Sequence[tuple[Box, str]]) -> View:
+    """Draw what stands in the window, enlarged: vectors to a scale factor of their own, those that leave it cut off."""
+    scene, times, (x0, y0, x1, y1) = plan.scene, window.times, window.box
+    bounds: Box = (x0 * times, y0 * times, x1 * times, y1 * times)
+    canvas = Canvas(scene.style, bounds=bounds)
+    for i, (tail, found, end, said) in enumerate(plan.lines()):
+        cut, past = (clipped(start * times, end * times, bounds) for start in (tail, found))
+        if cut is not None:
+            canvas.add(Line(*cut, Pen.DASHED, role="construction", name=f"{name}_{i + 1}"))
+        if past is not None and said:
+            canvas.label(said, past, clear=0.8)
+    named: dict[tuple[complex, complex], list[str]] = {}
+    for vector in plan.vectors():
+        named.setdefault((vector.tail, vector.tip), []).append(symbol(scene, vector.quantity))
+    for vector in plan.vectors():
+        symbols = " = ".join(dict.fromkeys(named.pop((vector.tail, vector.tip), ())))
+        _enlarged(canvas, scene, vector, times, bounds, symbols)
+    for box, other in framed:
+        _framed(canvas, box, times, f"{name.rpartition('_')[0]}_{other}", other)
+    places = {mark: place * times for mark, place in plan.marks().items()}
+    seen = {mark: place for mark, place in places.items() if clipped(place, place, bounds) is not None}
+    letters = {mark: scene.words.mark(mark) for mark in seen}
+    poles = [pole for pole in plan.poles() if pole in seen]
+    letter_marks(canvas, scene, letters, poles, lambda _, mark: seen[mark])
+    canvas.add(_frame(bounds, "inset", name))
+    scale = scene.scales[plan.plan]
+    own = Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit)
+    return canvas.finish(name, (f"{numeral}:  {scene.words.scale(own)}",))
+
+
+def _enlarged(canvas: Canvas, scene: Scene, vector: Vector, times: float, bounds: Box, name: str) -> None:
+    tail, tip = vector.tail * times, vector.tip * times
+    cut = clipped(tail, tip, bounds)
+    if cut is None or abs(cut[1] - cut[0]) < 1e-6:
+        return
+    whole = abs(cut[0] - tail) + abs(cut[1] - tip) < 1e-6
+    if whole:
+        mu = float(f"{vector.mu / times:.12g}")
+        enlarged = replace(vector, tail=tail, tip=tip, mu=mu)
+        canvas.add(enlarged if abs(tip - tail) >= scene.style.arrow else replace(enlarged, head="none"))
+    else:
+        parts: list[Shape] = [Line(*cut, Pen.MAIN)]
+        if abs(cut[1] - tip) < 1e-6:
+            parts.append(Head(tip, tip - tail))
+        canvas.add(Group(tuple(parts), "cut", vector.quantity))
+    if name:
+        canvas.label(name, cut, clear=0.9, strict=True)
+
+
+def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:
+    """Return the part of the line from `a` to `b` inside of a box (Liang and Barsky), None when there is none."""
+    x0, y0, x1, y1 = box
+    low, high, way = 0.0, 1.0, b - a
+    for start, step, least, most in ((a.real, way.real, x0, x1), (a.imag, way.imag, y0, y1)):
+        if abs(step) < 1e-12:
+            if not least <= start <= most:
+                return None
+            continue
+        first, last = sorted(((least - start) / step, (most - start) / step))
+        low, high = max(low, first), min(high, last)
+    return (a + way * low, a + way * high) if low <= high else None
+
+
+def _together(
+    figure: View, insets: Sequence[View], heading: tuple[str, ...], notes: tuple[str, ...], style: Style
+) -> View:
+    """Put the insets to the right of a figure, or under it, whichever takes less room; the heading over all."""
+    beside, under = (list(_shapes(figure, insets, right)) for right in (True, False))
+    shapes = min((beside, under), key=lambda shapes: _area(extent(shapes)))
+    x0, y0, x1, y1 = extent(shapes)
+    for texts, height in ((notes, style.text), (heading, style.heading)):
+        lines, y1 = heading_shapes(texts, height, (x0 + x1) / 2, y1)
+        shapes += lines
+    x0, y0, x1, _ = extent(shapes)
+    return View(figure.name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
+
+
+def _shapes(figure: View, insets: Sequence[View], right: bool) -> Iterator[Shape]:
+    x0, y0, x1, _ = figure.box
+    yield from figure.shapes
+    x, y = (x1 + GAP, y0) if right else (x0, y0 - GAP)
+    for inset in insets:
+        width, height = inset.size
+        corner = complex(x - inset.box[0], y - inset.box[1] - (0.0 if right else height))
+        yield Group(tuple(shifted(shape, corner) for shape in inset.shapes), "enlarged", inset.name)
+        x, y = (x, y + height + GAP) if right else (x + width + GAP, y)
+
+
+def _area(box: Box) -> float:
+    return (box[2] - box[0]) * (box[3] - box[1])

@@ -1,0 +1,121 @@
+"""Zhukovsky's lever: the turned velocity plan with all forces hung on it, and every arm."""
+
+from __future__ import annotations
+
+from itertools import combinations, pairwise
+
+from ...shapes import Line, Pen
+from ...view import Canvas, View
+from ..marks import letter_marks, vectors_of
+from ..scene import Scene
+from ..skeleton import rays_of
+from .arrows import Arrows
+from .group import zeros
+from .lever_arms import LeverArm, draw_arms
+
+BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
+
+
+def lever_view(scene: Scene) -> View:
+    """Draw the lever: forces keep their directions, couples hang as pairs, arms run from the pole."""
+    canvas = Canvas(scene.style)
+    words, point = scene.words, scene.solved.mechanism.driver.point
+    marks = dict.fromkeys(("lever.p", *_images(scene)))
+    lines, hung = _lines(scene), hung_on_lever(scene)
+    canvas.add(*(Line(a, b, Pen.MAIN, role="lever", name=name) for a, b, name in lines))
+    arrows = Arrows(canvas, scene, [(a, b) for a, b, _ in lines])
+    for name, mark in hung:
+        at = image(scene, mark)
+        arrows.bar(at, rays_of(at, [(a, b) for a, b, *_ in lines]))
+        arrows.hang(name, at)
+    places = [image(scene, mark) for mark in marks]
+    _arms(canvas, scene, hung, sum(places) / len(places))
+    text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{point}')} = {scene.segment(f'V_{point}')}"
+    ends = image(scene, "lever.p"), image(scene, f"lever.{point}")
+    canvas.label(text, ends, clear=0.9, height=scene.style.text, spare=text)
+    letters = {mark: words.mark(f"velocity.{mark.removeprefix('lever.')}") for mark in marks}
+    letter_marks(canvas, scene, {**letters, "lever.p": words.mark("lever.p")}, ("lever.p",), image)
+    gone = [arm_of(name) for name, _ in hung if scene.direction(name) != 0]
+    zero = zeros(scene, [*arrows.zero, *gone])
+    return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"], *zero))
+
+
+def _arms(canvas: Canvas, scene: Scene, hung: list[tuple[str, str]], middle: complex) -> None:
+    """Draw the arms from the pole; forces on one line share theirs."""
+    p, feet = image(scene, "lever.p"), dict[complex, list[tuple[str, complex]]]()
+    for name, mark in hung:
+        e, at = scene.direction(name), image(scene, mark)
+        if e != 0 and name not in BALANCE and scene.defined(arm_of(name)):
+            foot = at + e * (((p - at) / e).real)
+            same = next((other for other in feet if abs(other - foot) < 1e-4), foot)
+            feet.setdefault(same, []).append((name, at))
+    arms = [
+        LeverArm(tuple(n for n, _ in sharing), tuple(arm_of(n) for n, _ in sharing), sharing[0][1], along, foot)
+        for foot, sharing in feet.items()
+        for along in [scene.direction(sharing[0][0])]
+    ]
+    draw_arms(canvas, scene, p, arms, middle)
+
+
+def image(scene: Scene, mark: str) -> complex:
+    """Return a mark of the lever, mm: that of the velocity plan turned by +90 degrees where nothing hangs on it."""
+    if mark in scene.solved.values:
+        return scene.mm(mark)
+    return scene.mm(f"velocity.{mark.removeprefix('lever.')}") * 1j
+
+
+def _images(scene: Scene) -> list[str]:
+    """Return the marks of the lever: those on which something hangs, and the images of all joints."""
+    hung = [step.name for step in scene.solved.program.on("lever") if step.verb == "normal"]
+    joints = [f"lever.{point}" for points in _joints(scene) for point in points]
+    return [*hung, *joints]
+
+
+def _joints(scene: Scene) -> list[list[str]]:
+    """Return for each link the letters of its joints, and of its points over others, that have marks of velocity."""
+    mechanism, names = scene.solved.mechanism, set(scene.solved.program.names)
+    found = []
+    for link in mechanism.links:
+        joints = [p.point for p in mechanism.pairs if link.number in p.links and p.point in link.points]
+        over = [p.point + str(link.number) for p in mechanism.pairs if link.number in p.links]
+        found.append([point for point in dict.fromkeys((*joints, *over)) if f"velocity.{point}" in names])
+    return found
+
+
+def _lines(scene: Scene) -> list[tuple[complex, complex, str]]:
+    """Return the lines of the turned velocity plan: all its vectors, and those between images of each link's joints."""
+    steps = scene.solved.program.on("velocity")
+    ends = [(tail, tip, name) for name, tail, tip in vectors_of(steps)]
+    for points in _joints(scene):
+        ways = combinations(points, 2) if len(points) < 4 else pairwise([*points, points[0]])
+        ends += [(f"lever.{a}", f"lever.{b}", a + b) for a, b in ways]
+    kept: dict[frozenset[complex], tuple[complex, complex, str]] = {}
+    for start, end, name in ends:
+        a, b = (image(scene, f"lever.{mark.rpartition('.')[2]}") for mark in (start, end))
+        places = frozenset(complex(round(at.real, 4), round(at.imag, 4)) for at in (a, b))
+        if len(places) == 2:
+            kept.setdefault(places, (a, b, name))
+    return list(kept.values())
+
+
+def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
+    """Return (force, mark) of all that hangs on the lever, the balancing force last."""
+    hung = [
+        (step.operands[0], step.operands[1])
+        for step in scene.solved.program
+        if step.verb == "moment" and step.operands[2] == "lever.p"
+    ]
+    # of a couple on a link that turns about a pivot the second force stands at the pole: it has no moment
+    pulling = {name for name, _ in hung}
+    made = (step.name for step in scene.solved.program if "_couple_" in step.name and step.law in ("along", "opposite"))
+    hung += [(name, "lever.p") for name in made if name not in pulling]
+    balance = next(name for name in BALANCE if name in scene.solved.values)
+    return [*hung, (balance, f"lever.{scene.solved.mechanism.driver.point}")]
+
+
+def arm_of(force: str) -> str:
+    """Return the arm's name: of `F_i2` it is `h_lever_F_i2`, of the couple `F_i2_couple_B` `h_lever_M_i2_B`."""
+    if "_couple_" in force:
+        moment, _, point = force.partition("_couple_")
+        return f"h_lever_M{moment.removeprefix('F')}_{point}"
+    return f"h_lever_{force}"

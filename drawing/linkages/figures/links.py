@@ -1,0 +1,256 @@
+"""Links drawn to scale: lines from pair to pair, blocks, guides, rigid corners, pivots on the frame, and their letters.
+
+Any view of a mechanism, or of a part of it, draws its links so:
+
+    figures = draw_links(canvas, scene, numbers)      # all lines, blocks and pins of these links
+    draw_frame(canvas, scene, numbers, figures)       # the pivots on which they turn, where the frame belongs
+    letter_links(canvas, scene, numbers, figures)     # joints, centres of mass and numbers, each once
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+
+from ....plans.linkages.mechanism import FRAME, Prismatic, Revolute
+from ...shapes import Circle, Group, Line, Pen
+from ...symbols import block, bridge, centre_of_mass, fixed_pivot, guide, revolute, rigid_corner, slider_up
+from ...view import Canvas
+from ..scene import Scene
+from ..skeleton import NEAR, Skeleton, Stroke, is_inside, nearest, pins_of, rays_of, rim_of, skeleton, spread_of
+from .guides import guide_pieces, guide_up
+
+__all__ = ["Skeleton", "draw_frame", "draw_links", "letter_links", "skeleton"]
+
+STRAIGHT = math.radians(179.0)
+DOWN = (-1j, -1 + 0j, 1 + 0j, 1j)  # where the foot of a pivot may stand, the usual place first
+ROOM = math.radians(35.0)  # between the foot of a pivot and a link
+
+
+def draw_links(
+    canvas: Canvas, scene: Scene, numbers: Sequence[int], framed: bool = True, whole: bool = False
+) -> list[Skeleton]:
+    """Draw moving links: guides under blocks, all other lines over them, pins on top; return their figures.
+
+    `framed` says whether the guides of the frame are drawn under the sliders that run on them, `whole` whether as long
+    as the way of the sliders.
+    """
+    figures = [skeleton(scene, number) for number in numbers]
+    for figure in figures:
+        _strokes(canvas, scene, figure, figure.guides)
+    blocks = [drawn for figure in figures for drawn in _blocks(scene, figure, framed, whole)]
+    for _, shapes in sorted(blocks, key=lambda drawn: -drawn[0]):
+        canvas.add(*shapes)
+    for figure in figures:
+        _strokes(canvas, scene, figure, figure.bars)
+        for at, u, w in figure.corners:
+            if spread_of(u, w) > STRAIGHT:
+                canvas.add(bridge(at, _freer(u, at, figures), scene.style))
+            else:
+                canvas.add(rigid_corner(at, u, w, scene.style, pin=_is_in(at, figure.pins)))
+    pins = dict.fromkeys(point for number in numbers for point in pins_of(scene, number))
+    held = scene.solved.mechanism.frame_points if framed else ()
+    canvas.add(*(revolute(scene.mm(point), point, scene.style) for point in pins if point not in held))
+    return figures
+
+
+def _strokes(canvas: Canvas, scene: Scene, figure: Skeleton, strokes: Iterable[Stroke]) -> None:
+    """Draw lines of a link, each stopped at the circles and blocks on its way."""
+    lines = tuple(Line(*part, Pen.MAIN) for stroke in strokes for part in _parts(scene, figure, stroke))
+    if lines:
+        canvas.add(Group(lines, "link", str(figure.number)))
+
+
+def _parts(scene: Scene, figure: Skeleton, stroke: Stroke) -> Iterator[Stroke]:
+    """Cut a line at the pins on it."""
+    a, b = stroke
+    e = (b - a) / abs(b - a)
+    inside = [pin for pin in figure.pins if abs(((pin - a) / e).imag) < NEAR and 0 < ((pin - a) / e).real < abs(b - a)]
+    stops = [a, *sorted(inside, key=lambda pin: abs(pin - a)), b]
+    for start, end in pairwise(stops):
+        if abs(end - start) > _rim(scene, figure, start, e) + _rim(scene, figure, end, -e):
+            yield start + e * _rim(scene, figure, start, e), end - e * _rim(scene, figure, end, -e)
+
+
+def _rim(scene: Scene, figure: Skeleton, end: complex, e: complex) -> float:
+    """Return where a line that leaves `end` along `e` begins: at the circle of a pin, at the edge of a block."""
+    if _is_in(end, figure.pins):
+        return scene.style.pair
+    for (at, u), size in zip(figure.blocks, figure.sizes, strict=True):
+        if abs(at - end) < NEAR:
+            return rim_of(u, size, e)
+    return 0.0
+
+
+def _is_in(at: complex, places: Iterable[complex]) -> bool:
+    return any(abs(at - place) < NEAR for place in places)
+
+
+def _blocks(scene: Scene, figure: Skeleton, framed: bool, whole: bool) -> Iterator[tuple[float, tuple[Group, ...]]]:
+    """Go through the blocks of a link by size: sliders with the frame's guide under them, blocks on links that move."""
+    name = str(figure.number)
+    own = [p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] == figure.number]
+    for pair, (at, u), size in zip(own, figure.blocks, figure.sizes, strict=True):
+        if pair.links[1] == FRAME and framed:
+            up = guide_up(scene, pair)
+            on_frame = guide(guide_pieces(scene, pair, up, whole), up, name, scene.style)
+            yield size[0], (on_frame, block(at, u, name, size))
+        else:
+            yield size[0], (block(at, u, name, size),)
+
+
+def _freer(u: complex, at: complex, figures: Iterable[Skeleton]) -> complex:
+    """Turn the direction of a line so that the arc over a pin on it stands where no other link leaves the pin."""
+    rays = rays_at(at, figures)
+
+    def room(v: complex) -> float:
+        return min((spread_of(1j * v, ray) for ray in rays), default=math.pi)
+
+    return u if room(u) >= room(-u) else -u
+
+
+def rays_at(at: complex, figures: Iterable[Skeleton]) -> list[complex]:
+    """Return the unit directions in which lines of links leave a place."""
+    return rays_of(at, (stroke for figure in figures for stroke in figure.strokes))
+
+
+def draw_frame(canvas: Canvas, scene: Scene, numbers: Iterable[int], figures: Sequence[Skeleton]) -> None:
+    """Draw the pivots on the frame of these links, each with its foot where no link is in the way."""
+    wanted = set(numbers)
+    pairs = [p for p in scene.solved.mechanism.pairs if isinstance(p, Revolute) and FRAME in p.links]
+    for point in dict.fromkeys(pair.point for pair in pairs if wanted & set(pair.links)):
+        at, down = scene.mm(point), foot_of(scene, point, figures)
+        canvas.add(fixed_pivot(at, point, scene.style, down))
+        _, height, base = scene.style.pivot
+        far = at + down * (height + scene.style.pair + scene.style.hatch[0])
+        canvas.keep_clear(at - down * 1j * (base / 2), far + down * 1j * (base / 2))
+
+
+def foot_of(scene: Scene, point: str, figures: Sequence[Skeleton]) -> complex:
+    """Return the side on which the foot of a pivot stands: below, unless a link or another pivot is there."""
+    at = scene.mm(point)
+    rays = rays_at(at, figures)
+    others = [scene.mm(other) - at for other in scene.solved.mechanism.frame_points]
+    rays += [way / abs(way) for way in others if NEAR < abs(way) < 2 * scene.style.pivot[2]]
+
+    def room(down: complex) -> float:
+        return min((spread_of(down, ray) for ray in rays), default=math.pi)
+
+    return max(DOWN, key=lambda down: (room(down) >= ROOM, -DOWN.index(down)))
+
+
+def coincident(scene: Scene) -> dict[str, tuple[int, ...]]:
+    """Return the joints at which points of several links have marks of their own, `velocity.A3`, with these links."""
+    mechanism, found = scene.solved.mechanism, dict[str, set[int]]()
+    letters = {point for link in mechanism.links for point in link.points}
+    for name in scene.solved.program.names:
+        match = re.fullmatch(r"velocity\.(\w*?[A-Za-z])(\d+)", name)
+        if match and match[1] in letters and f"{match[1]}{match[2]}" not in letters:
+            found.setdefault(match[1], set()).add(int(match[2]))
+    for point, numbers in found.items():
+        numbers.update(n for p in mechanism.pairs if isinstance(p, Revolute) and p.point == point for n in p.links)
+    return {point: tuple(sorted(numbers - {FRAME})) for point, numbers in found.items()}
+
+
+def letter_links(canvas: Canvas, scene: Scene, numbers: Sequence[int], figures: Sequence[Skeleton]) -> None:
+    """Draw centres of mass and other lettered points, and letter joints, points and links, each once."""
+    several, lettered = coincident(scene), set[str]()
+    for number, figure in zip(numbers, figures, strict=True):
+        link = scene.solved.mechanism.link(number)
+        for point in link.points:
+            if point in lettered:
+                continue
+            lettered.add(point)
+            if point in pins_of(scene, number) or point in _running(scene, number):
+                links = ",".join(map(str, several.get(point, ())))
+                mark = f"{point}_{{{links}}}" if links else scene.words.mark(point)
+                _letter_joint(canvas, scene, point, mark, figures)
+            else:
+                _letter_point(canvas, scene, figure, point)
+    for figure in figures:
+        _number(canvas, scene, figure, figures)
+
+
+def _running(scene: Scene, number: int) -> set[str]:
+    """Return the letters of a link's points that run along guides."""
+    return {p.point for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] == number}
+
+
+def _letter_joint(canvas: Canvas, scene: Scene, point: str, mark: str, figures: Sequence[Skeleton]) -> None:
+    """Letter a joint; in a block beside its free edge, for lines and arrows leave no room at the pin itself."""
+    at = scene.mm(point)
+    if not any(point in pins_of(scene, figure.number) for figure in figures):
+        canvas.add(Group((Circle(at, scene.style.node, Pen.MAIN, fill="white"),), "point", point))
+    around = [(size, u, figure) for figure in figures for (c, u), size in _sized(figure) if abs(c - at) < NEAR]
+    if not around:
+        canvas.label(mark, at, clear=scene.style.pair + 0.8)
+        return
+    (length, height), u, figure = max(around, key=lambda one: one[0])
+    up = _up(scene, figure.number, at, u, figures)
+    edge, half = at + up * (height / 2), u * (length / 2)
+    canvas.label(mark, (edge - half, edge + half), clear=1.0, prefer=up, priority=1)
+
+
+def _sized(figure: Skeleton) -> Iterator[tuple[Stroke, tuple[float, float]]]:
+    return zip(figure.blocks, figure.sizes, strict=True)
+
+
+def _up(scene: Scene, number: int, at: complex, u: complex, figures: Sequence[Skeleton]) -> complex:
+    """Return the side of a block for its letter: away from the frame's guide, or from lines that leave it."""
+    for pair in scene.solved.mechanism.pairs:
+        if isinstance(pair, Prismatic) and pair.links == (number, FRAME):
+            return guide_up(scene, pair)
+    rays = rays_at(at, figures)
+    sides = slider_up(u), -slider_up(u)
+    return max(sides, key=lambda side: round(min((spread_of(side, ray) for ray in rays), default=math.pi), 3))
+
+
+def _letter_point(canvas: Canvas, scene: Scene, figure: Skeleton, point: str) -> None:
+    """Draw and letter a centre of mass or another point that is no joint."""
+    at, style, number = scene.mm(point), scene.style, figure.number
+    if any(abs(at - scene.mm(pin)) < style.pair for pin in pins_of(scene, number)):
+        return
+    if point == scene.solved.mechanism.link(number).centre:
+        _tie(canvas, scene, at, figure)
+        canvas.add(centre_of_mass(at, point, style))
+    else:
+        canvas.add(Group((Circle(at, style.node, Pen.MAIN, fill="white"),), "point", point))
+    canvas.label(scene.words.mark(point), at, clear=style.centre + 0.8)
+
+
+def _tie(canvas: Canvas, scene: Scene, at: complex, figure: Skeleton) -> None:
+    """Draw a thin line to a centre of mass that stands neither on a line of its link nor between them."""
+    feet = [nearest(*stroke, at) for stroke in figure.strokes] + [centre for centre, _ in figure.blocks]
+    feet += list(figure.pins)
+    foot = min(feet, key=lambda foot: abs(foot - at))
+    inside = len(figure.bars) > 2 and is_inside([a for a, _ in figure.bars], at)
+    reach, e = abs(foot - at), (at - foot) / (abs(foot - at) or 1.0)
+    start = _rim(scene, figure, foot, e)
+    if reach > start + scene.style.centre and not inside:
+        canvas.add(Line(foot + e * start, at - e * scene.style.centre, Pen.THIN, role="tie"))
+
+
+def _number(canvas: Canvas, scene: Scene, figure: Skeleton, figures: Sequence[Skeleton]) -> None:
+    """Number a link beside its longest free piece of line, or beside its block."""
+    pieces = [piece for stroke in figure.strokes for piece in _pieces(stroke, figures)]
+    if pieces:
+        a, b = max(pieces, key=lambda piece: round(abs(piece[1] - piece[0]), 3))
+        canvas.label(str(figure.number), (a, b), clear=0.8)
+    elif figure.blocks:
+        (at, u), (length, height) = figure.blocks[0], figure.sizes[0]
+        up, half = _up(scene, figure.number, at, u, figures), length / 2
+        away = [ray for ray in rays_at(at, figures) if abs((ray / u).real) > 0.1]
+        far = u * half if sum((ray / u).real for ray in away) <= 0 else -u * half
+        canvas.label(str(figure.number), at + up * (height / 2) + far, clear=0.8, prefer=up)
+
+
+def _pieces(stroke: Stroke, figures: Sequence[Skeleton]) -> Iterator[Stroke]:
+    """Cut a line at all pins and blocks on it."""
+    a, b = stroke
+    e, reach = (b - a) / abs(b - a), abs(b - a)
+    marks = [at for figure in figures for at in (*figure.pins, *(centre for centre, _ in figure.blocks))]
+    along = [((at - a) / e).real for at in marks if abs(((at - a) / e).imag) < NEAR]
+    stops = sorted({0.0, reach, *(k for k in along if 0 < k < reach)})
+    yield from ((a + e * low, a + e * high) for low, high in pairwise(stops))
