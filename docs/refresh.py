@@ -12,12 +12,20 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
-DOCUMENTS = (README, *(ROOT / "docs" / f"{name}.md" for name in ("accuracy", "cycle", "marking", "own-mechanism")))
+NAMES = ("accuracy", "cams", "cycle", "marking", "own-mechanism")
+DOCUMENTS = (README, *(ROOT / "docs" / f"{name}.md" for name in NAMES))
 PICTURES = ROOT / "docs" / "pictures"
-CHARTS = {
-    "accuracy": "madi-four-bar",
-    "stability": "nau-slider-crank -v example --set l_AB=52 --quantities V_B,a_B",
-    "depth": "scheme-09-shaper",
+CHARTS = {  # by picture: what is charted
+    "accuracy": "madi-four-bar --chart accuracy",
+    "stability": "nau-slider-crank -v example --set l_AB=52 --quantities V_B,a_B --chart stability",
+    "depth": "scheme-09-shaper --chart depth",
+    "cam-sections": "madi-cam --chart sections",
+    "cam-accuracy": "madi-cam --chart accuracy",
+    "cam-stability": "madi-cam --chart stability",
+}
+SHEETS = {  # by picture: what is drawn
+    "nau-slider-crank-3": "nau-slider-crank -v 3 --student 'І. Петренко' --group АТ-301 --designation ТММ.РГР.03.01",
+    "madi-cam": "madi-cam --lang ru",
 }
 BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
 
@@ -54,24 +62,24 @@ def refreshed(text: str, folder: str) -> str:
 
 
 def main() -> None:
-    """Rewrite the blocks of the documents and the picture."""
+    """Rewrite the blocks of the documents and the pictures."""
     for document in DOCUMENTS:
         with tempfile.TemporaryDirectory() as folder:
             document.write_text(refreshed(document.read_text(encoding="utf-8"), folder), encoding="utf-8")
-    with tempfile.TemporaryDirectory() as folder:
-        people = "--student 'І. Петренко' --group АТ-301 --designation ТММ.РГР.03.01"
-        run(f"kulman sheet nau-slider-crank -v 3 -o sheet.pdf {people}", folder)
-        picture(Path(folder) / "sheet.pdf", PICTURES / "nau-slider-crank-3.png")
+    for name, task in SHEETS.items():
+        with tempfile.TemporaryDirectory() as folder:
+            run(f"kulman sheet {task} -o sheet.pdf", folder)
+            picture(Path(folder) / "sheet.pdf", PICTURES / f"{name}.png")
     charts()
 
 
 def charts() -> None:
-    """Draw the charts of docs/accuracy.md."""
+    """Draw the charts of docs/accuracy.md and docs/cams.md."""
     from PIL import Image
 
     for name, task in CHARTS.items():
         with tempfile.TemporaryDirectory() as folder:
-            run(f"kulman chart {task} --chart {name} --lang en -o chart.png", folder)
+            run(f"kulman chart {task} --lang en -o chart.png", folder)
             with Image.open(Path(folder) / "chart.png") as drawn:
                 size = 1400, round(1400 * drawn.height / drawn.width)
                 grey = drawn.convert("L").resize(size, Image.Resampling.LANCZOS)
