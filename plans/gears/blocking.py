@@ -176,15 +176,15 @@ def _connected(inside: NDArray[np.bool_], distance: Array) -> NDArray[np.bool_]:
     """Return that connected part of what is inside whose nearest place has the least distance."""
     if not inside.any():
         return inside
-    part = inside & (distance == np.min(distance[inside]))
+    part: NDArray[np.bool_] = inside & (distance == np.min(distance[inside]))
     while True:
-        wider = part.copy()
+        wider: NDArray[np.bool_] = part.copy()
         wider[1:] |= part[:-1]
         wider[:-1] |= part[1:]
         wider[:, 1:] |= part[:, :-1]
         wider[:, :-1] |= part[:, 1:]
         wider &= inside
-        if np.array_equal(wider, part):
+        if bool((wider == part).all()):
             return part
         part = wider
 
@@ -192,7 +192,8 @@ def _connected(inside: NDArray[np.bool_], distance: Array) -> NDArray[np.bool_]:
 def plane_of(values: Mapping[str, float], least_tip: float = 0.3, cells: int = CELLS) -> Plane:
     """Return the plane of shifts of a pair with its complete givens, in a window round the contour.
 
-    Wheels with many teeth have several contours; the window is round that nearest to the chosen point. Where no shifts are permitted at all the window is round the chosen point and the least shifts.
+    Wheels with many teeth have contours for gearing beyond the pole, too; the window is round that which holds the
+    chosen point or is nearest to it. Where no shifts are permitted at all it is round this point and the least shifts.
     """
     least = geometry(values, ("x_min1", "x_min2"))
     low, chosen = complex(least["x_min1"], least["x_min2"]), complex(values["x_1"], values["x_2"])
