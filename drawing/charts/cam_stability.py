@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from ...plans.cams.convergence import R_0, S_MAX, V_MAX
-from ...plans.cams.robustness import WAYS, Robustness
+from ...plans.cams.closing import WAYS
+from ...plans.cams.robustness import Robustness
+from ...plans.cams.sectioned import R_0, S_MAX, V_MAX
 from ..words import Words
 from .lettering import Label, put
 from .paper import BLACK, SMALL, TEXT, box, decimals, page

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...plans.cams.convergence import BETWEEN, DRAWINGS, MU_S, NODES, R_0, S_MAX, V_MAX, Convergence
+from ...plans.cams.convergence import BETWEEN, CLOSED, DRAWINGS, NODES, Convergence
+from ...plans.cams.sectioned import MU_S, R_0, S_MAX, V_MAX
 from ..words import Words
 from .lettering import Label, put
 from .paper import BLACK, GREY, SMALL, TEXT, box, decimals, page
@@ -17,8 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-SYMBOLS = {V_MAX: "$V_{max}$", S_MAX: "$S_{max}$", MU_S: "$μ_{s}$", R_0: "$r_{0}$"}
-MARKERS = {V_MAX: "s", S_MAX: "o", MU_S: "x", R_0: "^"}
+SYMBOLS = {V_MAX: "$V_{max}$", S_MAX: "$S_{max}$", MU_S: "$μ_{s}$", R_0: "$r_{0}$", CLOSED: "s"}
+MARKERS = {V_MAX: "s", S_MAX: "o", MU_S: "x", R_0: "^", CLOSED: "D"}
 LINES: Mapping[str, Any] = {NODES: "-", BETWEEN: (0, (5, 2))}
 HANDS: Mapping[str, tuple[Any, str]] = {
     "cad": ((0, (1, 1.2)), "D"),
@@ -78,31 +79,33 @@ def _visible(counts: tuple[int, ...], errors: NDArray[np.float64]) -> tuple[NDAr
 
 
 def _slope(axes: Axes, found: Convergence, where: str, words: Words) -> None:
-    """Draw below the curves of one family the slope of its order, and say what it is."""
+    """Draw the slope of a family's order, beyond its curves where no other family has any, and say what it is."""
     curves = [_visible(found.sections[where], found.errors[where, name]) for name in found.quantities]
     curves = [(n, error) for n, error in curves if n.size > 2]
     if not curves:
         return
-    n, error = min(curves, key=lambda curve: float(curve[1][-1]))
-    power = STEEP[where]
-    low, high = float(n[len(n) // 2 - 1]), float(n[len(n) // 2 + 1])
-    start = float(error[len(n) // 2 - 1]) * 0.45
+    above = where == BETWEEN
+    n, error = sorted(curves, key=lambda curve: float(curve[1][-1]))[-1 if above else 0]
+    power, i = STEEP[where], len(n) // 2
+    low, high = float(n[i - 1]), float(n[i + 1])
+    start = float(error[i - 1]) * (2.6 if above else 0.45)
     axes.plot([low, high], [start, start * (low / high) ** power], color=GREY, lw=2.2, solid_capstyle="butt", zorder=1)
     middle = (low * high) ** 0.5
     axes.annotate(
         f"{words[f'chart.{where}']}: $n^{{-{power}}}$".replace("-", "−"),
         (middle, start * (low / middle) ** power),
-        (-4.0, -4.0),
+        (4.0, 4.0) if above else (-4.0, -4.0),
         textcoords="offset points",
-        ha="right",
-        va="top",
+        ha="left" if above else "right",
+        va="bottom" if above else "top",
         fontsize=SMALL + 0.5,
     )
 
 
 def _hands(axes: Axes, found: Convergence, name: str, words: Words, last: bool) -> None:
     """Draw what every hand keeps of one quantity, beside chords without errors of drawing."""
-    said = words["chart.by_hands"].format(name=SYMBOLS[name])
+    key = "chart.by_hands_closed" if name == CLOSED else "chart.by_hands"
+    said = words[key].format(name=SYMBOLS[name])
     axes.set_title(said, loc="left", fontsize=TEXT, pad=3.0)
     n = np.array(found.drawn, float)
     labels, points = [], []
@@ -118,7 +121,7 @@ def _hands(axes: Axes, found: Convergence, name: str, words: Words, last: bool) 
     axes.plot(counts[inside], chords[inside], color=GREY, lw=2.0, zorder=1)
     _logarithmic(axes, found.drawn, words)
     low, high = axes.get_ylim()
-    axes.set_ylim(max(low, high * 1e-3), high)
+    axes.set_ylim(max(low, high * 1e-3), high * 1.6)
     axes.set_xlim(right=axes.get_xlim()[1] * 1.9)
     if last:
         axes.set_xlabel(words["chart.sections_axis"], labelpad=1.0)

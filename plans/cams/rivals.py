@@ -20,10 +20,12 @@ from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
 from ..hands.hand import Hand
 from ..hands.shaky import draw
 from ..hands.spread import kept
-from .convergence import DRAWINGS, SEED, drawn_on, equal_division, inner_jumps
+from .closing import MM
+from .convergence import DRAWINGS, SEED
 from .division import Division
 from .integration import ACCELERATION, TRAVEL, VELOCITY
 from .motion import TURN, Motion
+from .sectioned import drawn_on, equal_division, inner_jumps, nodes, ordinates
 from .solve import SolvedCam
 
 Array = NDArray[np.float64]
@@ -33,7 +35,6 @@ ON_BOARD = (12, 24, 48, 96, 192)  # sections of a phase
 NUMERICAL = (12, 24, 48, 96, 192, 768, 3072, 12288)
 BY_HAND = (12, 24, 48)
 TRAVELS, VELOCITIES = "travel", "speed"
-MM = 1e3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -130,7 +131,7 @@ class _Race:
         """Go through chords on the board, one drawing at a time."""
         for sections in ON_BOARD:
             cut = on_lines(self.solved.motion, sections)
-            paper = drawn_on(self.solved, cut.angles, cut.division, marks(self.solved, cut.division))
+            paper = drawn_on(self.solved, cut.angles, cut.division, nodes(self.solved, cut.division))
             course = _drawn(self.solved, cut.division, run(paper.program, paper.givens).values)
             spent = timed(partial(run, paper.program, paper.givens), self.clock) / len(cut.angles)
             yield from self._entries(BOARD, cut.division.top, cut, course, None, spent, 1)
@@ -199,7 +200,7 @@ def by_hand(solved: SolvedCam, hand: Hand) -> Iterator[Entry]:
     motion = solved.motion
     for sections in BY_HAND:
         cut = on_lines(motion, sections)
-        paper = drawn_on(solved, cut.angles, cut.division, marks(solved, cut.division))
+        paper = drawn_on(solved, cut.angles, cut.division, nodes(solved, cut.division))
         board = draw(paper, hand, np.random.default_rng(SEED), DRAWINGS)
         course = _drawn(solved, cut.division, board.values, DRAWINGS)
         s, ds = (values[:, None] for values in closed(motion, cut.angles))
@@ -213,19 +214,12 @@ def by_hand(solved: SolvedCam, hand: Hand) -> Iterator[Entry]:
             yield Entry(HAND, f"n = {cut.division.top}", kind, most, middle, name, at, None, 1, 0.0)
 
 
-def marks(solved: SolvedCam, division: Division) -> tuple[str, ...]:
-    """Return the marks of the nodes that are drawn: of the travel, and of the velocity where it is not given."""
-    plans = (TRAVEL, VELOCITY) if solved.layout.given == ACCELERATION else (TRAVEL,)
-    return tuple(f"{plan}.{i}" for plan in plans for i in division.lines)
-
-
 def _drawn(solved: SolvedCam, division: Division, values: Any, *shape: int) -> Course:
     """Return the course that has been drawn: slopes of the travel are worth the velocity's ordinates by H_v."""
 
-    def ordinates(plan: str) -> Array:
-        return np.array([np.broadcast_to(np.imag(values[f"{plan}.{i}"]), shape) for i in division.lines])
-
-    travel = ordinates(TRAVEL)
+    travel = ordinates(values, TRAVEL, division, *shape)
     if solved.layout.given != ACCELERATION:
         return travel, np.zeros_like(travel)
-    return travel, ordinates(VELOCITY) * (1.0 / (solved.givens["H_v"] * solved.givens["mu_phi"] * MM))
+    return travel, ordinates(values, VELOCITY, division, *shape) * (
+        1.0 / (solved.givens["H_v"] * solved.givens["mu_phi"] * MM)
+    )

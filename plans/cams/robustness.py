@@ -1,15 +1,9 @@
-"""How much diagrams by chords stand: a section line beside a jump, a velocity that does not return to zero.
-
-What a hand draws does not close: at the end of a phase the velocity is not zero, after the fall the travel is not. The
-closing error of the velocity may be distributed over its phase, that of the travel over the turn, in proportion to the
-way along the axis; as the travel is the integral of the velocity, the first changes the travel, too.
-"""
+"""How much diagrams by chords stand: a section line beside a jump, a velocity that does not return to zero."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,17 +12,17 @@ from ..boards.exact import run
 from ..hands.hand import Hand
 from ..hands.shaky import draw
 from ..hands.spread import kept
-from .convergence import DRAWINGS, NEAR, SEED, drawn_on, exact_values, inner_jumps
+from .closing import MM, travel_errors
+from .convergence import DRAWINGS, SEED
 from .division import Division
 from .integration import ACCELERATION, TRAVEL, VELOCITY
+from .sectioned import NEAR, drawn_on, exact_values, inner_jumps, nodes, ordinates
 from .solve import SolvedCam
 
 Array = NDArray[np.float64]
 SECTIONS = (12, 24, 48)  # at which a line beside a jump is looked at
 BESIDE = tuple(k / 20.0 for k in range(-10, 11))  # parts of a section by which the line is late
 DRAWN = 12  # sections that hands draw
-AS_DRAWN, SPEED, STROKE, BOTH = WAYS = ("drawn", "speed", "stroke", "both")  # what has been closed
-MM = 1e3
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,61 +102,18 @@ def _missed(
 
 def _closing(solved: SolvedCam, angles: Array, division: Division, hand: Hand) -> Closing:
     """Let a hand draw, and look at how it closes."""
-    fast = solved.layout.given == ACCELERATION
-    marks = [f"{plan}.{i}" for plan in ((VELOCITY, TRAVEL) if fast else (TRAVEL,)) for i in division.lines]
-    board = draw(drawn_on(solved, angles, division, tuple(marks)), hand, np.random.default_rng(SEED), DRAWINGS)
-
-    def ordinates(plan: str) -> Array:
-        return np.array([np.broadcast_to(np.imag(board.values[f"{plan}.{i}"]), DRAWINGS) for i in division.lines])
-
-    x = angles / (solved.givens["mu_phi"] * MM)
-    travel, speed = ordinates(TRAVEL), ordinates(VELOCITY) if fast else None
-    exact = solved.motion.at(angles, -1)[0] / solved.motion.h
-    closed = {AS_DRAWN: travel, STROKE: stroke_closed(travel, x)}
-    if speed is not None:
-        closed[SPEED] = travel - drift(speed, x, division, solved.givens["H_v"])
-        closed[BOTH] = stroke_closed(closed[SPEED], x)
+    paper = drawn_on(solved, angles, division, nodes(solved, division))
+    values = draw(paper, hand, np.random.default_rng(SEED), DRAWINGS).values
+    travel = ordinates(values, TRAVEL, division, DRAWINGS)
+    speed = ordinates(values, VELOCITY, division, DRAWINGS) if solved.layout.given == ACCELERATION else None
+    found = travel_errors(solved, angles, division, values, DRAWINGS)
     return Closing(
         None if speed is None else _millimetres(speed[division.top]),
         None if speed is None else _millimetres(speed[division.last]),
         _millimetres(travel[division.last]),
-        {way: _worst(closed[way], exact, division) for way in WAYS if way in closed},
+        {way: float(kept(errors, 0.0)) for way, errors in found.items()},
     )
-
-
-def stroke_closed(travel: Array, x: Array) -> Array:
-    """Return ordinates of the travel, shape (lines, ...), with the error at the last line distributed over the turn."""
-    share: Any = (x / x[-1]).reshape(-1, *(1,) * (travel.ndim - 1))
-    closed: Array = travel - share * travel[-1]
-    return closed
-
-
-def drift(speed: Array, x: Array, division: Division, pole_distance: float) -> Array:
-    """Return by how much the travel falls when the velocity is brought back to zero at the ends of rise and fall.
-
-    Parameters
-    ----------
-    speed : array of shape (lines, ...)
-        Ordinates of the velocity on the section lines, m of paper.
-    x : array of shape (lines,)
-        Abscissas, m of paper.
-    """
-    column = x.reshape(-1, *(1,) * (speed.ndim - 1))
-    top, leave, last = division.top, division.leave, division.last
-    off = np.empty_like(speed)
-    off[: top + 1] = speed[top] * (column[: top + 1] / x[top])
-    part = (column[leave:] - x[leave]) / (x[last] - x[leave])
-    off[leave:] = speed[leave] * (1.0 - part) + speed[last] * part
-    areas = 0.5 * (off[1:] + off[:-1]) * np.diff(column, axis=0)
-    found: Array = np.concatenate((np.zeros_like(speed[:1]), np.cumsum(areas, axis=0))) * (1.0 / pole_distance)
-    return found
 
 
 def _millimetres(ordinates: Array) -> float:
     return float(kept(ordinates, 0.0)) * MM
-
-
-def _worst(travel: Array, exact: Array, division: Division) -> float:
-    """Return the error on the worst line of a travel that is scaled by its own stroke."""
-    scaled = travel * (1.0 / travel[division.top])
-    return float(kept(np.max(np.abs(scaled - exact[:, None]), axis=0), 0.0))

@@ -17,21 +17,13 @@ import kulman
 from kulman import cli
 from kulman.plans import contest as contests
 from kulman.plans.cams import rivals as races
-from kulman.plans.cams.convergence import (
-    BETWEEN,
-    NODES,
-    R_0,
-    S_MAX,
-    V_MAX,
-    Convergence,
-    convergence,
-    drawn_on,
-    exact_values,
-)
+from kulman.plans.cams.closing import BOTH, drift, stroke_closed
+from kulman.plans.cams.convergence import BETWEEN, CLOSED, NODES, Convergence, convergence
 from kulman.plans.cams.division import Division
 from kulman.plans.cams.motion import Motion
 from kulman.plans.cams.rivals import errors, in_extended, midpoint, on_lines, rivals, simpson
-from kulman.plans.cams.robustness import BOTH, drift, late, robustness, stroke_closed
+from kulman.plans.cams.robustness import late, robustness
+from kulman.plans.cams.sectioned import R_0, S_MAX, V_MAX, drawn_on, exact_values
 from kulman.plans.cams.solve import SolvedCam
 from kulman.plans.contest import Contest, Effort
 from kulman.plans.hands.hand import PRESETS, Hand, preset
@@ -94,6 +86,7 @@ def test_laws_that_jump_at_the_ends_of_a_phase_only_are_of_second_order(law: str
     assert [*found.sections] == [NODES]
     for quantity in (V_MAX, S_MAX, R_0):
         assert found.order(NODES, quantity) == pytest.approx(2.0, abs=0.1)
+    assert found.order(NODES, CLOSED) is None or found.order(NODES, CLOSED) > 1.9
 
 
 def test_straight_accelerations_give_the_velocity_without_error() -> None:
@@ -111,6 +104,8 @@ def test_a_hand_without_errors_draws_the_chords() -> None:
 def test_a_better_hand_errs_less_and_takes_more_sections() -> None:
     found = convergence(cam(), {name: preset(name).hand for name in ("cad", "lenient")}, (S_MAX,), (12,), (6, 18, 72))
 
+    closed = convergence(cam(), {"cad": preset("cad").hand}, (CLOSED,), (12,), (6, 18, 72))
+    assert (closed.hands["cad", CLOSED] < 0.5 * found.hands["cad", S_MAX]).all()
     cad, lenient = (found.hands[name, S_MAX] for name in ("cad", "lenient"))
     assert (cad < 0.3 * lenient).all()
     assert cad[1] < 0.5 * cad[0]

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...drawing.words import Words
+from ...plans.cams.closing import WAYS
 from ...plans.cams.convergence import DRAWINGS, ROUNDING
-from ...plans.cams.robustness import WAYS, Robustness, robustness
+from ...plans.cams.robustness import Robustness, robustness
 from ...plans.cams.solve import SolvedCam
 from ...plans.hands.hand import PRESETS
 from ..tables import Cell, aligned

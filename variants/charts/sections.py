@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...drawing.words import Words
-from ...plans.cams.convergence import DRAWINGS, Convergence, convergence, exact_values
+from ...plans.cams.convergence import DRAWINGS, Convergence, compared, convergence
 from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.hands.hand import PRESETS
 from ...scales.names import unknown
@@ -103,7 +103,7 @@ def sections_chart(scene: Scene, solved: SolvedCam, quantities: Sequence[str]) -
     InputError
         An unknown quantity, or diagrams that have no errors.
     """
-    known = exact_values(solved)
+    known = compared(solved)
     for name in quantities:
         if name not in known:
             raise unknown("quantity-unknown", name, known)
