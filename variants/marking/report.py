@@ -135,7 +135,9 @@ class _Teller:
         if first is None:
             yield said["report.no_wrong"]
         else:
-            yield said["report.first"].format(symbol=self.symbol(first), heading=self._heading(first).lower())
+            heading = self._heading(first)
+            within = heading[:1].lower() + heading[1:]  # inside of a sentence; S stays a letter of a quantity
+            yield said["report.first"].format(symbol=self.symbol(first), heading=within)
 
     def again(self) -> Iterator[str]:
         """Go through what to look at again, the first wrong step first; a student is told how to go on."""
