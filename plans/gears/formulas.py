@@ -36,10 +36,16 @@ def _fillet(h_a: Any, h_l: Any, c: Any, alpha: Any) -> Any:
 
 
 def _spanned(z: Any, x: Any, alpha: Any) -> Any:
-    """Return over how many teeth the common normal is measured, so that it touches about half way up the flanks."""
+    """Return over how many teeth the common normal is measured, so that it touches near the circle d + 2 x m."""
     base, middle = z * np.cos(alpha), np.maximum(z + 2.0 * x, z * np.cos(alpha))
     touched = np.tan(_angle_of(base, middle)) - 2.0 * x * np.tan(alpha) / z - involute(alpha)
     return np.maximum(np.floor(z / math.pi * touched + 1.0), 1.0)
+
+
+def _touching(number: Any, rho_p: Any, rho_a: Any, s_b: Any, p_b: Any) -> Any:
+    """Return the number of teeth next to `number` whose normal touches active flanks; NaN where there is none."""
+    least, most = np.ceil((2.0 * rho_p - s_b) / p_b), np.floor((2.0 * rho_a - s_b) / p_b)
+    return np.where(least <= most, np.maximum(np.minimum(number, most + 1.0), least + 1.0), NAN)
 
 
 def _tip_thickness(m: Any, z: Any, x: Any, alpha: Any, alpha_a: Any) -> Any:
@@ -117,7 +123,9 @@ define(
     constant_chord=lambda m, x, alpha: (0.5 * math.pi * np.cos(alpha) ** 2 + x * np.sin(2.0 * alpha)) * m,
     height_of_chord=lambda d_a, d, s_c, alpha: 0.5 * (d_a - d - s_c * np.tan(alpha)),
     spanned_teeth=_spanned,
-    common_normal=lambda s, d, inv, d_b, p_b, z_W: (s / d + inv) * d_b + (z_W - 1.0) * p_b,
+    teeth_touched=_touching,
+    base_thickness=lambda s, d, inv, d_b: (s / d + inv) * d_b,
+    common_normal=lambda s_b, p_b, z_W: s_b + (z_W - 1.0) * p_b,
     rack_corner=lambda h_a, h_l, c, alpha, m: _fillet(h_a, h_l, c, alpha) * m,
     # places along N1N2 for a table of sliding
     within_line=lambda rho, line: np.minimum(np.maximum(rho, 0.0), line),

@@ -20,7 +20,7 @@ NAMES = {1: "pinion", 2: "wheel"}
 POINTS = tuple(f"{k:02d}" for k in range(1, 13))  # of the table of sliding
 # where the points lie: between which of N1, the three places that follow (A1, P, A2 in a common pair), N2, in parts
 DIVISIONS = ((0, 2), (1, 3), (2, 2), (3, 4))
-PARTS = {f"_part_{j}_{n}": j / n for _, n in DIVISIONS for j in range(n)} | {"_part_end": 1.0}
+PARTS = {f"_part_{j}_{n}": j / n for _, n in DIVISIONS for j in range(n)}
 NOTHING = {"_zero": 0.0}
 
 
@@ -106,8 +106,10 @@ def measures(board: Board) -> None:
         board.calc(f"s_c{i}", "constant_chord", "m", f"x_{i}", "alpha")
         board.calc(f"h_c{i}", "height_of_chord", f"d_a{i}", f"d_{i}", f"s_c{i}", "alpha")
     for i in WHEELS:
-        board.calc(f"z_W{i}", "spanned_teeth", f"z_{i}", f"x_{i}", "alpha")
-        board.calc(f"W_{i}", "common_normal", f"s_{i}", f"d_{i}", "inv_alpha", f"d_b{i}", "p_b", f"z_W{i}")
+        board.calc(f"s_b{i}", "base_thickness", f"s_{i}", f"d_{i}", "inv_alpha", f"d_b{i}")
+        board.calc(f"_z_W{i}", "spanned_teeth", f"z_{i}", f"x_{i}", "alpha")
+        board.calc(f"z_W{i}", "teeth_touched", f"_z_W{i}", f"rho_p{i}", f"rho_a{i}", f"s_b{i}", "p_b")
+        board.calc(f"W_{i}", "common_normal", f"s_b{i}", "p_b", f"z_W{i}")
     board.calc("rho_f", "rack_corner", "h_a", "h_l", "c", "alpha", "m")
 
 
@@ -121,9 +123,11 @@ def sliding_table(board: Board) -> None:
     board.calc("_rho_at_P1", "within_line", "rho_w1", "l_N1N2")
     board.calc("_rho_at_P2", "excess", "l_N1N2", "rho_w1")  # so that both ordinates at the pole are equal to the bit
     marks = ("_zero", "_rho_mark1", "_rho_mark2", "_rho_mark3", "l_N1N2")
-    places = [(k, f"_part_{j}_{n}") for k, n in DIVISIONS for j in range(n)] + [(3, "_part_end")]
-    for point, (k, part) in zip(POINTS, places, strict=True):
-        board.calc(f"_rho_1_{point}", "part_between", marks[k], marks[k + 1], part)
+    places = [(marks[k], marks[k + 1], f"_part_{j}_{n}") for k, n in DIVISIONS for j in range(n)]
+    for point, place in zip(POINTS, places, strict=False):
+        board.calc(f"_rho_1_{point}", "part_between", *place)
+    board.calc(f"_rho_1_{POINTS[-1]}", "sum", "_zero", "l_N1N2")
+    for point in POINTS:
         board.calc(f"_rho_2_{point}", "excess", "l_N1N2", f"_rho_1_{point}")
         for i in WHEELS:
             board.calc(f"y_{i}_{point}", "velocity_ordinate", "PW", f"_rho_{i}_{point}", f"_rho_at_P{i}")
