@@ -62,7 +62,7 @@ def _cycle(case: Case, positions: int) -> Cycle:
     """Return the cycle with the plans of the case."""
     wanted = with_needs((*case.plans, "position"))
     plans = tuple(plan for plan in wanted if plan not in ("cycle", "compound"))
-    found = cycle(mechanism_of(case.task, "chart"), case.task.values(case.variant, case.settings), plans, positions)
+    found = cycle(mechanism_of(case.task), case.task.values(case.variant, case.settings), plans, positions)
     if not found.reach.stretches:
         raise case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
     return found

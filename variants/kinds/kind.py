@@ -88,7 +88,7 @@ class Kind(ABC, Generic[Subject, Answer]):
         InputError
             What is solved has none.
         """
-        raise InputError("linkages-only", task=case.task.id, text="condition")
+        raise InputError("kind-without", task=case.task.id, text="condition")
 
     def warnings(self, solved: Answer) -> tuple[InputError, ...]:
         """Return what a user should know of what has been solved."""
@@ -106,7 +106,7 @@ class Kind(ABC, Generic[Subject, Answer]):
         InputError
             There are none.
         """
-        raise InputError("linkages-only", task=task.id, text="chart")
+        raise InputError("kind-without", task=task.id, text="chart")
 
     def sweep(self, case: Case, words: Words, asked: Asked) -> Sweep | CamSweep:
         """Look at a case over its whole cycle.
@@ -116,7 +116,7 @@ class Kind(ABC, Generic[Subject, Answer]):
         InputError
             It has none.
         """
-        raise InputError("linkages-only", task=case.task.id, text="sweep")
+        raise InputError("kind-without", task=case.task.id, text="sweep")
 
     # Drawing.
 

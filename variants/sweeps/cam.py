@@ -86,7 +86,7 @@ class CamSweep:
         InputError
             Always.
         """
-        raise InputError("linkages-only", task=self.task.id, text="--chords")
+        raise InputError("kind-without", task=self.task.id, text="--chords")
 
     def csv(self, language: str | None = None) -> str:
         """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
@@ -199,8 +199,10 @@ def _extremes(found: list[Ends], words: Words) -> str:
         shown = SHOWN.get(one.unit, one.unit)
         of = unit(shown)
         cells = [f"{one.name}, {format_unit(shown, words.language)}"]
+        small = NOTHING * max(abs(one.most), abs(one.least))
         for value, at in ((one.most, one.most_at), (one.least, one.least_at)):
-            cells += [words.short(of.from_si(value) + 0.0, DIGITS), f"phi = {_degrees(at, words)}"]
+            tidy = 0.0 if abs(value) <= small else value
+            cells += [words.short(of.from_si(tidy) + 0.0, DIGITS), f"phi = {_degrees(at, words)}"]
         rows.append(cells)
     return aligned(rows, (0, 2, 4))
 
@@ -230,6 +232,6 @@ def cam_sweep(case: Case, words: Words, asked: Asked) -> CamSweep:
     unused = {"--points": asked.points, "--from": asked.start, "--to": asked.end}
     for option, value in unused.items():
         if value is not None:
-            raise InputError("linkages-only", task=case.task.id, text=option)
+            raise InputError("kind-without", task=case.task.id, text=option)
     assert isinstance(case.solved, SolvedCam)
     return CamSweep(case, case.solved, words, asked.positions)

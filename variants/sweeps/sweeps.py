@@ -214,7 +214,7 @@ def linkage_sweep(case: Case, words: Words, asked: Asked) -> Sweep:
     InputError
         An unknown point, a place of the driver that is none, an end where a crank goes round.
     """
-    mechanism = mechanism_of(case.task, "sweep")
+    mechanism = mechanism_of(case.task)
     chosen = _chosen(mechanism, asked.points)
     first, last = (_place(case.task, *item) for item in (("start", asked.start), ("end", asked.end)))
     if last is not None and isinstance(mechanism.driver, Driver):
