@@ -164,3 +164,19 @@ def test_nothing_is_written_when_one_file_is_a_drawing(tmp_path: Path) -> None:
 
     assert problem.value.key == "cam-sweep-drawing"
     assert [*tmp_path.iterdir()] == []
+
+
+def test_a_rocker_has_its_angle_and_columns_of_its_own() -> None:
+    path = Path(kulman.__file__).parent / "docs" / "examples" / "rocker-cam.toml"
+    found = kulman.sweep(path, lang="en", positions=12)
+    assert isinstance(found, CamSweep)
+    head, rows = rows_of(found.csv())
+
+    rocker = found.solved.rocker
+    assert rocker is not None
+    psi = np.array([float(row[head.index("psi [°]")]) for row in rows])
+    s = np.array([float(row[head.index("s [mm]")]) for row in rows])
+    assert s == pytest.approx(np.radians(psi) * rocker.sizes.l * 1e3, rel=1e-9, abs=1e-9)
+    assert "gamma_rocker [°]" in head
+    assert "pitch.x [mm]" not in head
+    assert "e-" not in found.table()
