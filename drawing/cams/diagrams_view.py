@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 
 from ...plans.cams.integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
+from ...plans.cams.motion import PHASES, RISE
 from ..diagram import Axis, Field, Pole, axes, rays
 from ..dimensions import linear
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
-from ..text import Box, box
+from ..text import Box, box, lay_out
 from ..view import Canvas, View
 from .scene import CamScene, pieces
 
@@ -19,7 +21,7 @@ ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a di
 LETTER = {TRAVEL: "s", VELOCITY: "ds", ACCELERATION: "d2s"}
 POLES = {ACCELERATION: ("H_a", "O_{a}"), VELOCITY: ("H_v", "O_{v}")}
 RATES = {VELOCITY: ("mu_v", "m/s"), ACCELERATION: ("mu_a", "m/s^2")}  # scale factors of v and a
-BETWEEN = 4.0  # heights of letters between diagrams
+BETWEEN = {5.0: 26.0, 3.5: 14.0}  # mm between diagrams, by the height of letters
 PAST = 1.6  # heights of letters by which axes run past their curves
 RAISED = 3.3  # mm between the numbers of section lines and what is below or above them
 SAME = 1e-6  # mm, of ends of a jump
@@ -34,7 +36,7 @@ def diagrams_view(scene: CamScene) -> View:
     for plan in drawn:
         most = _ends(scene, plan)[1]
         if fields:
-            low -= most + BETWEEN * scene.style.label
+            low -= most + BETWEEN[scene.style.label]
         fields.append(_field(scene, plan, 1j * low))
         low += _ends(scene, plan)[0]
     boxes = [_scales(canvas, scene, plan, field) for plan, field in zip(drawn, fields, strict=True)]
@@ -79,7 +81,7 @@ def _scales(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> Box:
     texts = [scene.factor(scene.scale(plan))]
     if plan in RATES:
         texts.append(scene.factors(RATES[plan][0], unit=RATES[plan][1]))
-    top = RAISED + scene.style.text * (plan == scene.solved.layout.given)
+    top = RAISED + 1.6 * scene.style.text * (plan == scene.solved.layout.given)
     at = field.at(0.0, field.y.high) + complex(0.8 * scene.style.label, top)
     text = Text(at, ";  ".join(texts), scene.style.text)
     canvas.add(text)
@@ -96,9 +98,21 @@ def _section_lines(canvas: Canvas, scene: CamScene, fields: Sequence[Field], box
         ends = [a.imag, *(y for gap in sorted(gaps, reverse=True) for y in gap), b.imag]
         parts = ((complex(a.real, y), complex(a.real, z)) for y, z in zip(ends[::2], ends[1::2], strict=True))
         canvas.add(Group(tuple(Line(*part, Pen.THIN) for part in parts), "section", str(i)))
-        if i:
-            canvas.add(Text(a + 0.8j, str(i), height, "middle"))
-        canvas.add(Text(b - 1j * (0.8 + height), str(i), height, "middle"))
+    lines = [top.at(phi, 0.0).real for phi in scene.solved.angles.tolist()]
+    above, below = top.at(0.0, top.y.high).imag + 2.3, bottom.at(0.0, bottom.y.low).imag - 2.3 - height
+    canvas.add(*numbers(lines, above, height)[1:], *numbers(lines, below, height))
+
+
+def numbers(lines: Sequence[float], level: float, height: float) -> list[Text]:
+    """Return the numbers of section lines at a level, those that do not touch the one before."""
+    found: list[Text] = []
+    end = -inf
+    for i, x in enumerate(lines):
+        half = 0.5 * lay_out(str(i), height).width
+        if x - half > end + 0.25 * height:
+            found.append(Text(complex(x, level), str(i), height, "middle", role="number", name=str(i)))
+            end = x + half
+    return found
 
 
 def _exact(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:
@@ -148,7 +162,8 @@ def _amplitudes(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> Non
     last, words = field.x.high, scene.words
     motion = scene.solved.motion
     s, ds, d2s = (float(order == ORDER[plan]) for order in range(3))
-    up, down = motion.maximum(s, ds, d2s), motion.minimum(s, ds, d2s)
+    phases = (RISE,) if plan == ACCELERATION else PHASES
+    up, down = motion.maximum(s, ds, d2s, phases), motion.minimum(s, ds, d2s, phases)
     names = {TRAVEL: ("S_max", ""), VELOCITY: ("V_max", "V_min"), ACCELERATION: ("l_A1", "l_A2")}[plan]
     for name, extreme in zip(names, (up, down), strict=True):
         if not name or abs(extreme.value) < SAME * field.y.scale.mu:

@@ -72,8 +72,9 @@ class Fitting:
     def _mu_l(self) -> tuple[float, ...]:
         """Return the scale factors of the profiles, the one wanted first."""
         solved = self.contents.solved
-        sizes = [part.sizes.r_0 for part in (solved.roller, solved.plate) if part is not None]
-        across = 2.0 * (max(sizes, default=MU_L) + solved.motion.h)
+        sizes = [part.sizes.r_0 + solved.motion.h for part in (solved.roller, solved.plate) if part is not None]
+        sizes += [solved.rocker.sizes.l_OC] if solved.rocker is not None else []
+        across = 2.0 * max(sizes, default=MU_L)
         return self.contents.choosers.get("mu_l", Fixed(MU_L)).ladder(lambda _: across)
 
     def scene(self, sheet: Format, rungs: Rungs) -> CamScene:
@@ -124,12 +125,17 @@ def _diagrams(contents: Contents, width: float) -> Iterator[Figure]:
 
 def _sizes(contents: Contents, width: float) -> Iterator[Figure]:
     from .plate_sizes_view import plate_sizes_view
+    from .rocker_sizes_view import rocker_sizes_view
+    from .rocker_text import rocker_block
     from .sizes_view import sizes_view
     from .text import plate_block, roller_block
 
     if contents.solved.roller is not None:
         yield Figure(sizes_view, ("coarser", "reduction"))
         yield Figure(lambda scene: roller_block(scene, NARROW * width))
+    if contents.solved.rocker is not None:
+        yield Figure(rocker_sizes_view, ("mu_l",))
+        yield Figure(lambda scene: rocker_block(scene, NARROW * width))
     if contents.solved.plate is not None:
         yield Figure(plate_sizes_view, ("reduction",))
         yield Figure(lambda scene: plate_block(scene, width))
@@ -137,16 +143,20 @@ def _sizes(contents: Contents, width: float) -> Iterator[Figure]:
 
 def _profiles(contents: Contents, width: float) -> Iterator[Figure]:
     from .plate_view import plate_view
+    from .rocker_view import rocker_view
     from .roller_view import roller_view
 
     if contents.solved.roller is not None:
         yield Figure(roller_view, ("mu_l",))
+    if contents.solved.rocker is not None:
+        yield Figure(rocker_view, ("mu_l",))
     if contents.solved.plate is not None:
         yield Figure(plate_view, ("mu_l",))
 
 
 def _pressure(contents: Contents, width: float) -> Iterator[Figure]:
+    from .pressing import rolls
     from .pressure_view import pressure_view
 
-    if contents.solved.roller is not None:
+    if rolls(contents.solved):
         yield Figure(pressure_view, ("reduction",))

@@ -10,6 +10,7 @@ from ..style import Style
 from ..symbols import guide, hatching
 
 COILS = 5
+OF_CAM = 0.25  # largest radius of the shaft in least radii of the cam
 SHAFT, KEY = 1.8, 0.45  # radius of the shaft in heights of letters; half width of its key in radii
 
 
@@ -64,9 +65,13 @@ class Rod:
         return tuple(found)
 
 
-def shaft(centre: complex, style: Style) -> Group:
+def shaft_radius(cam: float, style: Style) -> float:
+    """Return the radius of the shaft of a cam whose least radius is `cam`, mm."""
+    return min(SHAFT * style.label, OF_CAM * cam)
+
+
+def shaft(centre: complex, r: float, style: Style) -> Group:
     """Return the shaft of the cam with its key, on a support of the frame below it."""
-    r = SHAFT * style.label
     key = KEY * r
     width, height, base = style.pivot
     foot = centre - 1j * (r + 0.6 * height)

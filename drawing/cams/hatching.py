@@ -22,10 +22,10 @@ def hatched(sides: Sequence[Side], box: Box, apart: float, name: str) -> Group:
     reach = [(corner * across.conjugate()).real for corner in corners]
     count = int((max(reach) - min(reach)) / apart)
     lines = (across * (min(reach) + (k + 0.5) * apart) for k in range(count))
-    return Group(tuple(_clipped(lines, along, [*frame, *sides], hypot(x1 - x0, y1 - y0))), "permitted", name)
+    return Group(tuple(clipped(lines, along, [*frame, *sides], hypot(x1 - x0, y1 - y0))), "permitted", name)
 
 
-def _clipped(lines: Iterable[complex], along: complex, sides: Sequence[Side], reach: float) -> Iterator[Line]:
+def clipped(lines: Iterable[complex], along: complex, sides: Sequence[Side], reach: float) -> Iterator[Line]:
     """Go through the parts of lines, through points along a direction, that lie inside of all sides."""
     for point in lines:
         low, high = -1e3 * reach, 1e3 * reach

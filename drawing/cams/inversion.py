@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 
-from ...plans.cams.motion import TURN, Motion
-from ..shapes import Head, Line, Pen, Text
+from ...plans.cams.envelopes import Undercut
+from ...plans.cams.motion import LOWER, TURN, Motion
+from ..printed import decimals_for
+from ..shapes import Circle, Group, Head, Line, Pen, Text
 from ..symbols import angle_dimension, turning_arrow
 from ..text import lay_out
 from ..view import Canvas
-from .hardware import SHAFT, shaft
+from .hardware import shaft, shaft_radius
 from .scene import CamScene
 
 PAST = 5.0  # mm of the axes of a cam beyond its circles
+LOST = 3  # significant digits of a travel that is lost
 SMALL = math.radians(1e-6)
 
 
@@ -43,12 +47,16 @@ def on_circle(e: float, radius: float, up: complex, sense: int) -> complex:
 def numbers(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
     """Write the number of each position on its line, at `radius`; that of position 0 beside the rod."""
     height, solved = scene.style.text, scene.solved
+    written: list[complex] = []
     for i, phi in enumerate(solved.angles.tolist()):
         up = unit_at(phi, solved.cam.sense)
         at = on_circle(e, radius, up, solved.cam.sense)
         if i == 0:  # beyond the cam's axis from there
             at = complex(-math.copysign(scene.style.label, e), at.imag)
-        canvas.add(Text(at - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
+        needed = lay_out(str(i), height).width + 0.3 * height
+        if all(abs(at - other) > needed for other in written):  # where there are many, some have no number
+            canvas.add(Text(at - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
+            written.append(at)
 
 
 def phases(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
@@ -58,6 +66,7 @@ def phases(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
     for phase in motion.phases:
         if phase.length < SMALL:
             continue
+        at = 0.3 if phase.name == LOWER else 0.5  # beside the radius dimensioned
         start, sweep = first - sense * phase.start, -sense * phase.length
         name = f"phi_{phase.name}"
         canvas.add(angle_dimension(0j, radius, start, sweep, name, scene.style))
@@ -66,7 +75,7 @@ def phases(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
                 Line(cmath.rect(radius - 3.0, angle), cmath.rect(radius + 2.0, angle), Pen.THIN, role="extension")
             )
         text = f"{words.symbol(name)} = {scene.degrees(phase.length)}"
-        canvas.add(_along(text, radius, start + sweep / 2, abs(sweep), scene.style.text))
+        canvas.add(_along(text, radius, start + sweep * at, abs(sweep), scene.style.text))
 
 
 def _along(text: str, radius: float, angle: float, sweep: float, height: float) -> Text:
@@ -78,19 +87,29 @@ def _along(text: str, radius: float, angle: float, sweep: float, height: float) 
     return Text(out * (radius + away + (height if below else 0.0)), text, height, "middle", turn)
 
 
-def centre(canvas: Canvas, scene: CamScene, reach: float, top: float) -> None:
-    """Draw the cam's shaft, its axes, and the arrow of omega."""
+def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: float = 0.0) -> None:
+    """Draw the cam's shaft, its axes, and the arrow of omega.
+
+    `turned` is the angle from the upright to the roller's centre in its lowest position.
+    """
     style, sense = scene.style, scene.solved.cam.sense
     for a, b in ((complex(-reach - PAST, 0.0), complex(reach + PAST, 0.0)), (complex(0.0, -reach - PAST), 1j * top)):
         canvas.add(Line(a, b, Pen.AXIS, role="axis"))
-    canvas.add(shaft(0j, style))
-    middle = dwelling(scene.solved.motion, sense)
-    arrow, radius = middle - 0.65 * sense, 1.9 * SHAFT * style.label
+    r = shaft_radius(reach, style)
+    canvas.add(shaft(0j, r, style))
+    middle = dwelling(scene.solved.motion, sense) + turned
+    arrow, radius = middle - 0.8 * sense, 1.9 * r
     canvas.add(turning_arrow(0j, radius, arrow, 0.9, float(sense), "omega"))
-    places = ("O", 1.5 * SHAFT, middle + 0.75 * sense), (scene.words.symbol("omega"), 1.9 * SHAFT + 0.9, arrow)
+    omega = scene.words.symbol("omega")
+    places = ("O", r + 0.7 * style.label, middle + 0.75 * sense), (omega, radius + 0.9 * style.label, arrow)
     for text, far, angle in places:
-        at = cmath.rect(far * style.label, angle) - 0.5j * style.label
+        at = cmath.rect(far, angle) - 0.5j * style.label
         canvas.add(Text(at, text, style.label, "middle"))
+
+
+def circle(radius: float, name: str) -> Group:
+    """Return a thin circle about the cam's centre."""
+    return Group((Circle(0j, radius, Pen.THIN),), "circle", name)
 
 
 def radius_at(
@@ -102,9 +121,9 @@ def radius_at(
     """
     height, size = scene.style.text, value / scene.mu_l
     ray, text = cmath.rect(1.0, angle), f"{scene.words.symbol(name)} = {scene.length(value)}"
-    wide, low = lay_out(text, height).width, SHAFT * scene.style.label + 1.0
+    wide, low = lay_out(text, height).width, shaft_radius(size, scene.style) + 1.0
     inside = wide < min(free[0], size - scene.style.arrow) - low
-    tip = size if inside else free[1] + wide + 3.0
+    tip = size if inside else free[1] + wide + 1.5
     middle = 0.5 * (low + min(free[0], size - scene.style.arrow)) if inside else free[1] + 0.5 * wide + 1.5
     canvas.add(Line(0j, ray * tip, Pen.THIN, role="radius", name=name), Head(ray * size, ray))
     turn = 1.0 if ray.real > -1e-9 else -1.0
@@ -116,3 +135,27 @@ def dwelling(motion: Motion, sense: int) -> float:
     """Return the direction in the middle of the lower dwell, or of the rise where there is none."""
     low, high = (motion.lower.start, TURN) if motion.lower.length > SMALL else (0.0, motion.rise.end)
     return cmath.phase(unit_at(0.5 * (low + high), sense))
+
+
+def corners(canvas: Canvas, scene: CamScene, cuts: Sequence[Undercut]) -> None:
+    """Mark the corners of an undercut profile."""
+    for k, cut in enumerate(cuts):
+        corner, radius = cut.corner * (1.0 / scene.mu_l), 2.5 * scene.style.node
+        canvas.add(Group((Circle(corner, radius, Pen.THIN),), "corner", str(k + 1)))
+        canvas.label(_corner(cuts, k), corner, prefer=-corner, clear=radius + 0.5, height=scene.style.text)
+
+
+def undercut_notes(scene: CamScene, cuts: Sequence[Undercut], rocks: bool = False) -> tuple[str, ...]:
+    """Say where a profile does not give the motion; the travels of a rocker that `rocks` are angles."""
+    words, found = scene.words, []
+    for k, cut in enumerate(cuts):
+        lost = math.degrees(cut.lost) if rocks else cut.lost * 1e3
+        unit = "°" if rocks else f" {words.unit('mm')}"
+        text = f"{words.number(lost, decimals_for(lost, LOST))}{unit}"
+        ends = {"start": scene.degrees(cut.start), "end": scene.degrees(cut.end)}
+        found.append(words["said.cam_undercut"].format(**ends, lost=text, corner=_corner(cuts, k)))
+    return tuple(found)
+
+
+def _corner(cuts: Sequence[Undercut], k: int) -> str:
+    return "Q" if len(cuts) == 1 else f"Q_{{{k + 1}}}"

@@ -9,7 +9,7 @@ from ..dimensions import linear
 from ..shapes import Circle, Group, Line, Pen, Polyline
 from ..view import Canvas, View
 from .hardware import Rod
-from .inversion import centre, dwelling, heading, numbers, phases, radius_at, unit_at
+from .inversion import centre, circle, corners, dwelling, heading, numbers, phases, radius_at, undercut_notes, unit_at
 from .roller_view import NUMBERS, PHASES
 from .scene import CamScene
 
@@ -28,17 +28,20 @@ def plate_view(scene: CamScene) -> View:
     rod = Rod(0.0, r_0 + THICK * label, outer + (PHASES + 1.5) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
     centre(canvas, scene, r_0, rod.top + 6.0)
-    canvas.add(Circle(0j, r_0, Pen.THIN, role="circle", name="r_0_flat"))
+    canvas.add(circle(r_0, "r_0_flat"))
     _positions(canvas, scene, R, reach - 0.9 * label)
     outline = plate.profile.outline() * (1.0 / mu)
     canvas.add(Group((Polyline(tuple(outline.tolist()), Pen.MAIN, closed=True),), "curve", "practical"))
+    corners(canvas, scene, plate.profile.undercuts)
     numbers(canvas, scene, 0.0, reach)
     phases(canvas, scene, 0.0, outer + PHASES * label)
     _follower(canvas, scene, rod, R)
     _sizes(canvas, scene, rod, R)
+    stroke_note = f"{scene.words.symbol('h')} = {scene.length(solved.motion.h)}"
+    notes = stroke_note, *undercut_notes(scene, plate.profile.undercuts)
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
-    return canvas.finish("plate_profile", heading(scene, "heading.cam_plate_profile", PLATE_PROFILE))
+    return canvas.finish("plate_profile", heading(scene, "heading.cam_plate_profile", PLATE_PROFILE), notes)
 
 
 def _positions(canvas: Canvas, scene: CamScene, R: float, reach: float) -> None:
@@ -71,13 +74,13 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
     radius_at(canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (plate.sizes.r_0 / mu, plate.sizes.r_0 / mu))
     level = rod.low
     text = f"{words.symbol('R_plate')} = {scene.length(plate.sizes.R_plate)}"
-    linear(canvas, (complex(0.0, level), complex(-sense * R, level)), 9j, text, "R_plate")
+    linear(canvas, (complex(0.0, level), complex(-sense * R, level)), 14j, text, "R_plate")
     for side in (1.0, -1.0):
         far = motion.maximum(0.0, side, 0.0).value / mu
         text = scene.length(far * mu)
         ends = complex(0.0, level), complex(sense * side * far, level)
-        linear(canvas, ends, 18j, f"|{words.symbol('ds')}|_{{max}} = {text}", "ds_max" if side > 0 else "ds_min")
+        linear(canvas, ends, 7j, f"|{words.symbol('ds')}|_{{max}} = {text}", "ds_max" if side > 0 else "ds_min")
     top = solved.layout.division.top
     up = unit_at(float(solved.angles[top]), sense)
     ends = up * (plate.sizes.r_0 / mu), scene.mm(f"{PLATE_PROFILE}.B{top}")
-    linear(canvas, ends, up * (-1j * sense) * 4.0, f"{words.symbol('h')} = {scene.length(motion.h)}", "h")
+    linear(canvas, ends, up * (-1j * sense) * 4.0, words.symbol("h"), "h")

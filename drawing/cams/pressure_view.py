@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
-from ...plans.cams.motion import FALL, RISE
-from ...plans.cams.pressure import SIDES, pressure_angle
+from ...plans.cams.motion import RISE
 from ...scales.scale import Scale, steps
 from ..diagram import Axis, Field, axes, divisions
-from ..shapes import Circle, Group, Line, Pen, Polyline, Text
+from ..shapes import Circle, Group, Line, Pen, Polyline
 from ..view import Canvas, View
-from .scene import CamScene, pieces
+from .diagrams_view import numbers
+from .pressing import courses, permitted, theta
+from .scene import CamScene
 
 DEGREE = math.radians(1.0)
 WIDE = {5.0: 160.0, 3.5: 120.0}  # mm of the axis of angles beyond which it is half as long as on the diagrams
@@ -22,20 +21,8 @@ TALL = {5.0: 60.0, 3.5: 45.0}  # mm of the axis of pressure angles, by the heigh
 def pressure_view(scene: CamScene) -> View:
     """Draw theta over phi with the limits dashed over their phases."""
     solved, words = scene.solved, scene.words
-    roller = solved.roller
-    assert roller is not None
-    canvas, sense = Canvas(scene.style), solved.cam.sense
-    curves = []
-    for phase in solved.motion.phases[:3]:
-        for phi, s, ds, _ in pieces(solved, phase):
-            theta = np.arctan2(sense * ds - roller.sizes.e, roller.sizes.s_0 + s)
-            curves.append(list(zip(phi.tolist(), theta.tolist(), strict=True)))
-    gammas = {RISE: roller.limits.gamma_rise, FALL: roller.limits.gamma_fall}
-    limits = [
-        (phase, way * sense * (0.5 * math.pi - gamma))
-        for phase, gamma in gammas.items()
-        for way in SIDES[phase][: 1 + roller.limits.two_sided]
-    ]
+    canvas, limits = Canvas(scene.style), permitted(solved)
+    curves = [list(zip(phi.tolist(), value.tolist(), strict=True)) for phi, value in courses(solved)]
     every = [y for points in curves for _, y in points] + [limit for _, limit in limits] + [0.0]
     field = _field(scene, min(every), max(every))
     axes(canvas, field, lettered=False)
@@ -67,10 +54,10 @@ def _field(scene: CamScene, low: float, high: float) -> Field:
 def _sections(canvas: Canvas, scene: CamScene, field: Field) -> None:
     """Draw the section lines with their numbers, and mark the curve on them."""
     solved, height = scene.solved, scene.style.text
-    assert solved.roller is not None
-    theta = pressure_angle(solved.motion, solved.roller.sizes, solved.angles, solved.cam.sense)
-    for i, (phi, value) in enumerate(zip(solved.angles.tolist(), theta.tolist(), strict=True)):
+    values = theta(solved, solved.angles)
+    lines = [field.at(phi, 0.0).real for phi in solved.angles.tolist()]
+    canvas.add(*numbers(lines, field.at(0.0, field.y.low).imag - 2.3 - height, height))
+    for i, (phi, value) in enumerate(zip(solved.angles.tolist(), values.tolist(), strict=True)):
         foot = field.at(phi, field.y.low) - 1.5j
         canvas.add(Line(field.at(phi, field.y.high), foot, Pen.THIN, role="section", name=str(i)))
-        canvas.add(Text(foot - 1j * (0.8 + height), str(i), height, "middle"))
         canvas.add(Group((Circle(field.at(phi, value), scene.style.node, Pen.THIN, fill="white"),), "node", str(i)))

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ...plans.cams.integration import ACCELERATION, TRAVEL, VELOCITY
 from ...plans.cams.inversion import PLATE_PROFILE, PROFILE
 from ...plans.cams.motion import Phase
+from ...plans.cams.rocker_plans import ROCKER_SIZES
 from ...plans.cams.size_plans import PLATE_SIZES, SIZES
 from ...plans.cams.solve import PAPER, SolvedCam
 from ...scales.scale import Scale
@@ -24,6 +25,7 @@ from ..words import Words
 Array = NDArray[np.float64]
 MU_DIGITS = 5  # of a scale factor that follows from a drawing: enough for 0.01 mm
 FINE = np.radians(0.5)  # between points of a curve
+FULL_SIZE = (PROFILE, PLATE_PROFILE, ROCKER_SIZES)  # drawn as large as the cam itself, or in its scale
 DIAGRAM_SCALES = {ACCELERATION: "mu_d2s", VELOCITY: "mu_ds", TRAVEL: "mu_s"}
 
 
@@ -52,14 +54,14 @@ class CamScene:
         if plan in DIAGRAM_SCALES:
             symbol = DIAGRAM_SCALES[plan]
             return Scale(symbol, self.mu(symbol), "m")
-        if plan in (PROFILE, PLATE_PROFILE):
+        if plan in FULL_SIZE:
             return Scale("mu_l", self.mu_l, "m")
         symbol, times = {SIZES: ("mu_s", self.coarser), PLATE_SIZES: ("mu_d2s", 1.0)}[plan]
         return Scale(symbol, self.mu(symbol) * times, "m")
 
     def shows(self, plan: str) -> bool:
         """Whether the sheet has a view of a plan."""
-        return plan in DIAGRAM_SCALES or plan in (SIZES, PLATE_SIZES, PROFILE, PLATE_PROFILE)
+        return plan in DIAGRAM_SCALES or plan in (SIZES, PLATE_SIZES, *FULL_SIZE)
 
     @property
     def across(self) -> Scale:

@@ -10,7 +10,6 @@ import numpy as np
 from ...plans.cams.followers import RollerCam
 from ...plans.cams.half_planes import HalfPlane
 from ...plans.cams.motion import FALL, RISE
-from ...plans.cams.pressure import pressure_angle
 from ...plans.cams.size_plans import SIZES, phase_of
 from ...plans.cams.sizes import wedge
 from ..dimensions import linear
@@ -18,6 +17,7 @@ from ..shapes import Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension, turning_arrow
 from ..view import Canvas, View
 from .hatching import hatched
+from .pressing import pressed
 from .scene import CamScene, pieces
 
 PAST = 8.0  # mm by which an axis runs past the curve
@@ -161,14 +161,3 @@ def on_lines(scene: CamScene) -> list[tuple[int, str]]:
     """Return the section lines of rise and fall, each with the name of its phase."""
     division = scene.solved.layout.division
     return [*((i, RISE) for i in division.rise), *((i, FALL) for i in division.fall)]
-
-
-def pressed(scene: CamScene, part: float) -> int:
-    """Return the section line of the rise at which the pressure angle is nearest to a part of the greatest one."""
-    solved = scene.solved
-    assert solved.roller is not None
-    lines = [*range(1, solved.layout.division.top)]
-    theta = pressure_angle(solved.motion, solved.roller.sizes, solved.angles[lines], solved.cam.sense)
-    pressure: dict[int, float] = dict(zip(lines, (solved.cam.sense * theta).tolist(), strict=True))
-    most = part * max(pressure.values())
-    return min(pressure, key=lambda line: abs(pressure[line] - most))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...plans.cams.pressure import pressure_angle
 from ..table import table
 from ..view import View
+from .pressing import rolls, theta
 from .scene import CamScene
 
 SAME = 1e-9  # part of the greatest value of its column within which two limits at a jump are one
@@ -21,11 +21,8 @@ def motion_table(scene: CamScene) -> View:
     mm = words.unit("mm")
     head = [words["table.cam_row"], f"{words.symbol('phi')}, °"]
     head += [f"{words.symbol(name)}, {mm}" for name in ("s", "ds", "d2s")]
-    if solved.roller is not None:
-        angles = [
-            np.degrees(pressure_angle(solved.motion, solved.roller.sizes, solved.angles, solved.cam.sense, side))
-            for side in (-1, 1)
-        ]
+    if rolls(solved):
+        angles = [np.degrees(theta(solved, solved.angles, side)) for side in (-1, 1)]
         columns.append(_column(scene, angles))
         head.append(f"{words.symbol('theta')}, °")
     rows = [[str(i), *cells] for i, cells in enumerate(zip(*columns, strict=True))]

@@ -6,7 +6,8 @@ import math
 from collections.abc import Callable, Sequence
 
 from ...plans.cams.integration import ACCELERATION
-from ...plans.cams.profile import OF_R_0, OF_RHO_MIN
+from ...plans.cams.profile import OF_R_0, OF_RHO_MIN, RollerProfile
+from ...plans.cams.sizes import Limits
 from ..givens import choice
 from ..printed import Input, calculation
 from ..table import text_block
@@ -27,8 +28,10 @@ def scales_block(scene: CamScene, width: float) -> View:
 def choices_block(scene: CamScene, width: float) -> View:
     """Return the choices that the task makes in words, and what the lines of the diagrams are."""
     words = scene.words
-    chosen = (choice(words, name, given.value) for name, given in scene.givens.items() if isinstance(given.value, str))
-    lines: Lines = [*((f"{about}:", said) for about, said in chosen), *_about(scene)]
+    words_given = ((name, given.value) for name, given in scene.givens.items() if isinstance(given.value, str))
+    chosen = ((name, choice(words, name, value)) for name, value in words_given)
+    lines: Lines = [(f"{words.texts.get(f'given.cam_{name}', about)}:", said) for name, (about, said) in chosen]
+    lines += _about(scene)
     return text_block("choices", words["heading.cam_choices"], lines, scene.style, width)
 
 
@@ -41,7 +44,7 @@ def roller_block(scene: CamScene, width: float) -> View:
     sizes = roller.sizes
     e, s_0 = (sizes.e * 1e3, True), (sizes.s_0 * 1e3, True)
     lines: Lines = [
-        _worked(
+        worked(
             scene,
             "r_0",
             "√({e}^{{2}} + {s_0}^{{2}})",
@@ -54,18 +57,21 @@ def roller_block(scene: CamScene, width: float) -> View:
         pair = ((name, float(solved.values[name]) * 1e3) for name in ("r_0_tangents", "e_tangents"))
         texts = (f"{words.symbol(name)} = {words.number(value, 2)} {mm}" for name, value in pair)
         lines.append((f"{words['said.cam_tangents']}:", "; ".join(texts)))
-    lines += _rules(
-        scene, roller.profile.R, (("r_0", OF_R_0, sizes.r_0), ("rho_min", OF_RHO_MIN, roller.profile.rho_min))
-    )
-    for phase, gamma in (("rise", roller.limits.gamma_rise), ("fall", roller.limits.gamma_fall)):
-        name = f"gamma_{phase}"
-        least = float(solved.values[f"{name}_min"])
-        verdict = _verdict(scene, least >= gamma * (1.0 - 1e-9))
+    lines += rules(scene, roller.profile, sizes.r_0)
+    lines += transmission(scene, roller.limits)
+    return text_block("equations_roller", words["heading.cam_roller"], lines, scene.style, width)
+
+
+def transmission(scene: CamScene, limits: Limits) -> Lines:
+    """Return the least transmission angles beside those permitted, and whether they are kept."""
+    words, lines = scene.words, Lines()
+    for name, gamma in (("gamma_rise", limits.gamma_rise), ("gamma_fall", limits.gamma_fall)):
+        least = float(scene.solved.values[f"{name}_min"])
         sides = (
             f"{words.symbol(f'{name}_min')} = {scene.degrees(least)} ≥ {words.symbol(name)} = {scene.degrees(gamma)}"
         )
-        lines.append((sides, verdict))
-    return text_block("equations_roller", words["heading.cam_roller"], lines, scene.style, width)
+        lines.append((sides, verdict(scene, least >= gamma * (1.0 - 1e-9))))
+    return lines
 
 
 def plate_block(scene: CamScene, width: float) -> View:
@@ -80,7 +86,7 @@ def plate_block(scene: CamScene, width: float) -> View:
         lines.append((f"{words['said.cam_tangents']}:", text))
     sizes = plate.sizes
     lines.append(
-        _worked(
+        worked(
             scene,
             "r_0_flat",
             "{r_0_flat_min} + {rho_flat}",
@@ -90,19 +96,22 @@ def plate_block(scene: CamScene, width: float) -> View:
         )
     )
     lines.append(
-        _worked(
+        worked(
             scene,
             "R_plate",
-            "|{ds}|_{{max}} + {margin}",
+            "{ds_max} + {margin}",
             lambda a, b: a + b,
-            [("ds", scene.solved.motion.ds_max.value * 1e3, False), ("margin", float(values["margin"]) * 1e3, True)],
+            [
+                ("ds_max", scene.solved.motion.ds_max.value * 1e3, False),
+                ("margin", float(values["margin"]) * 1e3, True),
+            ],
             "mm",
         )
     )
     return text_block("equations_plate", words["heading.cam_plate"], lines, scene.style, width)
 
 
-def _worked(
+def worked(
     scene: CamScene, name: str, formula: str, law: Callable[..., float], terms: Terms, unit: str, more: str = ""
 ) -> tuple[str, ...]:
     """Return `name = formula = numbers = result unit`, printed so that it recomputes."""
@@ -123,7 +132,7 @@ def _amplitudes(scene: CamScene) -> Lines:
         return []
     u = float(scene.solved.values["u"])
     terms = [("l_A1", scene.paper("l_A1"), True), ("u", u, False)]
-    return [_worked(scene, "l_A2", "{l_A1}·{u}/(1 − {u})", lambda a, b: a * b / (1.0 - b), terms, "mm")]
+    return [worked(scene, "l_A2", "{l_A1}·{u}/(1 − {u})", lambda a, b: a * b / (1.0 - b), terms, "mm")]
 
 
 def _factors(scene: CamScene, mark: str = "") -> Lines:
@@ -132,7 +141,7 @@ def _factors(scene: CamScene, mark: str = "") -> Lines:
     h, omega = (float(solved.values[name]) for name in ("h", "omega"))
     highest = scene.paper("S_max_chord") if mark else solved.motion.h / mu("mu_s")
     lines = [
-        _worked(
+        worked(
             scene,
             f"mu_s{mark}",
             "{h}/{S_max" + mark + "}",
@@ -149,14 +158,14 @@ def _factors(scene: CamScene, mark: str = "") -> Lines:
             (pole, scene.paper(pole), True),
         ]
         formula = f"{{{base}{mark}}}/({{mu_phi}}·{{{pole}}})"
-        lines.append(_worked(scene, f"{name}{mark}", formula, lambda a, b, c: a / (b * c), terms, "m/mm"))
+        lines.append(worked(scene, f"{name}{mark}", formula, lambda a, b, c: a / (b * c), terms, "m/mm"))
     if mark:
         return lines
     terms = [("omega", omega, True), ("mu_ds", mu("mu_ds"), False)]
-    lines.append(_worked(scene, "mu_v", "{omega}·{mu_ds}", lambda a, b: a * b, terms, "(m/s)/mm"))
+    lines.append(worked(scene, "mu_v", "{omega}·{mu_ds}", lambda a, b: a * b, terms, "(m/s)/mm"))
     if _given_a(scene):
         terms = [("omega", omega, True), ("mu_d2s", mu("mu_d2s"), False)]
-        lines.append(_worked(scene, "mu_a", "{omega}^{{2}}·{mu_d2s}", lambda a, b: a * a * b, terms, "(m/s^2)/mm"))
+        lines.append(worked(scene, "mu_a", "{omega}^{{2}}·{mu_d2s}", lambda a, b: a * a * b, terms, "(m/s^2)/mm"))
     return lines
 
 
@@ -184,25 +193,26 @@ def _rates(scene: CamScene) -> Lines:
     solved = scene.solved
     omega = float(solved.values["omega"])
     terms = [("omega", omega, True), ("ds_max", solved.motion.ds_max.value, False)]
-    lines = [_worked(scene, "v_max", "{omega}·{ds_max}", lambda a, b: a * b, terms, "m/s")]
+    lines = [worked(scene, "v_max", "{omega}·{ds_max}", lambda a, b: a * b, terms, "m/s")]
     if _given_a(scene):
-        terms = [("omega", omega, True), ("d2s", solved.motion.d2s_max.value, False)]
-        lines.append(_worked(scene, "a_max", "{omega}^{{2}}·|{d2s}|_{{max}}", lambda a, b: a * a * b, terms, "m/s^2"))
+        terms = [("omega", omega, True), ("d2s_max", solved.motion.d2s_max.value, False)]
+        lines.append(worked(scene, "a_max", "{omega}^{{2}}·{d2s_max}", lambda a, b: a * a * b, terms, "m/s^2"))
     return lines
 
 
-def _rules(scene: CamScene, R: float, rules: Sequence[tuple[str, float, float]]) -> Lines:
+def rules(scene: CamScene, profile: RollerProfile, r_0: float) -> Lines:
     """Return the rules for the roller's radius, each with its numbers and whether it is kept."""
-    words, lines = scene.words, Lines()
-    for name, part, size in rules:
+    words, lines, R = scene.words, Lines(), profile.R
+    for name, part, size in (("r_0", OF_R_0, r_0), ("rho_min", OF_RHO_MIN, profile.rho_min)):
         if not math.isfinite(size):
             continue
         texts, limit = calculation(words, lambda a, b: a * b, [Input(part, True), Input(size * 1e3)])
         sides = f"{words.symbol('R_roller')} = {words.short(round(R * 1e3, 6))} {words.unit('mm')} ≤ "
         rule = f"{words.short(part)}·{words.symbol(name)} = {texts[0]}·{texts[1]} = {limit} {words.unit('mm')}"
-        lines.append((sides + rule, _verdict(scene, part * size >= R)))
+        lines.append((sides + rule, verdict(scene, part * size >= R)))
     return lines
 
 
-def _verdict(scene: CamScene, kept: bool) -> str:
+def verdict(scene: CamScene, kept: bool) -> str:
+    """Return the words for a rule that is kept, or is not."""
     return f"({scene.words['said.cam_ok' if kept else 'said.cam_fails']})"

@@ -23,7 +23,12 @@ LAYOUT = row(
         ),
     ),
 )
-GAP = 5.0  # mm between views
+ROCKER_LAYOUT = row(
+    column(TURNED, "diagrams"),
+    column("profile", row("motion", column("givens", "choices"))),
+    column("rocker_sizes", "equations_rocker", "pressure", "equations_scales", BLOCK),
+)
+GAP = 4.0  # mm between views
 
 
 def zoned(views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] | None:
@@ -31,12 +36,13 @@ def zoned(views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] |
     x0, y0, x1, y1 = usable(sheet, norm)
     block, *turned = reserved_boxes(sheet, norm)
     sizes = {view.name: view.size for view in views}
-    if not sizes.keys() <= set(names((LAYOUT,))):
+    layout = next((nest for nest in (LAYOUT, ROCKER_LAYOUT) if sizes.keys() <= set(names((nest,)))), None)
+    if layout is None:
         return None
     sizes[BLOCK] = x1 - block[0], block[3] - y0
     for box in turned:
         sizes[TURNED] = box[2] - x0, y1 - box[1]
-    found = nested(LAYOUT, sizes, (x1 - x0, y1 - y0), GAP)
+    found = nested(layout, sizes, (x1 - x0, y1 - y0), GAP)
     if found is None:
         return None
     places = {name: Placement(0, x0 + x, y0 + y) for name, x, y in found}

@@ -1,0 +1,98 @@
+"""What the plans of all cams with a roller show: both curves, the sharpest place, corners, one position's normal."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+
+from ...plans.cams.profile import RollerProfile
+from ..shapes import Circle, Group, Head, Line, Pen, Polyline
+from ..symbols import angle_dimension
+from ..view import Canvas
+from .inversion import corners, unit_at
+from .pressing import theta
+from .scene import CamScene
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """One position: the roller's centre, where it touches, the instant centre of cam and follower, mm.
+
+    `up` is the unit direction in which the roller rises.
+    """
+
+    line: int
+    at: complex
+    touch: complex
+    pole: complex
+    up: complex
+
+
+def curves(canvas: Canvas, scene: CamScene, profile: RollerProfile) -> None:
+    """Draw the pitch curve dash-dot and the practical profile in main lines; mark corners of the profile."""
+    mu = scene.mu_l
+    pitch = profile.pitch(scene.solved.motion.samples()[:-1]) * (1.0 / mu)
+    outline = profile.outline() * (1.0 / mu)
+    for points, pen, name in ((pitch, Pen.AXIS, "pitch"), (outline, Pen.MAIN, "practical")):
+        canvas.add(Group((Polyline(tuple(points.tolist()), pen, closed=True),), "curve", name))
+    corners(canvas, scene, profile.undercuts)
+
+
+def sharpest(canvas: Canvas, scene: CamScene, profile: RollerProfile) -> None:
+    """Mark the place of the least radius of curvature of the pitch curve, and the radius."""
+    mu, found = scene.mu_l, profile.sharpest
+    if not 0.0 < found.value < math.inf:
+        return
+    at = [complex(profile.pitch(found.phi, side)) * (1.0 / mu) for side in (1, -1)]
+    kappa = [float(profile.curvature(found.phi, side)) for side in (1, -1)]
+    side = 1 if kappa[0] >= kappa[1] else -1
+    place, normal = at[0], complex(profile.normal(found.phi, side))
+    core = place - normal * (found.value / mu)
+    canvas.add(Group((Line(core, place, Pen.THIN), Head(place, normal)), "dimension", "rho_min"))
+    size = 0.8 * scene.style.arrow / 2
+    cross = (Line(core - size * d, core + size * d, Pen.THIN) for d in (1 + 0j, 1j))
+    canvas.add(Group(tuple(cross), "point", "curvature"))
+    canvas.add(Group((Circle(place, scene.style.node, Pen.MAIN, fill="black"),), "sharpest", "rho_min"))
+    canvas.label(scene.words.symbol("rho_min"), core, prefer=-normal, clear=0.8, height=scene.style.text)
+
+
+def normal(canvas: Canvas, scene: CamScene, contact: Contact) -> None:
+    """Draw the normal of one position with the point of contact, the pressure and the transmission angle."""
+    words, style, i = scene.words, scene.style, contact.line
+    at, up = contact.at, contact.up
+    out = (at - contact.touch) / abs(at - contact.touch)
+    reach = 7.0 * style.label
+    canvas.add(Line(contact.pole, at + out * (reach + 6.0), Pen.THIN, role="normal", name=str(i)))
+    canvas.add(Line(at - 1j * up * reach, at + 1j * up * reach, Pen.THIN, role="transverse", name=str(i)))
+    canvas.add(Line(0j, contact.pole, Pen.THIN, role="transverse", name=f"P{i}"))
+    for mark, place in (("K", contact.touch), ("P", contact.pole)):
+        canvas.add(Group((Circle(place, style.node, Pen.MAIN, fill="white"),), "point", f"{mark}{i}"))
+        canvas.label(f"{mark}_{{{i}}}", place, prefer=place * 1j, clear=0.8, height=style.text)
+    across = up * -1j if cmath.phase(up / out) > 0.0 else up * 1j
+    for name, a, b, radius in (("theta", out, up, reach), ("gamma", out, across, 0.5 * reach)):
+        sweep = cmath.phase(b / a)
+        if abs(sweep) < 1e-6:
+            continue
+        canvas.add(angle_dimension(at, radius, cmath.phase(a), sweep, f"{name}_{i}", style))
+        middle = at + cmath.rect(radius, cmath.phase(a) + sweep / 2)
+        canvas.label(f"{words.symbol(name)}_{{{i}}}", middle, prefer=middle - at, clear=0.8, height=style.text)
+
+
+def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> str:
+    """Return the numbers of what has only a letter in the figure: the angles of one position, lengths."""
+    words, solved = scene.words, scene.solved
+    pressure = abs(float(theta(solved, solved.angles[line])))
+    angles = {"theta": pressure, "gamma": 0.5 * math.pi - pressure}
+    lengths = {"rho_min": profile.rho_min, "h": solved.values["h"], "R_roller": profile.R}
+    said = (f"{words.symbol(name)}_{{{line}}} = {scene.degrees(angle)}" for name, angle in angles.items())
+    sizes = (f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size))
+    return "; ".join([*said, *sizes])
+
+
+def roller_radius(canvas: Canvas, scene: CamScene, at: complex, line: int, R: float) -> None:
+    """Dimension the radius of the roller R, m, about its centre `at` in one position."""
+    solved, words = scene.solved, scene.words
+    rim = at + unit_at(float(solved.angles[line]) + 0.5, solved.cam.sense) * (R / scene.mu_l)
+    canvas.add(Group((Line(at, rim, Pen.THIN), Head(rim, rim - at)), "dimension", "R_roller"))
+    canvas.label(words.symbol("R_roller"), rim, prefer=rim - at, clear=1.0, height=scene.style.text)

@@ -1,0 +1,82 @@
+"""Points C1 to C8 of the examiner's list on sheets of cams that were drawn and read back."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from kulman.scales.units import parse, unit
+from kulman.tests.support.cam_points import POINTS, CamCase
+from kulman.tests.support.overlaps import view_faults
+from kulman.tests.support.readback import Sheet, read
+
+MADI = CamCase()
+OTHER = CamCase((("rotation", "cw"), ("law", "sine"), ("u", "0.5"), ("phi_upper", "30 deg")), "A3", "ru")
+JUMPS = CamCase((("law", "constant"), ("fall", "same"), ("limits", "two-sided"), ("u", "0.4")), "A1", "en")
+CASES = (MADI, OTHER, JUMPS)
+
+
+def faults(case: CamCase, sheet: Sheet, point: str) -> list[str]:
+    return list(POINTS[point](case, sheet))
+
+
+@pytest.mark.parametrize("point", POINTS)
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_sheet_of_a_cam_satisfies_the_points(case: CamCase, point: str) -> None:
+    assert faults(case, case.sheet, point) == []
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_views_stand_apart_within_the_frame(case: CamCase) -> None:
+    assert [fault for page in case.sheet.pages for fault in view_faults(page)] == []
+
+
+def test_the_whole_sheet_of_madi_is_one_a1() -> None:
+    assert len(MADI.pages) == 1
+
+
+SPOILED = {  # one piece of the file of the sheet changed
+    "C1": (r'("section" data-name="7">\n<line[^>]*x1=")(\d+)', r"\g<1>1\g<2>"),
+    "C2": (r'(data-name="chords?"|"chords" data-name="diagram_s">\n<line[^>]*y2=")(\d)', r"\g<1>9"),
+    "C3": (r'("dimension" data-name="l_A2">.*?class="head" points=")([\d.]+),([\d.]+)', r"\g<1>\g<2>,1\g<3>"),
+    "C4": (r"0,0001641(?= м/мм)", "0,0001647"),
+    "C5": (r'("limit" data-name="rise" x1=")(\d)', r"\g<1>9"),
+    "C6": (r'("position" data-name="9" x1="[\d.]+" y1="[\d.]+" x2=")(\d)', r"\g<1>9"),
+    "C7": (r'("roller" data-name="9">\n<circle[^>]*r=")7', r"\g<1>7.1"),
+    "C8": (r'(class="plate" data-name="9" x1=")(\d)', r"\g<1>9"),
+    "G5": (r'(data-name="position"|class="position" data-name="4" x=")([\d.]+)(" y=")([\d.]+)', None),
+}
+
+
+@pytest.mark.parametrize("point", POINTS)
+def test_the_examiner_sees_a_spoiled_sheet_of_a_cam(point: str) -> None:
+    (page,) = MADI.pages
+    old, new = SPOILED[point]
+    if new is None:  # a number where the next one stands
+        third, fourth = (re.search(rf'class="position" data-name="{n}" x="([\d.]+)" y="([\d.]+)"', page) for n in "34")
+        assert third
+        assert fourth
+        spoiled = page.replace(third[0].split(" x=")[1], fourth[0].split(" x=")[1], 1)
+    else:
+        spoiled = re.sub(old, new, page, count=1, flags=re.DOTALL)
+    assert spoiled != page
+
+    try:
+        found = faults(MADI, read(spoiled), point)
+    except (AssertionError, ValueError, KeyError) as stumbled:
+        found = [str(stumbled)]
+
+    assert found
+
+
+def test_radii_measured_on_the_drawn_profile_are_right_to_a_hundredth() -> None:
+    view, solved = MADI.sheet["profile"], MADI.solved
+    assert solved.roller is not None
+    (practical,) = view.inside("curve", "practical")
+    ((centre, _),) = {(r.centre, r.radius) for r in view.rings if ("circle", "r_0") in r.path}
+
+    least = min(abs(p - centre) for p in practical.points)
+
+    low = solved.values["r_0"] - solved.values["R_roller"]
+    assert least == pytest.approx(low / parse("1 mm", unit("mm"), unit("mm")), abs=0.01)
