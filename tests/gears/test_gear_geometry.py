@@ -19,8 +19,6 @@ MEASURED = (
     "z_W2",
     "W_1",
     "W_2",
-    "s_b1",
-    "s_b2",
     "rho_f",
     "inv_alpha",
     "inv_alpha_w",
