@@ -5,6 +5,7 @@ from __future__ import annotations
 from cmath import rect
 from dataclasses import dataclass, field
 from itertools import pairwise
+from math import pi
 from typing import assert_never
 
 from .labels import Labels, Obstacles, Request, place
@@ -13,6 +14,9 @@ from .pens import HEAD_HALF_WIDTH
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
 from .style import Style
 from .text import Box, lay_out
+
+WIDE = "circle"  # the role of a circle that goes round other things
+ROUND = 48  # pieces of it, for the letters that keep clear of it
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,8 +184,11 @@ def _gather(
             (main if pen is Pen.MAIN else thin).append((tail, tip))
             if shape.head != "none" and abs(tip - tail) > 0.01:
                 boxes.append(_head_box(tip, tip - tail, style.arrow))
-        case Group(shapes=parts):
+        case Group(shapes=parts, role=role):
             for part in parts:
+                if role == WIDE and isinstance(part, Circle):  # a letter may stand inside
+                    ring = (part.centre + rect(part.radius, 2.0 * pi * k / ROUND) for k in range(ROUND))
+                    part = Polyline(tuple(ring), part.pen, closed=True)
                 _gather(part, main, thin, circles, boxes, style)
         case _:
             assert_never(shape)

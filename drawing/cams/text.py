@@ -119,7 +119,8 @@ def worked(
     texts, result = calculation(words, law, [Input(value, exact) for _, value, exact in terms])
     symbols = formula.format(**{term: words.symbol(term) for term, _, _ in terms})
     numbers = formula.format(**{term: text for (term, _, _), text in zip(terms, texts, strict=True)})
-    said = f"= {result} {words.unit(unit)}" if unit else f"= {result}"
+    gap = "" if unit == "deg" else " "
+    said = f"= {result}{gap}{words.unit(unit)}" if unit else f"= {result}"
     return tuple(filter(None, (f"{words.symbol(name)} = {symbols}", f"= {numbers}", said, more)))
 
 

@@ -27,7 +27,7 @@ SCALES = {
     TRAVEL: "mu_s",
     SIZES: "mu_s",
     PLATE_SIZES: "mu_d2s",
-    ROCKER_SIZES: "mu_s",
+    ROCKER_SIZES: "mu_l",
     PROFILE: "mu_l",
     PLATE_PROFILE: "mu_l",
 }

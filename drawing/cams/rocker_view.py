@@ -1,0 +1,134 @@
+"""The plan of a cam with a rocker by inversion: its pivot goes round the cam, the roller's centre gives the curves."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+from ...plans.cams.inversion import PROFILE
+from ..shapes import Arc, Circle, Group, Line, Pen, Text
+from ..symbols import angle_dimension, fixed_pivot, revolute
+from ..view import Canvas, View
+from .inversion import centre, circle, dwelling, phases, radius_at, ratio, undercut_notes
+from .pressing import pressed
+from .roller_view import NUMBERS, PHASES
+from .rolling import Contact, curves, normal, roller_radius, sharpest
+from .scene import CamScene
+from .sizes_view import SHOWN
+
+OVER = 4.0  # mm of the roller's arcs beyond its extreme places
+
+
+def rocker_view(scene: CamScene) -> View:
+    """Draw the cam as it stands when the rocker is lowest."""
+    solved, canvas, mu = scene.solved, Canvas(scene.style), scene.mu_l
+    cam = solved.rocker
+    assert cam is not None
+    sizes, label = cam.sizes, scene.style.label
+    pivot, start = scene.mm(f"{PROFILE}.A0"), scene.mm(f"{PROFILE}.B0")
+    far = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in solved.layout.division.lines) + cam.profile.R / mu
+    outer = max(abs(pivot), far)
+    turned = cmath.phase(start / 1j)
+    centre(canvas, scene, sizes.r_0 / mu, far + 3.0, turned)
+    canvas.add(circle(sizes.r_0 / mu, "r_0"), circle(abs(pivot), "l_OC"))
+    _positions(canvas, scene)
+    curves(canvas, scene, cam.profile)
+    _numbers(canvas, scene, outer + NUMBERS * label)
+    reach = outer + (PHASES + 1.0) * label
+    phases(canvas, scene, reach * math.cos(cmath.phase(pivot)), reach)
+    sharpest(canvas, scene, cam.profile)
+    line = pressed(scene, SHOWN)
+    _normal(canvas, scene, line)
+    _follower(canvas, scene)
+    _sizes(canvas, scene, dwelling(solved.motion, solved.cam.sense) + turned)
+    edge = reach + 1.2 * label
+    canvas.bounds = -edge, -edge, edge, edge
+    scale = f"{ratio(scene)};  {scene.factor(scene.scale(PROFILE))}"
+    notes = *_lettered(scene, line), *undercut_notes(scene, cam.profile.undercuts, rocks=True)
+    return canvas.finish("profile", (scene.words["heading.cam_rocker_profile"], scale), notes)
+
+
+def _positions(canvas: Canvas, scene: CamScene) -> None:
+    """Draw the pivot, the roller's arc about it, and the roller in each position."""
+    solved, node = scene.solved, scene.style.node
+    cam = solved.rocker
+    assert cam is not None
+    l, R, swing = cam.sizes.l / scene.mu_l, cam.profile.R / scene.mu_l, cam.rocker.motion.h
+    over = OVER / l
+    for i, phi in enumerate(solved.angles.tolist()):
+        pivot, at = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "AB")
+        low = -solved.cam.sense * phi
+        canvas.add(Arc(pivot, l, low - over, swing + 2.0 * over, Pen.THIN, role="arc", name=str(i)))
+        if i:
+            canvas.add(Group((Circle(at, R, Pen.THIN),), "roller", str(i)))
+            canvas.add(Group((Circle(pivot, node, Pen.THIN, fill="white"),), "node", f"A{i}"))
+        canvas.add(Group((Circle(at, node, Pen.THIN, fill="white"),), "node", f"B{i}"))
+
+
+def _numbers(canvas: Canvas, scene: CamScene, radius: float) -> None:
+    """Write the number of each position beyond its pivot, with a tick from the pivot towards it."""
+    height = scene.style.text
+    for i in scene.solved.layout.division.lines:
+        pivot = scene.mm(f"{PROFILE}.A{i}")
+        out = pivot / abs(pivot)
+        canvas.add(Line(pivot, out * (radius - 0.9 * scene.style.label), Pen.THIN, role="position", name=str(i)))
+        canvas.add(Text(out * radius - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
+
+
+def _normal(canvas: Canvas, scene: CamScene, i: int) -> None:
+    """Draw the rocker of one position, and its normal through the instant centre on the line of both pivots."""
+    pivot, at, touch = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "ABK")
+    cam = scene.solved.rocker
+    assert cam is not None
+    dpsi = float(cam.rocker.motion.at(float(scene.solved.angles[i]))[1]) * scene.solved.cam.sense
+    pole = pivot * (dpsi / (dpsi - 1.0))  # the roller's velocity is that of the cam there
+    canvas.add(Group((Line(pivot, at, Pen.THIN),), "rocker", str(i)))
+    normal(canvas, scene, Contact(i, at, touch, pole, 1j * (at - pivot) / abs(at - pivot)))
+
+
+def _follower(canvas: Canvas, scene: CamScene) -> None:
+    """Draw the rocker on its pivot with the roller in position 0."""
+    pivot, at = (scene.mm(f"{PROFILE}.{letter}0") for letter in "AB")
+    cam, style = scene.solved.rocker, scene.style
+    assert cam is not None
+    unit = (at - pivot) / abs(at - pivot)
+    canvas.add(Group((Circle(at, cam.profile.R / scene.mu_l, Pen.MAIN),), "roller", "0"))
+    canvas.add(Group((Line(pivot + unit * style.pair, at - unit * style.pair, Pen.MAIN),), "rocker", "0"))
+    canvas.add(fixed_pivot(pivot, "A0", style), revolute(at, "B0", style))
+    canvas.label("C", pivot, prefer=1 - 1j, clear=style.pair + 0.5)
+    canvas.label("B", at, prefer=1 + 1j, clear=style.pair + 0.5)
+
+
+def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> None:
+    """Dimension r_0, l_OC, the rocker, its swing, and the roller; `quiet` is the middle of the lower dwell."""
+    solved, words, mu, style = scene.solved, scene.words, scene.mu_l, scene.style
+    cam, division = solved.rocker, solved.layout.division
+    assert cam is not None
+    sizes, R = cam.sizes, cam.profile.R
+    radius_at(canvas, scene, "r_0", sizes.r_0, quiet, ((sizes.r_0 - R) / mu, sizes.r_0 / mu))
+    roller_radius(canvas, scene, scene.mm(f"{PROFILE}.B{division.last}"), division.last, R)
+    top = division.top
+    pivot, at = scene.mm(f"{PROFILE}.A{top}"), scene.mm(f"{PROFILE}.B{top}")
+    swing, low = cam.rocker.motion.h, -solved.cam.sense * float(solved.angles[top])
+    for angle in (low, low + swing):
+        canvas.add(Line(pivot, pivot + cmath.rect(sizes.l / mu, angle), Pen.THIN, role="rocker", name=str(top)))
+    radius = 0.4 * sizes.l / mu
+    canvas.add(angle_dimension(pivot, radius, low, swing, "psi", style))
+    middle = pivot + cmath.rect(radius, low + 0.5 * swing)
+    canvas.label(words.symbol("psi"), middle, prefer=middle - pivot, clear=0.8, height=style.text)
+    zero, start = scene.mm(f"{PROFILE}.A0"), scene.mm(f"{PROFILE}.B0")
+    canvas.label(words.symbol("l_rocker"), (zero, start), prefer=1j, clear=0.8, height=style.text)
+
+
+def _lettered(scene: CamScene, line: int) -> tuple[str, ...]:
+    """Return the numbers of what has only a letter in the figure."""
+    cam, words = scene.solved.rocker, scene.words
+    assert cam is not None
+    lengths = {
+        "l_OC": cam.sizes.l_OC,
+        "l_rocker": cam.sizes.l,
+        "R_roller": cam.profile.R,
+        "rho_min": cam.profile.rho_min,
+    }
+    said = [f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size)]
+    return ("; ".join([*said, f"{words.symbol('psi')} = {scene.degrees(cam.rocker.motion.h)}"]),)
