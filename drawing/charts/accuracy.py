@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from ...plans.cams.rivals import BOARD, CLOSED, MIDPOINT, MISSED, SIMPSON, TRAVELS, VELOCITIES
+from ...plans.cams.rivals import BOARD, BOARDS, CLOSED, MIDPOINT, MISSED, SIMPSON, TRAVELS, VELOCITIES
 from ...plans.contest import Contest, Entry
 from ...plans.linkages.accuracy.comparison import (
     CHORDS,
@@ -32,7 +32,7 @@ SIZE = (126.0, 60.0)
 BAND, PAPER = 14.0, 3.2  # mm above a field with bars of the hand, which has no time; a row of it
 RING = 10.0  # pixels around the middle of a ring that stay free of labels
 ERRORS = {TRAVELS: "chart.error.travel", VELOCITIES: "chart.error.speed"}  # in parts of something else than vectors
-SECTIONED = (CHORDS, BOARD, MIDPOINT, MISSED, SIMPSON)  # methods whose setting is a number of sections
+SECTIONED = (CHORDS, BOARD, BOARDS, MIDPOINT, MISSED, SIMPSON)  # methods whose setting is a number of sections
 LARGEST = 3.0  # error beyond which a method means nothing
 
 
@@ -56,6 +56,7 @@ LOOKS: Mapping[str, Look] = {
     CHORDS: Look("x", True, (0, (6, 1.5, 1, 1.5)), (1, 0), "chords"),
     CLOSED: Look("o", True, "-", (1, 0), "closed"),
     BOARD: Look("x", True, (0, (6, 1.5, 1, 1.5)), (0, 1), "board"),
+    BOARDS: Look("+", True, (0, (6, 1.5, 1, 1.5)), (0, -1), "boards"),
     MIDPOINT: Look("D", True, (0, (1, 1.5)), (0, -1), "midpoint"),
     MISSED: Look("s", False, (0, (5, 2)), (0, 1), "missed"),
     SIMPSON: Look("^", False, (0, (3, 1, 1, 1)), (0, -1), "simpson"),

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..boards.batch import batch
 from ..boards.exact import run
 from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
 from ..hands.hand import Hand
@@ -30,8 +31,10 @@ from .solve import SolvedCam
 
 Array = NDArray[np.float64]
 Course = tuple[NDArray[Any], NDArray[Any]]  # travel and its derivative on section lines, in any scale
-CLOSED, BOARD, MIDPOINT, MISSED, SIMPSON, HAND = "closed", "board", "midpoint", "missed", "simpson", "hand"
+CLOSED, BOARD, BOARDS = "closed", "board", "boards"
+MIDPOINT, MISSED, SIMPSON, HAND = "midpoint", "missed", "simpson", "hand"
 ON_BOARD = (12, 24, 48, 96, 192)  # sections of a phase
+AT_ONCE, CAMS = (12, 24, 48), 1000  # sections of many cams at once, and how many
 NUMERICAL = (12, 24, 48, 96, 192, 768, 3072, 12288)
 BY_HAND = (12, 24, 48)
 TRAVELS, VELOCITIES = "travel", "speed"
@@ -128,13 +131,18 @@ class _Race:
             yield from self._entries(CLOSED, size, cut, course, found, spent, size)
 
     def board(self) -> Iterator[Entry]:
-        """Go through chords on the board, one drawing at a time."""
+        """Go through chords on the board: one cam alone, and many at once."""
         for sections in ON_BOARD:
             cut = on_lines(self.solved.motion, sections)
             paper = drawn_on(self.solved, cut.angles, cut.division, nodes(self.solved, cut.division))
             course = _drawn(self.solved, cut.division, run(paper.program, paper.givens).values)
             spent = timed(partial(run, paper.program, paper.givens), self.clock) / len(cut.angles)
             yield from self._entries(BOARD, cut.division.top, cut, course, None, spent, 1)
+            if sections in AT_ONCE:
+                several = {**paper.givens, "l_A1": np.full(CAMS, paper.givens["l_A1"])}
+                work = partial(batch, paper.program, several, nodes(self.solved, cut.division))
+                spent = timed(work, self.clock) / (len(cut.angles) * CAMS)
+                yield from self._entries(BOARDS, cut.division.top, cut, course, None, spent, CAMS)
 
     def numerical(self) -> Iterator[Entry]:
         """Go through sums of numbers, with jumps on section lines, and within sections where there are any."""

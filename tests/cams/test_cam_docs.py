@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import shlex
 from pathlib import Path
 from types import ModuleType
 
 import pytest
 
 import kulman
+from kulman import cli
 from kulman.plans.cams.cam import LAWS
 from kulman.variants.sweeps.cam import CamSweep
 
@@ -32,12 +34,24 @@ def blocks(slow: bool) -> list[str]:
     return [block for block in found if block.startswith(tuple(f"$ kulman {name}" for name in SLOW)) == slow]
 
 
-def test_what_the_document_shows_is_what_is_printed(tmp_path: Path) -> None:
-    found = blocks(slow=False)
+def test_what_the_document_shows_is_what_is_printed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    module, found = refresh(), blocks(slow=False)
+    monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
+    monkeypatch.chdir(tmp_path)
+
+    def here(command: str, folder: str) -> tuple[str, int]:
+        """Run a command without starting Python again."""
+        with pytest.raises(SystemExit) as stopped:
+            cli.main(shlex.split(command)[1:])
+        return "".join(capsys.readouterr()), int(stopped.value.code or 0)
+
+    monkeypatch.setattr(module, "run", here)
 
     assert len(found) >= 5
     for block in found:
-        assert refresh().filled(block, str(tmp_path)) == block
+        assert module.filled(block, str(tmp_path)) == block
 
 
 @pytest.mark.soak

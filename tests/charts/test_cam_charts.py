@@ -27,6 +27,7 @@ from kulman.plans.cams.sectioned import R_0, S_MAX, V_MAX, drawn_on, exact_value
 from kulman.plans.cams.solve import SolvedCam
 from kulman.plans.contest import Contest, Effort
 from kulman.plans.hands.hand import PRESETS, Hand, preset
+from kulman.plans.hands.shaky import draw
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.charts import cam as charts
 from kulman.variants.charts import sections
@@ -59,6 +60,7 @@ def race() -> Contest:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(contests, "ROUNDS", 1)
         patch.setattr(races, "BY_HAND", (12,))
+        patch.setattr(races, "AT_ONCE", (12,))
         return rivals(cam(), time.process_time, preset("normal").hand, Effort((1, 10), 20))
 
 
@@ -119,6 +121,22 @@ def test_chords_of_a_constant_velocity_have_no_error() -> None:
         convergence(cam("uniform"), {})
 
     assert problem.value.key == "chart-exact-chords"
+
+
+def test_a_drafting_machine_draws_along_the_edges_without_an_error_of_direction() -> None:
+    solved = cam()
+    angles, division = solved.motion.division(12)
+    names = ("diagram_s.f12", "diagram_v.p1", "diagram_v.1")
+    paper = drawn_on(solved, angles, division, names)
+
+    machine, free = (
+        draw(one, Hand(0.0, 1.0, 0.0), np.random.default_rng(1), 50).values for one in (paper, replace(paper, edges=()))
+    )
+
+    assert np.ptp(np.imag(machine["diagram_s.f12"])) == 0.0
+    assert np.ptp(np.imag(free["diagram_s.f12"])) > 1e-4
+    assert np.ptp(np.real(machine["diagram_v.1"])) < 1e-15  # on its section line
+    assert np.ptp(np.imag(machine["diagram_v.1"])) > 1e-5  # at the end of a chord
 
 
 # Lines beside jumps, drawings that do not close
@@ -197,6 +215,15 @@ def test_sums_of_mean_ordinates_are_the_chords_of_the_board() -> None:
     assert {key: sums[key] for key in board} == pytest.approx(board, rel=1e-9)
 
 
+def test_many_boards_at_once_err_as_one() -> None:
+    (many,) = [e for e in race().of("travel") if e.method == races.BOARDS]
+    (alone,) = [e for e in race().of("travel") if e.method == races.BOARD and e.setting == 12]
+
+    assert many.at_once == races.CAMS
+    assert many.error == alone.error
+    assert many.seconds is not None
+
+
 @pytest.mark.parametrize(("way", "order"), [(midpoint, 2.0), (simpson, 4.0)])
 def test_sums_have_their_orders_where_the_law_bends(way: object, order: float) -> None:
     motion = cam("polynomial-345", u="1/2").motion
@@ -253,6 +280,7 @@ def made() -> Charts:
 def quickened(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(contests, "ROUNDS", 1)
     patch.setattr(races, "BY_HAND", (12,))
+    patch.setattr(races, "AT_ONCE", ())
     patch.setattr(charts, "cam_accuracy_chart", partial(charts.cam_accuracy_chart, effort=Effort((1, 10), 20)))
     patch.setattr(sections, "convergence", partial(convergence, sections=FEW, drawn=(6, 18)))
 
