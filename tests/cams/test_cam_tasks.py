@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -22,6 +23,7 @@ from kulman.variants.task import Task
 
 TASK = "madi-cam"
 TEXT = bundled_text(TASK)
+ROCKER = Path(__file__).resolve().parents[2] / "docs" / "examples" / "rocker-cam.toml"
 OWN = """
 [[cam.curve]]
 name = "mine"
@@ -387,6 +389,14 @@ def test_form_asks_for_what_is_drawn_and_not_for_what_only_a_formula_gives(tmp_p
     asked = {line.split(",")[0] for line in text.splitlines()}
     assert {"mu_s_chord", "r_0_tangents", "e_tangents", "rho_min", "R_plate"} <= asked
     assert not {"mu_s", "r_0", "e", "s_0", "nu"} & asked
+
+
+def test_form_of_a_rocker_is_headed_by_its_own_plans(tmp_path: Any) -> None:
+    text = check(ROCKER, lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
+
+    for heading in ("Positions of the rocker, place of the cam's centre", "Cam with a rocker"):
+        assert f'{heading}"' in text or heading in text.splitlines()
+    assert "roller follower" not in text
 
 
 def test_right_answers_get_the_full_mark(tmp_path: Any, solution: Solution) -> None:

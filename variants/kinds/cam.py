@@ -167,6 +167,8 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def plan_heading(self, solved: SolvedCam, plan: str, words: Words) -> str:
         """Return the heading of a plan, as the sheet has it."""
+        if plan == PROFILE and solved.rocker is not None:
+            return words["heading.cam_rocker_profile"]
         return words[f"heading.cam_{DIAGRAMS if plan in AXES else plan}"]
 
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
