@@ -17,7 +17,7 @@ PAST = 2.0  # mm by which an extension line runs past the dimension line
 def linear(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: str, name: str) -> None:
     """Dimension the distance between two points on a line parallel to it, moved by the vector `out`.
 
-    Points in one place have no dimension.
+    Points in one place have no dimension; one that says the same as another may have no text.
     """
     a, b = ends
     if abs(b - a) < ZERO:
@@ -26,6 +26,8 @@ def linear(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: st
         past = out * (PAST / abs(out))
         canvas.add(*(Line(end, end + out + past, Pen.THIN, role="extension") for end in ends))
     canvas.add(dimension(a + out, b + out, name, canvas.style))
+    if not text:
+        return
     height, middle = canvas.style.text, 0.5 * (a + b) + out
     if abs((b - a).real) < ZERO and abs(b - a) > lay_out(text, height).width + 1.0:  # upright: from below, on its left
         canvas.add(Text(middle - ABOVE * height, text, height, "middle", 0.5 * pi))

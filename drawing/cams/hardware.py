@@ -10,7 +10,7 @@ from ..style import Style
 from ..symbols import guide, hatching
 
 COILS = 5
-OF_CAM = 0.25  # largest radius of the shaft in least radii of the cam
+OF_CAM = 0.2  # largest radius of the shaft in least radii of the cam
 SHAFT, KEY = 1.8, 0.45  # radius of the shaft in heights of letters; half width of its key in radii
 
 

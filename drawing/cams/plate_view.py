@@ -14,6 +14,7 @@ from .roller_view import NUMBERS, PHASES
 from .scene import CamScene
 
 SPOT = 2.0  # mm of a plate's line beyond the farthest contact
+SAME = 1e-4  # part of the greatest velocity within which that of the fall is the same
 THICK = 0.5  # thickness of the plate, in heights of letters
 
 
@@ -75,11 +76,12 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
     level = rod.low
     text = f"{words.symbol('R_plate')} = {scene.length(plate.sizes.R_plate)}"
     linear(canvas, (complex(0.0, level), complex(-sense * R, level)), 14j, text, "R_plate")
-    for side in (1.0, -1.0):
-        far = motion.maximum(0.0, side, 0.0).value / mu
-        text = scene.length(far * mu)
-        ends = complex(0.0, level), complex(sense * side * far, level)
-        linear(canvas, ends, 7j, f"|{words.symbol('ds')}|_{{max}} = {text}", "ds_max" if side > 0 else "ds_min")
+    right, left = (motion.maximum(0.0, side, 0.0).value for side in (sense, -sense))
+    for far, name in ((right, "ds_right"), (-left, "ds_left")):
+        ends = complex(0.0, level), complex(far / mu, level)
+        text = f"|{words.symbol('ds')}|_{{max}} = {scene.length(abs(far))}"
+        same = far < 0.0 and abs(right - left) < SAME * right
+        linear(canvas, ends, 7j, "" if same else text, name)
     top = solved.layout.division.top
     up = unit_at(float(solved.angles[top]), sense)
     ends = up * (plate.sizes.r_0 / mu), scene.mm(f"{PLATE_PROFILE}.B{top}")

@@ -30,17 +30,41 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
     fitting, largest = Fitting(contents), FORMATS[SIZES[-1]]
     formats = [sheet] if sheet is not None else worth_trying([v for v, _ in fitting.views(largest, Rungs())])
     for candidate in formats:
-        found = _single(fitting, candidate)
+        last = candidate is formats[-1]
+        rungs = _fitted(fitting, candidate) if last else Rungs()
+        found = _single(fitting, candidate, rungs) or (_several(fitting, candidate, rungs) if last else None)
         if found is not None:
-            return _drawn(fitting, stamp, candidate, found)
-    return _drawn(fitting, stamp, formats[-1], _several(fitting, formats[-1]))
+            break
+    assert found is not None, "on the last format there are as many pages as it takes"
+    return _drawn(fitting, stamp, candidate, found)
 
 
-def _single(fitting: Fitting, sheet: Format) -> Found | None:
-    """Try one page: diagrams and profiles as they are wanted, the S-ds/dphi diagram smaller if it must be."""
+def _fitted(fitting: Fitting, sheet: Format) -> Rungs:
+    """Return the first rungs at which every view has room on a page of its own.
+
+    Raises
+    ------
+    InputError
+        When a view has none at the last rung.
+    """
+    wide, high = room(sheet, fitting.contents.norm)
+    rungs = Rungs()
+    while True:
+        tight = {f.ladders for v, f in fitting.views(sheet, rungs) if v.size[0] > wide or v.size[1] > high}
+        if not tight:
+            return rungs
+        for ladders in tight:
+            name = next((ladder for ladder in ladders if _next(fitting, rungs, ladder)), None)
+            if name is None:
+                raise InputError("sheet-too-small", format=sheet.name)
+            rungs = replace(rungs, **{name: getattr(rungs, name) + 1})
+
+
+def _single(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
+    """Try one page with the S-ds/dphi diagram, if it must be, smaller than at these rungs."""
     norm = fitting.contents.norm
-    for coarser in range(len(fitting.ladders["coarser"])):
-        rungs = Rungs(coarser=coarser)
+    for coarser in range(rungs.coarser, len(fitting.ladders["coarser"])):
+        rungs = replace(rungs, coarser=coarser)
         views = [view for view, _ in fitting.views(sheet, rungs)]
         places = zoned(views, sheet, norm)
         if places is None and sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height:
@@ -50,21 +74,9 @@ def _single(fitting: Fitting, sheet: Format) -> Found | None:
     return None
 
 
-def _several(fitting: Fitting, sheet: Format) -> Found:
-    """Take as many pages as are needed; what no page can hold is drawn smaller."""
-    wide, high = room(sheet, fitting.contents.norm)
-    rungs = Rungs()
-    while True:
-        drawn = fitting.views(sheet, rungs)
-        tight = {f.ladders for v, f in drawn if v.size[0] > wide or v.size[1] > high}
-        if not tight:
-            break
-        for ladders in tight:
-            name = next((ladder for ladder in ladders if _next(fitting, rungs, ladder)), None)
-            if name is None:
-                raise InputError("sheet-too-small", format=sheet.name)
-            rungs = replace(rungs, **{name: getattr(rungs, name) + 1})
-    views = [view for view, _ in drawn]
+def _several(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found:
+    """Take as many pages as are needed."""
+    views = [view for view, _ in fitting.views(sheet, rungs)]
     places = arrange([view.size for view in views], sheet, fitting.contents.norm, None)
     if places is None:
         raise InputError("sheet-too-small", format=sheet.name)
