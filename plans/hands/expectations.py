@@ -14,7 +14,7 @@ from ..references import plans_of
 from .hand import Hand, Tolerance
 from .sensitivities import Sensitivities, sensitivities
 from .shaky import Paper
-from .spread import SHARE, Spread, drawn
+from .spread import NOTHING, SHARE, Spread, drawn
 from .tolerances import failing
 
 DRAWINGS = 4000
@@ -98,10 +98,16 @@ def expectations(
     failed, plans = failing(found, key.allowed), plans_of(paper.program)
     made = {}
     for name, spread in spreads.items():
-        step, share = _worst(parts, name) if name in missed else (None, None)
+        errs = name in missed and not _cancelled(spread)
+        step, share = _worst(parts, name) if errs else (None, None)
         mu = paper.mus.get(plans.get(name, ""))
-        made[name] = Expectation(spread, step, share, *_allowed(key, name, mu), failed[name], mu, name in missed)
+        made[name] = Expectation(spread, step, share, *_allowed(key, name, mu), failed[name], mu, errs)
     return made
+
+
+def _cancelled(spread: Spread) -> bool:
+    """Tell whether errors that a quantity hangs on cancel: those of two scale factors in their ratio."""
+    return spread.exact is not None and spread.deviation <= NOTHING * abs(spread.exact)
 
 
 def _worst(parts: Sensitivities, name: str) -> tuple[str | None, float | None]:

@@ -139,6 +139,15 @@ def test_a_drafting_machine_draws_along_the_edges_without_an_error_of_direction(
     assert np.ptp(np.imag(machine["diagram_v.1"])) > 1e-5  # at the end of a chord
 
 
+def test_errors_that_cancel_in_a_ratio_are_none() -> None:
+    drawing = kulman.solve(TASK, only="diagrams", hand="normal").drawing
+    assert drawing is not None
+
+    assert drawing.expected["mu_s_chord"].errs
+    assert not drawing.expected["nu_chord"].errs
+    assert drawing.expected["nu_chord"].step is None
+
+
 # Lines beside jumps, drawings that do not close
 
 
