@@ -309,8 +309,12 @@ def test_a_broken_rule_is_told(settings: dict[str, Any], broken: set[str]) -> No
 
     assert {name for name, one in found.checks.items() if not one["ok"]} == broken
     told = [warning.text() for warning in found.warnings]
-    assert len(told) == ("undercut_roller" in broken)
-    assert all("is undercut: from 35.61° to 49.73° the follower loses up to 0.0224 mm" in line for line in told)
+    assert len(told) == len(broken)
+    assert ("undercut_roller" in broken) == any(
+        "is undercut: from 35.61° to 49.73° the follower loses up to 0.0224 mm" in line for line in told
+    )
+    assert ("roller_of_radius" in broken) == any("is larger than 0.4 r_0 = 18.1 mm" in line for line in told)
+    assert ("gamma_rise" in broken) == any("in the rise the transmission angle falls to" in line for line in told)
 
 
 def test_roller_that_leaves_no_cam_is_refused() -> None:

@@ -39,6 +39,7 @@ ROUNDING = 1e-9  # part of a limit
 AXES = ("diagram_a", "diagram_v", "diagram_s")  # the plans of the diagrams on one axis of angles
 DRAWN = ("_chord", "_tangents")  # what the name of a quantity ends with that is drawn, and so asked in place of another
 UNASKED = ("s_0", "r_0_flat_tangent")  # what goes with a size that is asked
+RULES = ("roller_of_radius", "roller_of_curvature", "gamma_rise", "gamma_fall")  # checks that are told when they fail
 FULL_SIZE = 1e-3  # m/mm
 
 
@@ -110,19 +111,20 @@ class Cams(Kind[Cam, "SolvedCam"]):
         return CamCharts()
 
     def warnings(self, solved: SolvedCam) -> tuple[InputError, ...]:
-        """Tell where a profile does not give the motion, or cannot."""
-        jumps = any(jump.order == 1 for jump in solved.motion.jumps)
-        left_out = (InputError("cam-no-plate"),) if jumps and PLATE in solved.cam.followers else ()
-        return left_out + tuple(
-            InputError(
-                f"cam-undercut-{PLATE if follower == PLATE else ROLLER}",
-                start=_degrees(undercut.start),
-                end=_degrees(undercut.end),
-                lost=f"{undercut.lost * MILLI:.3g}",
-            )
-            for follower, profile in _profiles(solved)
-            for undercut in profile.undercuts
-        )
+        """Tell which rules are broken, and where a profile does not give the motion, or cannot."""
+        found: list[InputError] = []
+        if PLATE in solved.cam.followers and any(jump.order == 1 for jump in solved.motion.jumps):
+            found.append(InputError("cam-no-plate"))
+        for name, check in self.checks(solved, {}).items():
+            if name in RULES and not check["ok"]:
+                said = _degrees if check["unit"] == "rad" else _millimetres
+                found.append(InputError(f"cam-rule-{name}", value=said(check["value"]), limit=said(check["limit"])))
+        for follower, profile in _profiles(solved):
+            key = f"cam-undercut-{PLATE if follower == PLATE else ROLLER}"
+            for undercut in profile.undercuts:
+                said_ends = {"start": _degrees(undercut.start), "end": _degrees(undercut.end)}
+                found.append(InputError(key, lost=f"{undercut.lost * MILLI:.3g}", **said_ends))
+        return tuple(found)
 
     def checks(self, solved: SolvedCam, quantities: Mapping[str, Quantity]) -> Verdicts:
         """Return what the rules of good design say, each with the value that it compares with its limit, SI.
@@ -215,6 +217,10 @@ def _at_least(value: float, limit: float, unit: str) -> dict[str, Any]:
 
 def _degrees(angle: float) -> str:
     return f"{math.degrees(angle):.4g}"
+
+
+def _millimetres(length: float) -> str:
+    return f"{length * MILLI:.4g}"
 
 
 def _size(solved: SolvedCam) -> float:
