@@ -10,6 +10,7 @@ from ..compose import arrange, compose, room, worth_trying
 from ..formats import FORMATS, Format
 from ..packing import Placement
 from ..page import Drawn
+from ..pens import Norm
 from ..titleblock import Stamp
 from ..view import View
 from .fitting import Contents as Contents
@@ -63,15 +64,24 @@ def _fitted(fitting: Fitting, sheet: Format) -> Rungs:
 def _single(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     """Try one page with the S-ds/dphi diagram, if it must be, smaller than at these rungs."""
     norm = fitting.contents.norm
+    others = [view for view, figure in fitting.views(sheet, rungs) if "coarser" not in figure.ladders]
+    if _on_a_page(others, sheet, norm) is None:
+        return None
     for coarser in range(rungs.coarser, len(fitting.ladders["coarser"])):
         rungs = replace(rungs, coarser=coarser)
         views = [view for view, _ in fitting.views(sheet, rungs)]
-        places = zoned(views, sheet, norm)
-        if places is None and sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height:
-            places = arrange([view.size for view in views], sheet, norm, 1)
+        places = _on_a_page(views, sheet, norm)
         if places is not None:
             return rungs, views, places
     return None
+
+
+def _on_a_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:
+    """Place views on one page, in the customary zones or in reading order."""
+    places = zoned(views, sheet, norm)
+    if places is None and sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height:
+        places = arrange([view.size for view in views], sheet, norm, 1)
+    return places
 
 
 def _several(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found:

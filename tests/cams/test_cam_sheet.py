@@ -12,9 +12,10 @@ from kulman.tests.support.overlaps import view_faults
 from kulman.tests.support.readback import Sheet, read
 
 MADI = CamCase()
+CLOCKWISE = CamCase((("rotation", "cw"),), only="sizes,profile,pressure")
 OTHER = CamCase((("rotation", "cw"), ("law", "sine"), ("u", "0.5"), ("phi_upper", "30 deg")), "A3", "ru")
 JUMPS = CamCase((("law", "constant"), ("fall", "same"), ("limits", "two-sided"), ("u", "0.4")), "A1", "en")
-CASES = (MADI, OTHER, JUMPS)
+CASES = (MADI, pytest.param(OTHER, marks=pytest.mark.soak), pytest.param(JUMPS, marks=pytest.mark.soak))
 
 
 def faults(case: CamCase, sheet: Sheet, point: str) -> list[str]:
@@ -34,6 +35,11 @@ def test_views_stand_apart_within_the_frame(case: CamCase) -> None:
 
 def test_the_whole_sheet_of_madi_is_one_a1() -> None:
     assert len(MADI.pages) == 1
+
+
+@pytest.mark.parametrize("point", ["C5", "C6", "C7"])
+def test_a_cam_that_turns_clockwise_is_drawn_the_other_way_round(point: str) -> None:
+    assert faults(CLOCKWISE, CLOCKWISE.sheet, point) == []
 
 
 SPOILED = {  # one piece of the file of the sheet changed

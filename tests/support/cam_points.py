@@ -35,6 +35,7 @@ class CamCase:
     format: str = "A1"
     lang: str = "uk"
     task: str = "madi-cam"
+    only: str | None = None
 
     def __str__(self) -> str:
         changed = ",".join(f"{name}={value}" for name, value in self.changes)
@@ -48,7 +49,8 @@ class CamCase:
 
     @cached_property
     def pages(self) -> tuple[str, ...]:
-        drawn = sheet(self.task, set=dict(self.changes) or None, format=self.format, lang=self.lang)
+        changes = dict(self.changes) or None
+        drawn = sheet(self.task, set=changes, only=self.only, format=self.format, lang=self.lang)
         return tuple(drawn.svg(number) for number in range(1, len(drawn.pages) + 1))
 
     @cached_property
