@@ -32,7 +32,7 @@ UNITS = {
     "m/s^2": DECIMALS,
     "N": (1e-6, 1e-3, 0.1, 10.0, 1e3, 1e6),  # kN, MPa in what it comes from, cm on the plan
     "N*m": (1e-6, *DECIMALS, 1e6),
-    "m/mm": DECIMALS,
+    **dict.fromkeys(("m/mm", "(m/s)/mm", "(m/s^2)/mm"), DECIMALS),
     "rad": ANGLES[:2],
     "rad/s": ANGLES,
     "rad/s^2": (*ANGLES[:2], *(x * x for x in ANGLES[2:])),

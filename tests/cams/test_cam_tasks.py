@@ -418,3 +418,21 @@ def test_right_answers_get_the_full_mark(tmp_path: Any, solution: Solution) -> N
     (answers,) = asked.read(str(form))
 
     assert asked.mark(answers).marked.mark == 100.0
+
+
+@pytest.mark.parametrize(
+    ("name", "times"),
+    [("mu_s_chord", 1e3), ("mu_a_chord", 10.0), ("gamma_rise_min", math.degrees(1.0)), ("r_0_tangents", 0.1)],
+)
+def test_a_value_in_another_unit_is_told_from_a_wrong_one(
+    name: str, times: float, tmp_path: Any, solution: Solution
+) -> None:
+    asked = check(TASK, lang="en")
+    written = solution[name].shown(solution.words.display)
+    file = tmp_path / "class.csv"
+    file.write_text(f"student,{name}\nA,{times * (written.value or 0.0):.6g}\n", encoding="utf-8")
+
+    (answers,) = asked.read(str(file))
+    (line,) = [line for line in asked.mark(answers).marked.lines if line.name == name]
+
+    assert line.verdict is Verdict.SCALE
