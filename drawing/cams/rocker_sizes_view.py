@@ -12,6 +12,7 @@ from ...plans.cams.followers import RockerCam
 from ...plans.cams.rocker import Limit
 from ...plans.cams.rocker_plans import ROCKER_SIZES
 from ...plans.cams.size_plans import phase_of
+from ...plans.cams.sizes import BACK
 from ..dimensions import linear
 from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension, fixed_pivot, turning_arrow
@@ -44,7 +45,7 @@ def rocker_sizes_view(scene: CamScene) -> View:
     _sizes(canvas, scene, cam, centre)
     _ray(canvas, scene, centre)
     scale = f"{ratio(scene)};  {scene.factor(scene.scale(ROCKER_SIZES))}"
-    notes = (*_lettered(scene, cam), words["said.cam_analogues"], words["said.cam_permitted"])
+    notes = (*_lettered(scene, cam), *words["said.cam_analogues"].split("|"), words["said.cam_permitted"])
     return canvas.finish(ROCKER_SIZES, (words["heading.cam_rocker_sizes"], scale), notes)
 
 
@@ -116,14 +117,16 @@ def _bound(canvas: Canvas, scene: CamScene, limit: Limit, frame: Box) -> None:
     canvas.add(Group((Circle(end, scene.style.node, Pen.THIN, fill="black"),), "touch", limit.name))
     turned = -limit.way * cam.rocker.sense * limit.gamma
     along = _down(arm * cmath.rect(1.0, turned))
+    reach = (frame[1] - end.imag) / along.imag
+    canvas.add(Line(end, end + along * reach, Pen.THIN, role="bound", name=limit.name))
+    if limit.name.endswith(BACK) and limit.name not in cam.sizes.on:
+        return
     start = arm if (along * arm.conjugate()).real > 0.0 else -arm
     radius, sweep = 5.0 * scene.style.label, cmath.phase(along / start)
     name = f"gamma_{limit.name}"
     canvas.add(angle_dimension(end, radius, cmath.phase(start), sweep, name, scene.style))
     if start == arm:  # beyond the rocker
         canvas.add(Line(end, end + arm * (radius + 2.0), Pen.THIN, role="extension"))
-    reach = (frame[1] - end.imag) / along.imag
-    canvas.add(Line(end, end + along * reach, Pen.THIN, role="bound", name=limit.name))
     middle = end + cmath.rect(radius, cmath.phase(start) + sweep / 2)
     text = scene.words.symbol(f"gamma_{phase_of(limit.name)}")
     canvas.label(text, middle, prefer=middle - end, clear=0.8, height=scene.style.text)

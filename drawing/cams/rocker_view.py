@@ -16,6 +16,7 @@ from .rolling import Contact, curves, normal, roller_radius, sharpest
 from .scene import CamScene
 from .sizes_view import SHOWN
 
+ASIDE = 0.45  # rad between the rays of two radii
 OVER = 4.0  # mm of the roller's arcs beyond its extreme places
 
 
@@ -106,9 +107,11 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> None:
     assert cam is not None
     sizes, R = cam.sizes, cam.profile.R
     radius_at(canvas, scene, "r_0", sizes.r_0, quiet, ((sizes.r_0 - R) / mu, sizes.r_0 / mu))
+    far = sizes.l_OC / mu
+    radius_at(canvas, scene, "l_OC", sizes.l_OC, quiet + ASIDE * solved.cam.sense, (far, far))
     roller_radius(canvas, scene, scene.mm(f"{PROFILE}.B{division.last}"), division.last, R)
     top = division.top
-    pivot, at = scene.mm(f"{PROFILE}.A{top}"), scene.mm(f"{PROFILE}.B{top}")
+    pivot = scene.mm(f"{PROFILE}.A{top}")
     swing, low = cam.rocker.motion.h, -solved.cam.sense * float(solved.angles[top])
     for angle in (low, low + swing):
         canvas.add(Line(pivot, pivot + cmath.rect(sizes.l / mu, angle), Pen.THIN, role="rocker", name=str(top)))
@@ -125,7 +128,6 @@ def _lettered(scene: CamScene, line: int) -> tuple[str, ...]:
     cam, words = scene.solved.rocker, scene.words
     assert cam is not None
     lengths = {
-        "l_OC": cam.sizes.l_OC,
         "l_rocker": cam.sizes.l,
         "R_roller": cam.profile.R,
         "rho_min": cam.profile.rho_min,
