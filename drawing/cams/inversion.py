@@ -72,7 +72,7 @@ def phases(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
         canvas.add(angle_dimension(0j, radius, start, sweep, name, scene.style))
         for angle in (start, start + sweep):
             canvas.add(
-                Line(cmath.rect(radius - 3.0, angle), cmath.rect(radius + 2.0, angle), Pen.THIN, role="extension")
+                Line(cmath.rect(radius - 1.5, angle), cmath.rect(radius + 2.0, angle), Pen.THIN, role="extension")
             )
         text = f"{words.symbol(name)} = {scene.degrees(phase.length)}"
         canvas.add(_along(text, radius, start + sweep * at, abs(sweep), scene.style.text))

@@ -38,8 +38,7 @@ def plate_view(scene: CamScene) -> View:
     phases(canvas, scene, 0.0, outer + PHASES * label)
     _follower(canvas, scene, rod, R)
     _sizes(canvas, scene, rod, R)
-    stroke_note = f"{scene.words.symbol('h')} = {scene.length(solved.motion.h)}"
-    notes = stroke_note, *undercut_notes(scene, plate.profile.undercuts)
+    notes = _numbers(scene), *undercut_notes(scene, plate.profile.undercuts)
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
     return canvas.finish("plate_profile", heading(scene, "heading.cam_plate_profile", PLATE_PROFILE), notes)
@@ -79,10 +78,17 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
     right, left = (motion.maximum(0.0, side, 0.0).value for side in (sense, -sense))
     for far, name in ((right, "ds_right"), (-left, "ds_left")):
         ends = complex(0.0, level), complex(far / mu, level)
-        text = f"|{words.symbol('ds')}|_{{max}} = {scene.length(abs(far))}"
-        same = far < 0.0 and abs(right - left) < SAME * right
-        linear(canvas, ends, 7j, "" if same else text, name)
+        same = far * sense > 0.0 and abs(right - left) < SAME * right  # there is more room on the other side
+        linear(canvas, ends, 7j, "" if same else f"|{words.symbol('ds')}|", name)
     top = solved.layout.division.top
     up = unit_at(float(solved.angles[top]), sense)
     ends = up * (plate.sizes.r_0 / mu), scene.mm(f"{PLATE_PROFILE}.B{top}")
     linear(canvas, ends, up * (-1j * sense) * 4.0, words.symbol("h"), "h")
+
+
+def _numbers(scene: CamScene) -> str:
+    """Return the numbers of what has only a letter in the figure."""
+    words, motion = scene.words, scene.solved.motion
+    said = dict.fromkeys(scene.length(motion.maximum(0.0, way, 0.0).value) for way in (1.0, -1.0))
+    contact = f"|{words.symbol('ds')}|_{{max}} = {', '.join(said)}"
+    return f"{words.symbol('h')} = {scene.length(motion.h)}; {contact}"
