@@ -21,7 +21,7 @@ from .rocker import (
     smallest_rocker,
     smallest_rocker_at,
 )
-from .size_plans import phase_of, side_of
+from .size_plans import OUTWARDS, phase_of, side_of
 from .sizes import (
     BACK,
     Limits,
@@ -38,6 +38,7 @@ from .sizes import (
 )
 
 Values = Mapping[str, float]
+MILLI = 1e3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -154,16 +155,53 @@ def plate_cam(cam: Cam, motion: Motion, values: Values) -> PlateCam:
 def rocker_cam(cam: Cam, values: Values) -> RockerCam:
     """Return the smallest cam for a rocker, with the pivot at the given l_OC or wherever it is best.
 
+    With r_0 given, too, nothing is left to be found.
+
     Raises
     ------
     InputError
-        The limits permit no place of the cam's centre.
+        The limits permit no place of the cam's centre, or the sizes given are those of no rocker's cam.
     """
     limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
     rocker = Rocker(motion_of(cam, {**values, "h": values["psi"]}), values["l_rocker"], cam.sense)
-    distance = values.get("l_OC")
-    found = smallest_rocker(rocker, limits) if distance is None else smallest_rocker_at(rocker, limits, distance)
+    distance, r_0 = values.get("l_OC"), values.get("r_0")
+    if "e" in values:
+        raise InputError("cam-rocker-e")
+    if distance is None:
+        if r_0 is not None:
+            raise InputError("cam-rocker-r-0")
+        found = smallest_rocker(rocker, limits)
+    elif r_0 is None:
+        found = smallest_rocker_at(rocker, limits, distance)
+    else:
+        found = _given_sizes(rocker.l, distance, r_0)
     if isinstance(found, NoPlace):
-        raise InputError("cam-no-place")
+        raise _no_place(rocker, limits, distance, found)
     profile = RollerProfile(RockerPath(rocker.motion, found), values["R_roller"], cam.sense)
     return RockerCam(limits=limits, rocker=rocker, sizes=found, profile=profile)
+
+
+def _given_sizes(l: float, l_OC: float, r_0: float) -> RockerSizes:
+    """Return the sizes of a cam of which the rocker, its pivot and r_0 are given: the sides of a triangle."""
+    cosine = (l * l + l_OC * l_OC - r_0 * r_0) / (2.0 * l * l_OC)
+    if not -1.0 < cosine < 1.0:
+        sides = {"l": l, "l_OC": l_OC, "r_0": r_0}
+        raise InputError("cam-rocker-triangle", **{name: f"{side * MILLI:.6g}" for name, side in sides.items()})
+    place = l - l_OC * complex(cosine, -math.sqrt(1.0 - cosine * cosine))
+    return RockerSizes(r_0, l_OC, l, place.real, place.imag)
+
+
+def _no_place(rocker: Rocker, limits: Limits, l_OC: float | None, found: NoPlace) -> InputError:
+    """Tell which limits leave no place, at a given l_OC the one that the smallest cam has."""
+    free = found if l_OC is None else smallest_rocker(rocker, limits)
+    if l_OC is None or isinstance(free, NoPlace):
+        assert isinstance(free, NoPlace)
+        return InputError("cam-no-place", limits=_names(free))
+    distances = {"l_OC": f"{l_OC * MILLI:.6g}", "best": f"{free.l_OC * MILLI:.6g}"}
+    return InputError("cam-no-place-at", limits=_names(found), **distances)
+
+
+def _names(found: NoPlace) -> str:
+    """Return the givens that leave no place."""
+    names = (f"gamma_{phase_of(name)}" if phase_of(name) in OUTWARDS else "psi" for name in found.limits)
+    return ", ".join(dict.fromkeys(names))

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ...plans.cams.cam import DIAGRAMS, PLANS, PLATE, PROFILE, ROCKER, ROLLER, Cam
-from ...scales.choose import Choosers, Fixed
+from ...scales.choose import Choosers
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.scale import Scale
@@ -40,7 +40,6 @@ AXES = ("diagram_a", "diagram_v", "diagram_s")  # the plans of the diagrams on o
 DRAWN = ("_chord", "_tangents")  # what the name of a quantity ends with that is drawn, and so asked in place of another
 UNASKED = ("s_0", "r_0_flat_tangent")  # what goes with a size that is asked
 RULES = ("roller_of_radius", "roller_of_curvature", "gamma_rise", "gamma_fall")  # checks that are told when they fail
-FULL_SIZE = 1e-3  # m/mm
 
 
 class Cams(Kind[Cam, "SolvedCam"]):
@@ -94,8 +93,9 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def first_scales(self, solved: SolvedCam, choosers: Choosers) -> dict[str, Scale]:
         """Return the scale factors by plan: those of the diagrams follow from the construction."""
-        mu_l = choosers.get("mu_l", Fixed(FULL_SIZE)).ladder(lambda name: _size(solved))[0]
-        values = {**solved.values, "mu_l": mu_l}
+        from ...drawing.cams.ladders import mu_ladder
+
+        values = {**solved.values, "mu_l": mu_ladder(solved, choosers)[0]}
         return {plan: Scale(symbol, values[symbol], "m") for plan, symbol in solved.scale_of_plan.items()}
 
     def sweep(self, case: Case, words: Words, asked: Asked) -> CamSweep:
@@ -120,10 +120,10 @@ class Cams(Kind[Cam, "SolvedCam"]):
                 said = _degrees if check["unit"] == "rad" else _millimetres
                 found.append(InputError(f"cam-rule-{name}", value=said(check["value"]), limit=said(check["limit"])))
         for follower, profile in _profiles(solved):
-            key = f"cam-undercut-{PLATE if follower == PLATE else ROLLER}"
             for undercut in profile.undercuts:
                 said_ends = {"start": _degrees(undercut.start), "end": _degrees(undercut.end)}
-                found.append(InputError(key, lost=f"{undercut.lost * MILLI:.3g}", **said_ends))
+                lost = math.degrees(undercut.lost) if follower == ROCKER else undercut.lost * MILLI
+                found.append(InputError(f"cam-undercut-{follower}", lost=f"{lost:.3g}", **said_ends))
         return tuple(found)
 
     def checks(self, solved: SolvedCam, quantities: Mapping[str, Quantity]) -> Verdicts:
@@ -148,7 +148,8 @@ class Cams(Kind[Cam, "SolvedCam"]):
                 found[f"gamma_{phase}"] = _at_least(least, permitted, "rad")
         for follower, profile in _profiles(solved):
             lost = max((undercut.lost for undercut in profile.undercuts), default=0.0)
-            found[f"undercut_{follower}"] = {"ok": not profile.undercuts, "value": lost, "limit": 0.0, "unit": "m"}
+            travel = "rad" if follower == ROCKER else "m"
+            found[f"undercut_{follower}"] = {"ok": not profile.undercuts, "value": lost, "limit": 0.0, "unit": travel}
         if solved.plate is not None and "undercut_plate" in found:
             found["convex"] = _at_least(solved.plate.profile.rho_min, 0.0, "m")
         return found
@@ -221,9 +222,3 @@ def _degrees(angle: float) -> str:
 
 def _millimetres(length: float) -> str:
     return f"{length * MILLI:.4g}"
-
-
-def _size(solved: SolvedCam) -> float:
-    """Return the greatest radius of the profiles, m."""
-    found = (solved.quantities[name].value for name in ("r_0", "r_0_flat") if name in solved.quantities)
-    return max(filter(None, found), default=0.0) + solved.motion.h
