@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from ...plans.cams.cam import DIAGRAMS, PRESSURE, PROFILE, SIZES
 from ...plans.cams.solve import SolvedCam
-from ...scales.choose import Choosers, Fixed
+from ...scales.choose import Choosers
 from ...scales.scale import Scale
 from ..compose import room
 from ..formats import Format
@@ -16,6 +16,7 @@ from ..pens import Norm
 from ..style import STYLES
 from ..view import View
 from ..words import Words
+from .ladders import mu_ladder
 from .letters import lettered
 from .scene import CamScene
 
@@ -23,7 +24,6 @@ TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
 REDUCTIONS = (1.0, 0.8, 0.5, 0.4, 0.25, 0.2, 0.1)  # of the diagrams, whose scale factors grow as much
 COARSER = (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)  # scale factors of the S-ds/dphi diagram, in those of the travel
 NARROW = 0.65  # part of the width of lines that those on the sizes of a cam may have
-MU_L = 0.001  # m/mm, M 1:1, where nothing is said
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,15 +67,11 @@ class Fitting:
     def __post_init__(self) -> None:
         """Find the ladders."""
         self._words = lettered(self.contents.words)
-        self.ladders = {"reduction": REDUCTIONS, "coarser": COARSER, "mu_l": self._mu_l()}
-
-    def _mu_l(self) -> tuple[float, ...]:
-        """Return the scale factors of the profiles, the one wanted first."""
-        solved = self.contents.solved
-        sizes = [part.sizes.r_0 + solved.motion.h for part in (solved.roller, solved.plate) if part is not None]
-        sizes += [solved.rocker.sizes.l_OC] if solved.rocker is not None else []
-        across = 2.0 * max(sizes, default=MU_L)
-        return self.contents.choosers.get("mu_l", Fixed(MU_L)).ladder(lambda _: across)
+        self.ladders = {
+            "reduction": REDUCTIONS,
+            "coarser": COARSER,
+            "mu_l": mu_ladder(self.contents.solved, self.contents.choosers),
+        }
 
     def scene(self, sheet: Format, rungs: Rungs) -> CamScene:
         """Return the scene of a sheet on a format."""
