@@ -17,6 +17,7 @@ from ..shapes import Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension, turning_arrow
 from ..view import Canvas, View
 from .hatching import hatched
+from .offsets import permitted_offsets
 from .pressing import pressed
 from .scene import CamScene, pieces
 
@@ -42,6 +43,7 @@ def sizes_view(scene: CamScene) -> View:
     for plane in planes:
         _limit(canvas, scene, plane, low)
     _permitted(canvas, planes, mu, centre, low)
+    permitted_offsets(canvas, scene, mu)
     _nodes(canvas, scene)
     _centre(canvas, scene, roller, centre)
     equal = f"{words.symbol('mu_ds')} = {scene.factor(scene.scale(SIZES))}"

@@ -12,6 +12,7 @@ from ..givens import choice
 from ..printed import Input, calculation
 from ..table import text_block
 from ..view import View
+from .offsets import offsets_line
 from .scene import CamScene
 
 SMALL = 1e-6  # rad, of a dwell
@@ -57,6 +58,7 @@ def roller_block(scene: CamScene, width: float) -> View:
         pair = ((name, float(solved.values[name]) * 1e3) for name in ("r_0_tangents", "e_tangents"))
         texts = (f"{words.symbol(name)} = {words.number(value, 2)} {mm}" for name, value in pair)
         lines.append((f"{words['said.cam_tangents']}:", "; ".join(texts)))
+    lines += [(line,) for line in offsets_line(scene)]
     lines += rules(scene, roller.profile, sizes.r_0)
     lines += transmission(scene, roller.limits)
     return text_block("equations_roller", words["heading.cam_roller"], lines, scene.style, width)

@@ -275,5 +275,5 @@ def test_sizes_that_are_given_are_kept() -> None:
 def test_no_offset_and_no_place_are_explained() -> None:
     with pytest.raises(InputError, match=r"r_0 = 20 mm .* at least 2[0-9.]+ mm"):
         solve_cam(Cam(("roller",), "sine"), MADI | {"r_0": 0.02})
-    with pytest.raises(InputError, match="no place for the cam's centre"):
+    with pytest.raises(InputError, match="no place of the cam's centre keeps gamma"):
         solve_cam(Cam(("rocker",), "sine"), ROCKER | {"psi": 80 * DEGREE, "gamma_rise": 85 * DEGREE})
