@@ -18,6 +18,7 @@ from .scene import CamScene
 
 PAST = 5.0  # mm of the axes of a cam beyond its circles
 LOST = 3  # significant digits of a travel that is lost
+SMALLEST = 5.0  # least radius of a cam, in heights of letters, that has room for letters inside
 SMALL = math.radians(1e-6)
 
 
@@ -54,7 +55,10 @@ def numbers(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
         if i == 0:  # beyond the cam's axis from there
             at = complex(-math.copysign(scene.style.label, e), at.imag)
         needed = lay_out(str(i), height).width + 0.3 * height
-        if all(abs(at - other) > needed for other in written):  # where there are many, some have no number
+        on_rod = i > 0 and at.imag > 0.0 and abs(at.real - e) < scene.style.label
+        if not on_rod and all(
+            abs(at - other) > needed for other in written
+        ):  # where there are many, some have no number
             canvas.add(Text(at - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
             written.append(at)
 
@@ -103,8 +107,11 @@ def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: fl
     omega = scene.words.symbol("omega")
     places = ("O", r + 0.7 * style.label, middle + 0.75 * sense), (omega, radius + 0.9 * style.label, arrow)
     for text, far, angle in places:
-        at = cmath.rect(far, angle) - 0.5j * style.label
-        canvas.add(Text(at, text, style.label, "middle"))
+        at = cmath.rect(far, angle)
+        if reach > SMALLEST * style.label:
+            canvas.add(Text(at - 0.5j * style.label, text, style.label, "middle"))
+        else:  # there is no room for letters inside
+            canvas.label(text, cmath.rect(r if text == "O" else radius, angle), prefer=at, clear=0.8)
 
 
 def circle(radius: float, name: str) -> Group:
