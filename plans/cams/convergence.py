@@ -70,7 +70,8 @@ class Convergence:
     def best(self, hand: str, quantity: str) -> tuple[int, float]:
         """Return the fewest sections with which a hand errs hardly more than it must, and its error."""
         errors = self.hands[hand, quantity]
-        at = int(np.argmax(errors <= ENOUGH * errors.min()))
+        least = np.min(errors, initial=np.inf, where=np.isfinite(errors))
+        at = int(np.argmax(errors <= ENOUGH * least))
         return self.drawn[at], float(errors[at])
 
 
