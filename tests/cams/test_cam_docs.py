@@ -7,6 +7,7 @@ import re
 import shlex
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import pytest
 
@@ -80,3 +81,13 @@ def test_pictures_of_the_document_are_drawn_by_its_commands() -> None:
     for name in re.findall(r"pictures/([\w-]+)\.png", TEXT):
         assert name in drawn
         assert (DOCS / "pictures" / f"{name}.png").exists()
+
+
+def test_the_lines_of_python_run() -> None:
+    (block,) = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
+    names: dict[str, Any] = {}
+
+    exec(block, names)
+
+    assert names["solution"].solved.roller.sizes.on == ("rise", "fall")
+    assert len(names["swept"].csv("en").splitlines()) == 361
