@@ -6,7 +6,7 @@ Points are those of the cam as it stands at phi = 0, its centre at the origin, t
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,13 +16,11 @@ from numpy.typing import NDArray
 from .cam import PLATE, ROCKER, ROLLER
 from .envelopes import Undercut
 from .motion import TURN, Array, Jump
-from .places import minima
+from .places import Function, Minimum, minima
 from .pressure import pressure_angle
 from .profile import RollerProfile
 from .rocker import rocker_pressure
 from .solve import SolvedCam
-
-SMOOTH = ("s", "v", "a", "theta", "theta_rocker")  # whose extremes a reader looks for
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,27 +99,35 @@ def _point(name: str, points: NDArray[Any]) -> list[Columned]:
 
 def extremes(solved: SolvedCam) -> list[Ends]:
     """Return the extremes of travel, velocity, acceleration and pressure angles; at jumps both limits count."""
+    motion, omega = solved.motion, solved.givens["omega"]
+    weights = {
+        ("s", "m"): (1.0, 0.0, 0.0),
+        ("v", "m/s"): (0.0, omega, 0.0),
+        ("a", "m/s^2"): (0.0, 0.0, omega * omega),
+    }
     found = []
-    corners = solved.motion.corners
-    for column in columns(solved, np.zeros(1)):
-        if column.name in SMOOTH:
-            best = []
-            for sign in (-1.0, 1.0):
-                least = min(minima(_signed(solved, column.name, sign), corners), key=lambda minimum: minimum.value)
-                best += [sign * least.value, least.phi]
-            found.append(Ends(column.name, column.unit, *best))
+    for (name, unit), parts in weights.items():
+        most, least = motion.maximum(*parts), motion.minimum(*parts)
+        found.append(Ends(name, unit, most.value, most.phi, least.value + 0.0, least.phi))
+    for name, theta in _pressure(solved):
+        low, high = (_least(theta, sign, motion.corners) for sign in (1.0, -1.0))
+        found.append(Ends(name, "rad", -high.value, high.phi, low.value, low.phi))
     return found
 
 
-def _signed(solved: SolvedCam, name: str, sign: float) -> Any:
-    """Return a column, or its opposite, as a function of the angle and the side."""
+def _pressure(solved: SolvedCam) -> Iterator[tuple[str, Function]]:
+    """Go through the pressure angles as functions of the angle and the side."""
+    if solved.roller is not None:
+        sizes, sense = solved.roller.sizes, solved.roller.profile.sense
+        yield "theta", lambda phi, side: pressure_angle(solved.motion, sizes, phi, sense, side)
+    if solved.rocker is not None:
+        of = solved.rocker
+        yield "theta_rocker", lambda phi, side: np.asarray(rocker_pressure(of.rocker, of.sizes, phi, side))
 
-    def values(phi: Any, side: int) -> Array:
-        column = next(column for column in columns(solved, phi, side) if column.name == name)
-        signed: Array = sign * column.values
-        return signed
 
-    return values
+def _least(theta: Function, sign: float, corners: Sequence[float]) -> Minimum:
+    found = minima(lambda phi, side: sign * theta(phi, side), corners)
+    return min(found, key=lambda minimum: minimum.value)
 
 
 def sharpest(solved: SolvedCam) -> list[Sharpest]:
