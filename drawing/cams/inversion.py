@@ -18,7 +18,8 @@ from .scene import CamScene
 
 PAST = 5.0  # mm of the axes of a cam beyond its circles
 LOST = 3  # significant digits of a travel that is lost
-SMALLEST = 5.0  # least radius of a cam, in heights of letters, that has room for letters inside
+SIDEWAYS = 0.3  # rad, about, between the horizontal and the letter of the centre
+SMALLEST = 7.0  # least radius of a cam, in heights of letters, that has room for letters inside
 SMALL = math.radians(1e-6)
 
 
@@ -103,9 +104,12 @@ def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: fl
     canvas.add(shaft(0j, r, style))
     middle = dwelling(scene.solved.motion, sense) + turned
     arrow, radius = middle - 0.8 * sense, 1.9 * r
+    if math.sin(arrow) < -SIDEWAYS:  # the support is there
+        arrow = -arrow
+    side = -SIDEWAYS if math.cos(middle) > 0.0 else math.pi + SIDEWAYS
     canvas.add(turning_arrow(0j, radius, arrow, 0.9, float(sense), "omega"))
     omega = scene.words.symbol("omega")
-    places = ("O", r + 0.7 * style.label, middle + 0.75 * sense), (omega, radius + 0.9 * style.label, arrow)
+    places = ("O", r + 0.7 * style.label, side), (omega, radius + 0.9 * style.label, arrow)
     for text, far, angle in places:
         at = cmath.rect(far, angle)
         if reach > SMALLEST * style.label:
@@ -124,18 +128,23 @@ def radius_at(
 ) -> None:
     """Dimension the radius of a circle about the cam's centre along a ray.
 
-    The text runs along the ray: between the shaft and the first of the radii `free`, or else beyond the second.
+    The text runs along the ray: between the shaft and the first of the radii `free`, or else beyond the second; that
+    of a cam without room for letters stands where it finds a place.
     """
-    height, size = scene.style.text, value / scene.mu_l
+    style, size = scene.style, value / scene.mu_l
     ray, text = cmath.rect(1.0, angle), f"{scene.words.symbol(name)} = {scene.length(value)}"
-    wide, low = lay_out(text, height).width, shaft_radius(size, scene.style) + 1.0
-    inside = wide < min(free[0], size - scene.style.arrow) - low
-    tip = size if inside else free[1] + wide + 1.5
-    middle = 0.5 * (low + min(free[0], size - scene.style.arrow)) if inside else free[1] + 0.5 * wide + 1.5
+    wide, low = lay_out(text, style.text).width, shaft_radius(size, style) + 1.0
+    high = min(free[0], size - style.arrow)
+    inside, small = wide < high - low, size < SMALLEST * style.label
+    tip = size if inside or small else free[1] + wide + 1.5
     canvas.add(Line(0j, ray * tip, Pen.THIN, role="radius", name=name), Head(ray * size, ray))
+    if small:
+        canvas.label(text, (0.5 * ray * size, ray * size), prefer=ray, clear=0.8, height=style.text)
+        return
+    middle = 0.5 * (low + high) if inside else free[1] + 0.5 * wide + 1.5
     turn = 1.0 if ray.real > -1e-9 else -1.0
     at = ray * complex(middle, turn)
-    canvas.add(Text(at, text, height, "middle", cmath.phase(ray * turn), role="label", name=name))
+    canvas.add(Text(at, text, style.text, "middle", cmath.phase(ray * turn), role="label", name=name))
 
 
 def dwelling(motion: Motion, sense: int) -> float:

@@ -21,4 +21,5 @@ def lettered(words: Words) -> Words:
         table[f"{name}_chord"] = f"{letter}^{{{mark}}}" + (f"_{index}" if index else "")
     symbols = words.notation["symbols"]
     merged = {**symbols, words.language: {**symbols[words.language], **table}}
-    return replace(words, notation={**words.notation, "symbols": merged})
+    # the chain of diagrams is calculated with values of a millimetre, so that the whole sheet has them
+    return replace(words, notation={**words.notation, "symbols": merged, "scales": "per mm"})

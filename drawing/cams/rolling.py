@@ -7,12 +7,14 @@ import math
 from dataclasses import dataclass
 
 from ...plans.cams.profile import RollerProfile
-from ..shapes import Circle, Group, Head, Line, Pen, Polyline
+from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import angle_dimension
 from ..view import Canvas
 from .inversion import corners, unit_at
 from .pressing import theta
 from .scene import CamScene
+
+PARTS = (1.0, 0.85, 1.15, 0.7)  # of the radius of an arc that may be taken instead of it
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,13 +72,26 @@ def normal(canvas: Canvas, scene: CamScene, contact: Contact) -> None:
         canvas.add(Group((Circle(place, style.node, Pen.MAIN, fill="white"),), "point", f"{mark}{i}"))
         canvas.label(f"{mark}_{{{i}}}", place, prefer=place * 1j, clear=0.8, height=style.text)
     across = up * -1j if cmath.phase(up / out) > 0.0 else up * 1j
-    for name, a, b, radius in (("theta", out, up, reach), ("gamma", out, across, 0.5 * reach)):
+    for name, a, b, far in (("theta", out, up, reach), ("gamma", out, across, 0.5 * reach)):
         sweep = cmath.phase(b / a)
         if abs(sweep) < 1e-6:
             continue
+        radius = _clear(canvas, at, (a, b), far)
         canvas.add(angle_dimension(at, radius, cmath.phase(a), sweep, f"{name}_{i}", style))
         middle = at + cmath.rect(radius, cmath.phase(a) + sweep / 2)
         canvas.label(f"{words.symbol(name)}_{{{i}}}", middle, prefer=middle - at, clear=0.8, height=style.text)
+
+
+def _clear(canvas: Canvas, at: complex, rays: tuple[complex, complex], radius: float) -> float:
+    """Return a radius near the one wanted at which the ends of an arc between two rays are clear of all numbers."""
+    numbers = [shape.at for shape in canvas.shapes if isinstance(shape, Text)]
+    room = 1.5 * canvas.style.label
+
+    def nearest(part: float) -> float:
+        ends = [at + ray * (radius * part) for ray in rays]
+        return min((abs(end - number) for end in ends for number in numbers), default=room)
+
+    return radius * max(PARTS, key=lambda part: min(nearest(part), room))
 
 
 def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> str:

@@ -6,6 +6,8 @@ import re
 
 import pytest
 
+from kulman import sheet
+from kulman.plans.cams.cam import LAWS
 from kulman.scales.units import parse, unit
 from kulman.tests.support.cam_points import POINTS, CamCase
 from kulman.tests.support.overlaps import view_faults
@@ -40,6 +42,24 @@ def test_the_whole_sheet_of_madi_is_one_a1() -> None:
 @pytest.mark.parametrize("point", ["C5", "C6", "C7"])
 def test_a_cam_that_turns_clockwise_is_drawn_the_other_way_round(point: str) -> None:
     assert faults(CLOCKWISE, CLOCKWISE.sheet, point) == []
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("law", LAWS)
+def test_sheets_of_all_laws_satisfy_the_points(law: str) -> None:
+    case = CamCase((("law", law),))
+    points = [point for point in POINTS if point != "G5" and (point != "C8" or case.solved.plate is not None)]
+
+    assert {point: found for point in points if (found := faults(case, case.sheet, point))} == {}
+
+
+@pytest.mark.parametrize("notation", ["bauman", "iso"])
+def test_a_sheet_of_a_cam_has_one_convention_of_scale_factors(notation: str) -> None:
+    drawn = sheet("madi-cam", only="diagrams", notation=notation, format="A1")
+
+    factors = [t.string for t in read(drawn.svg()).texts if "μ" in t.string and "= 0,0" in t.string]
+    assert len(factors) > 8
+    assert not any("мм/м" in text or "мм/рад" in text for text in factors)
 
 
 SPOILED = {  # one piece of the file of the sheet changed
