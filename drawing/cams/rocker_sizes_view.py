@@ -9,7 +9,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...plans.cams.followers import RockerCam
-from ...plans.cams.rocker import Limit
+from ...plans.cams.motion import RISE
+from ...plans.cams.rocker import Limit, tightest
 from ...plans.cams.rocker_plans import ROCKER_SIZES
 from ...plans.cams.size_plans import phase_of
 from ...plans.cams.sizes import BACK
@@ -27,7 +28,6 @@ from .sizes_view import SHOWN, on_lines
 AROUND = 24.0  # mm of the permitted places shown about the chosen one
 PAST, SPARE = 8.0, 4.0  # mm of the rocker's path beyond its ends, of a limit beyond the end of an analogue
 NEAR = 12.0  # mm of a limit beyond where it comes nearest to the centre
-DENSE = math.radians(1.0)  # between positions that bound the permitted places
 
 
 def rocker_sizes_view(scene: CamScene) -> View:
@@ -57,7 +57,7 @@ def _rocker(canvas: Canvas, scene: CamScene, cam: RockerCam) -> None:
     for phase in (cam.rocker.motion.rise, cam.rocker.motion.fall):
         ends: list[complex] = []
         for phi, *_ in pieces(solved, phase):
-            ends += _ends(cam, phi, -1 if phi[0] >= phase.end else 1, l)
+            ends += _ends(cam, phi, l)
         canvas.add(Group((Polyline(tuple(ends), Pen.MAIN),), "curve", phase.name))
     for i in solved.layout.division.lines:
         at, end = (scene.mm(f"{ROCKER_SIZES}.{letter}{i}") for letter in "BD")
@@ -68,7 +68,7 @@ def _rocker(canvas: Canvas, scene: CamScene, cam: RockerCam) -> None:
     canvas.label("C", 0j, prefer=-1 + 1j, clear=style.pair + 1.0)
 
 
-def _ends(cam: RockerCam, phi: Array, side: int, l: float) -> list[complex]:
+def _ends(cam: RockerCam, phi: Array, l: float) -> list[complex]:
     """Return the ends of the analogues, laid off along the rocker: at the last angle the limit from before."""
     rows = [cam.rocker.motion.at(phi, 1), cam.rocker.motion.at(phi[-1:], -1)]
     psi, dpsi = (np.append(rows[0][k][:-1], rows[1][k]) for k in (0, 1))
@@ -89,15 +89,33 @@ def _limits(canvas: Canvas, scene: CamScene, frame: Box, centre: complex) -> Non
     x0, y0, x1, y1 = frame
     box: list[Side] = [(1 + 0j, x0), (-1 + 0j, -x1), (1j, y0), (-1j, -y1)]
     for i, phase in on_lines(scene):
-        end, along = scene.mm(f"{ROCKER_SIZES}.D{i}"), _down(scene.solved.values[f"_limit{i}"])
+        end, along = _end(scene, i, phase), _along(scene, i, phase)
         first, last = (along.conjugate() * (end - SPARE * along)).real, (along.conjugate() * centre).real + NEAR
         parts: list[Side] = [(along, first), (-along, -last)]
         for line in clipped((end,), along, [*box, *parts], abs(complex(x1 - x0, y1 - y0))):
             canvas.add(Line(line.a, line.b, Pen.THIN, role="limit", name=f"{i}_{phase}"))
 
 
+def _end(scene: CamScene, i: int, phase: str) -> complex:
+    """Return the end of the analogue on a section line: where the velocity jumps, that inside of the phase."""
+    solved, division = scene.solved, scene.solved.layout.division
+    first = (division.rise if phase == RISE else division.fall)[0]
+    if i > first:
+        return scene.mm(f"{ROCKER_SIZES}.D{i}")
+    ds = float(solved.motion.at(float(solved.angles[i]))[1])
+    arm = complex(solved.values[f"_arm{i}"])
+    return scene.mm(f"{ROCKER_SIZES}.B{i}") - arm * (solved.cam.sense * ds / scene.mu_l)
+
+
+def _along(scene: CamScene, i: int, phase: str) -> complex:
+    """Return the direction of the limit on a section line, downwards."""
+    cam = scene.solved.rocker
+    assert cam is not None
+    gamma = cam.limits.gamma_rise if phase == RISE else -cam.limits.gamma_fall
+    return _down(complex(scene.solved.values[f"_arm{i}"]) * cmath.rect(1.0, -scene.solved.cam.sense * gamma))
+
+
 def _down(direction: complex) -> complex:
-    direction = complex(direction)
     return direction if direction.imag < 0.0 else -direction
 
 
@@ -105,13 +123,8 @@ def _bound(canvas: Canvas, scene: CamScene, limit: Limit, frame: Box) -> None:
     """Mark the end of the analogue whose limit comes nearest to the centre, and dimension the angle permitted."""
     cam, mu = scene.solved.rocker, scene.mu_l
     assert cam is not None
-    phi = np.linspace(limit.phase.start, limit.phase.end, max(2, round(limit.phase.length / DENSE)))
-    side = np.where(phi < limit.phase.end, 1, -1)
-    place = complex(cam.sizes.e, cam.sizes.s_0)
-    normal, least = cam.rocker.half_planes(limit, phi[:-1])
-    room = (normal * place.conjugate()).real - least
-    at = float(phi[int(np.argmin(room))])
-    psi, dpsi, _ = (float(v) for v in cam.rocker.motion.at(at, int(side[0])))
+    at = tightest(cam.rocker, limit, complex(cam.sizes.e, cam.sizes.s_0))
+    psi, dpsi, _ = (float(v) for v in cam.rocker.motion.at(at, 1 if at < limit.phase.end else -1))
     arm = cmath.rect(1.0, psi)
     end = arm * (cam.sizes.l * (1.0 - cam.rocker.sense * dpsi) / mu)
     canvas.add(Group((Circle(end, scene.style.node, Pen.THIN, fill="black"),), "touch", limit.name))
@@ -145,10 +158,11 @@ def _sides(scene: CamScene, cam: RockerCam) -> Iterator[Side]:
     yield -1j, 0.0  # below the rocker's lowest position, and its highest one
     yield -1j * cmath.rect(1.0, swing), 0.0
     for limit in cam.rocker.limits(cam.limits):
-        phi = np.linspace(limit.phase.start, limit.phase.end, max(2, round(limit.phase.length / DENSE)))
-        normal, least = cam.rocker.half_planes(limit, phi[:-1])
-        for n, c in zip(normal.tolist(), least.tolist(), strict=True):
-            yield -n, (c - n.real * l) / mu
+        for phi, *_ in pieces(scene.solved, limit.phase):
+            for places, side in ((phi[:-1], 1), (phi[-1:], -1)):
+                normal, least = cam.rocker.half_planes(limit, places, side)
+                for n, c in zip(normal.tolist(), least.tolist(), strict=True):
+                    yield -n, (c - n.real * l) / mu
 
 
 def _nodes(canvas: Canvas, scene: CamScene) -> None:
@@ -158,7 +172,7 @@ def _nodes(canvas: Canvas, scene: CamScene) -> None:
         at = scene.mm(f"{ROCKER_SIZES}.B{i}")
         canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"B{i}"))
     for i, phase in on_lines(scene):
-        at = scene.mm(f"{ROCKER_SIZES}.D{i}")
+        at = _end(scene, i, phase)
         canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"{i}_{phase}"))
         key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
         shared.setdefault(key, []).append(str(i))

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from .half_planes import HalfPlane, Nearest, nearest
 from .motion import RISE, Extreme, Motion, Phase
-from .places import minima
+from .places import Minimum, minima
 from .sizes import BACK, RIGHT_ANGLE, Limits
 
 Array = NDArray[np.float64]
@@ -150,16 +150,27 @@ def _opposed(planes: list[HalfPlane]) -> tuple[str, ...]:
 def _outside(rocker: Rocker, limit: Limit, place: complex) -> Iterator[HalfPlane]:
     """Go through the positions that most lack their limit."""
 
+    for worst in _slacks(rocker, limit, place):
+        if worst.value < -REACHED * rocker.l:
+            side = 1 if worst.phi < limit.phase.end else -1
+            normal, least = rocker.half_planes(limit, worst.phi, side)
+            yield HalfPlane(limit.name, complex(normal), float(least), worst.phi)
+
+
+def _slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Minimum]:
+    """Return the least distances of a place from the limit, m, negative outside of it, and where they are."""
+
     def slack(phi: Any, side: int) -> Array:
         normal, least = rocker.half_planes(limit, phi, side)
         room: Array = normal.real * place.real + normal.imag * place.imag - least
         return room
 
-    for worst in minima(slack, limit.phase.corners):
-        if worst.value < -REACHED * rocker.l:
-            side = 1 if worst.phi < limit.phase.end else -1
-            normal, least = rocker.half_planes(limit, worst.phi, side)
-            yield HalfPlane(limit.name, complex(normal), float(least), worst.phi)
+    return minima(slack, limit.phase.corners)
+
+
+def tightest(rocker: Rocker, limit: Limit, place: complex) -> float:
+    """Return the angle of the cam at which a place e + i s_0 comes nearest to a limit, rad."""
+    return min(_slacks(rocker, limit, place), key=lambda one: one.value).phi
 
 
 def smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> RockerSizes | NoPlace:

@@ -1,0 +1,283 @@
+"""Sheets of cams with a rocker that were drawn and read back: each place after formulas of its own, to 0.01 mm."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+from kulman import sheet, solve
+from kulman.tests.support.cam_points import NEAR, STEEP, CamCase, measured, ring
+from kulman.tests.support.overlaps import view_faults
+from kulman.tests.support.readback import Sheet, View, angle, polygon, read
+
+TASK = str(Path(__file__).parents[2] / "docs" / "examples" / "rocker-cam.toml")
+RIGHT = 0.5 * math.pi
+FREE = CamCase((), "A1", "uk", TASK)
+TWO_SIDED = CamCase((("rotation", "cw"), ("limits", "two-sided"), ("law", "polynomial-345")), "A3", "en", TASK)
+GIVEN = CamCase((("l_OC", "125 mm"), ("law", "constant"), ("fall", "same")), "A1", "ru", TASK)
+TURNED = CamCase((("l_OC", "140 mm"), ("rotation", "cw"), ("law", "cosine"), ("phi_upper", "0 deg")), "A1", "en", TASK)
+CASES = (FREE, TWO_SIDED, GIVEN, TURNED)
+Faults = Iterator[str]
+
+
+def mu_of(view: View) -> float:
+    """The printed scale factor, m/mm."""
+    heading = " ".join(text.string for text in view.of("heading"))
+    found = re.search(r"μ_\{l\} = ([\d.,]+)", heading)
+    assert found, heading
+    return float(found[1].replace(",", "."))
+
+
+def swing(case: CamCase, phi: np.ndarray, side: int = -1) -> tuple[np.ndarray, np.ndarray]:
+    """Angle of the rocker and its analogue of velocity: the travel along the arc over the rocker's length."""
+    s, ds, _ = case.solved.motion.at(phi, side)
+    l = case.solved.values["l_rocker"]
+    return np.asarray(s / l), np.asarray(ds / l)
+
+
+def first_angle(case: CamCase) -> float:
+    """Angle at the pivot between the rocker in its lowest position and the line of centres."""
+    l, d, r_0 = (case.solved.values[name] for name in ("l_rocker", "l_OC", "r_0"))
+    return math.acos((l * l + d * d - r_0 * r_0) / (2.0 * l * d))
+
+
+def node(view: View, name: str) -> complex:
+    return ring(view, "node", name)[0]
+
+
+def inversion_faults(case: CamCase, drawn: Sheet) -> Faults:
+    """The pivot goes round against omega; each roller's centre is l from it, and as far from O as the triangle says."""
+    view, values = drawn["profile"], case.solved.values
+    mu, l, d = mu_of(view), values["l_rocker"], values["l_OC"]
+    centre, r_0 = ring(view, "circle", "r_0")
+    if abs(r_0 * mu - values["r_0"]) > NEAR * mu or abs(ring(view, "circle", "l_OC")[1] * mu - d) > NEAR * mu:
+        yield "a circle has another radius"
+    turning = view.turning("omega")
+    if turning is None or turning[1] != case.sense:
+        yield "omega turns the other way"
+    angles = case.solved.angles
+    psi, first = swing(case, angles)[0], first_angle(case)
+    pivots = [view.point("A0"), *(node(view, f"A{i}") for i in range(1, len(angles)))]
+    start = pivots[0] - centre
+    for i, (phi, pivot) in enumerate(zip(angles.tolist(), pivots, strict=True)):
+        at = node(view, f"B{i}")
+        if abs(pivot - centre - start * cmath.rect(1.0, -case.sense * phi)) > NEAR:
+            yield f"pivot {i} is not laid off against omega"
+        if abs(abs(at - pivot) * mu - l) > NEAR * mu:
+            yield f"rocker {i} has another length"
+        far = math.sqrt(l * l + d * d - 2.0 * l * d * math.cos(first + float(psi[i])))
+        if abs(abs(at - centre) * mu - far) > NEAR * mu:
+            yield f"roller {i} is {abs(at - centre)} mm from O, not {far / mu}"
+        if abs(ring(view, "roller", str(i))[0] - at) > NEAR:
+            yield f"roller {i} is not about its centre"
+
+
+def contact_faults(case: CamCase, drawn: Sheet) -> Faults:
+    """At any angle a roller about the place of its centre touches the practical profile and does not cut it."""
+    view, values = drawn["profile"], case.solved.values
+    mu, l, d, R = mu_of(view), values["l_rocker"], values["l_OC"], values["R_roller"]
+    (practical,) = view.inside("curve", "practical")
+    body = polygon(practical.points)
+    if not body.is_valid:
+        yield "the practical profile has a loop"
+    centre, start = ring(view, "circle", "r_0")[0], view.point("A0")
+    phi = np.linspace(0.0, math.tau, 500)[:-1]
+    along = cmath.phase(start - centre) - case.sense * phi
+    lift = math.pi + first_angle(case)  # from the line of centres, outwards, to the rocker
+    psi = swing(case, phi)[0]
+    at = centre + (d * np.exp(1j * along) + l * np.exp(1j * (along + lift + psi))) * (1.0 / mu)
+    if abs(complex(at[0]) - node(view, "B0")) > NEAR:
+        yield "the rocker lies on the other side of the line of centres"
+    room = shapely.distance(body.exterior, shapely.points(at.real, at.imag)) - R / mu
+    if np.max(np.abs(room)) > NEAR:
+        yield f"a roller misses the profile by {np.max(np.abs(room)):.4f} mm"
+
+
+def size_faults(case: CamCase, drawn: Sheet) -> Faults:
+    """Analogues along the rocker, limits through their ends at the permitted angle, the centre where they permit it."""
+    view, values = drawn["rocker_sizes"], case.solved.values
+    mu, l = mu_of(view), values["l_rocker"]
+    pivot, centre = view.point("C"), view.point("O")
+    psi, dpsi = swing(case, case.solved.angles)
+    for name in ("r_0", "l_OC"):
+        if abs(measured(view, name) * mu - values[name]) > NEAR * mu:
+            yield f"{name} is dimensioned otherwise"
+    if abs(abs(centre - node(view, "B0")) * mu - values["r_0"]) > NEAR * mu:
+        yield "the centre is not at r_0"
+    division = case.solved.layout.division
+    for phase, way in (("rise", 1), ("fall", -1)):
+        for i in getattr(division, phase):
+            arm = cmath.rect(1.0, float(psi[i]))
+            at, end = node(view, f"B{i}"), node(view, f"{i}_{phase}")
+            if abs(at - pivot - arm * (l / mu)) > NEAR:
+                yield f"position {i} is elsewhere"
+            if abs(end - at + arm * (case.sense * float(dpsi[i]) * l / mu)) > NEAR:
+                yield f"analogue {i} is laid off otherwise"
+            (limit,) = view.lines("limit", f"{i}_{phase}")
+            a, b = limit.points
+            if abs((((end - a) / (b - a)).imag) * abs(b - a)) > NEAR:
+                yield f"limit {i} misses its end"
+            turned = angle(arm * cmath.rect(1.0, -way * case.sense * values[f"gamma_{phase}"]), b - a)
+            if abs(math.remainder(turned, 180.0)) > STEEP:
+                yield f"limit {i} is turned by {turned} degrees"
+    yield from permitted_faults(case, view, pivot, centre)
+
+
+def permitted_faults(case: CamCase, view: View, pivot: complex, centre: complex) -> Faults:
+    """All hatched places, and the centre, keep the pressure angle in all positions; beyond the hatching none does."""
+    if lack(case, view, pivot, centre) > math.radians(STEEP):
+        yield "the centre does not keep the limits"
+    strokes = view.inside("permitted", "centre")
+    if len(strokes) < 5:
+        yield "the permitted places are not hatched"
+    ends = [p for s in strokes for p in s.points]
+    if max(lack(case, view, pivot, p) for p in ends) > math.radians(STEEP):
+        yield "a place is hatched that does not keep the limits"
+    box = polygon(
+        [complex(x, y) for x, y in shapely.MultiPoint([(p.real, p.imag) for p in ends]).envelope.exterior.coords]
+    )
+    inner = [p for p in ends if box.exterior.distance(shapely.Point(p.real, p.imag)) > 0.1]
+    for stroke in strokes:
+        a, b = stroke.points
+        for end, out in ((a, a - b), (b, b - a)):
+            if end in inner and lack(case, view, pivot, end + out / abs(out)) < 0.0:
+                yield "a place that keeps the limits is not hatched"
+
+
+def lack(case: CamCase, view: View, pivot: complex, place: complex) -> float:
+    """By how much the pressure angle exceeds its limit if the cam's centre is at a place; negative within it."""
+    mu, l, worst = mu_of(view), case.solved.values["l_rocker"], -math.inf
+    motion, two_sided = case.solved.motion, case.solved.cam.two_sided
+    for phase, way in ((motion.rise, 1), (motion.fall, -1)):
+        phi = np.linspace(phase.start, phase.end, 400)[:-1]
+        psi, dpsi = swing(case, phi, 1)
+        arm = np.exp(1j * psi)
+        normal = pivot + arm * (l / mu) * (1.0 - case.sense * dpsi) - place
+        theta = np.angle(normal / (1j * arm))
+        limit = RIGHT - case.solved.values[f"gamma_{phase.name}"]
+        pushed = np.abs(theta) if two_sided else way * case.sense * theta
+        worst = max(worst, float(np.max(pushed)) - limit)
+    return worst
+
+
+JUDGES: dict[str, Callable[[CamCase, Sheet], Faults]] = {
+    "inversion": inversion_faults,
+    "contact": contact_faults,
+    "sizes": size_faults,
+}
+
+
+@pytest.mark.parametrize("judge", JUDGES)
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_sheet_of_a_rocker_is_drawn_to_scale(case: CamCase, judge: str) -> None:
+    assert list(JUDGES[judge](case, case.sheet)) == []
+
+
+SPOILED = {
+    "inversion": (r'("node" data-name="A7">\n<circle[^>]*cx=")(\d+\.\d)', r"\g<1>1\g<2>"),
+    "contact": (r'("curve" data-name="practical">\n<polygon[^>]*points="[\d.]+,)([\d.]+)', r"\g<1>1\g<2>"),
+    "sizes": (r'("limit" data-name="5_rise"[^>]*x1=")([\d.]+)', r"\g<1>1\g<2>"),
+}
+
+
+@pytest.mark.parametrize("judge", JUDGES)
+def test_the_judges_see_a_spoiled_sheet_of_a_rocker(judge: str) -> None:
+    pages = [re.sub(*SPOILED[judge], page, count=1) for page in FREE.pages]
+    assert tuple(pages) != FREE.pages
+
+    assert list(JUDGES[judge](FREE, read(*pages)))
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_views_of_a_rocker_stand_apart_within_the_frame(case: CamCase) -> None:
+    assert [fault for page in case.sheet.pages for fault in view_faults(page)] == []
+
+
+def test_each_variant_of_the_example_is_one_a1() -> None:
+    for variant in ("1", "2"):
+        drawn = sheet(TASK, variant)
+
+        assert (drawn.format, len(drawn.pages)) == ("A1", 1)
+
+
+def test_pressure_angles_of_a_rocker_are_drawn_between_their_limits() -> None:
+    view = FREE.sheet["pressure"]
+    rise, fall = (view.inside("limit", name) for name in ("rise", "fall-"))
+    points = [p for s in view.inside("curve", "theta") for p in s.points]
+
+    assert max(p.imag for p in points) == pytest.approx(rise[0].points[0].imag, abs=NEAR)
+    assert min(p.imag for p in points) == pytest.approx(fall[0].points[0].imag, abs=NEAR)
+
+
+def test_an_undercut_profile_of_a_rocker_is_drawn_with_its_corner() -> None:
+    case = CamCase((("R_roller", "34 mm"),), "A1", "en", TASK)
+    view, solved = case.sheet["profile"], case.solved
+    assert solved.rocker is not None
+    (cut,) = solved.rocker.profile.undercuts
+    mu, R = mu_of(view), case.solved.values["R_roller"]
+    (practical,) = view.inside("curve", "practical")
+    corner, _ = ring(view, "corner", "1")
+    notes = " ".join(text.string for text in view.of("heading"))
+
+    (said,) = re.findall(r"from φ = ([\d.]+)° to ([\d.]+)° .* corner Q, up to ([\d.]+)° of its travel", notes)
+
+    assert [float(one) for one in said[:2]] == pytest.approx(np.degrees([cut.start, cut.end]), abs=0.006)
+    assert float(said[2]) == pytest.approx(math.degrees(cut.lost), rel=5e-3)
+    k = min(range(len(practical.points)), key=lambda at: abs(practical.points[at] - corner))
+    before, at, after = (practical.points[k + step] for step in (-1, 0, 1))
+    assert abs(at - corner) < NEAR
+    assert abs(angle(at - before, after - at)) > 5.0
+    outline = shapely.LinearRing([(p.real, p.imag) for p in practical.points])
+    room = {i: outline.distance(shapely.Point(b.real, b.imag)) - R / mu for i, b in _rollers(view, solved.angles)}
+    within = {i for i, phi in enumerate(solved.angles) if cut.start < phi < cut.end}
+    assert within
+    assert max(room[i] for i in within) > 4.0 * NEAR
+    assert all(room[i] > -NEAR if i in within else abs(room[i]) < NEAR for i in room)
+
+
+def _rollers(view: View, angles: np.ndarray) -> Iterator[tuple[int, complex]]:
+    for i in range(len(angles)):
+        yield i, ring(view, "roller", str(i))[0]
+
+
+def test_the_offsets_that_a_given_r_0_permits_are_drawn_on_its_circle() -> None:
+    case = CamCase((("r_0", "50 mm"),), "A3", "en", only="sizes")
+    view, values = case.sheet["sizes"], case.solved.values
+    (permitted,) = view.inside("offsets", "e")
+    assert permitted.arc is not None
+    origin, radius, _ = permitted.arc
+    mu = values["r_0"] / radius
+
+    ends = sorted((permitted.points[0].real, permitted.points[-1].real))
+
+    found = [(x - origin.real) * mu for x in (*ends, view.point("O").real)]
+    assert found == pytest.approx([values[name] for name in ("e_least", "e_most", "e")], abs=NEAR * mu)
+    assert abs(view.point("O") - origin) == pytest.approx(radius, abs=NEAR)
+    assert any("e_{min} = 6.24 mm ≤ e = 8.16 mm ≤ e_{max} = 10.09 mm" in text.string for text in case.sheet.texts)
+
+
+def test_ends_of_the_permitted_offsets_just_keep_a_limit() -> None:
+    values = solve("madi-cam", set={"r_0": "50 mm"}).solved.values
+    for name in ("e_least", "e_most"):
+        at_end = solve("madi-cam", set={"r_0": "50 mm", "e": f"{values[name]!r} m"}).solved.values
+        slack = [at_end[f"gamma_{phase}_min"] - at_end[f"gamma_{phase}"] for phase in ("rise", "fall")]
+
+        assert min(slack) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_section_lines_of_the_pressure_angle_are_those_of_the_diagrams() -> None:
+    view = FREE.sheet["pressure"]
+    feet = [min(s.points, key=lambda p: p.imag).real for s in view.lines("section")]
+    angles = FREE.solved.angles
+
+    steps = [b - a for a, b in pairwise(feet)]
+
+    assert steps == pytest.approx(np.diff(angles) * (steps[0] / (angles[1] - angles[0])), abs=NEAR)
