@@ -14,7 +14,7 @@ from kulman.tests.support.gear_polygons import flanks_touch, line, polygon
 from kulman.tests.support.gears import SEED, madi, random_pairs
 
 STEPS = 40  # of a pitch, in which contacts are counted by polygons
-TOUCHING = 2e-5  # mm: less apart, two chords of flanks touch
+TOUCHING = 5e-6  # mm: less apart, two chords of flanks touch
 PAIRS = [
     pytest.param({}, 1, id="the project's pair"),
     pytest.param({}, -1, id="turning clockwise"),
@@ -67,8 +67,8 @@ def test_contacts_counted_on_polygons_make_the_contact_ratio(others: dict[str, f
 
 @pytest.mark.soak
 def test_many_pairs_roll_without_overlap_and_touch_as_often_as_the_contact_ratio_says() -> None:
-    pairs = random_pairs(np.random.default_rng(SEED), 40)
-    for k in range(40):
+    pairs = random_pairs(np.random.default_rng(SEED), 12)
+    for k in range(12):
         values = {name: float(column[k]) for name, column in pairs.items()}
         values["m"] = 4e-3
         if max(values["z_1"], values["z_2"]) > 60.0:
@@ -77,7 +77,7 @@ def test_many_pairs_roll_without_overlap_and_touch_as_often_as_the_contact_ratio
         pitch = 2.0 * math.pi / values["z_1"]
         for angle in np.linspace(0.0, pitch, 9):
             assert overlap(meshing, float(angle)) < 1e-6
-        counted = [flanks_touch(meshing, float(angle), TOUCHING) for angle in (np.arange(120) + 0.5) * pitch / 120]
+        counted = [flanks_touch(meshing, float(angle), TOUCHING) for angle in (np.arange(300) + 0.5) * pitch / 300]
         assert np.mean(counted) == pytest.approx(geometry(values)["epsilon_alpha"], abs=0.01)
 
 

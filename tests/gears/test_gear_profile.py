@@ -40,13 +40,16 @@ def test_tooth_has_the_area_that_a_rack_leaves_cutting_in_many_steps(others: dic
 @pytest.mark.soak
 def test_teeth_of_many_racks_have_the_area_that_is_left() -> None:
     random = np.random.default_rng(SEED)
-    kinds = {"plain": 0, "undercut": 0, "pointed": 0}
-    while min(kinds.values()) < 8:
-        z, x = float(random.integers(5, 60)), random.uniform(-0.5, 1.5)
-        values = madi(z_1=z, x_1=x, alpha=math.radians(random.uniform(15.0, 26.0)))
-        tooth = tooth_of(values, 1)
-        if tooth.whole:
-            kinds[kind(tooth)] += 1
+    for what, teeth, shifts in (
+        ("plain", (12, 60), (0.35, 0.5)),
+        ("undercut", (6, 14), (-0.2, 0.1)),
+        ("pointed", (6, 9), (0.9, 1.1)),
+    ):
+        for _ in range(8):
+            z, x = float(random.integers(*teeth)), random.uniform(*shifts)
+            values = madi(z_1=z, x_1=x, x_2=-0.1, alpha=math.radians(random.uniform(18.0, 22.0)))
+            tooth = tooth_of(values, 1)
+            assert (kind(tooth), tooth.whole) == (what, True)
             assert sector_of(tooth) == pytest.approx(cut_by_rack(values, tooth, x, 2e-3), abs=1e-3), (z, x)
 
 

@@ -78,7 +78,7 @@ def sector_of(tooth: Tooth) -> float:
 
 def flanks_touch(meshing: Meshing, angle: float, room: float) -> int:
     """Return how many pairs of flanks are nearer to each other than `room`, mm, at an angle of the pinion."""
-    flanks = [tooth.flank(np.linspace(tooth.rho_start, tooth.rho_end, 400)) for tooth in meshing.teeth]
+    flanks = [tooth.flank(np.linspace(tooth.rho_start, tooth.rho_end, 1000)) for tooth in meshing.teeth]
     if meshing.sense < 0:
         flanks = [flank.conj() for flank in flanks]
     one, other = (
@@ -90,5 +90,5 @@ def flanks_touch(meshing: Meshing, angle: float, room: float) -> int:
     for k in range(-2, 3):
         first = meshing.centres[0] + (one - meshing.centres[0]) * steps[0] ** k
         second = meshing.centres[1] + (other - meshing.centres[1]) * steps[1] ** -k
-        count += line(first).distance(line(second)) < room
+        count += bool(shapely.dwithin(line(first), line(second), room))
     return count
