@@ -15,6 +15,8 @@ from .scene import CamScene
 
 SPOT = 2.0  # mm of a plate's line beyond the farthest contact
 SAME = 1e-4  # part of the greatest velocity within which that of the fall is the same
+ANALOGUE = "|s′|"  # letter of the velocity analogue where there is little room
+ABOVE = 2.3, 4.9  # heights of letters from the plate to its dimensions
 THICK = 0.5  # thickness of the plate, in heights of letters
 
 
@@ -72,23 +74,23 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
     assert plate is not None
     middle = dwelling(motion, sense)
     radius_at(canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (plate.sizes.r_0 / mu, plate.sizes.r_0 / mu))
-    level = rod.low
+    level, up = rod.low, 1j * scene.style.text
     text = f"{words.symbol('R_plate')} = {scene.length(plate.sizes.R_plate)}"
-    linear(canvas, (complex(0.0, level), complex(-sense * R, level)), 14j, text, "R_plate")
+    linear(canvas, (complex(0.0, level), complex(-sense * R, level)), ABOVE[1] * up, text, "R_plate")
     right, left = (motion.maximum(0.0, side, 0.0).value for side in (sense, -sense))
     for far, name in ((right, "ds_right"), (-left, "ds_left")):
         ends = complex(0.0, level), complex(far / mu, level)
         same = far * sense > 0.0 and abs(right - left) < SAME * right  # there is more room on the other side
-        linear(canvas, ends, 7j, "" if same else f"|{words.symbol('ds')}|", name)
+        linear(canvas, ends, ABOVE[0] * up, "" if same else ANALOGUE, name)
     top = solved.layout.division.top
-    up = unit_at(float(solved.angles[top]), sense)
-    ends = up * (plate.sizes.r_0 / mu), scene.mm(f"{PLATE_PROFILE}.B{top}")
-    linear(canvas, ends, up * (-1j * sense) * 4.0, words.symbol("h"), "h")
+    axis = unit_at(float(solved.angles[top]), sense)
+    ends = axis * (plate.sizes.r_0 / mu), scene.mm(f"{PLATE_PROFILE}.B{top}")
+    linear(canvas, ends, axis * (-1j * sense) * 4.0, words.symbol("h"), "h")
 
 
 def _numbers(scene: CamScene) -> str:
     """Return the numbers of what has only a letter in the figure."""
     words, motion = scene.words, scene.solved.motion
     said = dict.fromkeys(scene.length(motion.maximum(0.0, way, 0.0).value) for way in (1.0, -1.0))
-    contact = f"|{words.symbol('ds')}|_{{max}} = {', '.join(said)}"
+    contact = f"{ANALOGUE} = |{words.symbol('ds')}|_{{max}} = {', '.join(said)}"
     return f"{words.symbol('h')} = {scene.length(motion.h)}; {contact}"
