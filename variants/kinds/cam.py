@@ -156,7 +156,9 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def asks(self, solved: SolvedCam, question: Question) -> bool:
         """Ask for what a drawing gives rather than for what only a formula gives."""
-        return question.name not in UNASKED and not any(f"{question.name}{end}" in solved.quantities for end in DRAWN)
+        if question.name in UNASKED or question.name in solved.givens:
+            return False
+        return not any(f"{question.name}{end}" in solved.quantities for end in DRAWN)
 
     def limits(self, solved: SolvedCam, mus: Mapping[str, float], tolerance: Tolerance) -> dict[str, float]:
         """Let pass what is measured on a drawing, though it can be calculated, as a segment of its length."""
