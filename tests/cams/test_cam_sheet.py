@@ -9,7 +9,8 @@ import pytest
 from kulman import sheet
 from kulman.plans.cams.cam import LAWS
 from kulman.scales.units import parse, unit
-from kulman.tests.support.cam_points import POINTS, CamCase
+from kulman.tests.support.cam_cases import CamCase
+from kulman.tests.support.cam_points import POINTS
 from kulman.tests.support.overlaps import view_faults
 from kulman.tests.support.readback import Sheet, read
 
