@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 Places = NDArray[Any]  # complex
 Function = Callable[[Any], Array]
 Edge = int  # number of an edge of the grid
-HALVINGS = 52
+CHORDS = 14  # rounds, of which ten suffice
 NEWTON = 6  # steps, from places that are crossings of chords
 MISSED = 0.5  # part of a chord by which two may miss each other
 SAME = 1e-9  # places nearer than this are one
@@ -35,7 +35,7 @@ def grid(low: complex, high: complex, cells: int) -> Places:
 def traced(function: Function, low: complex, high: complex, cells: int) -> list[Places]:
     """Return the pieces of the curve in a window, longest first: each a run of places on it, closed if it is a loop.
 
-    Every place is on an edge of the grid, where halving puts it to the last digits.
+    Every place is on an edge of the grid, put to the last digits there.
     """
     places = grid(low, high, cells)
     values = function(places)
@@ -55,15 +55,22 @@ def traced(function: Function, low: complex, high: complex, cells: int) -> list[
 
 
 def _zeros(function: Function, first: Places, last: Places) -> Places:
-    """Return places between `first` and `last` at which the function changes its sign."""
+    """Return places between `first` and `last` at which the function changes its sign, by the Illinois rule.
+
+    Chords are drawn between values of different sign; a value that stays is halved, so that both ends come near.
+    """
     if not first.size:
         return first
-    sign = function(first) >= 0.0
-    for _ in range(HALVINGS):
-        middle = 0.5 * (first + last)
-        before = (function(middle) >= 0.0) == sign
-        first, last = np.where(before, middle, first), np.where(before, last, middle)
-    return 0.5 * (first + last)
+    old, new = function(first), function(last)
+    for _ in range(CHORDS):
+        slope = new - old
+        part = np.where(slope == 0.0, 0.0, new / np.where(slope == 0.0, 1.0, slope))
+        middle = last - part * (last - first)
+        value = function(middle)
+        other = (value >= 0.0) != (new >= 0.0)
+        first, old = np.where(other, last, first), np.where(other, new, 0.5 * old)
+        last, new = middle, value
+    return last
 
 
 def _links(edges: Iterable[Edge], values: Array) -> dict[Edge, list[Edge]]:

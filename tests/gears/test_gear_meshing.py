@@ -13,7 +13,7 @@ from kulman.plans.gears.meshing import Meshing, meshing_of
 from kulman.tests.support.gear_polygons import flanks_touch, line, polygon
 from kulman.tests.support.gears import SEED, madi, random_pairs
 
-STEPS = 40  # of a pitch, in which contacts are counted by polygons
+STEPS = 25  # of a pitch, in which contacts are counted by polygons
 TOUCHING = 5e-6  # mm: less apart, two chords of flanks touch
 PAIRS = [
     pytest.param({}, 1, id="the project's pair"),

@@ -63,13 +63,14 @@ def _usable(pairs: Mapping[str, Array]) -> Array:
 
 
 def root(function: Function, low: Array, high: Array) -> Array:
-    """Return where functions change their sign between two places."""
+    """Return where functions change their sign between two places; NaN where they do not."""
     below = function(low) < 0.0
+    none = (function(high) < 0.0) == below
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         same = (function(middle) < 0.0) == below
         low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return 0.5 * (low + high)
+    return np.where(none, np.nan, 0.5 * (low + high))
 
 
 def unwound(r_b: Array, t: Array) -> Array:
@@ -158,7 +159,7 @@ def _of_wheel(
     found[f"s_b{i}"] = 2.0 * flank.r_b * flank.base
     found[f"alpha_a{i}"] = np.arctan(t_a)
     found[f"rho_a{i}"] = flank.r_b * t_a
-    chord = root(lambda t: _normal_meets_axis(flank, t) - r, np.full_like(r, 1e-3), np.full_like(r, 2.0))
+    chord = root(lambda t: _normal_meets_axis(flank, t) - r, flank.base + 1e-3, flank.base + 1.4)
     found[f"s_c{i}"] = 2.0 * flank.point(chord).imag
     found[f"h_c{i}"] = r_a - flank.point(chord).real
     return found
