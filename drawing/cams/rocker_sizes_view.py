@@ -90,8 +90,8 @@ def _limits(canvas: Canvas, scene: CamScene, frame: Box, centre: complex) -> Non
     box: list[Side] = [(1 + 0j, x0), (-1 + 0j, -x1), (1j, y0), (-1j, -y1)]
     for i, phase in on_lines(scene):
         end, along = _end(scene, i, phase), _along(scene, i, phase)
-        first, last = (along.conjugate() * (end - SPARE * along)).real, (along.conjugate() * centre).real + NEAR
-        parts: list[Side] = [(along, first), (-along, -last)]
+        here, nearest = ((along.conjugate() * place).real for place in (end, centre))
+        parts: list[Side] = [(along, here - SPARE), (-along, -max(here, nearest) - NEAR)]
         for line in clipped((end,), along, [*box, *parts], abs(complex(x1 - x0, y1 - y0))):
             canvas.add(Line(line.a, line.b, Pen.THIN, role="limit", name=f"{i}_{phase}"))
 

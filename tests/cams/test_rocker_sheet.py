@@ -16,7 +16,7 @@ import shapely
 from kulman import sheet, solve
 from kulman.tests.support.cam_points import NEAR, STEEP, CamCase, measured, ring
 from kulman.tests.support.overlaps import view_faults
-from kulman.tests.support.readback import Sheet, View, angle, polygon, read
+from kulman.tests.support.readback import Sheet, View, angle, cross, polygon, read
 
 TASK = str(Path(__file__).parents[2] / "docs" / "examples" / "rocker-cam.toml")
 RIGHT = 0.5 * math.pi
@@ -106,7 +106,7 @@ def size_faults(case: CamCase, drawn: Sheet) -> Faults:
     view, values = drawn["rocker_sizes"], case.solved.values
     mu, l = mu_of(view), values["l_rocker"]
     pivot, centre = view.point("C"), view.point("O")
-    psi, dpsi = swing(case, case.solved.angles)
+    (psi, before), (_, after) = (swing(case, case.solved.angles, side) for side in (-1, 1))
     for name in ("r_0", "l_OC"):
         if abs(measured(view, name) * mu - values[name]) > NEAR * mu:
             yield f"{name} is dimensioned otherwise"
@@ -114,12 +114,13 @@ def size_faults(case: CamCase, drawn: Sheet) -> Faults:
         yield "the centre is not at r_0"
     division = case.solved.layout.division
     for phase, way in (("rise", 1), ("fall", -1)):
-        for i in getattr(division, phase):
-            arm = cmath.rect(1.0, float(psi[i]))
+        lines = getattr(division, phase)
+        for i in lines:
+            arm, dpsi = cmath.rect(1.0, float(psi[i])), float((after if i == lines[0] else before)[i])
             at, end = node(view, f"B{i}"), node(view, f"{i}_{phase}")
             if abs(at - pivot - arm * (l / mu)) > NEAR:
                 yield f"position {i} is elsewhere"
-            if abs(end - at + arm * (case.sense * float(dpsi[i]) * l / mu)) > NEAR:
+            if abs(end - at + arm * (case.sense * dpsi * l / mu)) > NEAR:
                 yield f"analogue {i} is laid off otherwise"
             (limit,) = view.lines("limit", f"{i}_{phase}")
             a, b = limit.points
@@ -156,6 +157,8 @@ def lack(case: CamCase, view: View, pivot: complex, place: complex) -> float:
     """By how much the pressure angle exceeds its limit if the cam's centre is at a place; negative within it."""
     mu, l, worst = mu_of(view), case.solved.values["l_rocker"], -math.inf
     motion, two_sided = case.solved.motion, case.solved.cam.two_sided
+    if any(cross(cmath.rect(1.0, psi), place - pivot) > NEAR for psi in (0.0, motion.h / l)):
+        return math.inf  # the cam stays below the rocker
     for phase, way in ((motion.rise, 1), (motion.fall, -1)):
         phi = np.linspace(phase.start, phase.end, 400)[:-1]
         psi, dpsi = swing(case, phi, 1)
