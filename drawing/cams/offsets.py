@@ -35,7 +35,9 @@ def offsets_line(scene: CamScene) -> list[str]:
     roller, words = scene.solved.roller, scene.words
     if roller is None or roller.offsets is None:
         return []
-    found = roller.offsets
-    sizes = (("e_least", found.least), ("e", roller.sizes.e), ("e_most", found.most))
-    texts = (f"{words.symbol(name)} = {scene.length(size)} {words.unit('mm')}" for name, size in sizes)
-    return [" ≤ ".join(texts)] if found.least <= roller.sizes.e <= found.most else ["; ".join(texts)]
+    found, e = roller.offsets, roller.sizes.e
+    sizes = {"e_least": found.least, "e": e, "e_most": found.most}
+    least, chosen, most = (f"{words.symbol(n)} = {scene.length(size)} {words.unit('mm')}" for n, size in sizes.items())
+    if e < found.least:
+        return [f"{chosen} < {least}"]
+    return [f"{chosen} > {most}" if e > found.most else f"{least} ≤ {chosen} ≤ {most}"]

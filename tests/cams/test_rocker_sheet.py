@@ -272,6 +272,15 @@ def test_the_offsets_that_a_given_r_0_permits_are_drawn_on_its_circle() -> None:
     assert any("e_{min} = 6.24 mm ≤ e = 8.16 mm ≤ e_{max} = 10.09 mm" in text.string for text in case.sheet.texts)
 
 
+@pytest.mark.parametrize(
+    ("e", "said"), [("3 mm", "e = 3.00 mm < e_{min} = 6.24 mm"), ("11 mm", "e = 11.00 mm > e_{max} = 10.09 mm")]
+)
+def test_a_given_offset_that_is_not_permitted_is_shown_so(e: str, said: str) -> None:
+    case = CamCase((("r_0", "50 mm"), ("e", e)), "A3", "en", only="sizes")
+
+    assert any(text.string == said for text in case.sheet.texts)
+
+
 def test_ends_of_the_permitted_offsets_just_keep_a_limit() -> None:
     values = solve("madi-cam", set={"r_0": "50 mm"}).solved.values
     for name in ("e_least", "e_most"):
