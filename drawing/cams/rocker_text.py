@@ -7,7 +7,7 @@ import math
 from ..table import text_block
 from ..view import View
 from .scene import CamScene
-from .text import Lines, Terms, rules, transmission, worked
+from .text import Lines, Terms, rules, worked
 
 FIRST = "arccos(({l_rocker}^{{2}} + {l_OC}^{{2}} − {r_0}^{{2}})/(2·{l_rocker}·{l_OC}))"
 
@@ -28,8 +28,7 @@ def rocker_block(scene: CamScene, width: float) -> View:
         worked(scene, "h", "({psi}/180)·π·{l_rocker}", lambda a, b: math.radians(a) * b, travel, "mm"),
         (f"{words['said.cam_first_angle']}:",),
         worked(scene, "psi_0", FIRST, _first, sides, "deg"),
-        *rules(scene, cam.profile, sizes.r_0),
-        *transmission(scene, cam.limits),
+        *rules(scene),
     ]
     return text_block("equations_rocker", words["heading.cam_rocker"], lines, scene.style, width)
 

@@ -6,8 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from ...plans.cams.integration import ACCELERATION
-from ...plans.cams.profile import OF_R_0, OF_RHO_MIN, RollerProfile
-from ...plans.cams.sizes import Limits
+from ...plans.cams.rules import Rule, rules_of
 from ..givens import choice
 from ..printed import Input, calculation
 from ..table import text_block
@@ -59,21 +58,8 @@ def roller_block(scene: CamScene, width: float) -> View:
         texts = (f"{words.symbol(name)} = {words.number(value, 2)} {mm}" for name, value in pair)
         lines.append((f"{words['said.cam_tangents']}:", "; ".join(texts)))
     lines += [(line,) for line in offsets_line(scene)]
-    lines += rules(scene, roller.profile, sizes.r_0)
-    lines += transmission(scene, roller.limits)
+    lines += rules(scene)
     return text_block("equations_roller", words["heading.cam_roller"], lines, scene.style, width)
-
-
-def transmission(scene: CamScene, limits: Limits) -> Lines:
-    """Return the least transmission angles beside those permitted, and whether they are kept."""
-    words, lines = scene.words, Lines()
-    for name, gamma in (("gamma_rise", limits.gamma_rise), ("gamma_fall", limits.gamma_fall)):
-        least = float(scene.solved.values[f"{name}_min"])
-        sides = (
-            f"{words.symbol(f'{name}_min')} = {scene.degrees(least)} ≥ {words.symbol(name)} = {scene.degrees(gamma)}"
-        )
-        lines.append((sides, verdict(scene, least >= gamma * (1.0 - 1e-9))))
-    return lines
 
 
 def plate_block(scene: CamScene, width: float) -> View:
@@ -203,19 +189,24 @@ def _rates(scene: CamScene) -> Lines:
     return lines
 
 
-def rules(scene: CamScene, profile: RollerProfile, r_0: float) -> Lines:
-    """Return the rules for the roller's radius, each with its numbers and whether it is kept."""
-    words, lines, R = scene.words, Lines(), profile.R
-    for name, part, size in (("r_0", OF_R_0, r_0), ("rho_min", OF_RHO_MIN, profile.rho_min)):
-        if not math.isfinite(size):
-            continue
-        texts, limit = calculation(words, lambda a, b: a * b, [Input(part, True), Input(size * 1e3)])
-        sides = f"{words.symbol('R_roller')} = {words.short(round(R * 1e3, 6))} {words.unit('mm')} ≤ "
-        rule = f"{words.short(part)}·{words.symbol(name)} = {texts[0]}·{texts[1]} = {limit} {words.unit('mm')}"
-        lines.append((sides + rule, verdict(scene, part * size >= R)))
+def rules(scene: CamScene) -> Lines:
+    """Return the rules of good design, each with its numbers and whether it is kept."""
+    lines: Lines = []
+    for rule in rules_of(scene.solved):
+        sides = _of_roller(scene, rule) if rule.of else _of_transmission(scene, rule)
+        lines.append((sides, f"({scene.words['said.cam_ok' if rule.kept else 'said.cam_fails']})"))
     return lines
 
 
-def verdict(scene: CamScene, kept: bool) -> str:
-    """Return the words for a rule that is kept, or is not."""
-    return f"({scene.words['said.cam_ok' if kept else 'said.cam_fails']})"
+def _of_roller(scene: CamScene, rule: Rule) -> str:
+    """Return the roller's radius beside the greatest one, a part of a size."""
+    words, mm = scene.words, scene.words.unit("mm")
+    (part, size), limit = calculation(words, lambda a, b: a * b, [Input(rule.part, True), Input(rule.size * 1e3)])
+    roller = f"{words.symbol('R_roller')} = {words.short(round(rule.value * 1e3, 6))} {mm}"
+    return f"{roller} ≤ {words.short(rule.part)}·{words.symbol(rule.of)} = {part}·{size} = {limit} {mm}"
+
+
+def _of_transmission(scene: CamScene, rule: Rule) -> str:
+    """Return the least transmission angle of a phase beside the one permitted."""
+    least, permitted = (scene.words.symbol(name) for name in (f"{rule.name}_min", rule.name))
+    return f"{least} = {scene.degrees(rule.value)} ≥ {permitted} = {scene.degrees(rule.limit)}"

@@ -232,11 +232,6 @@ def turned_back(phi: Any, sense: int) -> Points:
     return turn
 
 
-def largest_roller(r_0: float, rho_min: float) -> tuple[float, float]:
-    """Return how large the roller may be by the two rules of design: 0.4 r_0 and 0.7 rho_min, m."""
-    return OF_R_0 * r_0, OF_RHO_MIN * rho_min
-
-
 def _sharpest(motion: Motion, less_curved: Any) -> Minimum:
     drops = [jump.phi for jump in motion.jumps if jump.order == 1 and jump.after < jump.before]
     if drops:

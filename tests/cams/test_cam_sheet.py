@@ -6,13 +6,14 @@ import re
 
 import pytest
 
-from kulman import sheet
+from kulman import sheet, solve
 from kulman.plans.cams.cam import LAWS
 from kulman.scales.units import parse, unit
 from kulman.tests.support.cam_cases import CamCase
 from kulman.tests.support.cam_points import POINTS
 from kulman.tests.support.overlaps import view_faults
 from kulman.tests.support.readback import Sheet, read
+from kulman.variants.kinds.cam import RULES
 
 MADI = CamCase()
 CLOCKWISE = CamCase((("rotation", "cw"),), only="sizes,profile,pressure")
@@ -61,6 +62,25 @@ def test_a_sheet_of_a_cam_has_one_convention_of_scale_factors(notation: str) -> 
     factors = [t.string for t in read(drawn.svg()).texts if "μ" in t.string and "= 0,0" in t.string]
     assert len(factors) > 8
     assert not any("мм/м" in text or "мм/рад" in text for text in factors)
+
+
+@pytest.mark.parametrize(
+    ("settings", "kept"),
+    [
+        pytest.param({"r_0": 72.5, "R_roller": 29}, [True] * 4, id="just kept"),
+        pytest.param({"r_0": 72.5, "R_roller": 29.01}, [False, True, True, True], id="just broken"),
+        pytest.param({"r_0": 46, "e": -5}, [True, True, False, True], id="of the rise"),
+    ],
+)
+def test_the_sheet_says_of_the_rules_what_the_checks_say(settings: dict[str, float], kept: list[bool]) -> None:
+    drawn = sheet("madi-cam", set=settings, only="sizes", lang="en", format="A2")
+    checks = solve("madi-cam", set=settings).checks
+
+    said = [
+        "not" not in text.string for text in read(drawn.svg()).texts if re.search(r"\((not )?satisfied\)", text.string)
+    ]
+    assert said == kept
+    assert said == [checks[name]["ok"] for name in RULES]
 
 
 SPOILED = {  # one piece of the file of the sheet changed

@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 
 SYMBOLS = ("mu_l",)  # the others follow from the drawn amplitude and the pole distances
 MM, MILLI = 1e-3, 1e3
-ROUNDING = 1e-9  # part of a limit
 AXES = ("diagram_a", "diagram_v", "diagram_s")  # the plans of the diagrams on one axis of angles
 DRAWN = ("_chord", "_tangents")  # what the name of a quantity ends with that is drawn, and so asked in place of another
 UNASKED = ("s_0", "r_0_flat_tangent")  # what goes with a size that is asked
@@ -133,25 +132,19 @@ class Cams(Kind[Cam, "SolvedCam"]):
         `gamma_fall` the least transmission angles against the permitted ones; `undercut_...` tells how much travel a
         profile loses, `convex` how sharp the profile under a plate is.
         """
-        from ...plans.cams.profile import largest_roller
+        from ...plans.cams.rules import rules_of
 
-        found: Verdicts = {}
-        rolling = solved.roller or solved.rocker
-        if rolling is not None:
-            roller, rho_min = solved.values["R_roller"], solved.values.get("rho_min")
-            of_r_0, of_rho_min = largest_roller(solved.values["r_0"], rho_min or 0.0)
-            found["roller_of_radius"] = _at_most(roller, of_r_0, "m")
-            if rho_min is not None:
-                found["roller_of_curvature"] = _at_most(roller, of_rho_min, "m")
-            for phase in ("rise", "fall"):
-                least, permitted = solved.values[f"gamma_{phase}_min"], solved.values[f"gamma_{phase}"]
-                found[f"gamma_{phase}"] = _at_least(least, permitted, "rad")
+        found: Verdicts = {
+            rule.name: {"ok": rule.kept, "value": rule.value, "limit": rule.limit, "unit": rule.unit}
+            for rule in rules_of(solved)
+        }
         for follower, profile in _profiles(solved):
             lost = max((undercut.lost for undercut in profile.undercuts), default=0.0)
             travel = "rad" if follower == ROCKER else "m"
             found[f"undercut_{follower}"] = {"ok": not profile.undercuts, "value": lost, "limit": 0.0, "unit": travel}
         if solved.plate is not None and "undercut_plate" in found:
-            found["convex"] = _at_least(solved.plate.profile.rho_min, 0.0, "m")
+            rho_min = float(solved.plate.profile.rho_min)
+            found["convex"] = {"ok": rho_min >= 0.0, "value": rho_min, "limit": 0.0, "unit": "m"}
         return found
 
     def asks(self, solved: SolvedCam, question: Question) -> bool:
@@ -208,14 +201,6 @@ def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlatePro
     for follower, found in ((ROLLER, solved.roller), (PLATE, solved.plate), (ROCKER, solved.rocker)):
         if found is not None and PROFILE in drawn:
             yield follower, found.profile
-
-
-def _at_most(value: float, limit: float, unit: str) -> dict[str, Any]:
-    return {"ok": value <= limit * (1.0 + ROUNDING), "value": float(value), "limit": float(limit), "unit": unit}
-
-
-def _at_least(value: float, limit: float, unit: str) -> dict[str, Any]:
-    return {"ok": value >= limit * (1.0 - ROUNDING), "value": float(value), "limit": float(limit), "unit": unit}
 
 
 def _degrees(angle: float) -> str:
