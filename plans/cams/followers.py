@@ -165,8 +165,6 @@ def rocker_cam(cam: Cam, values: Values) -> RockerCam:
     limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
     rocker = Rocker(motion_of(cam, {**values, "h": values["psi"]}), values["l_rocker"], cam.sense)
     distance, r_0 = values.get("l_OC"), values.get("r_0")
-    if "e" in values:
-        raise InputError("cam-rocker-e")
     if distance is None:
         if r_0 is not None:
             raise InputError("cam-rocker-r-0")

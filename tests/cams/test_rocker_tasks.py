@@ -17,7 +17,7 @@ from kulman import cli
 from kulman.scales.errors import InputError
 
 EXAMPLE = Path(kulman.__file__).parent / "docs" / "examples" / "rocker-cam.toml"
-GIVEN_SIZES = 'l_OC = { unit = "mm" }\nr_0 = { unit = "mm" }\ne = { unit = "mm" }\n'
+GIVEN_SIZES = 'l_OC = { unit = "mm" }\nr_0 = { unit = "mm" }\n'
 
 
 @pytest.fixture
@@ -46,6 +46,21 @@ def solved(capsys: pytest.CaptureFixture[str], *settings: str, task: str = "mine
 
 def test_the_example_has_no_faults(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(capsys, "list", "--check", "mine.toml") == (0, "mine.toml: no faults\n", "")
+
+
+@pytest.mark.parametrize(("name", "unit"), [("h", "mm"), ("e", "mm"), ("rho_flat", "mm"), ("margin", "mm")])
+def test_a_number_that_no_rocker_has_is_a_fault_where_it_stands(
+    folder: Path, capsys: pytest.CaptureFixture[str], name: str, unit: str
+) -> None:
+    lines = EXAMPLE.read_text(encoding="utf-8").split("\n")
+    at = lines.index("[givens]") + 1
+    lines.insert(at, f'{name} = {{ unit = "{unit}", default = 5 }}')
+    (folder / "mine.toml").write_text("\n".join(lines), encoding="utf-8")
+
+    status, out, _ = run(capsys, "list", "--check", "mine.toml")
+
+    place = f"mine.toml:{at + 1}:1: givens.{name}"
+    assert (status, out) == (2, f"{place}: no follower of this cam has a number '{name}': rocker\n")
 
 
 @pytest.mark.parametrize("rotation", ["ccw", "cw"])
@@ -87,7 +102,6 @@ def test_r_0_and_the_pivot_given_are_the_sides_of_the_triangle(
             "no place of the cam's centre keeps gamma_rise, gamma_fall",
         ),
         (("r_0=50 mm",), "r_0 of a cam with a rocker is given together with l_OC"),
-        (("e=5 mm",), "a cam with a rocker has no eccentricity e"),
         (("r_0=14 mm", "l_OC=130 mm"), "l_rocker = 110 mm, l_OC = 130 mm and r_0 = 14 mm make no triangle"),
         (("R_roller=36 mm",), "the roller, 36 mm, is not smaller than r_0"),
     ],

@@ -41,36 +41,40 @@ ROUNDING = 1e-9  # rad
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A number of a cam: which values it may have, who needs it, and what it is in SI where nobody says."""
+    """A number of a cam: which values it may have, whose it is, whether they need it, what it is where nobody says.
+
+    The default is in SI.
+    """
 
     bound: Bound = Bound.POSITIVE
-    needed_by: tuple[str, ...] = FOLLOWERS
+    had_by: tuple[str, ...] = FOLLOWERS
+    needed: bool = True
     default: float | None = None
 
 
 _STRAIGHT, _ROLLING = (ROLLER, PLATE), (ROLLER, ROCKER)
 NUMBERS = {
-    "h": Number(needed_by=_STRAIGHT),
+    "h": Number(had_by=_STRAIGHT),
     "psi": Number(Bound.ACUTE, (ROCKER,)),
     "phi_rise": Number(Bound.TURN),
     "phi_upper": Number(Bound.NOT_NEGATIVE, default=0.0),
     "phi_fall": Number(Bound.TURN),
     "omega": Number(),
     "u": Number(Bound.PART, default=0.5),
-    "u_fall": Number(Bound.PART, ()),
+    "u_fall": Number(Bound.PART, needed=False),
     "l_A1": Number(default=0.1),
     "H_a": Number(default=0.03),
     "H_v": Number(default=0.03),
     "mu_phi": Number(default=math.radians(1e3)),
     "gamma_rise": Number(Bound.ACUTE, _ROLLING),
     "gamma_fall": Number(Bound.ACUTE, _ROLLING),
-    "R_roller": Number(needed_by=_ROLLING),
-    "rho_flat": Number(Bound.NOT_NEGATIVE, (PLATE,), 0.01),
-    "margin": Number(Bound.NOT_NEGATIVE, (PLATE,), 0.005),
-    "l_rocker": Number(needed_by=(ROCKER,)),
-    "l_OC": Number(needed_by=()),  # else the pivot is where the cam is smallest
-    "r_0": Number(needed_by=()),
-    "e": Number(Bound.FREE, ()),
+    "R_roller": Number(had_by=_ROLLING),
+    "rho_flat": Number(Bound.NOT_NEGATIVE, (PLATE,), default=0.01),
+    "margin": Number(Bound.NOT_NEGATIVE, (PLATE,), default=0.005),
+    "l_rocker": Number(had_by=(ROCKER,)),
+    "l_OC": Number(had_by=(ROCKER,), needed=False),  # else the pivot is where the cam is smallest
+    "r_0": Number(had_by=_ROLLING, needed=False),
+    "e": Number(Bound.FREE, (ROLLER,), needed=False),
 }
 
 
@@ -182,18 +186,25 @@ def _numbers(checker: Checker, names: Names, followers: tuple[str, ...]) -> None
         place = names.stated.get(name, ("givens",))
         if name not in NUMBERS:
             checker.fault(place, unknown("cam-number-unknown", name, NUMBERS))
+        elif followers and not _had(name, followers):
+            checker.fault(place, InputError("cam-number-unused", text=name, followers=", ".join(followers)))
         elif dimension not in (None, _unit(name).dimension):
             checker.fault(place, InputError("value-wrong", text=name, expected=customary(_unit(name))))
         else:
             names.bounds[name] = NUMBERS[name].bound
     for name, number in NUMBERS.items():
-        needed = bool({*number.needed_by} & {*followers})
+        needed = number.needed and _had(name, followers)
         if not needed or number.default is not None:
             names.optional.add(name)
         if needed and number.default is not None:
             names.named[name] = number.default  # a variant may say another
         elif needed and name not in names.dimensions:
             checker.fault(("givens",), InputError("key-missing", name=name))
+
+
+def _had(name: str, followers: tuple[str, ...]) -> bool:
+    """Whether one of the followers has a number."""
+    return not {*NUMBERS[name].had_by}.isdisjoint(followers)
 
 
 def impossible(values: Mapping[str, float]) -> Iterator[InputError]:
