@@ -20,7 +20,6 @@ PAST = 5.0  # mm of the axes of a cam beyond its circles
 LOST = 3  # significant digits of a travel that is lost
 SIDEWAYS = 0.3  # rad, about, between the horizontal and the letter of the centre
 SMALLEST = 7.0  # least radius of a cam, in heights of letters, that has room for letters inside
-SMALL = math.radians(1e-6)
 
 
 def ratio(scene: CamScene) -> str:
@@ -69,7 +68,7 @@ def phases(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
     motion, sense, words = scene.solved.motion, scene.solved.cam.sense, scene.words
     first = cmath.phase(on_circle(e, radius, 1j, sense))
     for phase in motion.phases:
-        if phase.length < SMALL:
+        if not phase.lasts:
             continue
         at = 0.3 if phase.name == LOWER else 0.5  # beside the radius dimensioned
         start, sweep = first - sense * phase.start, -sense * phase.length
@@ -149,7 +148,7 @@ def radius_at(
 
 def dwelling(motion: Motion, sense: int) -> float:
     """Return the direction in the middle of the lower dwell, or of the rise where there is none."""
-    low, high = (motion.lower.start, TURN) if motion.lower.length > SMALL else (0.0, motion.rise.end)
+    low, high = (motion.lower.start, TURN) if motion.lower.lasts else (0.0, motion.rise.end)
     return cmath.phase(unit_at(0.5 * (low + high), sense))
 
 

@@ -14,7 +14,6 @@ from ..view import View
 from .offsets import offsets_line
 from .scene import CamScene
 
-SMALL = 1e-6  # rad, of a dwell
 Lines = list[tuple[str, ...]]
 Terms = Sequence[tuple[str, float, bool]]  # symbol, number as it is printed, whether it is exact
 
@@ -169,10 +168,10 @@ def _chords(scene: CamScene) -> Lines:
 
 def _about(scene: CamScene) -> Lines:
     """Say what the lines of the diagrams are, and what is not drawn."""
-    words, rest = scene.words, scene.solved.motion.lower.length
+    words, lower_dwell = scene.words, scene.solved.motion.lower
     said: Lines = [tuple(words["said.cam_curves"].split("|"))]
-    if rest > SMALL:
-        lower = f"{words.symbol('phi_lower')} = {scene.degrees(rest)}"
+    if lower_dwell.lasts:
+        lower = f"{words.symbol('phi_lower')} = {scene.degrees(lower_dwell.length)}"
         said.append((words["said.cam_lower"].format(angle=lower),))
     return said
 

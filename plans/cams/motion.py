@@ -26,6 +26,7 @@ Array = NDArray[np.float64]
 RISE, UPPER, FALL, LOWER = PHASES = ("rise", "upper", "fall", "lower")
 TURN = 2.0 * math.pi
 NEAR = 1e-12  # rad, within which an angle is that of a corner
+SHORT = 1e-6  # rad, of a phase that nobody can draw: what rounded angles leave of a turn
 WHOLE = 1e-9  # part of a section by which a node may be off an equal division
 
 
@@ -61,6 +62,11 @@ class Phase:
     def length(self) -> float:
         """Angle of the cam during the phase."""
         return self.end - self.start
+
+    @property
+    def lasts(self) -> bool:
+        """Whether the phase is more than the rounding of angles."""
+        return self.length > SHORT
 
     @property
     def corners(self) -> tuple[float, ...]:

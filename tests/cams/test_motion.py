@@ -27,6 +27,15 @@ def test_phases_begin_and_end_exactly() -> None:
     assert list(np.abs(ds)) == [0.0] * 7
 
 
+def test_what_rounded_angles_leave_of_a_turn_is_no_dwell() -> None:
+    law = law_of_motion("sine")
+    left = [Motion(13e-3, 2.0, 1.0, TURN - 3.0 - dwell, law) for dwell in (2e-7, 2e-4)]
+
+    assert [motion.lower.lasts for motion in left] == [False, True]
+    assert all(motion.rise.lasts and motion.upper.lasts for motion in left)
+    assert not Motion(13e-3, 2.0, 0.0, 2.0, law).upper.lasts
+
+
 def test_motion_repeats_in_every_turn() -> None:
     motion = madi_motion()
     phi = np.linspace(0.1, 6.2, 50)
