@@ -33,6 +33,7 @@ RIGHT_ANGLE = 0.5 * math.pi
 HALVINGS = 100
 POINTS = 48  # of a flank, of a fillet
 ARC = math.radians(1.0)  # between points of the tip and the root
+ROUNDING = 1e-12  # part of the module
 SEEN = 400  # places of a fillet at which it is looked whether the tooth is there
 NEEDED = ("d_1", "d_2", "s_1", "s_2", "inv_alpha", "d_b1", "d_b2", "d_a1", "d_a2", "d_f1", "d_f2", "rho_f")
 
@@ -207,6 +208,7 @@ def tooth_of(values: Mapping[str, Any], i: int) -> Tooth:
     m, alpha, rho_f = found["m"], found["alpha"], found["rho_f"]
     r, r_f = 0.5 * found[f"d_{i}"], 0.5 * found[f"d_f{i}"]
     straight = (found["h_a"] + found["c"]) * m - rho_f  # of the corner's centre from the rack's middle line
+    beside = 0.25 * math.pi * m - straight * math.tan(alpha) - rho_f / math.cos(alpha)
     return Tooth(
         z=found[f"z_{i}"],
         alpha=alpha,
@@ -216,10 +218,10 @@ def tooth_of(values: Mapping[str, Any], i: int) -> Tooth:
         r_f=r_f,
         psi_b=found[f"s_{i}"] / found[f"d_{i}"] + found["inv_alpha"],
         rho_f=rho_f,
-        e_f=0.25 * math.pi * m - straight * math.tan(alpha) - rho_f / math.cos(alpha),
+        e_f=beside if beside > ROUNDING * m else 0.0,  # else the tip is round: both corners have one centre
     )
 
 
 def _steps(begin: float, end: float, most: float) -> Array:
-    """Return angles from `begin` to `end`, at most `most` apart."""
-    return np.linspace(begin, end, max(1, math.ceil(abs(end - begin) / most)) + 1)
+    """Return angles from `begin` to `end`, at most `most` apart; one where both are the same."""
+    return np.linspace(begin, end, math.ceil(abs(end - begin) / most) + 1)

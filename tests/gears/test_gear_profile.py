@@ -135,3 +135,25 @@ def test_tooth_is_pointed_where_its_tip_has_no_thickness() -> None:
     for x in np.linspace(0.3, 1.1, 9):
         values = madi(z_1=12.0, x_1=float(x), x_2=0.0)
         assert tooth_of(values, 1).pointed == (geometry(values)["s_a1"] < 0.0)
+
+
+def test_outlines_of_all_racks_and_shifts_are_valid() -> None:
+    random = np.random.default_rng(SEED)
+    seen = {"plain": 0, "undercut": 0, "pointed": 0, "round": 0}
+    for _ in range(150):
+        h_a = random.uniform(0.6, 1.1)
+        values = madi(
+            z_1=float(random.integers(3, 30)),
+            x_1=random.uniform(-0.8, 1.6),
+            alpha=math.radians(random.uniform(10.0, 32.0)),
+            h_a=h_a,
+            h_l=2.0 * h_a * random.uniform(0.9, 1.02),
+            c=random.uniform(0.1, 0.2),
+        )
+        tooth = tooth_of(values, 1)
+        if (h_a + values["c"]) * math.tan(values["alpha"]) < 0.25 * math.pi and tooth.whole:
+            seen[kind(tooth)] += 1
+            seen["round"] += tooth.e_f == 0.0
+            assert polygon(tooth.wheel(24)).is_valid
+
+    assert min(seen.values()) > 5
