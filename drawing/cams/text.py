@@ -134,7 +134,7 @@ def _factors(scene: CamScene, mark: str = "") -> Lines:
             f"mu_s{mark}",
             "{h}/{S_max" + mark + "}",
             lambda a, b: a / b,
-            [("h", h, True), (f"S_max{mark}", highest, False)],
+            [("h", h, solved.rocker is None), (f"S_max{mark}", highest, False)],
             "m/mm",
         )
     ]
