@@ -111,7 +111,7 @@ def _check(file: str, as_json: bool) -> int:
     from .variants.reader import read_file
 
     language = system_language()
-    _, faults = read_file(file)
+    _, faults = read_file(file, thorough=True)
     if as_json:
         lines = [{"key": fault.key, "message": fault.text(language)} for fault in faults]
         _print_json({"file": file, "ok": not faults, "errors": lines})

@@ -69,8 +69,10 @@ def load_task(task: str | os.PathLike[str]) -> Task:
     return found
 
 
-def read_file(task: str | os.PathLike[str]) -> tuple[Task | None, tuple[InputError, ...]]:
+def read_file(task: str | os.PathLike[str], thorough: bool = False) -> tuple[Task | None, tuple[InputError, ...]]:
     """Read a task file of one's own: the task, or all its faults.
+
+    If `thorough`, what only solving each variant tells is among them.
 
     Raises
     ------
@@ -78,11 +80,11 @@ def read_file(task: str | os.PathLike[str]) -> tuple[Task | None, tuple[InputErr
         When there is no such file, or it cannot be read as a text.
     """
     shown = _shown(task)
-    return read_text(_file_text(task, shown), shown)
+    return read_text(_file_text(task, shown), shown, thorough)
 
 
-def read_text(toml: str, file: str) -> tuple[Task | None, tuple[InputError, ...]]:
-    """Read a task from the text of a file that messages call `file`: the task, or all its faults."""
+def read_text(toml: str, file: str, thorough: bool = False) -> tuple[Task | None, tuple[InputError, ...]]:
+    """Read a task from the text of a file that messages call `file`: the task, or all its faults, as `read_file`."""
     try:
         if _LONG_KEY.search(toml):
             raise RecursionError
@@ -94,7 +96,7 @@ def read_text(toml: str, file: str) -> tuple[Task | None, tuple[InputError, ...]
         return None, (_syntax(toml, file, str(error)),)
     found = None
     with suppress(EnoughError):
-        found = _task(checker, raw)
+        found = _task(checker, raw, thorough)
     if checker.faults:
         return None, tuple(fault for _, _, fault in sorted(checker.faults, key=lambda fault: fault[:2]))
     return found, ()
@@ -215,7 +217,7 @@ _FIELDS = {  # and the table of its kind
 }
 
 
-def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
+def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
     """Read a task out of parsed TOML; the faults go to `checker`."""
     table = table_in(raw)
     kind = kind_of(table)
@@ -253,7 +255,7 @@ def _task(checker: Checker, raw: dict[str, Any]) -> Task | None:
         file=checker.file,
         kind=table,
     )
-    kind.varies(checker, task)
+    kind.varies(checker, task, thorough)
     return None if checker.faults else task
 
 

@@ -54,6 +54,7 @@ VALUES = {
     "r_0": "m",  # sizes that are given, not found
     "e": "m",
 }
+NEAR = 1e-12  # rad, within which two angles are one: by so much the phases may be longer than a turn
 SECTIONS = 12  # of a phase, at least: what a student can draw, and enough for a smooth curve
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scales.errors import InputError
-from .cam import MIRROR, Cam
+from .cam import MIRROR, NEAR, Cam
 from .division import Division
 from .laws_of_motion import SAME, LawOfMotion, law_of_curve, law_of_motion
 from .smooth import Smooth
@@ -25,7 +25,6 @@ from .smooth import Smooth
 Array = NDArray[np.float64]
 RISE, UPPER, FALL, LOWER = PHASES = ("rise", "upper", "fall", "lower")
 TURN = 2.0 * math.pi
-NEAR = 1e-12  # rad, within which an angle is that of a corner
 SHORT = 1e-6  # rad, of a phase that nobody can draw: what rounded angles leave of a turn
 WHOLE = 1e-9  # part of a section by which a node may be off an equal division
 

@@ -11,10 +11,12 @@ import pytest
 
 from kulman import check, cli, solve
 from kulman.plans.cams.cam import LAWS, VALUES, Cam, Curve
+from kulman.plans.cams.laws_of_motion import law_of_motion
+from kulman.plans.cams.motion import Motion
 from kulman.plans.marking.verdicts import Verdict
 from kulman.scales.errors import InputError
 from kulman.scales.units import unit
-from kulman.variants.checks.cam import NUMBERS
+from kulman.variants.checks.cam import NUMBERS, impossible
 from kulman.variants.kinds import KINDS, kind_of, table_in
 from kulman.variants.reader import load_task, read_text
 from kulman.variants.shelf import bundled, bundled_text
@@ -184,6 +186,31 @@ def test_bad_data_is_explained_at_its_place(old: str, new: str, place: str, mess
     told = [fault.text() for fault in faults]
     assert task is None
     assert any(place in line and message in line for line in told), told
+
+
+def test_what_only_solving_tells_is_a_fault_where_all_faults_are_asked_for() -> None:
+    text = edited(('margin = "5 mm"\n', 'margin = "5 mm"\nr_0 = "40 mm"\n'))
+
+    task, faults = read_text(text, "t.toml", thorough=True)
+
+    assert task is None
+    (told,) = [fault.text() for fault in faults]
+    line = text[: text.index("[[variant]]")].count("\n") + 1
+    assert told.startswith(f"t.toml:{line}:1: variant: at r_0 = 40 mm no eccentricity keeps")
+    assert read_text(text, "t.toml")[1] == ()  # refused when it is solved
+    assert read_text(TEXT, "t.toml", thorough=True)[1] == ()
+
+
+@pytest.mark.parametrize(("excess", "whole"), [(0.0, True), (5e-13, True), (1e-11, False), (5e-10, False)])
+def test_a_turn_is_as_long_for_the_checks_as_for_the_motion(excess: float, whole: bool) -> None:
+    turn = {"phi_rise": math.pi, "phi_upper": 0.0, "phi_fall": math.pi + excess}
+
+    assert ([*impossible(turn)] == []) is whole
+    if whole:
+        assert Motion(1.0, *turn.values(), law_of_motion("sine", 0.5)).lower.length == pytest.approx(0.0, abs=1e-15)
+    else:
+        with pytest.raises(InputError, match="more than a turn"):
+            Motion(1.0, *turn.values(), law_of_motion("sine", 0.5))
 
 
 @pytest.mark.parametrize(

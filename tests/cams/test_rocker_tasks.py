@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import csv
 import json
 import math
@@ -14,7 +15,9 @@ import pytest
 
 import kulman
 from kulman import cli
+from kulman.plans.laws import LAWS
 from kulman.scales.errors import InputError
+from kulman.tests.support.readback import read
 
 EXAMPLE = Path(kulman.__file__).parent / "docs" / "examples" / "rocker-cam.toml"
 GIVEN_SIZES = 'l_OC = { unit = "mm" }\nr_0 = { unit = "mm" }\n'
@@ -88,6 +91,32 @@ def test_r_0_and_the_pivot_given_are_the_sides_of_the_triangle(
 
     sizes = {name: found["quantities"][name]["value"] for name in ("r_0", "l_OC", "l_rocker")}
     assert sizes == pytest.approx({"r_0": 0.05, "l_OC": 0.125, "l_rocker": 0.11}, rel=1e-12)
+
+
+@pytest.mark.parametrize("settings", [("rotation=ccw",), ("rotation=cw",), ("l_OC=140 mm",)])
+def test_the_angle_at_the_pivot_is_that_of_its_positions_drawn(
+    folder: Path, capsys: pytest.CaptureFixture[str], settings: tuple[str, ...]
+) -> None:
+    setting = dict(word.split("=") for word in settings)
+    cam = kulman.solve("mine.toml", set=setting).solved
+    angle = solved(capsys, *settings)["quantities"]["psi_0"]
+
+    roller, centre = (complex(cam.values[f"rocker_sizes.{mark}"]) for mark in ("B0", "C"))
+
+    assert angle["unit"] == "rad"
+    assert angle["value"] == pytest.approx(abs(cmath.phase(centre / roller)), rel=1e-9)
+    drawn = kulman.sheet("mine.toml", set=setting, only="sizes", lang="en", format="A2")
+    said = "".join(text.string for page in range(len(drawn.pages)) for text in read(drawn.svg(page + 1)).texts)
+    assert f"= {math.degrees(angle['value']):.2f}°" in said
+
+
+def test_a_triangle_of_no_height_has_its_angle() -> None:
+    angle = LAWS["angle_of_triangle"]
+
+    assert angle(3.0, 4.0, 5.0) == pytest.approx(math.pi / 2)
+    assert angle(0.1, 0.3, 0.2 * (1.0 - 1e-15)) == 0.0
+    assert angle(0.1, 0.3, 0.4 * (1.0 + 1e-15)) == math.pi
+    assert list(angle(np.array([3.0, 1.0]), 4.0, 5.0)) == pytest.approx([math.pi / 2, math.pi])
 
 
 @pytest.mark.parametrize(
@@ -179,3 +208,28 @@ def test_the_sweep_writes_the_swing_and_the_profile(folder: Path, capsys: pytest
 def test_a_given_r_0_with_no_rocker_is_refused_from_python() -> None:
     with pytest.raises(InputError, match="no eccentricity keeps"):
         kulman.solve("madi-cam", set={"r_0": "40 mm"})
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        pytest.param('l_OC = "130 mm"', 'l_OC = "70 mm"', "at l_OC = 70 mm no place", id="pivot"),
+        pytest.param('R_roller = "14 mm"', 'R_roller = "70 mm"', "the roller, 70 mm, is not smaller", id="roller"),
+        pytest.param('psi = "25 deg"', 'psi = "85 deg"', "no place of the cam's centre keeps", id="swing"),
+    ],
+)
+def test_a_rocker_that_nothing_permits_is_a_fault_of_its_variant(
+    folder: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, said: str
+) -> None:
+    text = EXAMPLE.read_text(encoding="utf-8")
+    assert old in text
+    (folder / "mine.toml").write_text(text.replace(old, new), encoding="utf-8")
+    second = text[: text.rindex("[[variant]]")].count("\n") + 1
+
+    status, out, err = run(capsys, "list", "--check", "mine.toml")
+
+    assert (status, out.count("\n"), err.count("\n")) == (2, 1, 1)
+    assert out.startswith(f"mine.toml:{second}:1: variant: ")
+    assert said in out
+    assert run(capsys, "solve", "mine.toml", "-v", "2")[0] == 2
+    assert solved(capsys)["status"] == "ok"

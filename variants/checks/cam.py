@@ -12,6 +12,7 @@ from ...plans.cams.cam import (
     FOLLOWERS,
     LAWS,
     LIMITS,
+    NEAR,
     ORDERS,
     PLATE,
     RISE,
@@ -36,7 +37,6 @@ from .names import Names
 TABLE = "cam"
 WORDS = ("law", "law_fall", "fall", "rotation", "limits")  # keys whose value may be the name of a choice
 MOST_SECTIONS = 90  # of a phase: finer than a degree nobody divides one
-ROUNDING = 1e-9  # rad
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,7 +213,7 @@ def impossible(values: Mapping[str, float]) -> Iterator[InputError]:
         if name in values and not number.bound.admits(values[name]):
             yield InputError(number.bound.value, text=f"{name} = {_unit(name).from_si(values[name]):.7g}")
     turned = sum(values[name] for name in ("phi_rise", "phi_upper", "phi_fall"))
-    if turned > 2.0 * math.pi + ROUNDING:
+    if turned > 2.0 * math.pi + NEAR:
         yield InputError("cam-phases", angle=f"{math.degrees(turned):.7g}")
     if "r_0" in values and abs(values.get("e", 0.0)) >= values["r_0"]:
         yield InputError("cam-eccentric", e=_mm(values["e"]), r_0=_mm(values["r_0"]))

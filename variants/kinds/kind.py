@@ -55,8 +55,8 @@ class Kind(ABC, Generic[Subject, Answer]):
     def fits(self, checker: Checker, subject: Subject, head: Mapping[str, Any]) -> None:
         """Check that the subject has the plans and the scale factors that the `head` of the file wants."""
 
-    def varies(self, checker: Checker, task: Task) -> None:
-        """Check what can be wrong in single variants only."""
+    def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
+        """Check what can be wrong in single variants only; if `thorough`, whether they can be solved, too."""
 
     # Solving.
 

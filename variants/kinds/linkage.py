@@ -85,7 +85,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             if isinstance(choice, Segment) and choice.quantity not in {*program.names, *lengths}:
                 checker.fault(("scales", name), InputError("scale-segment", text=quote(said)))
 
-    def varies(self, checker: Checker, task: Task) -> None:
+    def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
         """Check the load diagrams of every variant."""
         diagrams_in_order(checker, mechanism_of(task), [task.values(variant) for variant in task.variants])
 
