@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from ...plans.laws import LAWS
 from ..table import text_block
 from ..view import View
 from .scene import CamScene
@@ -34,5 +35,5 @@ def rocker_block(scene: CamScene, width: float) -> View:
 
 
 def _first(l: float, l_OC: float, r_0: float) -> float:
-    """Return the angle at the pivot between the rocker in its lowest position and the cam's centre, degrees."""
-    return math.degrees(math.acos((l * l + l_OC * l_OC - r_0 * r_0) / (2.0 * l * l_OC)))
+    """Return the angle at the pivot between the rocker in its lowest position and the line of centres, degrees."""
+    return math.degrees(LAWS["angle_of_triangle"](l, l_OC, r_0))

@@ -19,6 +19,14 @@ def _angle(opposite: Any, adjacent: Any) -> Any:
     return found if np.ndim(found) else float(found)
 
 
+def _angle_of_triangle(a: Any, b: Any, opposite: Any) -> Any:
+    import numpy as np
+
+    cosine = (a * a + b * b - opposite * opposite) / (2.0 * a * b)
+    found = np.arccos(np.clip(cosine, -1.0, 1.0))  # sides in one line may be off by rounding
+    return found if np.ndim(found) else float(found)
+
+
 def _touching(slope: Any, side: Any, *coordinates: Any) -> Any:
     """Return where a line that touches a smooth curve from the side +1 or -1 of the abscissas meets their axis.
 
@@ -77,6 +85,8 @@ define(
     # the abscissa of the S-ds/dphi diagram points to where the instant centre lies
     turned_with=lambda analogue, sense: analogue * sense,
     negative=lambda value: -value,
+    # psi_0 = arccos((l^2 + l_OC^2 - r_0^2) / (2 l l_OC)): the angle between the sides a and b
+    angle_of_triangle=_angle_of_triangle,
     # R = |ds/dphi|max + 5..8 mm, r_0 = r_0min + rho_min
     enlarged=lambda size, margin: size + margin,
 )

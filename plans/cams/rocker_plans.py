@@ -3,7 +3,8 @@
 On `rocker_sizes` the pivot is `0`; `B1` is the roller's centre in a position, `D1` the end of the analogue of its
 velocity, laid off along the rocker towards the pivot where it rises against the sense of the cam's turning. A cam's
 centre sees `D1` along the normal, so that the line through `D1` at the permitted transmission angle, of the direction
-`limit(1)`, bounds where it may lie. `C` is the centre of the smallest cam that all positions permit.
+`limit(1)`, bounds where it may lie. `C` is the centre of the smallest cam that all positions permit; `psi_0` the angle
+at the pivot between the rocker's lowest position and the line of centres.
 
 On `profile` the pivot goes round the cam against its sense, `A1`; `B1` is the roller's centre, `D1` the same point as
 above, seen from the cam, `K1` where the roller touches the practical profile.
@@ -42,6 +43,7 @@ def rocker_sizes(board: Board, division: Division) -> None:
     board.place(f"{ROCKER_SIZES}.C", "_centre_x", "_centre_y")
     board.distance("r_0", f"{ROCKER_SIZES}.C", f"{ROCKER_SIZES}.B0")
     board.distance("l_OC", f"{ROCKER_SIZES}.0", f"{ROCKER_SIZES}.C")
+    board.calc("psi_0", "angle_of_triangle", "l_rocker", "l_OC", "r_0")
     for phase in OUTWARDS:
         board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
 

@@ -54,6 +54,7 @@ UNITS = {
     "mu_d2s": "m/mm",
     "nu": "rad",
     "nu_a": "rad",
+    "psi_0": "rad",
     "gamma_rise_min": "rad",
     "gamma_fall_min": "rad",
 }
