@@ -229,9 +229,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 )
 @output(".sweeps.sweeps", "Where to: all columns, points of profiles too, to a .csv; the drawing to .svg, .pdf, .png.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-def sweep(
-    task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, chords: str | None, **options: Any
-) -> int:
+def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) over its whole cycle: positions, dead positions, strokes, extremes."""
     from . import variants
 
@@ -242,7 +240,7 @@ def sweep(
     if as_json:
         _print_json(swept.to_json())
     elif swept.reason is None and not files:
-        click.echo(swept.table() if chords is None else swept.chords(chords))
+        click.echo(swept.table())
     return _refuse(swept.reason) if swept.reason is not None else 0
 
 

@@ -26,9 +26,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..charts.gallery import Gallery
     from ..checks.basics import Checker
     from ..checks.names import Names
-    from ..sweeps.asked import Asked
-    from ..sweeps.cam import CamSweep
-    from ..sweeps.sweeps import Sweep
+    from ..sweeps.asked import Asked, Swept
 
 Subject = TypeVar("Subject")  # what is described: a mechanism, a cam
 Answer = TypeVar("Answer", bound=Solved)
@@ -108,7 +106,7 @@ class Kind(ABC, Generic[Subject, Answer]):
         """
         raise InputError("kind-without", task=task.id, text="chart")
 
-    def sweep(self, case: Case, words: Words, asked: Asked) -> Sweep | CamSweep:
+    def sweep(self, case: Case, words: Words, asked: Asked) -> Swept:
         """Look at a case over its whole cycle.
 
         Raises

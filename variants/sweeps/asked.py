@@ -1,16 +1,61 @@
-"""What is asked of a sweep."""
+"""What is asked of a sweep, and what every sweep answers, whatever it is that moves."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+from ...scales.errors import PositionError
+from ..task import Task
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """Positions, points, where a driver begins and ends; None for what is not said."""
+    """Positions, points, where a driver begins and ends, what is compared with chords; None for what is not said."""
 
     positions: int | None
     points: str | Iterable[str] | None
     start: str | float | None
     end: str | float | None
+    chords: str | None = None
+
+
+class Swept(Protocol):
+    """A variant of a task over its whole cycle."""
+
+    @property
+    def task(self) -> Task:
+        """The task."""
+
+    @property
+    def variant(self) -> str:
+        """The variant."""
+
+    @property
+    def status(self) -> str:
+        """The status of the whole cycle."""
+
+    @property
+    def reason(self) -> PositionError | None:
+        """Why no position at all can be assembled, or None."""
+
+    def table(self, language: str | None = None) -> str:
+        """Return what `kulman sweep` prints."""
+
+    def csv(self, language: str | None = None) -> str:
+        """Return all columns as CSV."""
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what `kulman sweep --json` prints: everything in SI."""
+
+    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
+        """Write the sweep to each of `paths`.
+
+        Raises
+        ------
+        InputError
+            A file of a kind that is not written, or that cannot be written: then none is.
+        """

@@ -18,6 +18,7 @@ from ...plans.cams.solve import SolvedCam
 from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit, unit
 from ..case import Case
+from ..kinds.cam import cam
 from ..tables import Cell, aligned, csv_bytes, csv_text
 from ..task import Task
 from .asked import Asked
@@ -77,16 +78,6 @@ class CamSweep:
             _profiles(self.case, self.solved, words),
         ]
         return "\n\n".join(part for part in parts if part)
-
-    def chords(self, of: str | int, language: str | None = None) -> str:
-        """Refuse: the diagrams of a cam are on its sheet, their errors in its chart.
-
-        Raises
-        ------
-        InputError
-            Always.
-        """
-        raise InputError("kind-without", task=self.task.id, text="--chords")
 
     def csv(self, language: str | None = None) -> str:
         """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
@@ -227,11 +218,11 @@ def cam_sweep(case: Case, words: Words, asked: Asked) -> CamSweep:
     Raises
     ------
     InputError
-        Points, or a beginning or end of the motion, are asked for: a cam has none.
+        Points, a beginning or end of the motion, or chords are asked for: a cam has none; its diagrams by chords are
+        on its sheet, their errors in its chart.
     """
-    unused = {"--points": asked.points, "--from": asked.start, "--to": asked.end}
+    unused = {"--points": asked.points, "--from": asked.start, "--to": asked.end, "--chords": asked.chords}
     for option, value in unused.items():
         if value is not None:
             raise InputError("kind-without", task=case.task.id, text=option)
-    assert isinstance(case.solved, SolvedCam)
-    return CamSweep(case, case.solved, words, asked.positions)
+    return CamSweep(case, cam(case.solved), words, asked.positions)

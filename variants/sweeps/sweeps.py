@@ -27,8 +27,7 @@ from ..kinds.linkage import mechanism_of
 from ..sheets import Sheet
 from ..tables import csv_bytes
 from ..task import LocatedError, Task
-from .asked import Asked
-from .cam import CamSweep
+from .asked import Asked, Swept
 from .columns import letters
 from .data import as_json
 from .sheet import cycle_sheet
@@ -42,13 +41,15 @@ class Sweep:
     """The whole cycle of one variant of a task.
 
     `cycle` holds positions, values and statuses as arrays in SI; `chosen` are the points and links that were asked for;
-    `words` are those of the table and the CSV.
+    `words` are those of the table and the CSV. Of a point or a link that is `compared`, the table shows the motion by
+    plans and by chords.
     """
 
     case: Case
     cycle: Cycle
     chosen: tuple[str, ...]
     words: Words
+    compared: str | None = None
 
     @property
     def task(self) -> Task:
@@ -84,7 +85,12 @@ class Sweep:
         return diagrams(self.cycle, str(of), positions_of("sections", sections))
 
     def table(self, language: str | None = None) -> str:
-        """Return the main columns position by position, then dead positions, strokes, extremes and what has no plan."""
+        """Return the main columns position by position, then dead positions, strokes, extremes and what has no plan.
+
+        Where a point or a link is compared, its motion by plans and by chords.
+        """
+        if self.compared is not None:
+            return self.chords(self.compared, language)
         return as_table(self.cycle, self.chosen, self._words(language))
 
     def chords(self, of: str | int, language: str | None = None) -> str:
@@ -164,9 +170,10 @@ def sweep(
     points: str | Iterable[str] | None = None,
     start: str | float | None = None,
     end: str | float | None = None,
+    chords: str | None = None,
     notation: str | None = None,
     lang: str | None = None,
-) -> Sweep | CamSweep:
+) -> Swept:
     """Solve one variant of a task over its whole cycle.
 
     Parameters
@@ -183,6 +190,8 @@ def sweep(
         begins where the working stroke begins, if the task names its output, otherwise at zero.
     end : str or number, optional
         Where a sliding driver stops; without `start` and `end` it moves as far as the links let it.
+    chords : str, optional
+        A point's letter, or the number of a link: the table shows its motion by plans and by chords.
 
     Returns
     -------
@@ -202,7 +211,8 @@ def sweep(
     if positions is not None:
         positions_of("positions", positions)
     case = solve_case(task, variant, set, only, scales)
-    found: Sweep | CamSweep = case.kind.sweep(case, case.words(lang, notation), Asked(positions, points, start, end))
+    asked = Asked(positions, points, start, end, chords)
+    found: Swept = case.kind.sweep(case, case.words(lang, notation), asked)
     return found
 
 
@@ -222,7 +232,7 @@ def linkage_sweep(case: Case, words: Words, asked: Asked) -> Sweep:
     values = case.task.values(case.variant, case.settings)
     plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
     count = POSITIONS if asked.positions is None else asked.positions
-    return Sweep(case, cycle(mechanism, values, plans, count, first, last), chosen, words)
+    return Sweep(case, cycle(mechanism, values, plans, count, first, last), chosen, words, asked.chords)
 
 
 def _chosen(mechanism: Mechanism, points: str | Iterable[str] | None) -> tuple[str, ...]:
