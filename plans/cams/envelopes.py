@@ -80,11 +80,10 @@ def backward(envelope: Envelope) -> list[tuple[float, float]]:
 
     Where the velocity drops it turns at once: an interval of no length.
     """
-    drops = [jump.phi for jump in envelope.motion.jumps if jump.order == 1 and jump.after < jump.before]
     corners = envelope.motion.corners
     places = Places.between(corners, [minimum.phi for minimum in minima(envelope.bend, corners)])
     below = places.values(envelope.bend) < 0.0
-    found = [(phi, phi) for phi in drops]
+    found = [(phi, phi) for phi in envelope.motion.drops]
     for first, last in _runs(below):
         begin, end = (_sign_changes(envelope, places, i) for i in (first - 1, last))
         found.append((begin % TURN, begin % TURN + (end - begin) % TURN))
@@ -174,8 +173,8 @@ def outline(envelope: Envelope, cuts: list[Undercut], most: float) -> Points:
     The corner of an undercut stands in the place of its loop.
     """
     phi = envelope.motion.samples(most)[:-1]
-    leaps = [jump.phi for jump in envelope.motion.jumps if jump.order == 1 and jump.after > jump.before]
-    pieces = [(at % TURN, envelope.across(at)) for at in leaps] + [(cut.start, np.array([cut.corner])) for cut in cuts]
+    leaps = [(at % TURN, envelope.across(at)) for at in envelope.motion.leaps]
+    pieces = leaps + [(cut.start, np.array([cut.corner])) for cut in cuts]
     angles = np.concatenate([*(np.full(len(points), at) for at, points in pieces), phi])
     points = np.concatenate([*(points for _, points in pieces), envelope.practical(phi)])
     kept = np.ones(len(angles), bool)

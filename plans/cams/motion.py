@@ -243,6 +243,21 @@ class Motion:
         return tuple(found)
 
     @cached_property
+    def velocity_jumps(self) -> tuple[Jump, ...]:
+        """The jumps of the velocity, in order."""
+        return tuple(jump for jump in self.jumps if jump.order == 1)
+
+    @property
+    def drops(self) -> tuple[float, ...]:
+        """Angles at which the velocity jumps down, in order: there a cam has a corner."""
+        return tuple(jump.phi for jump in self.velocity_jumps if jump.after < jump.before)
+
+    @property
+    def leaps(self) -> tuple[float, ...]:
+        """Angles at which the velocity jumps up, in order: there a profile goes on by an arc or a flat."""
+        return tuple(jump.phi for jump in self.velocity_jumps if jump.after > jump.before)
+
+    @cached_property
     def inflexions(self) -> tuple[float, ...]:
         """Angles at which the acceleration changes its sign, in order."""
         found: list[float] = []

@@ -207,7 +207,7 @@ class PlateProfile:
     def sharpest(self) -> Minimum:
         """The least radius of curvature, m, and where; negative where the profile is undercut."""
         found = self.motion.minimum(1.0, 0.0, 1.0)
-        drops = [jump.phi for jump in self.motion.jumps if jump.order == 1 and jump.after < jump.before]
+        drops = self.motion.drops
         return Minimum(-math.inf, drops[0]) if drops else Minimum(self.r_0 + found.value, found.phi)
 
     @property
@@ -233,8 +233,7 @@ def turned_back(phi: Any, sense: int) -> Points:
 
 
 def _sharpest(motion: Motion, less_curved: Any) -> Minimum:
-    drops = [jump.phi for jump in motion.jumps if jump.order == 1 and jump.after < jump.before]
-    if drops:
-        return Minimum(0.0, drops[0])
+    if motion.drops:
+        return Minimum(0.0, motion.drops[0])
     least = min(minima(less_curved, motion.corners), key=lambda minimum: minimum.value)
     return Minimum(-1.0 / least.value if least.value < 0.0 else math.inf, least.phi)

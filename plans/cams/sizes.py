@@ -164,8 +164,7 @@ def smallest_plate(motion: Motion, rho_flat: float, margin: float) -> PlateSizes
     A velocity that jumps down makes r_0 infinite.
     """
     touch = convexity(motion)
-    falls = next((jump for jump in motion.jumps if jump.order == 1 and jump.after < jump.before), None)
-    r_0_min, phi = (math.inf, falls.phi) if falls else (max(0.0, touch.value), touch.phi)
+    r_0_min, phi = (math.inf, motion.drops[0]) if motion.drops else (max(0.0, touch.value), touch.phi)
     return PlateSizes(r_0_min, r_0_min + rho_flat, motion.ds_max.value + margin, phi)
 
 

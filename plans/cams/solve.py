@@ -108,7 +108,7 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
         values = {**values, "h": values["psi"] * values["l_rocker"]}
     motion = motion_of(cam, values)
     angles, division = motion.division(cam.sections)
-    given = VELOCITY if any(jump.order == 1 for jump in motion.jumps) else ACCELERATION
+    given = VELOCITY if motion.velocity_jumps else ACCELERATION
     wanted = with_needs(plans)
     cams = _cams(cam, motion, values, given) if PLANS[1] in wanted else {}
     roller, plate, rocker = (cams.get(follower) for follower in (ROLLER, PLATE, ROCKER))

@@ -36,6 +36,16 @@ def test_what_rounded_angles_leave_of_a_turn_is_no_dwell() -> None:
     assert not Motion(13e-3, 2.0, 0.0, 2.0, law).upper.lasts
 
 
+def test_velocity_jumps_down_where_a_steady_rise_ends() -> None:
+    motion = Motion(13e-3, 2.0, 0.0, 2.0, law_of_motion("uniform"))
+
+    assert motion.drops == pytest.approx((2.0,))
+    assert motion.leaps == pytest.approx((0.0, 4.0))
+    assert [jump.phi for jump in motion.velocity_jumps] == sorted((*motion.drops, *motion.leaps))
+    assert madi_motion().jumps
+    assert madi_motion().velocity_jumps == madi_motion().drops == madi_motion().leaps == ()
+
+
 def test_motion_repeats_in_every_turn() -> None:
     motion = madi_motion()
     phi = np.linspace(0.1, 6.2, 50)

@@ -124,7 +124,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
     def warnings(self, solved: SolvedCam) -> tuple[InputError, ...]:
         """Tell which rules are broken, and where a profile does not give the motion, or cannot."""
         found: list[InputError] = []
-        if PLATE in solved.cam.followers and any(jump.order == 1 for jump in solved.motion.jumps):
+        if PLATE in solved.cam.followers and solved.motion.velocity_jumps:
             found.append(InputError("cam-no-plate"))
         for name, check in self.checks(solved, {}).items():
             if name in RULES and not check["ok"]:
