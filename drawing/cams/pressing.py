@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from ...plans.cams.course import pressure_of
 from ...plans.cams.motion import FALL, RISE
-from ...plans.cams.pressure import SIDES, pressure_angle
+from ...plans.cams.pressure import SIDES
 from ...plans.cams.profile import RollerProfile
-from ...plans.cams.rocker import rocker_pressure
 from ...plans.cams.sizes import Limits
 from ...plans.cams.solve import SolvedCam
 from .scene import Array, CamScene, pieces
@@ -30,10 +30,9 @@ def rolling(solved: SolvedCam) -> tuple[RollerProfile, Limits]:
 
 def theta(solved: SolvedCam, phi: Any, side: int = 1) -> Array:
     """Return the pressure angle, rad; where the velocity jumps, the limit from one side."""
-    if solved.rocker is not None:
-        return rocker_pressure(solved.rocker.rocker, solved.rocker.sizes, phi, side)
-    assert solved.roller is not None
-    return pressure_angle(solved.motion, solved.roller.sizes, phi, solved.cam.sense, side)
+    pressure = pressure_of(solved)
+    assert pressure is not None
+    return pressure(phi, side)
 
 
 def courses(solved: SolvedCam) -> list[tuple[Array, Array]]:

@@ -18,7 +18,7 @@ from .envelopes import Undercut
 from .motion import TURN, Array, Jump
 from .places import Function, Minimum, minima
 from .pressure import pressure_angle
-from .profile import RollerProfile
+from .profile import PlateProfile, RollerProfile
 from .rocker import rocker_pressure
 from .solve import SolvedCam
 
@@ -58,14 +58,10 @@ def columns(solved: SolvedCam, phi: Any, side: int = 1) -> list[Columned]:
     phi = np.asarray(phi, float)
     omega = solved.givens["omega"]
     found = [Columned("phi", "rad", phi), Columned("t", "s", phi / omega), *_motion(solved, phi, side, omega)]
-    if solved.roller is not None:
-        profile = solved.roller.profile
-        theta = pressure_angle(solved.motion, solved.roller.sizes, phi, profile.sense, side)
-        found += _angles("", theta) + _of_roller("", profile, phi, side)
-    if solved.rocker is not None:
-        of = solved.rocker
-        theta = np.asarray(rocker_pressure(of.rocker, of.sizes, phi, side))
-        found += _angles("_rocker", theta) + _of_roller("_rocker", of.profile, phi, side)
+    rolling, theta = solved.roller or solved.rocker, pressure_of(solved)
+    if rolling is not None and theta is not None:
+        of = "_rocker" * (solved.rocker is not None)
+        found += _angles(of, theta(phi, side)) + _of_roller(of, rolling.profile, phi, side)
     if solved.plate is not None:
         plate = solved.plate.profile
         found += _point("profile_plate", plate.practical(phi, side))
@@ -109,20 +105,23 @@ def extremes(solved: SolvedCam) -> list[Ends]:
     for (name, unit), parts in weights.items():
         most, least = motion.maximum(*parts), motion.minimum(*parts)
         found.append(Ends(name, unit, most.value, most.phi, least.value + 0.0, least.phi))
-    for name, theta in _pressure(solved):
+    theta = pressure_of(solved)
+    if theta is not None:
         low, high = (_least(theta, sign, motion.corners) for sign in (1.0, -1.0))
+        name = "theta" if solved.rocker is None else "theta_rocker"
         found.append(Ends(name, "rad", -high.value, high.phi, low.value, low.phi))
     return found
 
 
-def _pressure(solved: SolvedCam) -> Iterator[tuple[str, Function]]:
-    """Go through the pressure angles as functions of the angle and the side."""
-    if solved.roller is not None:
-        sizes, sense = solved.roller.sizes, solved.roller.profile.sense
-        yield "theta", lambda phi, side: pressure_angle(solved.motion, sizes, phi, sense, side)
+def pressure_of(solved: SolvedCam) -> Function | None:
+    """Return the pressure angle of the roller, rad, as a function of the angle and the side; None without a roller."""
     if solved.rocker is not None:
-        of = solved.rocker
-        yield "theta_rocker", lambda phi, side: np.asarray(rocker_pressure(of.rocker, of.sizes, phi, side))
+        rocker, at = solved.rocker.rocker, solved.rocker.sizes
+        return lambda phi, side: np.asarray(rocker_pressure(rocker, at, phi, side))
+    if solved.roller is not None:
+        sizes, sense = solved.roller.sizes, solved.cam.sense
+        return lambda phi, side: pressure_angle(solved.motion, sizes, phi, sense, side)
+    return None
 
 
 def _least(theta: Function, sign: float, corners: Sequence[float]) -> Minimum:
@@ -132,15 +131,16 @@ def _least(theta: Function, sign: float, corners: Sequence[float]) -> Minimum:
 
 def sharpest(solved: SolvedCam) -> list[Sharpest]:
     """Return where the pitch curves and the profile of a plate are curved most."""
-    return [Sharpest(curve, profile.sharpest.value, profile.sharpest.phi) for curve, _, profile in _profiles(solved)]
+    return [Sharpest(curve, profile.sharpest.value, profile.sharpest.phi) for curve, _, profile in profiles(solved)]
 
 
 def undercuts(solved: SolvedCam) -> list[tuple[str, Undercut]]:
     """Return what profiles do not give of the motion, each with its follower."""
-    return [(follower, cut) for _, follower, profile in _profiles(solved) for cut in profile.undercuts]
+    return [(follower, cut) for _, follower, profile in profiles(solved) for cut in profile.undercuts]
 
 
-def _profiles(solved: SolvedCam) -> Iterator[tuple[str, str, Any]]:
+def profiles(solved: SolvedCam) -> Iterator[tuple[str, str, RollerProfile | PlateProfile]]:
+    """Go through the profiles: the curve whose curvature counts, the follower, the profile."""
     if solved.roller is not None:
         yield "pitch", ROLLER, solved.roller.profile
     if solved.rocker is not None:

@@ -82,6 +82,11 @@ class SolvedCam(Solved):
         """The directions of axes and section lines."""
         return RIGHT, UP
 
+    @property
+    def draws_profiles(self) -> bool:
+        """Whether the profiles are constructed, not only the sizes."""
+        return any(plan in (PROFILE, PLATE_PROFILE) for plan in self.program.plans)
+
     def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
         """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""
         return {plan: PAPER if plan in DIAGRAMS else mu for plan, mu in mus.items()}

@@ -277,3 +277,11 @@ def test_no_offset_and_no_place_are_explained() -> None:
         solve_cam(Cam(("roller",), "sine"), MADI | {"r_0": 0.02})
     with pytest.raises(InputError, match="no place of the cam's centre keeps gamma"):
         solve_cam(Cam(("rocker",), "sine"), ROCKER | {"psi": 80 * DEGREE, "gamma_rise": 85 * DEGREE})
+
+
+def test_profiles_are_drawn_where_they_are_wanted() -> None:
+    cam = Cam(FOLLOWERS, "sine")
+
+    found = {plan: solve_cam(cam, MADI, (plan,)).draws_profiles for plan in PLANS}
+
+    assert found == {"diagrams": False, "sizes": False, "profile": True, "pressure": False}

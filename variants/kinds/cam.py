@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ...plans.cams.cam import DIAGRAMS, PLANS, PLATE, PROFILE, ROCKER, ROLLER, Cam
+from ...plans.cams.cam import DIAGRAMS, PLANS, PLATE, PROFILE, ROCKER, Cam
 from ...scales.choose import Choosers
 from ...scales.errors import InputError
 from ...scales.names import unknown
@@ -209,10 +209,10 @@ def cam(solved: Any) -> SolvedCam:
 
 def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlateProfile]]:
     """Go through the profiles that are drawn, each with the follower that it moves."""
-    drawn = {plan.removeprefix("plate_") for plan in solved.program.plans}
-    for follower, found in ((ROLLER, solved.roller), (PLATE, solved.plate), (ROCKER, solved.rocker)):
-        if found is not None and PROFILE in drawn:
-            yield follower, found.profile
+    from ...plans.cams.course import profiles
+
+    if solved.draws_profiles:
+        yield from ((follower, profile) for _, follower, profile in profiles(solved))
 
 
 def _degrees(angle: float) -> str:
