@@ -1,0 +1,92 @@
+"""Marking answers of cams: what a form asks for, the printed answers, right and wrong ones."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from kulman import check, solve
+from kulman.plans.marking.verdicts import Verdict
+from kulman.variants.solution import Solution
+
+TASK = "madi-cam"
+ROCKER = Path(__file__).resolve().parents[2] / "docs" / "examples" / "rocker-cam.toml"
+PRINTED = {
+    "mu_s_chord": Verdict.RIGHT,
+    "mu_a_chord": Verdict.RIGHT,
+    "ds_max_chord": Verdict.RIGHT,
+    "r_0_tangents": Verdict.RIGHT,
+    "e_tangents": Verdict.RIGHT,
+    "rho_min": Verdict.WRONG,  # the radius of the upper dwell
+    "r_0_flat_min": Verdict.WRONG,  # an amplitude on paper
+    "r_0_flat": Verdict.CARRIED,
+    "R_plate": Verdict.RIGHT,
+}
+
+
+@pytest.fixture(scope="module")
+def solution() -> Solution:
+    return solve(TASK)
+
+
+def test_printed_answers_are_right_but_for_two_that_are_no_sizes_of_a_cam() -> None:
+    asked = check(TASK, lang="en")
+
+    (answers,) = asked.read("printed")
+    verdicts = {line.name: line.verdict for line in asked.mark(answers).marked.lines}
+
+    assert {name: verdicts[name] for name in PRINTED} == PRINTED
+
+
+def test_form_asks_for_what_is_drawn_and_not_for_what_only_a_formula_gives(tmp_path: Any) -> None:
+    text = check(TASK, lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
+
+    asked = {line.split(",")[0] for line in text.splitlines()}
+    assert {"mu_s_chord", "r_0_tangents", "e_tangents", "rho_min", "R_plate"} <= asked
+    assert not {"mu_s", "r_0", "e", "s_0", "nu"} & asked
+
+
+def test_form_of_a_rocker_is_headed_by_its_own_plans(tmp_path: Any) -> None:
+    text = check(ROCKER, lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
+
+    for heading in ("Positions of the rocker, place of the cam's centre", "Cam with a rocker"):
+        assert f'{heading}"' in text or heading in text.splitlines()
+    assert "roller follower" not in text
+
+
+def test_right_answers_get_the_full_mark(tmp_path: Any, solution: Solution) -> None:
+    asked = check(TASK, lang="en")
+    form = asked.write_form(tmp_path / "form.csv")
+    lines = form.read_text(encoding="utf-8-sig").splitlines()
+    filled = []
+    for line in lines:
+        cells = line.split(",")
+        if cells[0] in solution and len(cells) > 6:
+            cells[5] = f"{solution[cells[0]].shown(solution.words.display).value:.4g}"
+        filled.append(",".join(cells))
+    form.write_text("\n".join(filled), encoding="utf-8-sig")
+
+    (answers,) = asked.read(str(form))
+
+    assert asked.mark(answers).marked.mark == 100.0
+
+
+@pytest.mark.parametrize(
+    ("name", "times"),
+    [("mu_s_chord", 1e3), ("mu_a_chord", 10.0), ("gamma_rise_min", math.degrees(1.0)), ("r_0_tangents", 0.1)],
+)
+def test_a_value_in_another_unit_is_told_from_a_wrong_one(
+    name: str, times: float, tmp_path: Any, solution: Solution
+) -> None:
+    asked = check(TASK, lang="en")
+    written = solution[name].shown(solution.words.display)
+    file = tmp_path / "class.csv"
+    file.write_text(f"student,{name}\nA,{times * (written.value or 0.0):.6g}\n", encoding="utf-8")
+
+    (answers,) = asked.read(str(file))
+    (line,) = [line for line in asked.mark(answers).marked.lines if line.name == name]
+
+    assert line.verdict is Verdict.SCALE
