@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..laws import cross, dot
-from .envelopes import Undercut, outline, undercuts
+from .envelopes import Envelope, Undercut, outline, undercuts
 from .motion import Motion
 from .places import Minimum, minima
 from .sizes import RollerSizes
@@ -68,8 +68,38 @@ class StraightPath:
         return height
 
 
+class _Bent(Envelope, Protocol):
+    """An envelope that knows where it is curved most, and where it is cut."""
+
+    @property
+    def sharpest(self) -> Minimum:
+        """The least radius of curvature, m, and where."""
+
+    @property
+    def undercuts(self) -> list[Undercut]:
+        """What the profile does not give of the motion."""
+
+
+class Profile:
+    """What profiles under a roller and under a plate have in common: they are envelopes that know their `sharpest`."""
+
+    @property
+    def rho_min(self: _Bent) -> float:
+        """The least radius of curvature of the pitch curve where it is convex, or under a plate, m."""
+        return self.sharpest.value
+
+    @cached_property
+    def undercuts(self: Envelope) -> list[Undercut]:
+        """What the profile does not give of the motion."""
+        return undercuts(self)
+
+    def outline(self: _Bent, most: float = OUTLINE) -> Points:
+        """Return points of the profile as it is cut, in order of phi, without loops."""
+        return outline(self, self.undercuts, most)
+
+
 @dataclass(frozen=True)
-class RollerProfile:
+class RollerProfile(Profile):
     """The profile of a cam for a roller of the radius R that moves along a path; `sense` +1 counter-clockwise."""
 
     path: Path
@@ -144,23 +174,9 @@ class RollerProfile:
         """The least radius of curvature of the convex pitch curve, and where: zero where it has a corner."""
         return _sharpest(self.motion, lambda phi, side: -self.curvature(phi, side))
 
-    @property
-    def rho_min(self) -> float:
-        """The least radius of curvature of the convex pitch curve, m."""
-        return self.sharpest.value
-
-    @cached_property
-    def undercuts(self) -> list[Undercut]:
-        """What the profile does not give of the motion."""
-        return undercuts(self)
-
-    def outline(self, most: float = OUTLINE) -> Points:
-        """Return points of the profile as it is cut, in order of phi, without loops."""
-        return outline(self, self.undercuts, most)
-
 
 @dataclass(frozen=True)
-class PlateProfile:
+class PlateProfile(Profile):
     """The profile of a cam for a flat plate whose lowest height above the centre is r_0."""
 
     motion: Motion
@@ -209,20 +225,6 @@ class PlateProfile:
         found = self.motion.minimum(1.0, 0.0, 1.0)
         drops = self.motion.drops
         return Minimum(-math.inf, drops[0]) if drops else Minimum(self.r_0 + found.value, found.phi)
-
-    @property
-    def rho_min(self) -> float:
-        """The least radius of curvature, m."""
-        return self.sharpest.value
-
-    @cached_property
-    def undercuts(self) -> list[Undercut]:
-        """What the profile does not give of the motion."""
-        return undercuts(self)
-
-    def outline(self, most: float = OUTLINE) -> Points:
-        """Return points of the profile as it is cut, in order of phi, without loops."""
-        return outline(self, self.undercuts, most)
 
 
 def turned_back(phi: Any, sense: int) -> Points:
