@@ -14,7 +14,7 @@ import pytest
 import shapely
 
 from kulman import sheet, solve
-from kulman.tests.support.cam_points import NEAR, STEEP, CamCase, measured, ring
+from kulman.tests.support.cam_cases import NEAR, STEEP, CamCase, measured, ring
 from kulman.tests.support.overlaps import view_faults
 from kulman.tests.support.readback import Sheet, View, angle, cross, polygon, read
 

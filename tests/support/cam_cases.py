@@ -110,6 +110,11 @@ def printed_scales(view: View) -> dict[str, float]:
     return found
 
 
+def mu_l(view: View) -> float:
+    """The printed scale factor of lengths, m a mm."""
+    return printed_scales(view)[MU_L]
+
+
 def drawn_diagrams(case: CamCase, view: View) -> dict[str, Diagram]:
     """The diagrams from the top: their origins are read back, their scale factors are those that are printed."""
     plans = [plan for plan in DERIVATIVE if view.inside("curve", plan)]
