@@ -14,11 +14,9 @@ from kulman.tests.support.gears import SEED, madi, second_route
 
 WHEELS = [
     pytest.param(15.0, 20.0, id="15 and 20"),
-    pytest.param(12.0, 24.0, id="12 and 24"),
-    pytest.param(60.0, 90.0, id="60 and 90"),
     *(
         pytest.param(z_1, z_2, id=f"{z_1:.0f} and {z_2:.0f}", marks=pytest.mark.soak)
-        for z_1, z_2 in ((20.0, 40.0), (10.0, 10.0), (35.0, 36.0))
+        for z_1, z_2 in ((12.0, 24.0), (60.0, 90.0), (20.0, 40.0), (10.0, 10.0), (35.0, 36.0))
     ),
 ]
 
@@ -48,12 +46,13 @@ def by_second_route(plane: Plane, places: np.ndarray) -> dict[str, np.ndarray]:
 def test_points_of_every_curve_are_on_their_limit(z_1: float, z_2: float) -> None:
     of = plane(z_1, z_2)
 
+    step = abs(of.high - of.low) / of.cells
     for name in CURVES:
+        others = [other for other in BLOCKING if other != name]
+        inside = np.concatenate([run[of.permits(run, others)] for run in of.curve(name)] or [np.empty(0)])
+        if inside.size:
+            assert np.max(np.abs(by_second_route(of, inside)[name])) < 1e-9, name
         for run in of.curve(name):
-            inside = run[of.permits(run, [other for other in BLOCKING if other != name])]
-            if inside.size:
-                assert np.max(np.abs(by_second_route(of, inside)[name])) < 1e-9, name
-            step = abs(of.high - of.low) / of.cells
             assert np.max(np.abs(np.diff(run)), initial=0.0) < 2.0 * step
 
 
@@ -64,17 +63,17 @@ def test_curves_cross_where_both_limits_are_reached(z_1: float, z_2: float) -> N
     corners = of.corners()
 
     assert len(corners) >= 3
-    for corner in corners:
-        found = by_second_route(of, np.array([corner.place]))
-        assert abs(found[corner.first][0]) < 1e-8
-        assert abs(found[corner.second][0]) < 1e-8
-        assert all(found[name][0] > -1e-8 for name in BLOCKING)
-        around = corner.place + 1e-3 * np.exp(2j * np.pi * np.arange(90) / 90)
-        beside = by_second_route(of, around)
-        inside = np.logical_and.reduce([beside[name] > 0.0 for name in BLOCKING])
-        assert 0 < np.count_nonzero(inside) < 90  # the corner of an area
-        assert np.any(beside[corner.first] < 0.0)
-        assert np.any(beside[corner.second] < 0.0)
+    places = np.array([corner.place for corner in corners])
+    around = places[:, np.newaxis] + 1e-3 * np.exp(2j * np.pi * np.arange(90) / 90)
+    found, beside = by_second_route(of, places), by_second_route(of, around)
+    inside = np.logical_and.reduce([beside[name] > 0.0 for name in BLOCKING])
+    for k, corner in enumerate(corners):
+        assert abs(found[corner.first][k]) < 1e-8
+        assert abs(found[corner.second][k]) < 1e-8
+        assert all(found[name][k] > -1e-8 for name in BLOCKING)
+        assert 0 < np.count_nonzero(inside[k]) < 90  # the corner of an area
+        assert np.any(beside[corner.first][k] < 0.0)
+        assert np.any(beside[corner.second][k] < 0.0)
 
 
 @pytest.mark.parametrize(("z_1", "z_2"), WHEELS)

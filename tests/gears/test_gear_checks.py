@@ -68,7 +68,7 @@ def test_hardened_teeth_have_to_be_thicker_at_the_tip() -> None:
         pytest.param(20.0, 40.0, 0.2, 0.0, set(), id="neither"),
         pytest.param(15.0, 20.0, 0.2, 0.85, set(), id="the project's pair"),
         pytest.param(20.0, 40.0, 0.3, -1.0, {1}, id="root of the pinion"),
-        pytest.param(25.0, 90.0, -0.1, -0.6, {1}, id="pinion and large wheel"),
+        pytest.param(25.0, 90.0, -0.1, -0.6, {1}, id="pinion and large wheel", marks=pytest.mark.soak),
         pytest.param(20.0, 40.0, 0.0, 1.65, {2}, id="root of the wheel"),
         pytest.param(30.0, 30.0, -0.6, -0.6, {1, 2}, id="both"),
     ],
@@ -88,9 +88,10 @@ def test_interference_is_where_wheels_overlap_when_they_roll(
     assert (worst > 1e-4) == bool(roots)
 
 
-def test_undercut_and_thickness_are_those_of_the_teeth() -> None:
+@pytest.mark.parametrize("count", [pytest.param(20, id="20"), pytest.param(60, id="60", marks=pytest.mark.soak)])
+def test_undercut_and_thickness_are_those_of_the_teeth(count: int) -> None:
     random = np.random.default_rng(SEED)
-    for _ in range(60):
+    for _ in range(count):
         values = madi(z_1=float(random.integers(8, 30)), x_1=random.uniform(-0.3, 0.9), x_2=0.3)
         own, tooth = verdicts(values), tooth_of(values, 1)
 

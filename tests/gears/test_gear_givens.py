@@ -23,10 +23,11 @@ def test_standard_rack_is_taken_where_no_other_is_given() -> None:
     assert complete({**BASIC, "x_1": 0.2, "x_2": 0.85, "c": 0.3})["c"] == 0.3
 
 
-def test_shifts_follow_from_the_centre_distance() -> None:
-    pairs = random_pairs(np.random.default_rng(SEED), 40)
+@pytest.mark.parametrize("count", [pytest.param(8, id="8"), pytest.param(40, id="40", marks=pytest.mark.soak)])
+def test_shifts_follow_from_the_centre_distance(count: int) -> None:
+    pairs = random_pairs(np.random.default_rng(SEED), count)
     a_w, x_sum = geometry(pairs)["a_w"], pairs["x_1"] + pairs["x_2"]
-    for k in range(40):
+    for k in range(count):
         values = {name: float(column[k]) for name, column in pairs.items()}
         rest = {name: value for name, value in values.items() if name not in ("x_1", "x_2")}
         for given in ({"a_w": float(a_w[k])}, {"x_sum": float(x_sum[k])}):
@@ -36,9 +37,10 @@ def test_shifts_follow_from_the_centre_distance() -> None:
                 assert "a_w" not in found
 
 
-def test_shifts_for_equal_sliding_give_the_same_sliding_at_both_roots_and_no_less_is_had() -> None:
+@pytest.mark.parametrize("count", [pytest.param(5, id="5"), pytest.param(30, id="30", marks=pytest.mark.soak)])
+def test_shifts_for_equal_sliding_give_the_same_sliding_at_both_roots_and_no_less_is_had(count: int) -> None:
     random = np.random.default_rng(SEED)
-    for _ in range(30):
+    for _ in range(count):
         z_1, z_2 = (float(z) for z in random.integers(14, 70, 2))
         values = {"m": 3e-3, "z_1": z_1, "z_2": z_2, "x_sum": random.uniform(0.0, 1.0)}
 
