@@ -40,7 +40,7 @@ def unit_at(phi: float, sense: int) -> complex:
     return cmath.rect(1.0, math.pi / 2 - sense * phi)
 
 
-def on_circle(e: float, radius: float, up: complex, sense: int) -> complex:
+def on_circle(e: float, radius: float, up: complex) -> complex:
     """Return where the follower's line along `up`, at the offset e, meets a circle about the cam's centre."""
     return up * complex(math.sqrt(max(radius * radius - e * e, 0.0)), -e)
 
@@ -51,7 +51,7 @@ def numbers(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
     written: list[complex] = []
     for i, phi in enumerate(solved.angles.tolist()):
         up = unit_at(phi, solved.cam.sense)
-        at = on_circle(e, radius, up, solved.cam.sense)
+        at = on_circle(e, radius, up)
         if i == 0:  # beyond the cam's axis from there
             at = complex(-math.copysign(scene.style.label, e), at.imag)
         needed = lay_out(str(i), height).width + 0.3 * height
@@ -66,7 +66,7 @@ def numbers(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
 def phases(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
     """Dimension the phases in degrees, on an arc outside of all positions."""
     motion, sense, words = scene.solved.motion, scene.solved.cam.sense, scene.words
-    first = cmath.phase(on_circle(e, radius, 1j, sense))
+    first = cmath.phase(on_circle(e, radius, 1j))
     for phase in motion.phases:
         if not phase.lasts:
             continue

@@ -34,7 +34,7 @@ def plate_sizes_view(scene: CamScene) -> View:
     canvas.label(words.symbol("d2s"), complex(right + PAST, 0.0), prefer=-1j, clear=1.2)
     _tangent(canvas, scene, plate.sizes.r_0_min / mu, plate.sizes.phi)
     _nodes(canvas, scene)
-    _sizes(canvas, scene, right)
+    _sizes(canvas, scene)
     equal = f"{words.symbol('mu_s')} = {scene.factor(scene.scale(PLATE_SIZES))}"
     slope = solved.values["mu_s"] / solved.values["mu_d2s"]
     ratio = f"{words.symbol('mu_s')}/{words.symbol('mu_d2s')} = {scene.value(slope)}"
@@ -92,7 +92,7 @@ def _nodes(canvas: Canvas, scene: CamScene) -> None:
         canvas.label(", ".join(numbers), at, prefer=1j, clear=0.8, height=scene.style.text)
 
 
-def _sizes(canvas: Canvas, scene: CamScene, right: float) -> None:
+def _sizes(canvas: Canvas, scene: CamScene) -> None:
     """Dimension r_0min and r_0 downwards from the lowest place of the plate."""
     words, style, plate = scene.words, scene.style, scene.solved.plate
     assert plate is not None

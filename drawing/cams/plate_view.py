@@ -13,7 +13,6 @@ from .inversion import centre, circle, corners, dwelling, heading, numbers, phas
 from .roller_view import NUMBERS, PHASES
 from .scene import CamScene
 
-SPOT = 2.0  # mm of a plate's line beyond the farthest contact
 SAME = 1e-4  # part of the greatest velocity within which that of the fall is the same
 ANALOGUE = "|s′|"  # letter of the velocity analogue where there is little room
 ABOVE = 2.3, 4.9  # heights of letters from the plate to its dimensions

@@ -45,7 +45,7 @@ def rocker_view(scene: CamScene) -> View:
     edge = reach + 1.2 * label
     canvas.bounds = -edge, -edge, edge, edge
     scale = f"{ratio(scene)};  {scene.factor(scene.scale(PROFILE))}"
-    notes = *_lettered(scene, line), *undercut_notes(scene, cam.profile.undercuts, rocks=True)
+    notes = *_lettered(scene), *undercut_notes(scene, cam.profile.undercuts, rocks=True)
     return canvas.finish("profile", (scene.words["heading.cam_rocker_profile"], scale), notes)
 
 
@@ -123,7 +123,7 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> None:
     canvas.label(words.symbol("l_rocker"), (zero, start), prefer=1j, clear=0.8, height=style.text)
 
 
-def _lettered(scene: CamScene, line: int) -> tuple[str, ...]:
+def _lettered(scene: CamScene) -> tuple[str, ...]:
     """Return the numbers of what has only a letter in the figure."""
     cam, words = scene.solved.rocker, scene.words
     assert cam is not None

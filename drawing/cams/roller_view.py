@@ -57,7 +57,7 @@ def _positions(canvas: Canvas, scene: CamScene, e: float, reach: float) -> None:
     for i, phi in enumerate(solved.angles.tolist()):
         up = unit_at(phi, solved.cam.sense)
         foot, at = scene.mm(f"{PROFILE}.E{i}"), scene.mm(f"{PROFILE}.B{i}")
-        canvas.add(Line(foot, on_circle(e, reach, up, solved.cam.sense), Pen.THIN, role="position", name=str(i)))
+        canvas.add(Line(foot, on_circle(e, reach, up), Pen.THIN, role="position", name=str(i)))
         if i:
             canvas.add(Group((Circle(at, R, Pen.THIN),), "roller", str(i)))
         canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", str(i)))
@@ -92,6 +92,6 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> None:
     roller_radius(canvas, scene, scene.mm(f"{PROFILE}.B{last}"), last, roller.profile.R)
     top = solved.layout.division.top
     up = unit_at(float(solved.angles[top]), sense)
-    low = on_circle(rod.x, roller.sizes.r_0 / mu, up, sense)
+    low = on_circle(rod.x, roller.sizes.r_0 / mu, up)
     aside = up * (-1j * sense) * (0.5 * roller.profile.R / mu)
     linear(canvas, (low, scene.mm(f"{PROFILE}.B{top}")), aside, words.symbol("h"), "h")

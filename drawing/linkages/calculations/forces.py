@@ -130,7 +130,7 @@ def _force(scene: Scene, step: Step) -> Lines:
     """Tell a step of the force plans: a sum of moments, or the sums of forces of a plan."""
     if step.verb == "pole" and step.name.startswith("forces_"):
         return list(closed(scene, plan_of(step.name)))
-    if step.law in SIGNS and not _on_lever(scene, step):
+    if step.law in SIGNS and not _on_lever(step):
         return _for_a_force(scene, step)
     if step.law == "closing_moment":
         return _for_a_moment(scene, step, step)
@@ -144,7 +144,7 @@ def _force(scene: Scene, step: Step) -> Lines:
 SIGNS = {"moment_equation": -1.0, "closing_force": 1.0}  # of the force's own moment in the sum
 
 
-def _on_lever(scene: Scene, step: Step) -> bool:
+def _on_lever(step: Step) -> bool:
     """Whether moments are those about the pole of the lever."""
     return step.operands[0].startswith("_V_")
 

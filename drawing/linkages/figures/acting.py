@@ -51,7 +51,7 @@ def handed(scene: Scene, number: int) -> Hung:
     for group, pair, own in _attached(scene, number):
         force = f"R_{own}{number}"
         if scene.defined(force):
-            found.append((force, moments.get(force) or pin_of(scene, group, pair)))
+            found.append((force, moments.get(force) or pin_of(group, pair)))
     return found
 
 
@@ -112,7 +112,7 @@ def _link_of(scene: Scene, force: str) -> int | None:
     return next((second for first, second in ways if index == f"{first}{second}"), None)
 
 
-def pin_of(scene: Scene, group: Group, pair: Pair) -> str:
+def pin_of(group: Group, pair: Pair) -> str:
     """Return the joint about which the moments of a pair's reaction are taken: its own pin, or one of the slider's."""
     if isinstance(pair, Revolute):
         return pair.point
@@ -133,7 +133,7 @@ def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int
     else:
         return None
     moment, reaction = step.operands
-    pin = _about(scene, moment) or pin_of(scene, group, pair)
+    pin = _about(scene, moment) or pin_of(group, pair)
     u = scene.solved.point(scene.solved.guide_name(pair))
     value = float(scene.solved.values[moment])
     # the moment of the loads, which the reaction balances, or that of the reaction itself

@@ -71,7 +71,7 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
     for number, band in enumerate(bands):
         least, most = (band.scale.drawn(end) for end in band.ends)
         low -= most + (GAP + scene.style.label * 2 if number else 0.0)
-        _draw(canvas, scene, _field(scene, band, across, drawn, 1j * low), band, sections)
+        _draw(canvas, scene, _field(scene, band, across, drawn, 1j * low), band)
         if number:
             pair = bands[number - 1 : number + 1]
             _pole(canvas, scene, _field(scene, band, across, drawn, 1j * low), pair, f"P_{{{number}}}")
@@ -130,7 +130,7 @@ def _field(scene: Scene, band: Band, across: Scale, drawn: Diagrams, origin: com
     return Field(origin, x, Axis(letter, band.scale, low, high, {}))
 
 
-def _draw(canvas: Canvas, scene: Scene, field: Field, band: Band, sections: int) -> None:
+def _draw(canvas: Canvas, scene: Scene, field: Field, band: Band) -> None:
     """Draw the axes, the curve by plans in main lines, the points by chords on a dashed line."""
     axes(canvas, field)
     places = np.linspace(0.0, field.x.high, len(band.curve))

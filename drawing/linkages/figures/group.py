@@ -160,7 +160,7 @@ def _react(sketch: Sketch, group: Group, pair: Pair, own: int, names: list[str])
         return
     other = next(number for number in pair.links if number != own)
     found = contact(scene, group, pair, own, other)
-    at = sketch.contact(found, names[0]) if found else scene.mm(pin_of(scene, group, pair))
+    at = sketch.contact(found, names[0]) if found else scene.mm(pin_of(group, pair))
     on_guide = scene.mm(pair.point)
     u = guide_of(scene, pair)
     for name in names:
