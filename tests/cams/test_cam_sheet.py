@@ -55,7 +55,7 @@ def test_sheets_of_all_laws_satisfy_the_points(law: str) -> None:
     assert {point: found for point in points if (found := faults(case, case.sheet, point))} == {}
 
 
-@pytest.mark.parametrize("notation", ["bauman", "iso"])
+@pytest.mark.parametrize("notation", ["bauman", pytest.param("iso", marks=pytest.mark.soak)])
 def test_a_sheet_of_a_cam_has_one_convention_of_scale_factors(notation: str) -> None:
     drawn = sheet("madi-cam", only="diagrams", notation=notation, format="A1")
 
@@ -69,7 +69,7 @@ def test_a_sheet_of_a_cam_has_one_convention_of_scale_factors(notation: str) -> 
     [
         pytest.param({"r_0": 72.5, "R_roller": 29}, [True] * 4, id="just kept"),
         pytest.param({"r_0": 72.5, "R_roller": 29.01}, [False, True, True, True], id="just broken"),
-        pytest.param({"r_0": 46, "e": -5}, [True, True, False, True], id="of the rise"),
+        pytest.param({"r_0": 46, "e": -5}, [True, True, False, True], id="of the rise", marks=pytest.mark.soak),
     ],
 )
 def test_the_sheet_says_of_the_rules_what_the_checks_say(settings: dict[str, float], kept: list[bool]) -> None:
