@@ -1,0 +1,173 @@
+"""Errors of the diagrams of cams: orders of chords, hands, lines beside jumps, closing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+import kulman
+from kulman.plans.cams.closing import BOTH, drift, stroke_closed
+from kulman.plans.cams.convergence import BETWEEN, CLOSED, NODES, Convergence, convergence
+from kulman.plans.cams.division import Division
+from kulman.plans.cams.robustness import late, robustness
+from kulman.plans.cams.sectioned import R_0, S_MAX, V_MAX, drawn_on
+from kulman.plans.cams.solve import SolvedCam
+from kulman.plans.hands.hand import Hand, preset
+from kulman.plans.hands.shaky import draw
+from kulman.scales.errors import InputError
+
+TASK = "madi-cam"
+SOAKED = [pytest.param(law, marks=pytest.mark.soak) for law in ("sine", "modified-trapezoid")]
+STEADY = Hand(0.0, 0.0, 0.0)
+
+
+@cache
+def cam(law: str = "sawtooth", **settings: str) -> SolvedCam:
+    solved = kulman.solve(TASK, set={"law": law, **settings}, only="sizes").solved
+    assert isinstance(solved, SolvedCam)
+    return solved
+
+
+@cache
+def chords(law: str, u: str = "1/3") -> Convergence:
+    return convergence(cam(law, u=u), {}, sections=(24, 48, 96, 192), drawn=())
+
+
+@pytest.mark.parametrize(
+    ("law", "u"), [("sawtooth", "1/3"), ("constant", "0.4"), pytest.param("sawtooth", "0.37", marks=pytest.mark.soak)]
+)
+def test_chords_are_of_second_order_with_jumps_on_lines_and_of_first_between(law: str, u: str) -> None:
+    found = chords(law, u)
+
+    for quantity in (S_MAX, R_0):
+        second, first = (found.order(where, quantity) for where in (NODES, BETWEEN))
+        if law == "constant":  # its velocity is straight: chords find the stroke exactly
+            assert second is None
+        else:
+            assert second == pytest.approx(2.0, abs=0.1)
+        assert first == pytest.approx(1.0, abs=0.15)
+    assert found.order(BETWEEN, V_MAX) == pytest.approx(1.0, abs=0.15)
+
+
+@pytest.mark.parametrize("law", ["cosine", "polynomial-345", *SOAKED])
+def test_laws_that_jump_at_the_ends_of_a_phase_only_are_of_second_order(law: str) -> None:
+    found = chords(law)
+
+    assert [*found.sections] == [NODES]
+    for quantity in (V_MAX, S_MAX, R_0):
+        assert found.order(NODES, quantity) == pytest.approx(2.0, abs=0.1)
+    assert found.order(NODES, CLOSED) is None or found.order(NODES, CLOSED) > 1.9
+
+
+def test_straight_accelerations_give_the_velocity_without_error() -> None:
+    assert np.abs(chords("sawtooth").errors[NODES, V_MAX]).max() < 1e-14
+    assert chords("sawtooth").order(NODES, V_MAX) is None
+
+
+def test_a_hand_without_errors_draws_the_chords() -> None:
+    found = convergence(cam(), {"steady": STEADY}, sections=(12, 24), drawn=(12, 24))
+
+    for quantity in found.quantities:
+        assert found.hands["steady", quantity] == pytest.approx(np.abs(found.errors[NODES, quantity]), abs=1e-12)
+
+
+def test_a_better_hand_errs_less_and_takes_more_sections() -> None:
+    hands = {name: preset(name).hand for name in ("cad", "lenient")}
+
+    found = convergence(cam(), hands, (S_MAX, CLOSED), (12,), (6, 18, 72))
+
+    assert (found.hands["cad", CLOSED] < 0.5 * found.hands["cad", S_MAX]).all()
+    cad, lenient = (found.hands[name, S_MAX] for name in ("cad", "lenient"))
+    assert (cad < 0.3 * lenient).all()
+    assert cad[1] < 0.5 * cad[0]
+    assert cad[1] < cad[2]
+    assert lenient[2] > 1.2 * lenient.min()
+    assert found.best("cad", S_MAX) == (18, cad[1])
+
+
+def test_chords_of_a_constant_velocity_have_no_error() -> None:
+    with pytest.raises(InputError) as problem:
+        convergence(cam("uniform"), {}, sections=(12, 24), drawn=())
+
+    assert problem.value.key == "chart-exact-chords"
+
+
+def test_a_drafting_machine_draws_along_the_edges_without_an_error_of_direction() -> None:
+    solved = cam()
+    angles, division = solved.motion.division(12)
+    names = ("diagram_s.f12", "diagram_v.p1", "diagram_v.1")
+    paper = drawn_on(solved, angles, division, names)
+
+    machine, free = (
+        draw(one, Hand(0.0, 1.0, 0.0), np.random.default_rng(1), 50).values for one in (paper, replace(paper, edges=()))
+    )
+
+    assert np.ptp(np.imag(machine["diagram_s.f12"])) == 0.0
+    assert np.ptp(np.imag(free["diagram_s.f12"])) > 1e-4
+    assert np.ptp(np.real(machine["diagram_v.1"])) < 1e-15  # on its section line
+    assert np.ptp(np.imag(machine["diagram_v.1"])) > 1e-5  # at the end of a chord
+
+
+def test_errors_that_cancel_in_a_ratio_are_none() -> None:
+    drawing = kulman.solve(TASK, only="diagrams", hand="normal").drawing
+    assert drawing is not None
+
+    assert drawing.expected["mu_s_chord"].errs
+    assert not drawing.expected["nu_chord"].errs
+    assert drawing.expected["nu_chord"].step is None
+
+
+def test_a_line_beside_a_jump_errs_as_far_as_it_is_late() -> None:
+    found = robustness(cam(), {}, (12, 24))
+    middle = found.beside.index(0.0)
+
+    assert found.missed[12, S_MAX][middle] == pytest.approx(1.0 / 64.0, rel=1e-9)
+    for n in (12, 24):
+        far, near = found.missed[n, V_MAX][-1], found.missed[n, V_MAX][(middle + len(found.beside)) // 2]
+        assert far == pytest.approx(2.0 * near, rel=0.05)
+    assert found.missed[12, S_MAX][-1] == pytest.approx(2.0 * found.missed[24, S_MAX][-1], rel=0.05)
+
+
+def test_only_lines_at_jumps_are_late() -> None:
+    solved = cam()
+    angles, division = solved.motion.division(12)
+
+    moved = late(solved, angles, 0.25) - angles
+
+    assert [*np.flatnonzero(moved)] == [*division.jumps]
+    assert np.degrees(moved[list(division.jumps)]) == pytest.approx([2.25, 2.25])
+
+
+def test_closing_takes_out_a_drift_of_the_velocity_exactly() -> None:
+    """A velocity that is off by straight lines: so much is its integral off."""
+    division, x = Division(12, 13, 25), np.concatenate((np.linspace(0.0, 0.1, 13), np.linspace(0.12, 0.2, 13)))
+    off = np.interp(x, [0.0, 0.1, 0.12, 0.2], [0.0, 0.004, 0.004, -0.002])
+    speed = off + np.sin(2.0 * np.pi * x / 0.1) * np.where(x <= 0.1, 1.0, 0.0)
+    fine = np.linspace(0.0, 0.2, 200_001)
+    offs = np.interp(fine, [0.0, 0.1, 0.12, 0.2], [0.0, 0.004, 0.004, -0.002])
+    areas = np.concatenate(([0.0], np.cumsum(0.5 * (offs[1:] + offs[:-1]) * np.diff(fine))))
+
+    found = drift(speed, x, division, 0.03)
+
+    assert found == pytest.approx(np.interp(x, fine, areas) / 0.03, abs=1e-9)
+    assert stroke_closed(np.outer(x, [1.0, 2.0]) + 0.0, x) == pytest.approx(np.zeros((26, 2)), abs=1e-15)
+
+
+def test_closing_brings_more_than_care() -> None:
+    found = robustness(cam(), {name: preset(name).hand for name in ("careful", "normal")}, (12,))
+
+    normal, careful = (found.closings[name].errors for name in ("normal", "careful"))
+    assert normal[BOTH] < 0.2 * normal["drawn"]
+    assert normal[BOTH] < normal["speed"] < normal["drawn"]
+    assert normal[BOTH] < careful["drawn"]
+
+
+def test_cams_without_inner_jumps_have_no_line_to_miss() -> None:
+    found = robustness(cam("sine"), {"cad": preset("cad").hand})
+
+    assert found.beside == ()
+    assert found.missed == {}
+    assert found.closings["cad"].errors[BOTH] < 0.05
