@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from ...plans.cams.cam import DIAGRAMS, PRESSURE, PROFILE, SIZES
+from ...plans.cams.cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_PART
 from ...plans.cams.solve import SolvedCam
 from ...scales.choose import Choosers
 from ...scales.scale import Scale
@@ -99,7 +99,7 @@ class Fitting:
 
 def figures(contents: Contents, width: float) -> list[Figure]:
     """Return the figures of a sheet in the order of the work; lines of text are at most `width` long."""
-    made = {DIAGRAMS: _diagrams, SIZES: _sizes, PROFILE: _profiles, PRESSURE: _pressure}
+    made = {DIAGRAMS_PART: _diagrams, SIZES_PART: _sizes, PROFILE_PART: _profiles, PRESSURE_PART: _pressure}
     return [figure for plan in contents.plans for figure in made[plan](contents, width)]
 
 

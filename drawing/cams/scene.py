@@ -15,7 +15,7 @@ from ...plans.cams.inversion import PLATE_PROFILE, PROFILE
 from ...plans.cams.motion import Phase
 from ...plans.cams.rocker_plans import ROCKER_SIZES
 from ...plans.cams.size_plans import PLATE_SIZES, SIZES
-from ...plans.cams.solve import PAPER, SolvedCam
+from ...plans.cams.solve import PAPER_MM, SolvedCam
 from ...scales.scale import Scale
 from ..givens import Given
 from ..printed import decimals_for
@@ -72,12 +72,12 @@ class CamScene:
         """Return a mark in mm from the origin of its plan."""
         plan = mark.rpartition(".")[0]
         if plan in DIAGRAM_SCALES:
-            return self.solved.point(mark) * (self.reduction / PAPER)
+            return self.solved.point(mark) * (self.reduction / PAPER_MM)
         return self.solved.point(mark) * (1.0 / self.scale(plan).mu)
 
     def paper(self, name: str) -> float:
         """Return a length on the diagrams, mm as drawn."""
-        return float(self.solved.values[name]) * (self.reduction / PAPER)
+        return float(self.solved.values[name]) * (self.reduction / PAPER_MM)
 
     def factor(self, scale: Scale) -> str:
         """Return a scale factor with as many digits as drawings of 0.01 mm need."""

@@ -24,12 +24,13 @@ LAWS = (
     "polynomial-345",
     "polynomial-4567",
 )
-RISE = "rise"  # the fall has the law of the rise
+AS_RISE = "rise"  # the fall has the law of the rise
 MIRROR, SAME = ORDERS = ("mirror", "same")
 CCW, CW = ROTATIONS = ("ccw", "cw")
 ONE_SIDED, TWO_SIDED = LIMITS = ("one-sided", "two-sided")
 POINTS, PIECES = CURVES = ("points", "pieces")
-DIAGRAMS, SIZES, PROFILE, PRESSURE = PLANS = ("diagrams", "sizes", "profile", "pressure")
+# parts of the construction that may be wanted, each of one plan or more
+DIAGRAMS_PART, SIZES_PART, PROFILE_PART, PRESSURE_PART = PLANS = ("diagrams", "sizes", "profile", "pressure")
 # names of the numbers, and what they are; those of a phase or a follower that a cam has not are not needed
 VALUES = {
     "h": "m",  # stroke
@@ -98,7 +99,7 @@ class Cam:
 
     followers: tuple[str, ...]
     law: str
-    law_fall: str = RISE
+    law_fall: str = AS_RISE
     fall: str = MIRROR
     rotation: str = CCW
     limits: str = ONE_SIDED
@@ -125,7 +126,7 @@ class Cam:
     @property
     def falls_by(self) -> str:
         """The law of the fall."""
-        return self.law if self.law_fall == RISE else self.law_fall
+        return self.law if self.law_fall == AS_RISE else self.law_fall
 
     def curve(self, law: str) -> Curve | None:
         """Return the law of one's own of this name, None for one of `LAWS`."""

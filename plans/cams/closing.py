@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .division import Division
+from .formulas import MM
 from .integration import ACCELERATION, TRAVEL, VELOCITY
 from .sectioned import ordinates
 from .solve import SolvedCam
 
 Array = NDArray[np.float64]
 AS_DRAWN, SPEED, STROKE, BOTH = WAYS = ("drawn", "speed", "stroke", "both")  # what has been closed
-MM = 1e3  # millimetres in a metre of paper
 
 
 def travel_errors(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..board import Program, RecordingBoard
 from . import formulas as formulas  # its laws of calculation
-from .cam import DIAGRAMS, PLANS, PLATE, PRESSURE, PROFILE, ROCKER, ROLLER, SIZES
+from .cam import DIAGRAMS_PART, PLANS, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART
 from .division import Division
 from .integration import ACCELERATION, diagrams
 from .inversion import plate_profile, positions, roller_profile
@@ -15,7 +15,7 @@ from .rocker_plans import rocker_profile, rocker_sizes
 from .scale_factors import chord_factors, exact_factors
 from .size_plans import ordinates, permitted_offsets, plate_sizes, roller_sizes, smallest_plate_cam, smallest_roller_cam
 
-NEEDS = {DIAGRAMS: (), SIZES: (DIAGRAMS,), PROFILE: (SIZES,), PRESSURE: (SIZES,)}
+NEEDS = {DIAGRAMS_PART: (), SIZES_PART: (DIAGRAMS_PART,), PROFILE_PART: (SIZES_PART,), PRESSURE_PART: (SIZES_PART,)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +49,11 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
     """Record the construction of the plans wanted and of those they need."""
     board, wanted = RecordingBoard(), with_needs(plans)
     division, given = layout.division, layout.given
-    if DIAGRAMS in wanted:
+    if DIAGRAMS_PART in wanted:
         diagrams(board, division.sections, given)
         exact_factors(board, given)
         chord_factors(board, division, layout.fastest, given)
-    if SIZES in wanted:
+    if SIZES_PART in wanted:
         ordinates(board, division, given)
         if ROLLER in layout.followers:
             roller_sizes(board, division, layout.limits, layout.corner)
@@ -65,7 +65,7 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
             smallest_plate_cam(board)
         if ROCKER in layout.followers:
             rocker_sizes(board, division)
-    if PROFILE in wanted:
+    if PROFILE_PART in wanted:
         positions(board, division)
         if ROLLER in layout.followers:
             roller_profile(board, division)

@@ -21,9 +21,9 @@ from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
 from ..hands.hand import Hand
 from ..hands.shaky import draw
 from ..hands.spread import kept
-from .closing import MM
 from .convergence import DRAWINGS, SEED
 from .division import Division
+from .formulas import MM
 from .integration import ACCELERATION, TRAVEL, VELOCITY
 from .motion import TURN, Motion
 from .sectioned import drawn_on, equal_division, inner_jumps, nodes, ordinates

@@ -12,9 +12,10 @@ from ..boards.exact import run
 from ..hands.hand import Hand
 from ..hands.shaky import draw
 from ..hands.spread import kept
-from .closing import MM, travel_errors
+from .closing import travel_errors
 from .convergence import DRAWINGS, SEED
 from .division import Division
+from .formulas import MM
 from .integration import ACCELERATION, TRAVEL, VELOCITY
 from .sectioned import NEAR, drawn_on, exact_values, inner_jumps, nodes, ordinates
 from .solve import SolvedCam

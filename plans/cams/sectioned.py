@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..boards.exact import run
 from ..hands.shaky import Paper
-from .cam import DIAGRAMS, ROLLER, SIZES
+from .cam import DIAGRAMS_PART, ROLLER, SIZES_PART
 from .construction import construct
 from .division import Division
 from .givens import diagram_givens
@@ -101,7 +101,7 @@ def drawn_on(solved: SolvedCam, angles: Array, division: Division, names: tuple[
     sized = solved.roller is not None
     fastest = int(np.abs(angles - motion.ds_max.phi).argmin())
     layout = replace(solved.layout, division=division, followers=(ROLLER,) if sized else (), fastest=fastest)
-    program = construct(layout, (SIZES,) if sized else (DIAGRAMS,))
+    program = construct(layout, (SIZES_PART,) if sized else (DIAGRAMS_PART,))
     givens = {**solved.givens, **diagram_givens(motion, angles, division, given)}
     return Paper(program.needed_for(names), givens, _worth(solved), solved.edges)
 

@@ -10,7 +10,7 @@ from ..board import Program
 from ..boards.exact import run
 from ..quantities import Quantity, quantities, shown_on
 from ..solved import Solved
-from .cam import PLANS, PLATE, ROCKER, ROLLER, Cam
+from .cam import PLANS, PLATE, ROCKER, ROLLER, SIZES_PART, Cam
 from .construction import Layout, construct, with_needs
 from .followers import PlateCam, RockerCam, RollerCam, limits_of, plate_cam, rocker_cam, roller_cam
 from .givens import diagram_givens, profile_givens
@@ -42,7 +42,7 @@ SHOWN_ON = {
     **dict.fromkeys(("rho_min", "R_roller"), PROFILE),
     **dict.fromkeys(("r_0_flat", "R_plate"), PLATE_PROFILE),
 }
-PAPER = 1e-3  # metres of paper in a millimetre: the diagrams are drawn in these
+PAPER_MM = 1e-3  # metres of paper in a millimetre: the diagrams are drawn in these
 UNITS = {
     "v_max": "m/s",
     "a_max": "m/s^2",
@@ -89,7 +89,7 @@ class SolvedCam(Solved):
 
     def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
         """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""
-        return {plan: PAPER if plan in DIAGRAMS else mu for plan, mu in mus.items()}
+        return {plan: PAPER_MM if plan in DIAGRAMS else mu for plan, mu in mus.items()}
 
 
 def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> SolvedCam:
@@ -115,7 +115,7 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     angles, division = motion.division(cam.sections)
     given = VELOCITY if motion.velocity_jumps else ACCELERATION
     wanted = with_needs(plans)
-    cams = _cams(cam, motion, values, given) if PLANS[1] in wanted else {}
+    cams = _cams(cam, motion, values, given) if SIZES_PART in wanted else {}
     roller, plate, rocker = (cams.get(follower) for follower in (ROLLER, PLATE, ROCKER))
     layout = Layout(
         division,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...plans.cams.cam import (
+    AS_RISE,
     CURVES,
     FOLLOWERS,
     LAWS,
@@ -15,7 +16,6 @@ from ...plans.cams.cam import (
     NEAR,
     ORDERS,
     PLATE,
-    RISE,
     ROCKER,
     ROLLER,
     ROTATIONS,
@@ -95,7 +95,7 @@ def read_cam(checker: Checker, raw: object, names: Names, givens: Mapping[str, G
     before, path = len(checker.faults), (TABLE,)
     curves = _curves(checker, (*path, "curve"), raw["curve"]) if isinstance(raw, dict) and "curve" in raw else ()
     laws = (*LAWS, *(curve.name for curve in curves))
-    known = {"law": laws, "law_fall": (RISE, *laws), "fall": ORDERS, "rotation": ROTATIONS, "limits": LIMITS}
+    known = {"law": laws, "law_fall": (AS_RISE, *laws), "fall": ORDERS, "rotation": ROTATIONS, "limits": LIMITS}
     fields = {key: Field(_word(known[key], givens), required=key == "law") for key in WORDS}
     fields |= {
         "followers": Field(array_of(one_of("follower-unknown", lambda: FOLLOWERS))),
@@ -150,7 +150,7 @@ def _curves(checker: Checker, path: Path, raw: object) -> tuple[Curve, ...]:
         if len(read) < len(fields):
             continue
         curve = Curve(**read)
-        if curve.name in found or curve.name in (*LAWS, RISE):
+        if curve.name in found or curve.name in (*LAWS, AS_RISE):
             first = found[curve.name][1] if curve.name in found else row_path
             checker.twice((*row_path, "name"), curve.name, (*first, "name"))
             continue

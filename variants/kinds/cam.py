@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ...plans.cams.cam import DIAGRAMS, PLANS, PLATE, PROFILE, ROCKER, Cam
+from ...plans.cams.cam import DIAGRAMS_PART, PLANS, PLATE, PROFILE_PART, ROCKER, Cam
 from ...scales.choose import Choosers
 from ...scales.errors import InputError
 from ...scales.names import unknown
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from ..sweeps.cam import CamSweep
 
 SYMBOLS = ("mu_l",)  # the others follow from the drawn amplitude and the pole distances
-MM, MILLI = 1e-3, 1e3
+PER_MM, MILLI = 1e-3, 1e3
 AXES = ("diagram_a", "diagram_v", "diagram_s")  # the plans of the diagrams on one axis of angles
 DRAWN = ("_chord", "_tangents")  # what the name of a quantity ends with that is drawn, and so asked in place of another
 UNASKED = ("s_0", "r_0_flat_tangent")  # what goes with a size that is asked
@@ -92,7 +92,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
         for error in impossible(values):
             raise error
-        solved = solve_cam(subject.chosen(words), {**values, "mu_phi": values["mu_phi"] * MM}, plans)
+        solved = solve_cam(subject.chosen(words), {**values, "mu_phi": values["mu_phi"] * PER_MM}, plans)
         if "R_roller" in values and "r_0" in solved.values:
             for error in impossible({**values, "r_0": solved.values["r_0"]}):
                 raise error
@@ -173,13 +173,13 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def section(self, solved: SolvedCam, question: Question, current: str) -> str:
         """Return the section of a question: the three diagrams are one drawing."""
-        return DIAGRAMS if question.plan in AXES else question.plan
+        return DIAGRAMS_PART if question.plan in AXES else question.plan
 
     def plan_heading(self, solved: SolvedCam, plan: str, words: Words) -> str:
         """Return the heading of a plan, as the sheet has it."""
-        if plan == PROFILE and solved.rocker is not None:
+        if plan == PROFILE_PART and solved.rocker is not None:
             return words["heading.cam_rocker_profile"]
-        return words[f"heading.cam_{DIAGRAMS if plan in AXES else plan}"]
+        return words[f"heading.cam_{DIAGRAMS_PART if plan in AXES else plan}"]
 
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a cam."""
