@@ -12,6 +12,7 @@ from ..quantities import Quantity, quantities, shown_on
 from ..solved import Solved
 from .cam import PLANS, PLATE, ROCKER, ROLLER, SIZES_PART, Cam
 from .construction import Layout, construct, with_needs
+from .division import Division
 from .followers import PlateCam, RockerCam, RollerCam, limits_of, plate_cam, rocker_cam, roller_cam
 from .givens import diagram_givens, profile_givens
 from .integration import ACCELERATION, DIAGRAMS, RIGHT, TRAVEL, UP, VELOCITY
@@ -113,28 +114,11 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
         values = {**values, "h": values["psi"] * values["l_rocker"]}
     motion = motion_of(cam, values)
     angles, division = motion.division(cam.sections)
-    given = VELOCITY if motion.velocity_jumps else ACCELERATION
     wanted = with_needs(plans)
-    cams = _cams(cam, motion, values, given) if SIZES_PART in wanted else {}
-    roller, plate, rocker = (cams.get(follower) for follower in (ROLLER, PLATE, ROCKER))
-    layout = Layout(
-        division,
-        tuple(cams),
-        given,
-        fastest=int(abs(angles - motion.ds_max.phi).argmin()),
-        limits=limits_of(cam),
-        corner=roller.by_tangents.on if roller else (),
-        ranged=roller is not None and roller.offsets is not None,
-    )
+    cams = _cams(cam, motion, values) if SIZES_PART in wanted else {}
+    layout = _layout(cam, motion, angles, division, cams)
     program = construct(layout, wanted)
-    givens = {
-        **values,
-        **diagram_givens(motion, angles, division, given),
-        **profile_givens(motion, angles, division, cam.sense),
-        **(roller.givens(cam) if roller else {}),
-        **(plate.givens() if plate else {}),
-        **(rocker.givens(cam, angles, division) if rocker else {}),
-    }
+    givens = {**values, **_givens(cam, motion, angles, layout, cams)}
     board = run(program, givens)
     return SolvedCam(
         program=program,
@@ -150,10 +134,38 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
         motion=motion,
         angles=angles,
         layout=layout,
-        roller=roller,
-        plate=plate,
-        rocker=rocker,
+        roller=cams.get(ROLLER),
+        plate=cams.get(PLATE),
+        rocker=cams.get(ROCKER),
     )
+
+
+def _layout(cam: Cam, motion: Motion, angles: Array, division: Division, cams: Mapping[str, Any]) -> Layout:
+    """Return what the construction depends on: a velocity that jumps is given, as no acceleration has it."""
+    roller: RollerCam | None = cams.get(ROLLER)
+    return Layout(
+        division,
+        tuple(cams),
+        VELOCITY if motion.velocity_jumps else ACCELERATION,
+        fastest=int(abs(angles - motion.ds_max.phi).argmin()),
+        limits=limits_of(cam),
+        corner=roller.by_tangents.on if roller else (),
+        ranged=roller is not None and roller.offsets is not None,
+    )
+
+
+def _givens(cam: Cam, motion: Motion, angles: Array, layout: Layout, cams: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what the board begins with beside the numbers of the cam."""
+    division = layout.division
+    found = diagram_givens(motion, angles, division, layout.given)
+    found |= profile_givens(motion, angles, division, cam.sense)
+    if ROLLER in cams:
+        found |= cams[ROLLER].givens(cam)
+    if PLATE in cams:
+        found |= cams[PLATE].givens()
+    if ROCKER in cams:
+        found |= cams[ROCKER].givens(cam, angles, division)
+    return found
 
 
 def _shown_on(program: Program) -> dict[str, str]:
@@ -162,7 +174,7 @@ def _shown_on(program: Program) -> dict[str, str]:
     return shown_on(program) | {name: plan for name, plan in shown.items() if plan in drawn}
 
 
-def _cams(cam: Cam, motion: Motion, values: Mapping[str, float], given: str) -> dict[str, Any]:
+def _cams(cam: Cam, motion: Motion, values: Mapping[str, float]) -> dict[str, Any]:
     """Return the cam for every follower; a plate cannot follow a velocity that jumps."""
     found: dict[str, Any] = {}
     for follower in cam.followers:
@@ -170,7 +182,7 @@ def _cams(cam: Cam, motion: Motion, values: Mapping[str, float], given: str) -> 
             found[ROLLER] = roller_cam(cam, motion, values)
         elif follower == ROCKER:
             found[ROCKER] = rocker_cam(cam, values)
-        elif given == ACCELERATION:
+        elif not motion.velocity_jumps:
             found[PLATE] = plate_cam(cam, motion, values)
     return found
 
