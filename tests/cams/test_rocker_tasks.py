@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import csv
 import json
 import math
@@ -15,9 +14,7 @@ import pytest
 
 import kulman
 from kulman import cli
-from kulman.plans.laws import LAWS
 from kulman.scales.errors import InputError
-from kulman.tests.support.readback import read
 
 EXAMPLE = Path(kulman.__file__).parent / "docs" / "examples" / "rocker-cam.toml"
 GIVEN_SIZES = 'l_OC = { unit = "mm" }\nr_0 = { unit = "mm" }\n'
@@ -91,32 +88,6 @@ def test_r_0_and_the_pivot_given_are_the_sides_of_the_triangle(
 
     sizes = {name: found["quantities"][name]["value"] for name in ("r_0", "l_OC", "l_rocker")}
     assert sizes == pytest.approx({"r_0": 0.05, "l_OC": 0.125, "l_rocker": 0.11}, rel=1e-12)
-
-
-@pytest.mark.parametrize("settings", [("rotation=ccw",), ("rotation=cw",), ("l_OC=140 mm",)])
-def test_the_angle_at_the_pivot_is_that_of_its_positions_drawn(
-    folder: Path, capsys: pytest.CaptureFixture[str], settings: tuple[str, ...]
-) -> None:
-    setting = dict(word.split("=") for word in settings)
-    cam = kulman.solve("mine.toml", set=setting).solved
-    angle = solved(capsys, *settings)["quantities"]["psi_0"]
-
-    roller, centre = (complex(cam.values[f"rocker_sizes.{mark}"]) for mark in ("B0", "C"))
-
-    assert angle["unit"] == "rad"
-    assert angle["value"] == pytest.approx(abs(cmath.phase(centre / roller)), rel=1e-9)
-    drawn = kulman.sheet("mine.toml", set=setting, only="sizes", lang="en", format="A2")
-    said = "".join(text.string for page in range(len(drawn.pages)) for text in read(drawn.svg(page + 1)).texts)
-    assert f"= {math.degrees(angle['value']):.2f}°" in said
-
-
-def test_a_triangle_of_no_height_has_its_angle() -> None:
-    angle = LAWS["angle_of_triangle"]
-
-    assert angle(3.0, 4.0, 5.0) == pytest.approx(math.pi / 2)
-    assert angle(0.1, 0.3, 0.2 * (1.0 - 1e-15)) == 0.0
-    assert angle(0.1, 0.3, 0.4 * (1.0 + 1e-15)) == math.pi
-    assert list(angle(np.array([3.0, 1.0]), 4.0, 5.0)) == pytest.approx([math.pi / 2, math.pi])
 
 
 @pytest.mark.parametrize(
