@@ -44,8 +44,8 @@ from kulman.tests.support.cams import (
     random_motion,
 )
 
-COUNTS = [pytest.param(15, id="15"), pytest.param(500, id="500", marks=pytest.mark.soak)]
-FEW = [pytest.param(3, id="3"), pytest.param(60, id="60", marks=pytest.mark.soak)]
+COUNTS = [pytest.param(5, id="5"), pytest.param(500, id="500", marks=pytest.mark.soak)]
+FEW = [pytest.param(2, id="2"), pytest.param(60, id="60", marks=pytest.mark.soak)]
 
 
 class Positions:

@@ -13,7 +13,7 @@ from kulman.plans.cams.motion import PHASES, Motion, motion_of
 from kulman.scales.errors import InputError
 from kulman.tests.support.cams import SEED, dense, madi_motion, random_motion
 
-COUNTS = [pytest.param(40, id="40"), pytest.param(500, id="500", marks=pytest.mark.soak)]
+COUNTS = [pytest.param(12, id="12"), pytest.param(500, id="500", marks=pytest.mark.soak)]
 TURN = 2.0 * math.pi
 
 
