@@ -19,7 +19,8 @@ from kulman.plans.cams.rocker import Rocker, RockerPath, RockerSizes, smallest_r
 from kulman.plans.cams.sizes import RollerSizes, smallest_plate, smallest_roller, wedge
 from kulman.tests.support.cams import MADI_LIMITS, SEED, SMOOTH, madi_motion, random_limits, random_motion
 
-COUNTS = [pytest.param(2, id="2"), pytest.param(100, id="100", marks=pytest.mark.soak)]
+EIGHTH = [0, 3, *(pytest.param(k, marks=pytest.mark.soak) for k in (1, 2, 4, 5, 6, 7))]
+COUNTS = [pytest.param(2, id="2"), pytest.param(60, id="60", marks=pytest.mark.soak)]
 TURN = 2.0 * math.pi
 MM = 1e-3
 
@@ -158,7 +159,7 @@ def eroded(profile: RollerProfile) -> Polygon:
     return cam if cam.geom_type == "Polygon" else max(cam.geoms, key=lambda part: part.area)
 
 
-@pytest.mark.parametrize("k", range(8))
+@pytest.mark.parametrize("k", EIGHTH)
 def test_undercut_is_found_and_the_lost_travel_is_that_of_the_cut_cam(k: int) -> None:
     profile = undercut_cams()[k]
     ring = np.array(eroded(profile).exterior.coords) @ np.array([1.0, 1.0j])
@@ -184,7 +185,7 @@ def test_undercut_is_found_and_the_lost_travel_is_that_of_the_cut_cam(k: int) ->
             assert min(gaps) < 1e-12
 
 
-@pytest.mark.parametrize("k", range(8))
+@pytest.mark.parametrize("k", EIGHTH)
 def test_outline_is_the_cut_cam_without_loops(k: int) -> None:
     profile = undercut_cams()[k]
 
@@ -243,7 +244,7 @@ def test_plate_that_is_too_low_cuts_its_own_profile(r_0: float, sense: int) -> N
     assert Polygon(np.column_stack((points.real, points.imag))).area == pytest.approx(cam.area, rel=1e-4)
 
 
-@pytest.mark.parametrize("count", [pytest.param(5, id="5"), pytest.param(300, id="300", marks=pytest.mark.soak)])
+@pytest.mark.parametrize("count", [pytest.param(5, id="5"), pytest.param(100, id="100", marks=pytest.mark.soak)])
 def test_cams_are_undercut_exactly_when_a_radius_is_too_small(count: int) -> None:
     random = np.random.default_rng(SEED + 13)
 
