@@ -78,7 +78,7 @@ def random_cams(count: int) -> list[tuple[Cam, dict[str, float]]]:
     return cams
 
 
-MANY = [pytest.param(8, id="8"), pytest.param(100, id="100", marks=pytest.mark.soak)]
+MANY = [pytest.param(5, id="5"), pytest.param(100, id="100", marks=pytest.mark.soak)]
 
 
 def test_the_scale_factors_of_the_project_follow_from_its_amplitude():
@@ -115,7 +115,7 @@ def test_scale_factors_show_what_the_motion_has(count: int) -> None:
             assert found["a_max"].value == pytest.approx(values["omega"] ** 2 * motion.d2s_max.value, rel=1e-12)
 
 
-@pytest.mark.parametrize("law", ACCELERATED)
+@pytest.mark.parametrize("law", some_by_default(ACCELERATED, "sawtooth", "modified-sine"))
 def test_chords_run_parallel_to_their_rays(law: str) -> None:
     solved = madi(law)
     for plan, onto in (("diagram_a", "diagram_v"), ("diagram_v", "diagram_s")):
@@ -141,7 +141,7 @@ def errors(cam: Cam, sections: int, shift: float = 0.0) -> tuple[float, float]:
     return abs(drawn[0] - 1.0), abs(drawn[1] - 1.0)
 
 
-@pytest.mark.parametrize("law", some_by_default(ACCELERATED, "sawtooth", "modified-sine", "polynomial-345"))
+@pytest.mark.parametrize("law", some_by_default(ACCELERATED, "sawtooth", "modified-sine"))
 def test_chords_are_of_second_order_when_jumps_lie_on_nodes(law: str) -> None:
     few, many = (errors(Cam(FOLLOWERS, law), sections) for sections in (24, 96))
 

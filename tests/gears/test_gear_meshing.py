@@ -79,7 +79,7 @@ def test_many_pairs_roll_without_overlap_and_touch_as_often_as_the_contact_ratio
         pitch = 2.0 * math.pi / values["z_1"]
         for angle in np.linspace(0.0, pitch, 9):
             assert overlap(meshing, float(angle)) < 1e-6
-        counted = [flanks_touch(meshing, float(angle), TOUCHING) for angle in (np.arange(300) + 0.5) * pitch / 300]
+        counted = [flanks_touch(meshing, float(angle), TOUCHING) for angle in (np.arange(150) + 0.5) * pitch / 150]
         assert np.mean(counted) == pytest.approx(geometry(values)["epsilon_alpha"], abs=0.01)
 
 
