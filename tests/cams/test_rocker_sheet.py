@@ -283,6 +283,7 @@ def test_pressure_angles_of_a_rocker_are_drawn_between_their_limits() -> None:
     assert min(p.imag for p in points) == pytest.approx(fall[0].points[0].imag, abs=NEAR)
 
 
+@pytest.mark.soak
 def test_an_undercut_profile_of_a_rocker_is_drawn_with_its_corner() -> None:
     case = CamCase((("R_roller", "34 mm"),), "A1", "en", TASK, only="profile")
     view, solved = case.sheet["profile"], case.solved
