@@ -65,9 +65,9 @@ def test_hardened_teeth_have_to_be_thicker_at_the_tip() -> None:
 @pytest.mark.parametrize(
     ("z_1", "z_2", "x_1", "x_2", "roots"),
     [
-        pytest.param(20.0, 40.0, 0.2, 0.0, set(), id="neither"),
+        pytest.param(20.0, 40.0, 0.2, 0.0, set(), id="neither", marks=pytest.mark.soak),
         pytest.param(15.0, 20.0, 0.2, 0.85, set(), id="the project's pair"),
-        pytest.param(20.0, 40.0, 0.3, -1.0, {1}, id="root of the pinion"),
+        pytest.param(20.0, 40.0, 0.3, -1.0, {1}, id="root of the pinion", marks=pytest.mark.soak),
         pytest.param(25.0, 90.0, -0.1, -0.6, {1}, id="pinion and large wheel", marks=pytest.mark.soak),
         pytest.param(20.0, 40.0, 0.0, 1.65, {2}, id="root of the wheel"),
         pytest.param(30.0, 30.0, -0.6, -0.6, {1, 2}, id="both"),

@@ -29,7 +29,7 @@ NUMBERS = {"y", "delta_y"}
 
 
 @pytest.fixture(
-    scope="module", params=[pytest.param(100, id="100"), pytest.param(1000, id="1000", marks=pytest.mark.soak)]
+    scope="module", params=[pytest.param(60, id="60"), pytest.param(1000, id="1000", marks=pytest.mark.soak)]
 )
 def pairs(request: pytest.FixtureRequest) -> dict[str, np.ndarray]:
     return random_pairs(np.random.default_rng(SEED), request.param)

@@ -20,13 +20,14 @@ CASES = [
     pytest.param({"z_1": 40.0, "x_1": -0.3, **STEEP}, "plain", id="round tip of the rack"),
     pytest.param({"z_1": 30.0, "x_1": 1.45, "x_2": 0.0}, "plain", id="root outside the pitch line"),
 ]
+CUT = [pytest.param(*case.values, id=case.id, marks=pytest.mark.soak if k < 1 else ()) for k, case in enumerate(CASES)]
 
 
 def kind(tooth: Tooth) -> str:
     return "undercut" if tooth.undercut else "pointed" if tooth.pointed else "plain"
 
 
-@pytest.mark.parametrize(("others", "what"), CASES)
+@pytest.mark.parametrize(("others", "what"), CUT)
 def test_tooth_has_the_area_that_a_rack_leaves_cutting_in_many_steps(others: dict[str, float], what: str) -> None:
     values = madi(**others)
     tooth = tooth_of(values, 1)
