@@ -3,6 +3,10 @@
 The follower goes round a cam that stands still; its positions envelop the profile. Where the envelope runs backwards
 the positions cut away what others would leave standing: the profile has a corner in which two branches of the envelope
 cross, the follower rests on that corner between the two angles, and does not reach its travel.
+
+A point of the envelope is left where no position contains it. What is left may be several closed curves: a cutter too
+wide for a lobe cuts it off. The cam is the one that holds its centre, on which the envelope's point nearest to the
+centre always is.
 """
 
 from __future__ import annotations
@@ -20,10 +24,14 @@ from .places import Places, minima, refined
 
 Array = NDArray[np.float64]
 Points = NDArray[Any]  # complex
+Ends = tuple[float, float]
 AROUND, CLOSE = 4.0, 160  # how far around a part that runs backwards it is looked at closely, in how many places
 LEAST = 1e-3  # rad, length of such a part that has none
+ARC = 24  # cells of an arc
+OUTWARD = 2  # cells beyond which no position between two that were looked at cuts
+MEETING = 1e-9  # part of the size within which two branches meet
 WITHIN = 400  # places between the ends of an undercut
-STEPS, HALVINGS = 30, 60
+STEPS, HALVINGS, CHORDS = 30, 60, 32
 INSIDE = 1e-12  # part of the size by which a point is inside a position: less is rounding
 ROWS = 256  # points compared with all positions at once
 
@@ -50,8 +58,11 @@ class Envelope(Protocol):
     def seat(self, corner: complex, phi: Any) -> Array:
         """Return the travel at which the follower rests on a corner of the cam."""
 
-    def across(self, phi: float) -> Points:
-        """Return the points by which the profile goes on where the envelope leaps: where the velocity jumps up."""
+    def across(self, phi: float, part: Any) -> tuple[Points, Points]:
+        """Return points by which the envelope goes on where the velocity jumps up, and their derivative.
+
+        They lie on an arc or a flat, at the `part` 0 ... 1 of it.
+        """
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +75,8 @@ class Undercut:
         Angles of the cam, rad; the start is within the turn, the end may be beyond it.
     corner : complex
         The corner of the profile, m, in the frame of the cam at phi = 0.
+    along : tuple of float
+        Where the profile leaves the envelope and comes back to it: places of the `Curve`.
     lost, phi_lost : float
         The greatest travel that is lost, and where.
     """
@@ -71,8 +84,58 @@ class Undercut:
     start: float
     end: float
     corner: complex
+    along: tuple[float, float]
     lost: float
     phi_lost: float
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """The closed curve of an envelope, the arcs where the velocity jumps up among it.
+
+    A place `t` on it is the angle phi, rad, to which every arc before it adds 1.
+    """
+
+    envelope: Envelope
+
+    @property
+    def length(self) -> float:
+        """Length of the parameter over a turn."""
+        return TURN + len(self.envelope.motion.leaps)
+
+    def places(self, phi: Any, side: Any = 1) -> Array:
+        """Return the places of angles of the first turn; at a jump up the two sides are the two ends of its arc."""
+        leaps = self.envelope.motion.leaps
+        before = np.where(np.asarray(side) > 0, *(np.searchsorted(leaps, phi, end) for end in ("right", "left")))
+        found: Array = phi + before
+        return found
+
+    def arcs(self, parts: Array) -> Iterator[tuple[Array, Points]]:
+        """Go through the arcs: places and points of the given parts of them."""
+        for k, leap in enumerate(self.envelope.motion.leaps):
+            yield leap + k + parts, self.envelope.across(leap, parts)[0]
+
+    def locate(self, t: float) -> tuple[float, float | None]:
+        """Return the angle of a place, and which part of an arc it is at if it is on one."""
+        t %= self.length
+        for k, leap in enumerate(self.envelope.motion.leaps):
+            if t < leap + k:
+                return t - k, None
+            if t <= leap + k + 1.0:
+                return leap, min(t - leap - k, 1.0)
+        return t - len(self.envelope.motion.leaps), None
+
+    def at(self, t: float, side: int) -> tuple[complex, complex]:
+        """Return the point of a place and its derivative; where the velocity jumps down, from a side."""
+        phi, part = self.locate(t)
+        if part is not None:
+            point, along = self.envelope.across(phi, part)
+        else:
+            jumps = [jump.phi for jump in self.envelope.motion.velocity_jumps]
+            near = min((at - phi for jump in jumps for at in (jump, jump + TURN)), key=abs, default=0.0)
+            side = -1 if near > 0.0 else 1 if near < 0.0 else side
+            point, along = self.envelope.practical(phi, side), self.envelope.tangent(phi, side)
+        return complex(point), complex(along)
 
 
 def backward(envelope: Envelope) -> list[tuple[float, float]]:
@@ -88,25 +151,6 @@ def backward(envelope: Envelope) -> list[tuple[float, float]]:
         begin, end = (_sign_changes(envelope, places, i) for i in (first - 1, last))
         found.append((begin % TURN, begin % TURN + (end - begin) % TURN))
     return sorted(found)
-
-
-def undercuts(envelope: Envelope) -> list[Undercut]:
-    """Return what the profile does not give of the motion, in order; nothing where no position cuts another's part."""
-    parts = backward(envelope)
-    if not parts:
-        return []
-    rooms = [AROUND * max(end - begin, LEAST) for begin, end in parts]
-    close = [np.linspace(a - room, b + room, CLOSE) for (a, b), room in zip(parts, rooms, strict=True)]
-    places = Places.between(envelope.motion.corners, np.concatenate(close))
-    points = places.values(envelope.practical)
-    size = float(np.max(np.abs(points)))
-    cut = np.concatenate(
-        [
-            np.max(envelope.depth(points[k : k + ROWS, np.newaxis], places.phi), axis=1) > INSIDE * size
-            for k in range(0, len(points), ROWS)
-        ]
-    )
-    return sorted((_undercut(envelope, places, run) for run in _runs(cut)), key=lambda found: found.start)
 
 
 def _runs(wanted: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
@@ -132,39 +176,127 @@ def _sign_changes(envelope: Envelope, places: Places, i: int) -> float:
     return 0.5 * (low + high)
 
 
-def _undercut(envelope: Envelope, places: Places, run: tuple[int, int]) -> Undercut:
-    (a, b, left), (c, d, right) = places.cell(run[0] - 1), places.cell(run[1])
-    # what cuts the envelope's point a or d a little may be between two positions that were looked at
-    start, end = _crossing(envelope, (2.0 * a - b, b, left), (c, 2.0 * d - c, right))
+@dataclass(frozen=True, slots=True, eq=False)
+class _Traced:
+    """An envelope looked at all round: places `t` in order, their points, and which of them a position contains."""
+
+    curve: Curve
+    t: Array
+    points: Points
+    cut: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, envelope: Envelope, places: Places) -> _Traced:
+        """Return an envelope looked at in places."""
+        curve = Curve(envelope)
+        arcs = list(curve.arcs(np.arange(1, ARC) / ARC))
+        t = np.concatenate([curve.places(places.phi, places.side), *(t for t, _ in arcs)])
+        points = np.concatenate([places.values(envelope.practical), *(points for _, points in arcs)])
+        order = np.argsort(t, kind="stable")
+        t, points = t[order], points[order]
+        inside = INSIDE * float(np.max(np.abs(points)))
+        blocks = (points[k : k + ROWS, np.newaxis] for k in range(0, len(points), ROWS))
+        cut = np.concatenate([np.max(envelope.depth(block, places.phi), axis=1) > inside for block in blocks])
+        cut[np.argmin(np.abs(points))] = False
+        return cls(curve, t, points, cut)
+
+    def place(self, i: int) -> float:
+        """Return a place by its number, which may be of another turn."""
+        turns, k = divmod(i, len(self.t))
+        return float(self.t[k]) + turns * self.curve.length
+
+    def ring(self) -> list[tuple[float, float]]:
+        """Return where the curve round the centre leaves the envelope and comes back, in order."""
+        runs = list(_runs(~self.cut))
+        nearest = int(np.argmin(np.abs(self.points)))
+        first = here = next((k for k, (a, b) in enumerate(runs) if (nearest - a) % len(self.t) <= b - a), 0)
+        found = []
+        for _ in runs:
+            here, ends = self._next(runs, here)
+            found.append(ends)
+            if here == first:
+                break
+        return found
+
+    def _next(self, runs: list[tuple[int, int]], here: int) -> tuple[int, tuple[float, float]]:
+        """Return which part that is left goes on where one of them ends, and the two places of the corner."""
+        last = runs[here][1]
+        away = [abs(self.points[last % len(self.t)] - self.points[first]) for first, _ in runs]
+        tried = []
+        for k in sorted(range(len(runs)), key=lambda k: away[k]):
+            gap, ends = self._crossing(last, runs[k][0])
+            tried.append((gap, k, ends))
+            if gap < MEETING * float(np.max(np.abs(self.points))):
+                break
+        _, k, ends = min(tried)
+        return k, ends
+
+    def _crossing(self, last: int, first: int) -> tuple[float, tuple[float, float]]:
+        """Return how far apart two branches stay, m, and where they cross, near their cut ends."""
+        before = self.place(last - OUTWARD), self.place(last + 1)
+        after = self.place(first - 1), self.place(first + OUTWARD)
+        middle = 0.5 * (self.place(last) + before[1]), 0.5 * (after[0] + self.place(first))
+        gap, ends = _newton(self.curve, before, after, middle)
+        if gap < MEETING * float(np.max(np.abs(self.points))):
+            return gap, ends
+        begins = _chords(self.curve, before, after)
+        return min([(gap, ends), *(_newton(self.curve, before, after, begin) for begin in begins)])
+
+
+def _newton(curve: Curve, before: Ends, after: Ends, begin: Ends) -> tuple[float, Ends]:
+    """Return how far apart two branches stay, m, and the places, each between its ends, where Newton's steps lead."""
+    a, b = begin
+    for _ in range(STEPS):
+        (start, along), (end, across) = curve.at(a, -1), curve.at(b, 1)
+        gap, sine = end - start, cross(along, across)
+        if sine == 0.0:
+            break
+        old = a, b
+        a = min(max(a + cross(gap, across) / sine, before[0]), before[1])
+        b = min(max(b + cross(gap, along) / sine, after[0]), after[1])
+        if (a, b) == old:
+            break
+    return abs(curve.at(b, 1)[0] - curve.at(a, -1)[0]), (a, b)
+
+
+def _chords(curve: Curve, before: Ends, after: Ends) -> Iterator[Ends]:
+    """Go through the places at which chords of two branches cross: branches that cross at a small angle need it."""
+    a, b = (np.linspace(*ends, CHORDS + 1) for ends in (before, after))
+    p, q = (np.array([curve.at(t, side)[0] for t in at.tolist()]) for at, side in ((a, -1), (b, 1)))
+    apart = q - p[:, np.newaxis]
+    left, right = cross(np.diff(p)[:, np.newaxis], apart[:-1]) > 0.0, cross(np.diff(q), apart[:, :-1]) > 0.0
+    for i, j in np.argwhere((left[:, 1:] != left[:, :-1]) & (right[1:] != right[:-1])):
+        yield 0.5 * float(a[i] + a[i + 1]), 0.5 * float(b[j] + b[j + 1])
+
+
+def undercuts(envelope: Envelope) -> list[Undercut]:
+    """Return what the profile does not give of the motion, in order; nothing where no position cuts another's part."""
+    parts = backward(envelope)
+    if not parts:
+        return []
+    rooms = [AROUND * max(end - begin, LEAST) for begin, end in parts]
+    close = [np.linspace(a - room, b + room, CLOSE) for (a, b), room in zip(parts, rooms, strict=True)]
+    traced = _Traced.of(envelope, Places.between(envelope.motion.corners, np.concatenate(close)))
+    ring = traced.ring()
+    corners = [traced.curve.at(a, -1)[0] for a, _ in ring]
+    found = [_undercut(traced.curve, ends, k, corners) for k, ends in enumerate(ring)]
+    return sorted(found, key=lambda cut: cut.start)
+
+
+def _undercut(curve: Curve, ends: tuple[float, float], k: int, corners: list[complex]) -> Undercut:
+    """Return an undercut; where its own corner does not bear the follower another one does."""
+    envelope = curve.envelope
+    start, end = (curve.locate(t)[0] % TURN for t in ends)
     end = start + (end - start) % TURN
-    corner = complex(envelope.practical(start))
 
     def kept(phi: Any, side: int = 1) -> Array:
-        return envelope.seat(corner, phi) - envelope.motion.at(phi, side)[0]
+        seats = [envelope.seat(corner, phi) for corner in corners]
+        return np.asarray(np.fmax.reduce(seats) - envelope.motion.at(phi, side)[0])
 
     phi = np.linspace(start, end, WITHIN)
     at = int(np.clip(np.argmin(kept(phi)), 1, WITHIN - 2))
     least, where = refined(kept, phi[at - 1], phi[at + 1])
-    return Undercut(start % TURN, start % TURN + (end - start), corner, -float(least[0]), float(where[0]) % TURN)
-
-
-def _crossing(
-    envelope: Envelope, before: tuple[float, float, int], after: tuple[float, float, int]
-) -> tuple[float, float]:
-    """Return the angles at which the envelope comes through the same point, each in its cell, by Newton's steps."""
-    first, second = 0.5 * (before[0] + before[1]), 0.5 * (after[0] + after[1])
-    for _ in range(STEPS):
-        gap = complex(envelope.practical(second, after[2]) - envelope.practical(first, before[2]))
-        along, across = complex(envelope.tangent(first, before[2])), complex(envelope.tangent(second, after[2]))
-        sine = cross(along, across)
-        if sine == 0.0:
-            break
-        old = first, second
-        first = min(max(first + cross(gap, across) / sine, before[0]), before[1])
-        second = min(max(second + cross(gap, along) / sine, after[0]), after[1])
-        if (first, second) == old:
-            break
-    return first, second
+    return Undercut(start, end, corners[k], ends, -float(least[0]), float(where[0]) % TURN)
 
 
 def outline(envelope: Envelope, cuts: list[Undercut], most: float) -> Points:
@@ -172,15 +304,15 @@ def outline(envelope: Envelope, cuts: list[Undercut], most: float) -> Points:
 
     The corner of an undercut stands in the place of its loop.
     """
-    phi = envelope.motion.samples(most)[:-1]
-    leaps = [(at % TURN, envelope.across(at)) for at in envelope.motion.leaps]
-    pieces = leaps + [(cut.start, np.array([cut.corner])) for cut in cuts]
-    angles = np.concatenate([*(np.full(len(points), at) for at, points in pieces), phi])
-    points = np.concatenate([*(points for _, points in pieces), envelope.practical(phi)])
-    kept = np.ones(len(angles), bool)
+    curve, phi = Curve(envelope), envelope.motion.samples(most)[:-1]
+    pieces = [*curve.arcs(np.arange(ARC) / ARC), (curve.places(phi), envelope.practical(phi))]
+    pieces += [(np.array([cut.along[0] % curve.length]), np.array([cut.corner])) for cut in cuts]
+    t, points = (np.concatenate(part) for part in zip(*pieces, strict=True))
+    kept = np.ones(len(t), bool)
     for cut in cuts:
-        into = (angles - cut.start) % TURN
-        kept &= (into == 0.0) | (into >= cut.end - cut.start)
-    order = np.argsort(angles[kept], kind="stable")
+        leaves, returns = cut.along
+        into = (t - leaves % curve.length) % curve.length
+        kept &= (into == 0.0) | (into >= (returns - leaves) % curve.length)
+    order = np.argsort(t[kept], kind="stable")
     found: Points = points[kept][order]
     return found

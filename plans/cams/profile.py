@@ -31,7 +31,6 @@ Array = NDArray[np.float64]
 Points = NDArray[Any]  # complex
 OF_R_0, OF_RHO_MIN = 0.4, 0.7  # the roller's radius is at most these parts of r_0 and of the pitch curve's rho_min
 OUTLINE = math.radians(0.5)  # between points of a profile
-ARC = 24  # points on an arc
 
 
 class Path(Protocol):
@@ -161,13 +160,12 @@ class RollerProfile(Profile):
         """Return the travel at which the roller rests on a corner of the cam."""
         return self.path.seat(corner * np.conj(self.inverted(phi)), self.R)
 
-    def across(self, phi: float) -> Points:
+    def across(self, phi: float, part: Any) -> tuple[Points, Points]:
         """Return the arc, of the roller's radius, by which the profile goes on where the velocity jumps up."""
         before, after = (complex(self.normal(phi, side)) for side in (-1, 1))
         angle = math.atan2(float(cross(before, after)), float(dot(before, after)))
-        turn = turned_back(np.linspace(0.0, angle, ARC, endpoint=False), -1)
-        arc: Points = self.pitch(phi) - self.R * before * turn
-        return arc
+        spoke = self.R * before * turned_back(angle * np.asarray(part), -1)
+        return self.pitch(phi) - spoke, -1j * angle * spoke
 
     @cached_property
     def sharpest(self) -> Minimum:
@@ -215,9 +213,11 @@ class PlateProfile(Profile):
         height: Array = (points * np.conj(turned_back(phi, self.sense))).imag
         return height
 
-    def across(self, phi: float) -> Points:
-        """Return where the flat of the profile begins on which the plate lies where the velocity jumps up."""
-        return np.atleast_1d(self.practical(phi, -1))
+    def across(self, phi: float, part: Any) -> tuple[Points, Points]:
+        """Return the flat of the profile on which the plate lies where the velocity jumps up."""
+        begin, end = self.practical(phi, -1), self.practical(phi, 1)
+        along = (end - begin) * np.ones_like(part, float)
+        return begin + along * part, along
 
     @cached_property
     def sharpest(self) -> Minimum:

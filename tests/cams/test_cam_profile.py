@@ -9,14 +9,16 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from shapely import Polygon
+from shapely import Point, Polygon
 from shapely.affinity import rotate
 
-from kulman.plans.cams.laws_of_motion import law_of_motion
+from kulman.plans.cams.cam import LAWS
+from kulman.plans.cams.envelopes import Undercut
+from kulman.plans.cams.laws_of_motion import UNIFORM, law_of_motion
 from kulman.plans.cams.motion import Motion
 from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath
 from kulman.plans.cams.rocker import Rocker, RockerPath, RockerSizes, smallest_rocker
-from kulman.plans.cams.sizes import RollerSizes, smallest_plate, smallest_roller, wedge
+from kulman.plans.cams.sizes import Limits, RollerSizes, smallest_plate, smallest_roller, wedge
 from kulman.tests.support.cams import MADI_LIMITS, SEED, SMOOTH, madi_motion, random_limits, random_motion
 
 EIGHTH = [0, 3, *(pytest.param(k, marks=pytest.mark.soak) for k in (1, 2, 4, 5, 6, 7))]
@@ -156,7 +158,21 @@ def eroded(profile: RollerProfile) -> Polygon:
     """
     pitch = profile.pitch(profile.motion.samples(math.radians(0.05))[:-1])
     cam = Polygon(np.column_stack((pitch.real, pitch.imag))).buffer(-profile.R, quad_segs=400)
-    return cam if cam.geom_type == "Polygon" else max(cam.geoms, key=lambda part: part.area)
+    return cam if cam.geom_type == "Polygon" else next(part for part in cam.geoms if part.contains(Point(0.0, 0.0)))
+
+
+def off_the_envelope(profile: RollerProfile | PlateProfile, cut: Undercut, end: float) -> float:
+    """Return how far the corner of an undercut is from the envelope at one of its ends.
+
+    Where the velocity jumps up, that is the roller's arc between the two limits.
+    """
+    jumps = [jump for jump in profile.motion.leaps if abs((end - jump + 1.0) % TURN - 1.0) < 1e-9]
+    if not jumps or isinstance(profile, PlateProfile):
+        return min(abs(complex(profile.practical(end, side)) - cut.corner) for side in (-1, 1))
+    before, after = ((complex(profile.practical(end, side)) - complex(profile.pitch(end))) for side in (-1, 1))
+    spoke = cut.corner - complex(profile.pitch(end))
+    apart = abs(np.angle(spoke / before)) + abs(np.angle(after / spoke)) - abs(np.angle(after / before))
+    return max(abs(abs(spoke) - profile.R), profile.R * float(apart))
 
 
 @pytest.mark.parametrize("k", EIGHTH)
@@ -181,8 +197,7 @@ def test_undercut_is_found_and_the_lost_travel_is_that_of_the_cut_cam(k: int) ->
         assert cut.lost * unit == pytest.approx(lost * unit, abs=1e-4 * profile.R)
         assert cut.lost > 0.0
         for end in (cut.start, cut.end):  # both branches run through the corner
-            gaps = [abs(complex(profile.practical(end, side)) - cut.corner) for side in (-1, 1)]
-            assert min(gaps) < 1e-12
+            assert off_the_envelope(profile, cut, end) < 1e-12
 
 
 @pytest.mark.parametrize("k", EIGHTH)
@@ -197,6 +212,75 @@ def test_outline_is_the_cut_cam_without_loops(k: int) -> None:
     assert outline.is_valid
     assert outline.symmetric_difference(cam).area < 1e-4 * cam.area
     assert away == pytest.approx([profile.R] * len(away), abs=1e-7)  # 0.1 deg of the pitch curve between its points
+
+
+def cut_by(
+    law: str, stroke: float, phases: tuple[float, float], gamma: tuple[float, float], roller: tuple[float, int]
+) -> RollerProfile:
+    """Return the smallest cam without an upper dwell for a radius of the roller and a sense; mm and degrees."""
+    R, sense = roller
+    motion = Motion(stroke * MM, math.radians(phases[0]), 0.0, math.radians(phases[1]), law_of_motion(law))
+    limits = Limits(math.radians(gamma[0]), math.radians(gamma[1]))
+    return RollerProfile(StraightPath(motion, smallest_roller(wedge(motion, limits, sense))), R * MM, sense)
+
+
+WIDE_CUTTERS = {  # the cam, and its undercuts: from, to, deg, the travel that is lost, mm, and where
+    "arc of the start": (
+        cut_by("uniform", 13.0, (60.0, 150.0), (40.0, 40.0), (7.0, 1)),
+        [(0.0, 8.106, 0.00282, 2.681), (44.579, 73.699, 1.1174, 60.0)],
+    ),
+    "arc of the end": (
+        cut_by("uniform", 48.0, (140.0, 56.0), (33.0, 72.0), (47.5, -1)),
+        [(101.121, 196.0, 16.408, 140.0)],
+    ),
+    "lobe cut off": (cut_by("cosine", 30.0, (64.0, 64.0), (33.0, 33.0), (14.5, 1)), [(2.972, 125.028, 25.927, 64.0)]),
+}
+
+
+@pytest.mark.parametrize("name", WIDE_CUTTERS)
+def test_undercuts_of_wide_cutters_are_those_of_the_cut_cam(name: str) -> None:
+    profile, expected = WIDE_CUTTERS[name]
+
+    found = [
+        (*np.degrees((cut.start, cut.end)), cut.lost / MM, math.degrees(cut.phi_lost)) for cut in profile.undercuts
+    ]
+
+    assert found == [pytest.approx(one, rel=1e-3, abs=1e-4) for one in expected]
+    assert_left_by_the_cutter(profile)
+
+
+def assert_left_by_the_cutter(profile: RollerProfile) -> None:
+    """Assert that outline and travel are those of what the cutter leaves round the cam's centre."""
+    points, cam = profile.outline(math.radians(0.1)), eroded(profile)
+    ring = np.array(cam.exterior.coords) @ np.array([1.0, 1.0j])
+    ring = np.concatenate([ring[:-1] + part * np.diff(ring) for part in np.linspace(0.0, 1.0, 8, endpoint=False)])
+    outline = Polygon(np.column_stack((points.real, points.imag)))
+    assert outline.is_valid
+    assert outline.symmetric_difference(cam).area < 2e-4 * profile.R * cam.length
+    for phi in [*np.linspace(0.0, TURN, 61), *(cut.phi_lost for cut in profile.undercuts)]:
+        travel, within = float(profile.motion.at(phi)[0]), 1e-4 * profile.R
+        inside = next((cut for cut in profile.undercuts if (phi - cut.start) % TURN < cut.end - cut.start), None)
+        resting = float(profile.seat(inside.corner, phi)) if inside else travel
+        assert seat(profile, ring, phi) == pytest.approx(resting, abs=within)
+        assert travel - resting <= (inside.lost if inside else 0.0) + 1e-12
+        if inside and phi == inside.phi_lost:
+            assert travel - resting == pytest.approx(inside.lost, abs=1e-12)
+
+
+@pytest.mark.parametrize("count", [pytest.param(8, id="8"), pytest.param(150, id="150", marks=pytest.mark.soak)])
+def test_wide_cutters_leave_what_is_round_the_centre(count: int) -> None:
+    random = np.random.default_rng(SEED + 14)
+
+    for k in range(count):
+        motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
+        if k % 2:  # a narrow lobe, or a velocity that jumps
+            law = law_of_motion(str(random.choice(LAWS)) if k % 4 == 1 else UNIFORM)
+            phases = np.radians(random.uniform(30.0, 110.0, 2))
+            motion = Motion(motion.h, phases[0], 0.0, phases[1], law)
+        sizes = smallest_roller(wedge(motion, limits, sense))
+        profile = RollerProfile(StraightPath(motion, sizes), sizes.r_0 * random.uniform(0.4, 0.97), sense)
+        if profile.undercuts:
+            assert_left_by_the_cutter(profile)
 
 
 def test_roller_just_smaller_than_the_least_radius_undercuts_nothing() -> None:
@@ -266,8 +350,7 @@ def test_cams_are_undercut_exactly_when_a_radius_is_too_small(count: int) -> Non
         for cut in cuts:
             assert cut.lost > 0.0
             for end in (cut.start, cut.end):
-                gaps = [abs(complex(profile.practical(end, side)) - cut.corner) for side in (-1, 1)]
-                assert min(gaps) < 1e-12
+                assert off_the_envelope(profile, cut, end) < 1e-12
 
 
 def test_contact_of_a_plate_is_beside_its_axis_by_the_analogue_of_velocity() -> None:
