@@ -60,7 +60,7 @@ FEW = (  # every kind of dyad, and a slide that drives
 
 
 @pytest.mark.parametrize(
-    "name", [name if name in FEW else pytest.param(name, marks=[pytest.mark.soak]) for name in bundled()]
+    "name", [name if name in FEW else pytest.param(name, marks=[pytest.mark.soak]) for name in bundled("mechanism")]
 )
 def test_newton_agrees_with_plans(name: str) -> None:
     found, exact = both(of_task(name), 1e-9)
