@@ -33,6 +33,7 @@ MEETING = 1e-9  # part of the size within which two branches meet
 WITHIN = 400  # places between the ends of an undercut
 STEPS, HALVINGS, CHORDS = 30, 60, 32
 INSIDE = 1e-12  # part of the size by which a point is inside a position: less is rounding
+COARSE = 4  # places from one that is looked at to the next where the envelope nowhere runs backwards
 ROWS = 256  # points compared with all positions at once
 
 
@@ -194,9 +195,7 @@ class _Traced:
         points = np.concatenate([places.values(envelope.practical), *(points for _, points in arcs)])
         order = np.argsort(t, kind="stable")
         t, points = t[order], points[order]
-        inside = INSIDE * float(np.max(np.abs(points)))
-        blocks = (points[k : k + ROWS, np.newaxis] for k in range(0, len(points), ROWS))
-        cut = np.concatenate([np.max(envelope.depth(block, places.phi), axis=1) > inside for block in blocks])
+        cut = _contained(envelope, points, places.phi)
         cut[np.argmin(np.abs(points))] = False
         return cls(curve, t, points, cut)
 
@@ -269,17 +268,25 @@ def _chords(curve: Curve, before: Ends, after: Ends) -> Iterator[Ends]:
         yield 0.5 * float(a[i] + a[i + 1]), 0.5 * float(b[j] + b[j + 1])
 
 
+def _contained(envelope: Envelope, points: Points, phi: Array) -> NDArray[np.bool_]:
+    """Return which points of an envelope are inside the follower at some of the angles `phi`."""
+    inside = INSIDE * float(np.max(np.abs(points)))
+    blocks = (points[k : k + ROWS, np.newaxis] for k in range(0, len(points), ROWS))
+    return np.concatenate([np.max(envelope.depth(block, phi), axis=1) > inside for block in blocks])
+
+
 def undercuts(envelope: Envelope) -> list[Undercut]:
     """Return what the profile does not give of the motion, in order; nothing where no position cuts another's part."""
-    parts = backward(envelope)
-    if not parts:
+    parts, corners = backward(envelope), envelope.motion.corners
+    places = Places.between(corners)
+    if not parts and not np.any(_contained(envelope, places.values(envelope.practical)[::COARSE], places.phi)):
         return []
     rooms = [AROUND * max(end - begin, LEAST) for begin, end in parts]
     close = [np.linspace(a - room, b + room, CLOSE) for (a, b), room in zip(parts, rooms, strict=True)]
-    traced = _Traced.of(envelope, Places.between(envelope.motion.corners, np.concatenate(close)))
+    traced = _Traced.of(envelope, Places.between(corners, np.ravel(close)))
     ring = traced.ring()
-    corners = [traced.curve.at(a, -1)[0] for a, _ in ring]
-    found = [_undercut(traced.curve, ends, k, corners) for k, ends in enumerate(ring)]
+    edges = [traced.curve.at(a, -1)[0] for a, _ in ring]
+    found = [_undercut(traced.curve, ends, k, edges) for k, ends in enumerate(ring)]
     return sorted(found, key=lambda cut: cut.start)
 
 

@@ -13,7 +13,7 @@ from shapely import Point, Polygon
 from shapely.affinity import rotate
 
 from kulman.plans.cams.cam import LAWS
-from kulman.plans.cams.envelopes import Undercut
+from kulman.plans.cams.envelopes import Undercut, backward
 from kulman.plans.cams.laws_of_motion import UNIFORM, law_of_motion
 from kulman.plans.cams.motion import Motion
 from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath
@@ -246,6 +246,18 @@ def test_undercuts_of_wide_cutters_are_those_of_the_cut_cam(name: str) -> None:
     ]
 
     assert found == [pytest.approx(one, rel=1e-3, abs=1e-4) for one in expected]
+    assert_left_by_the_cutter(profile)
+
+
+def test_a_neck_narrower_than_the_cutter_cuts_the_lobe_off_where_nothing_runs_backwards() -> None:
+    motion = Motion(287.0 * MM, *np.radians((51.34, 26.21, 41.19)), law_of_motion("sine"))
+    sizes = RollerSizes(math.hypot(5.0, 33.9) * MM, -5.0 * MM, 33.9 * MM)
+    profile = RollerProfile(StraightPath(motion, sizes), 33.2 * MM)
+
+    (cut,) = profile.undercuts
+
+    assert not backward(profile)
+    assert cut.lost > 0.99 * motion.h
     assert_left_by_the_cutter(profile)
 
 
