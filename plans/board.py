@@ -292,3 +292,15 @@ class Program:
         step = board.step
         for s in self.steps:
             step(s.verb, s.name, *s.operands, law=s.law)
+
+
+def with_needs(plans: Iterable[str], known: Mapping[str, Iterable[str]]) -> tuple[str, ...]:
+    """Return `plans` and all that they need, in order of construction.
+
+    `known` are all plans in that order, each with those it needs.
+    """
+    wanted = set(plans)
+    for plan in reversed(tuple(known)):
+        if plan in wanted:
+            wanted.update(known[plan])
+    return tuple(plan for plan in known if plan in wanted)

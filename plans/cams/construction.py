@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ..board import Program, RecordingBoard
+from ..board import Program, RecordingBoard, with_needs
 from . import formulas as formulas  # its laws of calculation
 from .cam import DIAGRAMS_PART, PLANS, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART
 from .division import Division
@@ -36,18 +36,9 @@ class Layout:
     ranged: bool = False
 
 
-def with_needs(plans: Iterable[str]) -> tuple[str, ...]:
-    """Return `plans` and all that they need, in order of construction."""
-    wanted = set(plans)
-    for plan in reversed(PLANS):
-        if plan in wanted:
-            wanted.update(NEEDS[plan])
-    return tuple(plan for plan in PLANS if plan in wanted)
-
-
 def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
     """Record the construction of the plans wanted and of those they need."""
-    board, wanted = RecordingBoard(), with_needs(plans)
+    board, wanted = RecordingBoard(), with_needs(plans, NEEDS)
     division, given = layout.division, layout.given
     if DIAGRAMS_PART in wanted:
         diagrams(board, division.sections, given)

@@ -6,12 +6,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..board import Program
+from ..board import Program, with_needs
 from ..boards.exact import run
 from ..quantities import Quantity, quantities, shown_on
 from ..solved import Solved
 from .cam import PLANS, PLATE, ROCKER, ROLLER, SIZES_PART, Cam
-from .construction import Layout, construct, with_needs
+from .construction import NEEDS, Layout, construct
 from .division import Division
 from .followers import PlateCam, RockerCam, RollerCam, limits_of, plate_cam, rocker_cam, roller_cam
 from .givens import diagram_givens, profile_givens
@@ -114,7 +114,7 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
         values = {**values, "h": values["psi"] * values["l_rocker"]}
     motion = motion_of(cam, values)
     angles, division = motion.division(cam.sections)
-    wanted = with_needs(plans)
+    wanted = with_needs(plans, NEEDS)
     cams = _cams(cam, motion, values) if SIZES_PART in wanted else {}
     layout = _layout(cam, motion, angles, division, cams)
     program = construct(layout, wanted)

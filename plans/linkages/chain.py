@@ -8,7 +8,7 @@ from importlib import import_module
 from types import ModuleType
 
 from ...scales.errors import InputError
-from ..board import Program, RecordingBoard
+from ..board import Program, RecordingBoard, with_needs
 from . import compound
 from .lever import Joined, lever, points_of
 from .loads import hung, lay_loads
@@ -17,18 +17,18 @@ from .parts import AssurGroup, Bodies, Forces, Span
 from .structure import Structure, analyse
 from .working_stroke import Moving, needs_stroke
 
-PLANS = ("structure", "position", "velocity", "acceleration", "compound", "forces", "lever", "cycle")
-USUAL = tuple(plan for plan in PLANS if plan not in ("compound", "cycle"))  # without a word on which are wanted
-NEEDS = {
+NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, with those they are built on
     "structure": (),
     "position": (),
     "velocity": ("position",),
     "acceleration": ("velocity",),
     "compound": ("acceleration",),
-    "cycle": ("acceleration",),
     "forces": ("acceleration",),
     "lever": ("acceleration",),
+    "cycle": ("acceleration",),
 }
+PLANS = tuple(NEEDS)
+USUAL = tuple(plan for plan in PLANS if plan not in ("compound", "cycle"))  # without a word on which are wanted
 Attached = list[tuple[ModuleType, AssurGroup]]
 KEPT = 16  # constructions
 _CONSTRUCTED: dict[tuple[str, tuple[str, ...]], tuple[Structure, Program]] = {}
@@ -54,15 +54,6 @@ def _module(name: str) -> ModuleType:
     return import_module(f".{name}", __package__)
 
 
-def with_needs(plans: Iterable[str]) -> tuple[str, ...]:
-    """Return `plans` and all that they need, in order of construction."""
-    wanted = set(plans)
-    for plan in reversed(PLANS):
-        if plan in wanted:
-            wanted.update(NEEDS[plan])
-    return tuple(plan for plan in PLANS if plan in wanted)
-
-
 def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Structure, Program]:
     """Find the structure and record the construction of `plans` (and of the plans they need).
 
@@ -75,7 +66,7 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Struc
     board = RecordingBoard()
     for opposite, length in mechanism.opposites.items():
         board.calc(opposite, "opposite", length)
-    plans = with_needs(plans)
+    plans = with_needs(plans, NEEDS)
     dyads, bodies = _named(mechanism, structure)
     for plan in ("position", "velocity", "acceleration"):
         if plan in plans:

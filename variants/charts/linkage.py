@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
-from ...plans.linkages.chain import with_needs
+from ...plans.board import with_needs
+from ...plans.linkages.chain import NEEDS
 from ...plans.linkages.cycles.cycle import Cycle, cycle
 from ...scales.errors import PositionError
 from ...scales.names import unknown
@@ -60,7 +61,7 @@ class LinkageCharts:
 
 def _cycle(case: Case, positions: int) -> Cycle:
     """Return the cycle with the plans of the case."""
-    wanted = with_needs((*case.plans, "position"))
+    wanted = with_needs((*case.plans, "position"), NEEDS)
     plans = tuple(plan for plan in wanted if plan not in ("cycle", "compound"))
     found = cycle(mechanism_of(case.task), case.task.values(case.variant, case.settings), plans, positions)
     if not found.reach.stretches:
