@@ -140,7 +140,7 @@ class Words:
 
     def _parts(self, name: str) -> tuple[str, str]:
         """Return the letter of a quantity and its scripts."""
-        if name.startswith("h_"):
+        if name.startswith("h_") and self._special(name) is None:
             return self._arm(name)
         pair, couple, _ = name.partition("_couple")
         special = self._special(pair + couple)

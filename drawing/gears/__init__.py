@@ -1,0 +1,1 @@
+"""The sheet of a gear pair: meshing, sliding, tables, checks, blocking contour."""
