@@ -7,12 +7,11 @@ from dataclasses import dataclass, field
 
 from ...plans.cams.cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_PART
 from ...plans.cams.solve import SolvedCam
-from ...scales.choose import Choosers
 from ...scales.scale import Scale
 from ..compose import room
+from ..contents import SheetContents
 from ..formats import Format
-from ..givens import Given, givens_view
-from ..pens import Norm
+from ..givens import givens_view
 from ..style import STYLES
 from ..view import View
 from ..words import Words
@@ -27,15 +26,8 @@ NARROW = 0.65  # part of the width of lines that those on the sizes of a cam may
 
 
 @dataclass(frozen=True, slots=True)
-class Contents:
-    """What a sheet shows: a cam solved, the plans wanted, choosers of scales, givens, words, norm."""
-
-    solved: SolvedCam
-    plans: tuple[str, ...]
-    choosers: Choosers
-    givens: Mapping[str, Given]
-    words: Words
-    norm: Norm = "gost"
+class Contents(SheetContents[SolvedCam]):
+    """What the sheet of a cam shows."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,17 +10,16 @@ from typing import TYPE_CHECKING
 from ....plans.linkages.cycles.slider_runs import Runs, slider_runs
 from ....plans.linkages.solved import SolvedLinkage
 from ....scales.choices import SIZES
-from ....scales.choose import UNITS, Choosers, CrankScale, Fixed
+from ....scales.choose import UNITS, CrankScale, Fixed
 from ....scales.errors import InputError
 from ....scales.scale import Scale, steps
 from ...compose import room
+from ...contents import SheetContents
 from ...formats import FORMATS, Format
-from ...pens import Norm
 from ...style import STYLES
 from ...view import View
-from ...words import Words
 from ..letters import lettered
-from ..scene import Given, Scene
+from ..scene import Scene
 from ..views import Figure, figures
 from .ladders import Ladders, by_plan, finer_of, ladders_of
 
@@ -37,15 +36,9 @@ Fitted = tuple[list[View], Mapping[str, Scale]]
 
 
 @dataclass(frozen=True, slots=True)
-class Contents:
-    """What a sheet shows: a solved mechanism, the plans wanted, choosers of scales, givens, words, norm."""
+class Contents(SheetContents[SolvedLinkage]):
+    """What the sheet of a linkage shows; its whole cycle, too, where that is wanted."""
 
-    solved: SolvedLinkage
-    plans: tuple[str, ...]
-    choosers: Choosers
-    givens: Mapping[str, Given]
-    words: Words
-    norm: Norm = "gost"
     cycle: Cycle | None = None
 
 
