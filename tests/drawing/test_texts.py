@@ -64,7 +64,7 @@ def used(key: str) -> bool:
     return any(f"{key[:at]}*" in patterns() and key[at:] in words_of(key[:at]) for at in cuts)
 
 
-@pytest.mark.parametrize("kind", ["", "titleblock."])
+@pytest.mark.parametrize("kind", ["", "titleblock.", "cams.", "gears."])
 def test_every_language_has_the_same_texts_with_the_same_placeholders(kind: str) -> None:
     texts = tables(kind)
 
@@ -120,4 +120,4 @@ def test_words_can_be_looked_up_by_key(language: str) -> None:
 def test_every_table_of_words_is_read() -> None:
     names = {path.name for path in files(PACKAGE).joinpath("texts").iterdir()}
 
-    assert names == {f"{kind}{language}.toml" for kind in ("", "titleblock.", "cams.") for language in LANGUAGES}
+    assert names == {f"{kind}{language}.toml" for kind in ("", "titleblock.", "cams.", "gears.") for language in LANGUAGES}
