@@ -18,6 +18,7 @@ import pytest
 
 from kulman import check, cli
 from kulman.tests.support.marking_cases import answer, key, students
+from kulman.variants import crew
 from kulman.variants.marking import class_run
 from kulman.variants.marking.answers import Answers, Who
 from kulman.variants.marking.class_run import Job, mark_class, slug
@@ -218,17 +219,28 @@ def test_reports_of_students_who_are_no_longer_there_are_removed(tmp_path: Path)
     assert there == {*stems, foreign.name, changed.name}
 
 
-def test_changed_answers_are_marked_again(tmp_path: Path) -> None:
+def test_changed_answers_are_marked_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     answers, folder = handed_in(class_file(tmp_path, 3)), tmp_path / "reports"
     folder.mkdir()
-    journal = class_run.Journal(folder, job(folder))
-    result = mark_class(job(), answers[:1], lambda number: None, jobs=1)[0]
-    journal.note(0, answers[0], result)
+    marked: list[str] = []
+    first = class_run.mark_one
 
-    after = class_run.Journal(folder, job(folder))
+    def counting(job: Job, desk: object, number: int, one: Answers) -> Result:
+        if number == 2:
+            raise KeyboardInterrupt
+        marked.append(one.who.student)
+        return first(job, desk, number, one)
 
-    assert after.found(0, answers[0]) == result
-    assert after.found(0, answers[1]) is None
+    monkeypatch.setattr(crew, "TOGETHER", 1)
+    monkeypatch.setattr(class_run, "mark_one", counting)
+    with pytest.raises(KeyboardInterrupt):
+        mark_class(job(folder), answers, lambda number: None, jobs=1)
+    changed = [answers[0], replace(answers[1], lines={})]
+    marked.clear()
+
+    mark_class(job(folder), changed, lambda number: None, jobs=1)
+
+    assert marked == ["Student 02"]
 
 
 def test_calculated_segments_are_too_exact_and_drawn_ones_are_not(tmp_path: Path) -> None:

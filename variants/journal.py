@@ -1,0 +1,56 @@
+"""What a long run has finished, a line each, so that a killed one can be gone on with; gone when all is done."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+Result = TypeVar("Result")
+
+
+class Journal(Generic[Result]):
+    """The results of a run by the digests of what they were made from.
+
+    Parameters
+    ----------
+    path : Path
+        A file of JSON lines.
+    load, dump : callable
+        Results from plain data, and to plain data.
+    """
+
+    def __init__(
+        self, path: Path, load: Callable[[Mapping[str, Any]], Result], dump: Callable[[Result], Mapping[str, Any]]
+    ) -> None:
+        self.path, self.dump = path, dump
+        self.before: dict[str, Result] = {}
+        with suppress(FileNotFoundError):
+            for line in path.read_text(encoding="utf-8").splitlines():
+                with suppress(ValueError, KeyError, TypeError):  # the last line of a killed run may be torn
+                    item = json.loads(line)
+                    self.before[item["digest"]] = load(item["result"])
+
+    def found(self, digest: str) -> Result | None:
+        """Return what an earlier run has made of the same."""
+        return self.before.get(digest)
+
+    def note(self, digest: str, result: Result) -> None:
+        """Keep a result."""
+        item = {"digest": digest, "result": self.dump(result)}
+        with self.path.open("a", encoding="utf-8") as stream:
+            stream.write(json.dumps(item, ensure_ascii=True) + "\n")
+
+    def finish(self) -> None:
+        """Forget: all is done."""
+        with suppress(OSError):
+            self.path.unlink()
+
+
+def digest_of(data: str | bytes) -> str:
+    """Return what tells a text, or what a file holds, from any other."""
+    whole = data.encode("utf-8", "surrogatepass") if isinstance(data, str) else data
+    return hashlib.blake2s(whole, digest_size=12).hexdigest()
