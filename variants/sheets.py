@@ -24,6 +24,9 @@ from .case import Case, Settings, solve_case
 from .sheet_id import sheet_id
 from .task import Task
 
+# what a title block says beside what the task does
+BLOCK = ("student", "group", "teacher", "department", "designation", "date")
+
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Sheet:
@@ -123,28 +126,51 @@ def sheet(
     PositionError
         The position has no plan.
     """
+    case = solve_case(task, variant, set, only, scales)
+    block = {"student": student, "group": group, "teacher": teacher, "department": department}
+    block |= {"designation": designation, "date": date}
+    return draw_case(case, block, format, norm, notation, lang)
+
+
+def draw_case(
+    case: Case,
+    block: Mapping[str, str],
+    format: str | None = None,
+    norm: Norm = "gost",
+    notation: str | None = None,
+    lang: str = "uk",
+) -> Sheet:
+    """Draw the sheet of a case.
+
+    Parameters
+    ----------
+    block : mapping of str to str
+        What the title block says, by names of `BLOCK`; what is left out stays blank.
+    format, norm, notation, lang
+        As for `sheet`.
+
+    Raises
+    ------
+    InputError, PositionError
+        As for `sheet`.
+    """
     paper = None if format is None else format_named(format)
     if norm not in get_args(Norm):
         raise unknown("norm-unknown", norm, get_args(Norm))
-    case = solve_case(task, variant, set, only, scales)
     words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
     error = case.solved.error()
     if error is not None:
         raise error
-    said = {"student": student, "group": group, "teacher": teacher, "department": department}
-    for name, text in {**said, "designation": designation, "date": date}.items():
+    for name, text in block.items():
         of_kind(name, text, (str,), "str")
+    said = {name: block.get(name, "") for name in BLOCK}
     stamp = Stamp(
         title=case.task.title[lang],
-        designation=designation,
-        organisation=department,
-        group=group,
-        student=student,
-        teacher=teacher,
-        date=date,
+        organisation=said.pop("department"),
         document_type=words["sheet.document"],
         language=lang,
         identity=sheet_id(case.task, case.variant, case.settings),
+        **said,
     )
     return sheet_of(case, case.kind.draw(case, words, stamp, norm, paper))
 
