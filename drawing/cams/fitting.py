@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from ...plans.cams.cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_PART
@@ -12,6 +12,7 @@ from ..compose import room
 from ..contents import SheetContents
 from ..formats import Format
 from ..givens import givens_view
+from ..rungs import Figure
 from ..style import STYLES
 from ..view import View
 from ..words import Words
@@ -22,6 +23,7 @@ from .scene import CamScene
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
 REDUCTIONS = (1.0, 0.8, 0.5, 0.4, 0.25, 0.2, 0.1)  # of the diagrams, whose scale factors grow as much
 COARSER = (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)  # scale factors of the S-ds/dphi diagram, in those of the travel
+CamFigure = Figure[CamScene]
 NARROW = 0.65  # part of the width of lines that those on the sizes of a cam may have
 
 
@@ -37,14 +39,6 @@ class Rungs:
     reduction: int = 0
     coarser: int = 0
     mu_l: int = 0
-
-
-@dataclass(frozen=True, slots=True)
-class Figure:
-    """One figure of the sheet: how it is drawn, and the ladders that it depends on, the one that sizes it first."""
-
-    draw: Callable[[CamScene], View]
-    ladders: tuple[str, ...] = ()
 
 
 @dataclass(slots=True)
@@ -71,7 +65,7 @@ class Fitting:
         contents, style = self.contents, STYLES[sheet.letters]
         return CamScene(contents.solved, self._words, style, contents.givens, reduction, coarser, mu_l)
 
-    def views(self, sheet: Format, rungs: Rungs) -> list[tuple[View, Figure]]:
+    def views(self, sheet: Format, rungs: Rungs) -> list[tuple[View, CamFigure]]:
         """Return the views of a sheet in the order of the work."""
         scene = self.scene(sheet, rungs)
         width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
@@ -89,7 +83,7 @@ class Fitting:
         return {plan: scene.scale(plan) for plan in self.contents.solved.scale_of_plan if scene.shows(plan)}
 
 
-def figures(contents: Contents, width: float) -> list[Figure]:
+def figures(contents: Contents, width: float) -> list[CamFigure]:
     """Return the figures of a sheet in the order of the work; lines of text are at most `width` long."""
     made = {DIAGRAMS_PART: _diagrams, SIZES_PART: _sizes, PROFILE_PART: _profiles, PRESSURE_PART: _pressure}
     return [figure for plan in contents.plans for figure in made[plan](contents, width)]
@@ -98,7 +92,7 @@ def figures(contents: Contents, width: float) -> list[Figure]:
 # A view is imported when its plan is wanted.
 
 
-def _diagrams(contents: Contents, width: float) -> Iterator[Figure]:
+def _diagrams(contents: Contents, width: float) -> Iterator[CamFigure]:
     from .diagrams_view import diagrams_view
     from .tables import motion_table
     from .text import choices_block, scales_block
@@ -111,7 +105,7 @@ def _diagrams(contents: Contents, width: float) -> Iterator[Figure]:
     yield Figure(lambda scene: scales_block(scene, width), ("reduction",))
 
 
-def _sizes(contents: Contents, width: float) -> Iterator[Figure]:
+def _sizes(contents: Contents, width: float) -> Iterator[CamFigure]:
     from .plate_sizes_view import plate_sizes_view
     from .rocker_sizes_view import rocker_sizes_view
     from .rocker_text import rocker_block
@@ -129,7 +123,7 @@ def _sizes(contents: Contents, width: float) -> Iterator[Figure]:
         yield Figure(lambda scene: plate_block(scene, width))
 
 
-def _profiles(contents: Contents, width: float) -> Iterator[Figure]:
+def _profiles(contents: Contents, width: float) -> Iterator[CamFigure]:
     from .plate_view import plate_view
     from .rocker_view import rocker_view
     from .roller_view import roller_view
@@ -142,7 +136,7 @@ def _profiles(contents: Contents, width: float) -> Iterator[Figure]:
         yield Figure(plate_view, ("mu_l",))
 
 
-def _pressure(contents: Contents, width: float) -> Iterator[Figure]:
+def _pressure(contents: Contents, width: float) -> Iterator[CamFigure]:
     from .pressing import rolls
     from .pressure_view import pressure_view
 

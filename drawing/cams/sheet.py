@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...scales.choices import SIZES
-from ...scales.errors import InputError
-from ..compose import arrange, compose, room, worth_trying
+from ..compose import arrange, compose, worth_trying
 from ..formats import FORMATS, Format
 from ..packing import Placement
 from ..page import Drawn
 from ..pens import Norm
+from ..rungs import fitted, on_pages
 from ..titleblock import Stamp
 from ..view import View
 from .fitting import Contents as Contents
@@ -32,33 +32,15 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
     formats = [sheet] if sheet is not None else worth_trying([v for v, _ in fitting.views(largest, Rungs())])
     for candidate in formats:
         last = candidate is formats[-1]
-        rungs = _fitted(fitting, candidate) if last else Rungs()
-        found = _single(fitting, candidate, rungs) or (_several(fitting, candidate, rungs) if last else None)
+        rungs = fitted(fitting, candidate, contents.norm, Rungs()) if last else Rungs()
+        found = _single(fitting, candidate, rungs)
+        if found is None and last:
+            views = [view for view, _ in fitting.views(candidate, rungs)]
+            found = rungs, views, on_pages(views, candidate, contents.norm)
         if found is not None:
             break
     assert found is not None, "on the last format there are as many pages as it takes"
     return _drawn(fitting, stamp, candidate, found)
-
-
-def _fitted(fitting: Fitting, sheet: Format) -> Rungs:
-    """Return the first rungs at which every view has room on a page of its own.
-
-    Raises
-    ------
-    InputError
-        When a view has none at the last rung.
-    """
-    wide, high = room(sheet, fitting.contents.norm)
-    rungs = Rungs()
-    while True:
-        tight = {f.ladders for v, f in fitting.views(sheet, rungs) if v.size[0] > wide or v.size[1] > high}
-        if not tight:
-            return rungs
-        for ladders in tight:
-            name = next((ladder for ladder in ladders if _next(fitting, rungs, ladder)), None)
-            if name is None:
-                raise InputError("sheet-too-small", format=sheet.name)
-            rungs = replace(rungs, **{name: getattr(rungs, name) + 1})
 
 
 def _single(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
@@ -82,20 +64,6 @@ def _on_a_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] 
     if places is None and sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height:
         places = arrange([view.size for view in views], sheet, norm, 1)
     return places
-
-
-def _several(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found:
-    """Take as many pages as are needed."""
-    views = [view for view, _ in fitting.views(sheet, rungs)]
-    places = arrange([view.size for view in views], sheet, fitting.contents.norm, None)
-    if places is None:
-        raise InputError("sheet-too-small", format=sheet.name)
-    return rungs, views, places
-
-
-def _next(fitting: Fitting, rungs: Rungs, ladder: str) -> bool:
-    """Whether a ladder has a further rung."""
-    return bool(getattr(rungs, ladder) + 1 < len(fitting.ladders[ladder]))
 
 
 def _drawn(fitting: Fitting, stamp: Stamp, sheet: Format, found: Found) -> Drawn:

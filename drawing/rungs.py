@@ -1,0 +1,83 @@
+"""Down the ladders of scale factors: the first rungs at which every view has room on a page of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Generic, Protocol, TypeVar
+
+from ..scales.errors import InputError
+from .compose import arrange, room
+from .formats import Format
+from .packing import Placement
+from .pens import Norm
+from .view import View
+
+Scene = TypeVar("Scene")
+Rungs = TypeVar("Rungs")
+Wanted = TypeVar("Wanted", contravariant=True)  # rungs again, as a protocol takes them
+
+
+@dataclass(frozen=True, slots=True)
+class Figure(Generic[Scene]):
+    """One figure of a sheet: how it is drawn, and the ladders that it depends on, the one that sizes it first."""
+
+    draw: Callable[[Scene], View]
+    ladders: tuple[str, ...] = ()
+
+
+class Drawer(Protocol[Wanted]):
+    """Who draws the views of a sheet for any format, at any rungs of its ladders."""
+
+    @property
+    def ladders(self) -> Mapping[str, tuple[float, ...]]:
+        """Return the ladders by name; the rungs have a field of each name."""
+
+    def views(self, sheet: Format, rungs: Wanted) -> Sequence[tuple[View, Figure[Any]]]:
+        """Return the views of a sheet, each with its figure."""
+
+
+def fitted(drawer: Drawer[Rungs], sheet: Format, norm: Norm, rungs: Rungs) -> Rungs:
+    """Return the first rungs, from these on, at which every view has room on a page of its own.
+
+    Raises
+    ------
+    InputError
+        When a view has none at the last rung.
+    """
+    wide, high = room(sheet, norm)
+    while True:
+        tight = {f.ladders for v, f in drawer.views(sheet, rungs) if v.size[0] > wide or v.size[1] > high}
+        if not tight:
+            return rungs
+        for ladders in tight:
+            name = next((ladder for ladder in ladders if has_next(drawer, rungs, ladder)), None)
+            if name is None:
+                raise InputError("sheet-too-small", format=sheet.name)
+            rungs = lower(rungs, name)
+
+
+def has_next(drawer: Drawer[Rungs], rungs: Rungs, ladder: str) -> bool:
+    """Whether a ladder has a further rung."""
+    return bool(getattr(rungs, ladder) + 1 < len(drawer.ladders[ladder]))
+
+
+def lower(rungs: Rungs, ladder: str) -> Rungs:
+    """Return the rungs with the next one of a ladder."""
+    own: Any = rungs  # a dataclass
+    lowered: Rungs = replace(own, **{ladder: getattr(rungs, ladder) + 1})
+    return lowered
+
+
+def on_pages(views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement]:
+    """Place views on as many pages as they need.
+
+    Raises
+    ------
+    InputError
+        When one has no room on a page.
+    """
+    places = arrange([view.size for view in views], sheet, norm, None)
+    if places is None:
+        raise InputError("sheet-too-small", format=sheet.name)
+    return places
