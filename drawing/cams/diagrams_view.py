@@ -10,11 +10,12 @@ import numpy as np
 
 from ...plans.cams.integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
 from ...plans.cams.motion import PHASES, RISE
-from ..diagram import Axis, Field, Pole, axes, rays
+from ..diagram import Axis, Field, Pole, axes
 from ..dimensions import linear
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import Box, box, lay_out
 from ..view import Canvas, View
+from .fan import aside, fan
 from .scene import CamScene, pieces
 
 ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a diagram shows
@@ -41,10 +42,11 @@ def diagrams_view(scene: CamScene) -> View:
         low += _ends(scene, plan)[0]
     boxes = [_scales(canvas, scene, plan, field) for plan, field in zip(drawn, fields, strict=True)]
     _section_lines(canvas, scene, fields, boxes)
+    away = aside([[(i, mean.imag) for i, mean in _means(scene, plan)] for plan in drawn], scene.style.text)
     for plan, field in zip(drawn, fields, strict=True):
         axes(canvas, field, False, PAST * scene.style.label)
         _exact(canvas, scene, plan, field)
-        _board(canvas, scene, plan, field)
+        _board(canvas, scene, plan, field, away)
         _amplitudes(canvas, scene, plan, field)
     _phases(canvas, scene, fields[-1])
     per_mm = scene.words["said.cam_axis"].format(angle=scene.degrees(scene.across.mu))
@@ -129,28 +131,27 @@ def _exact(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:
         canvas.add(Group((Line(a, b, Pen.MAIN),), "jump", f"{plan}.{k}"))
 
 
-def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:
+def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field, away: float) -> None:
     """Draw what the board has constructed: mean ordinates, the pole and its rays, chords and their nodes."""
     solved, words, origin = scene.solved, scene.words, field.origin
-    sections = [*solved.layout.division.sections]
     nodes = [(i, origin + scene.mm(f"{plan}.{i}")) for i in _nodes(scene, plan)]
-    if len(nodes) == len(sections) + 1 and plan != solved.layout.given:
+    if len(nodes) == len(solved.layout.division.sections) + 1 and plan != solved.layout.given:
         chords = tuple(Line(a, b, Pen.THIN, name=str(i)) for (_, a), (i, b) in pairwise(nodes))
         canvas.add(Group(chords, "chords", plan))
         canvas.add(*(_mark(scene, at, "node", str(i)) for i, at in nodes))
-    if f"{plan}.O" not in solved.values:
-        return
-    shown: dict[float, complex] = {}
-    for i in sections:
-        mean, foot = (origin + scene.mm(f"{plan}.{letter}{i}") for letter in "mp")
-        canvas.add(_mark(scene, mean, "mean", str(i)))
-        shown.setdefault(round(foot.imag, 4), mean)
-    for mean in shown.values():
-        canvas.add(Line(mean, complex(origin.real, mean.imag), Pen.DASHED, role="projection"))
-    name, letter = POLES[plan]
-    text = f"{words.symbol(name)} = {words.short(round(scene.paper(name), 2))}"
-    pole = Pole(scene.paper(name), letter, name, text)
-    rays(canvas, field, pole, ((i, scene.mm(f"{plan}.p{i}").imag) for i in sections))
+    means = [(i, origin + mean) for i, mean in _means(scene, plan)]
+    if means:
+        name, letter = POLES[plan]
+        text = f"{words.symbol(name)} = {words.short(round(scene.paper(name), 2))}"
+        fan(canvas, field, Pole(scene.paper(name), letter, name, text), means, away)
+        canvas.add(*(_mark(scene, mean, "mean", str(i)) for i, mean in means))
+
+
+def _means(scene: CamScene, plan: str) -> list[tuple[int, complex]]:
+    """Return the mean ordinates of a diagram that is integrated, by section, mm from its origin."""
+    if f"{plan}.O" not in scene.solved.values:
+        return []
+    return [(i, scene.mm(f"{plan}.m{i}")) for i in scene.solved.layout.division.sections]
 
 
 def _mark(scene: CamScene, at: complex, role: str, name: str) -> Group:

@@ -24,7 +24,7 @@ from kulman.tests.support.cam_cases import (
     unless,
 )
 from kulman.tests.support.printed_numbers import equation_faults, lines_of
-from kulman.tests.support.readback import Sheet, View, angle
+from kulman.tests.support.readback import Sheet, Stroke, View, angle
 
 
 def c1_three_diagrams(case: CamCase, sheet: Sheet) -> Faults:
@@ -74,9 +74,13 @@ def c2_chords(case: CamCase, sheet: Sheet) -> Faults:
         own = [s for s in rays if abs(s.points[0].imag - origin.imag) < NEAR]
         distance = solved.values["H_a" if plan == "diagram_a" else "H_v"] * 1e3 * reduction(case, view)
         yield from unless(bool(own), f"no rays at {plan}")
+        feet = own[0].points[1].real if own else origin.real  # the line on which rays end, beside the axis
+        yield from unless(feet < origin.real, f"rays of {plan} run into the diagram")
         for ray in own:
-            right = abs(ray.points[0] - (origin - distance)) < NEAR and abs(ray.points[1].real - origin.real) < NEAR
-            yield from unless(right, f"ray {ray.name} of {plan} does not run from the pole to the axis")
+            right = abs(ray.points[0] - complex(feet - distance, origin.imag)) < NEAR
+            right = right and abs(ray.points[1].real - feet) < NEAR
+            yield from unless(right, f"ray {ray.name} of {plan} does not run from the pole to the line of feet")
+        yield from _numbered(case, view, plan, (feet, origin), own)
         of = {name: ray for ray in own for name in ray.name.split()}
         chords = view.inside("chords", onto)
         yield from unless(len(chords) == solved.layout.division.last, f"{len(chords)} chords on {onto}")
@@ -93,6 +97,24 @@ def c2_chords(case: CamCase, sheet: Sheet) -> Faults:
             yield from unless(printed is not None, f"the closing error of {onto} is not printed")
             good = printed is not None and abs(float(printed[1].replace(",", ".")) - gaps[onto]) < NEAR
             yield from unless(good, f"{onto} does not close by {gaps[onto]} mm, another number is printed")
+
+
+def _numbered(case: CamCase, view: View, plan: str, strip: tuple[float, complex], rays: list[Stroke]) -> Faults:
+    """All rays end at the heights of their mean ordinates; beside the axis stand all their numbers."""
+    feet, origin = strip
+    marks = {n: r.centre for r in view.rings for k, n in r.path if k == "mean"} if plan == "diagram_v" else {}
+    for ray in rays:
+        missed = [n for n in ray.name.split() if n in marks and abs(marks[n].imag - ray.points[1].imag) > NEAR]
+        yield from unless(not missed, f"a ray of {plan} misses the mean ordinates {missed}")
+    heights = [ray.points[1].imag for ray in rays]
+    low, high = min(heights) - 3.0, max(heights) + 3.0
+    texts = [t for t in view.texts if feet < t.box[0] and t.box[2] < origin.real and low < t.box[1] < high]
+    numbers: list[int] = []
+    for part in ", ".join(t.string for t in texts if re.fullmatch(r"[\d,– ]+", t.string)).split(", "):
+        first, _, last = part.partition("–")
+        numbers += range(int(first), int(last or first) + 1)
+    wanted = [*range(1, case.solved.layout.division.last + 1)]
+    yield from unless(sorted(numbers) == wanted, f"the rays of {plan} have the numbers {sorted(numbers)}")
 
 
 def c3_law(case: CamCase, sheet: Sheet) -> Faults:
