@@ -1,0 +1,161 @@
+"""The forces of a hoist as a construction, in the order of a student's note: numbers, and the circle of phase 2.
+
+Until t_1 the load stands on the support beam, and the rope only takes it up; then it hangs. What the two-sided formulas
+give is only valid while the rope pulls and the support pushes: `checks` tells, and `onesided` finds what else happens.
+
+Source: Karpenko, Muzyka, Gudym; the primed formulas are exact where the article simplifies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from ..board import Board, Program, RecordingBoard
+from ..boards.arrays import ArrayBoard
+from ..boards.exact import ExactBoard
+from . import formulas as formulas  # its laws of calculation
+from .hoist import VALUES
+
+CIRCLE = "circle"
+BEAMS = (0, 2)  # the support beam and the bridge beam
+
+
+def reduced(board: Board) -> None:
+    """Reduced mass and stiffnesses, formulas (4) to (7)."""
+    board.calc("m", "reduced_mass", "G_1", "G_2", "g")
+    board.calc("P_st", "static_force", "m", "g")
+    for i in BEAMS:
+        board.calc(f"alpha_{i}", "place_factor", f"beta_{i}")
+        board.calc(f"b_{i}", "product", f"beta_{i}", f"l_{i}")
+    board.calc("C_01", "beam_stiffness", "E_0", "I_0", "alpha_0", "l_0")
+    board.calc("C_k", "rope_stiffness", "S", "E_k", "L")
+    board.calc("C_2", "beam_stiffness", "E_2", "I_2", "alpha_2", "l_2")
+    board.calc("C_12", "in_series", "C_k", "C_2")
+    board.calc("C", "in_series", "C_01", "C_12")
+    board.calc("k", "frequency_between", "C_01", "C_12", "m")
+    board.calc("k_1", "frequency", "C_12", "m")
+    board.calc("V_t", "taut_speed", "V_0", "a", "slack")
+
+
+def lifting_off(board: Board) -> None:
+    """The end of phase 1, formula (11), and what the rope and the load do there."""
+    board.calc("_mu", "support_share", "C_12", "C_01")
+    board.calc("_C_osc", "product", "_mu", "C_12")
+    board.calc("_height", "ratio", "P_st", "C")
+    board.calc("_t_1", "lift_off", "V_t", "a", "k", "_height")
+    board.calc("t_1", "later", "_t_1", "_rest")
+    rope_force(board, "F_12_t1", "t_1")
+    board.calc("_dy_t1", "winding_speed", "V_t", "a", "t_1")
+    board.calc("_dosc_t1", "oscillation_rate", "V_t", "a", "k", "t_1")
+    board.calc("_dF_t1", "rope_force", "C", "_dy_t1", "_C_osc", "_dosc_t1")
+
+
+def rope_force(board: Board, name: str, time: str) -> None:
+    """The force of the rope in phase 1 at a time: formula (10)."""
+    board.calc(f"_y_{name}", "wound", "V_t", "a", time)
+    board.calc(f"_osc_{name}", "oscillation", "V_t", "a", "k", time)
+    board.calc(name, "rope_force", "C", f"_y_{name}", "_C_osc", f"_osc_{name}")
+
+
+def extremes(board: Board) -> None:
+    """The greatest and the least force of the rope in phase 1: formula (12)."""
+    board.calc("_ratio", "ratio", "C_01", "C_12")
+    board.calc("_t_last", "last_maximum", "V_t", "a", "k", "_ratio", "t_1")
+    board.calc("_t_first", "first_minimum", "V_t", "a", "k", "_ratio", "t_1")
+    rope_force(board, "_F_last", "_t_last")
+    rope_force(board, "_F_first", "_t_first")
+    board.calc("F_12_max", "larger_of", "_F_last", "F_12_t1")
+    board.calc("t_F12_max", "time_of_larger", "_F_last", "F_12_t1", "_t_last", "t_1")
+    board.calc("F_12_min", "smaller_of", "_F_first", "F_12_t1")
+
+
+def suspended(board: Board) -> None:
+    """Phase 2 by its circle: abscissas are the force of the rope, ordinates its rate by k_1; formulas (13) to (15')."""
+    board.calc("P_m", "mean_force", "m", "g", "a")
+    board.calc("D_0", "excess", "F_12_t1", "P_m")
+    board.calc("D_1", "ratio", "_dF_t1", "k_1")
+    board.place(f"{CIRCLE}.C", "P_m", "zero")
+    board.place(f"{CIRCLE}.1", "F_12_t1", "D_1")
+    board.distance("R", f"{CIRCLE}.C", f"{CIRCLE}.1")
+    board.read("_radius", f"{CIRCLE}.C", f"{CIRCLE}.1")
+    board.turn("_right", "zero")
+    board.angle("_phi", "_right", "_radius")
+    board.calc("_angle", "whole_angle", "_phi")
+    board.calc("T_1", "ratio", "_angle", "k_1")
+    board.calc("P_12_max", "sum", "P_m", "R")
+    board.calc("P_12_min", "excess", "P_m", "R")
+
+
+def lifted(board: Board) -> None:
+    """How high above the support the load is when it is lowest after the lift-off."""
+    board.calc("_T_low", "lowest_after", "_dy_t1", "a", "k_1", "D_0", "D_1", "m")
+    board.calc("_t_low", "later", "t_1", "_T_low")
+    board.calc("_y_low", "wound", "V_t", "a", "_t_low")
+    board.calc("_D_low", "swing", "D_0", "D_1", "k_1", "_T_low")
+    board.calc("_P_low", "suspended_force", "P_m", "_D_low")
+    board.calc("s_min", "height", "_y_low", "P_st", "C_01", "_P_low", "C_12")
+
+
+def printed(board: Board) -> None:
+    """What the article prints: formulas (14) and (15), for a rigid support and V_0 as the speed at the lift-off."""
+    board.calc("_V_printed", "article_speed", "V_0", "a", "slack", "P_st", "C_12")
+    board.calc("P_12_max_printed", "article_maximum", "m", "g", "a", "_V_printed", "C_12")
+    board.calc("T_1_printed", "article_time", "_V_printed", "k_1", "a")
+
+
+def strength(board: Board) -> None:
+    """The stress of the rope, its safety, and how far the beams bend."""
+    board.calc("F_max", "larger_of", "F_12_max", "P_12_max")
+    board.calc("sigma_max", "stress", "F_max", "S")
+    board.calc("safety", "ratio", "sigma", "sigma_max")
+    board.calc("dynamic_factor", "ratio", "P_12_max", "P_st")
+    for i, force in zip(BEAMS, ("P_st", "P_12_max"), strict=True):
+        board.calc(f"w_{i}_max", "greatest_deflection", force, f"b_{i}", f"l_{i}", f"I_{i}", f"E_{i}")
+        board.calc(f"x_w{i}", "place_of_deflection", f"b_{i}", f"l_{i}")
+
+
+PARTS = (reduced, lifting_off, extremes, suspended, lifted, printed, strength)
+
+
+@cache
+def model_program() -> Program:
+    """Return all steps, in order, recorded."""
+    board = RecordingBoard()
+    for part in PARTS:
+        part(board)
+    return Program(board.steps)
+
+
+@cache
+def _needed(wanted: tuple[str, ...]) -> Program:
+    return model_program().needed_for(wanted)
+
+
+def model(values: Mapping[str, Any], wanted: Iterable[str] = ()) -> dict[str, Any]:
+    """Return the quantities of a hoist by name, in SI, after the givens; the two-sided formulas, whether valid or not.
+
+    Parameters
+    ----------
+    values : mapping of str to float or array
+        The complete givens, with any shapes that go together.
+    wanted : iterable of str
+        Names of the quantities wanted, with which those come that they need; by default all.
+
+    Returns
+    -------
+    dict of str to float or array
+        Infinite where a beam is rigid.
+    """
+    names = tuple(wanted)
+    program = _needed(names) if names else model_program()
+    arrays = np.broadcast_arrays(*(values[name] for name in VALUES if name in values))
+    givens = {"_rest": 0.0, **values}
+    board = ArrayBoard(givens, arrays[0].size) if arrays[0].ndim else ExactBoard(givens)
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        program.run(board)
+    found = {name: board.values[name] for name in (*values, *program.names) if "." not in name and name[0] != "_"}
+    return {name: value if np.ndim(value) else float(value) for name, value in found.items()}
