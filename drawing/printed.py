@@ -15,6 +15,7 @@ HUNDREDTHS = 2  # decimals of a segment, mm: a ruler reads no more
 # digits of a result, most digits of what goes into it, whether segments may have more than hundredths of a millimetre
 TRIES = ((DIGITS, 6, False), (3, 6, False), (FEWEST, 6, False), (DIGITS, DIGITS + MOST, True))
 FINEST = 12  # decimals; what is smaller still is 0
+Terms = Sequence[tuple[str, float, bool]]  # symbol, number as it is printed, whether it is exact
 POINT = 1e-6  # mm; a shorter segment is a point, and its quantity 0
 
 
@@ -73,23 +74,52 @@ def segment_decimals(value: float, mu: float, least: int = HUNDREDTHS) -> tuple[
     return least + MOST, usual
 
 
-def calculation(words: Words, law: Callable[..., float], inputs: Sequence[Input]) -> tuple[list[str], str]:
+def calculation(
+    words: Words, law: Callable[..., float], inputs: Sequence[Input], wanted: int | None = None
+) -> tuple[list[str], str]:
     """Return the printed inputs and the printed result of a calculation, such that it recomputes.
 
     Inputs get as many digits as it takes for the result to come out to its last printed digit; where segments of the
-    sheet do not allow that, the result has fewer digits.
+    sheet do not allow that, the result has fewer digits. It may have a `wanted` number of decimals.
     """
     values = [one.value for one in inputs]
     result = law(*values)
     measured = any(one.places is not None for one in inputs)
     for last, most, free in TRIES if measured else TRIES[-1:]:
-        decimals = decimals_for(result, last)
+        decimals = decimals_for(result, last) if wanted is None else wanted
         for digits in range(DIGITS, most + 1):
             places = [one.decimals(digits, free) for one in inputs]
             shown = [x if cut is None else round(x, cut) for x, cut in zip(values, places, strict=True)]
             if round(law(*shown), decimals) == round(result, decimals):
                 return _texts(words, values, places), words.number(result, decimals)
     return _texts(words, values, places), words.number(result, decimals)
+
+
+@dataclass(frozen=True, slots=True)
+class Formula:
+    """How a quantity is calculated: in `text` a term stands as `{name}`, a degree sign after its number as `{deg}`.
+
+    The result is in `unit`, with so many `decimals` if these are said.
+    """
+
+    name: str
+    text: str
+    law: Callable[..., float]
+    terms: Terms
+    unit: str = ""
+    decimals: int | None = None
+
+
+def worked(words: Words, formula: Formula, more: str = "") -> tuple[str, ...]:
+    """Return `name = formula = numbers = result unit`, printed so that it recomputes."""
+    inputs = [Input(value, exact) for _, value, exact in formula.terms]
+    texts, result = calculation(words, formula.law, inputs, formula.decimals)
+    names = [term for term, _, _ in formula.terms]
+    symbols = formula.text.format(deg="", **{name: words.symbol(name) for name in names})
+    numbers = formula.text.format(deg="°", **dict(zip(names, texts, strict=True)))
+    gap, unit = "" if formula.unit == "deg" else " ", formula.unit
+    said = f"= {result}{gap}{words.unit(unit)}" if unit else f"= {result}"
+    return tuple(filter(None, (f"{words.symbol(formula.name)} = {symbols}", f"= {numbers}", said, more)))
 
 
 def _texts(words: Words, values: Sequence[float], places: Sequence[int | None]) -> list[str]:

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import accumulate
+from collections.abc import Iterator, Sequence
+from itertools import accumulate, pairwise
+from typing import TypeAlias
 
 from .shapes import Group, Line, Pen, Shape, Text
 from .style import Style
 from .text import Box, lay_out
 from .view import View, heading_shapes
 
+Row: TypeAlias = Sequence[str | None]
 INDENT = "    "
 
 
-def table(name: str, heading: str, rows: Sequence[Sequence[str]], style: Style) -> View:
-    """Return a ruled table; the first row is its head."""
+def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
+    """Return a ruled table; the first row is its head. A cell that is None belongs to the one on its left."""
     h = style.text
     pad = 0.5 * h
     columns = range(len(rows[0]))
-    widths = [max(lay_out(row[i], h).width for row in rows) + 2 * pad for i in columns]
+    widths = [max(lay_out(_alone(row, i), h).width for row in rows) + 2 * pad for i in columns]
     edges = [sum(widths[:i]) for i in range(len(widths) + 1)]
     spans = [_span(row, h) for row in rows]
     # a row of scripts above and below needs more than a row of plain words
@@ -30,19 +32,37 @@ def table(name: str, heading: str, rows: Sequence[Sequence[str]], style: Style) 
         shapes.append(Line(complex(0, y), complex(edges[-1], y), pen))
     for i, x in enumerate(edges):
         pen = Pen.MAIN if i in (0, len(edges) - 1) else Pen.THIN
-        shapes.append(Line(complex(x, 0), complex(x, -height), pen))
+        shapes += (Line(complex(x, levels[j]), complex(x, levels[k]), pen) for j, k in _ruled(rows, i))
     for j, (row, (top, bottom)) in enumerate(zip(rows, spans, strict=True)):
         baseline = (levels[j] + levels[j + 1] - top - bottom) / 2
-        for i, cell in enumerate(row):
-            if cell:
-                middle = (edges[i] + edges[i + 1]) / 2
-                shapes.append(Text(complex(middle, baseline), cell, h, "middle", role="cell"))
+        for i, end, cell in _cells(row):
+            middle = (edges[i] + edges[end]) / 2
+            shapes.append(Text(complex(middle, baseline), cell, h, "middle", role="cell"))
     return _view(name, heading, shapes, (0.0, -height, edges[-1], 0.0), style, role="table")
 
 
-def _span(row: Sequence[str], h: float) -> tuple[float, float]:
+def _cells(row: Row) -> Iterator[tuple[int, int, str]]:
+    """Go through the cells of a row with text: the columns where they begin and before which they end."""
+    for i, cell in enumerate(row):
+        if cell:
+            yield i, next((k for k in range(i + 1, len(row)) if row[k] is not None), len(row)), cell
+
+
+def _alone(row: Row, column: int) -> str:
+    """Return the text of a cell that fills one column."""
+    return next((cell for i, end, cell in _cells(row) if i == column and end == i + 1), "")
+
+
+def _ruled(rows: Sequence[Row], edge: int) -> list[tuple[int, int]]:
+    """Return from which level to which a line runs on the left of a column: broken where a cell goes on over it."""
+    crossed = [j for j, row in enumerate(rows) if 0 < edge < len(row) and row[edge] is None]
+    ends = [-1, *crossed, len(rows)]
+    return [(a + 1, b) for a, b in pairwise(ends) if b > a + 1]
+
+
+def _span(row: Row, h: float) -> tuple[float, float]:
     """Return how far a row of cells reaches above and below its baseline, at least as far as a capital letter."""
-    layouts = [lay_out(cell, h) for cell in row]
+    layouts = [lay_out(cell or "", h) for cell in row]
     return max(h, *(layout.top for layout in layouts)), min(0.0, *(layout.bottom for layout in layouts))
 
 

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.rules import Rule, rules_of
+from .. import printed
 from ..givens import choice
-from ..printed import Input, calculation
+from ..printed import Formula, Input, Terms, calculation
 from ..table import text_block
 from ..view import View
 from .offsets import offsets_line
 from .scene import CamScene
 
 Lines = list[tuple[str, ...]]
-Terms = Sequence[tuple[str, float, bool]]  # symbol, number as it is printed, whether it is exact
 
 
 def scales_block(scene: CamScene, width: float) -> View:
@@ -102,13 +102,7 @@ def worked(
     scene: CamScene, name: str, formula: str, law: Callable[..., float], terms: Terms, unit: str, more: str = ""
 ) -> tuple[str, ...]:
     """Return `name = formula = numbers = result unit`, printed so that it recomputes."""
-    words = scene.words
-    texts, result = calculation(words, law, [Input(value, exact) for _, value, exact in terms])
-    symbols = formula.format(**{term: words.symbol(term) for term, _, _ in terms})
-    numbers = formula.format(**{term: text for (term, _, _), text in zip(terms, texts, strict=True)})
-    gap = "" if unit == "deg" else " "
-    said = f"= {result}{gap}{words.unit(unit)}" if unit else f"= {result}"
-    return tuple(filter(None, (f"{words.symbol(name)} = {symbols}", f"= {numbers}", said, more)))
+    return printed.worked(scene.words, Formula(name, formula, law, terms, unit), more)
 
 
 def _given_a(scene: CamScene) -> bool:

@@ -1,0 +1,155 @@
+"""Tables of a gear pair: its sizes and those of its wheels, twelve points of sliding, checks with their verdicts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from ...plans.gears.checks import AT_LEAST, AT_MOST, Check, checks
+from ...plans.gears.gear import WHEELS
+from ...plans.gears.geometry import POINTS
+from ..table import table
+from ..view import View
+from .marks import letter, marks
+from .scene import GearScene
+
+MM, DEGREE, NUMBER, WHOLE = "mm", "°", "", "whole"
+DECIMALS = {MM: 3, DEGREE: 3, NUMBER: 4}  # of what is calculated
+TIMES = {MM: 1e3, DEGREE: 180.0 / math.pi}
+SLIDING = 2  # decimals of ordinates, mm, and of sliding where they show so many
+# rows of the data: names, and what they are given in; of a wheel's quantities the name goes on with its number
+PAIR = (
+    *(("m", MM), ("alpha", DEGREE), ("h_a", NUMBER), ("h_l", NUMBER), ("c", NUMBER), ("x_sum", NUMBER)),
+    *(("y", NUMBER), ("delta_y", NUMBER), ("a_w", MM), ("alpha_w", DEGREE), ("h", MM), ("p", MM), ("p_b", MM)),
+)
+OF_WHEELS = (
+    *(("z", WHOLE), ("x", NUMBER), ("d", MM), ("d_w", MM), ("d_b", MM), ("d_a", MM), ("d_f", MM), ("s", MM)),
+    *(("s_c", MM), ("h_c", MM), ("z_W", WHOLE), ("W", MM)),
+)
+SIGNS = {AT_LEAST: "≥", AT_MOST: "≤"}
+
+
+def data_table(scene: GearScene) -> View:
+    """Return the data of the pair, and below them those of its wheels side by side."""
+    words = scene.words
+    rows: list[list[str | None]] = [[words["table.quantity"], words["table.symbol"], words["table.value"], None]]
+    rows += ([named(scene, name, kind), words.symbol(name), number(scene, name, kind), None] for name, kind in PAIR)
+    rows.append(["", None, words["gear.pinion"], words["gear.wheel"]])
+    for name, kind in OF_WHEELS:
+        numbers = (number(scene, of_wheel(name, i), kind) for i in WHEELS)
+        rows.append([named(scene, name, kind), words.symbol(name), *numbers])
+    return table("data", words["heading.gear_data"], rows, scene.style)
+
+
+def of_wheel(name: str, i: int) -> str:
+    """Return the name of a quantity of one wheel: d_1, d_w1."""
+    return f"{name}{i}" if "_" in name else f"{name}_{i}"
+
+
+def named(scene: GearScene, name: str, kind: str) -> str:
+    """Return what a quantity is called, with the unit in which its row is."""
+    words = scene.words
+    unit = {MM: f", {words.unit('mm')}", DEGREE: f", {DEGREE}"}.get(kind, "")
+    return f"{words[f'gear.{name}']}{unit}"
+
+
+def number(scene: GearScene, name: str, kind: str) -> str:
+    """Return a quantity as its row has it: a given as it is, what is undefined as a dash."""
+    value, words = float(scene.solved.values[name]), scene.words
+    if not math.isfinite(value):
+        return words["table.calculated"]
+    if kind == WHOLE:
+        return words.short(value)
+    value *= TIMES.get(kind, 1.0)
+    if name in scene.givens or name in ("x_1", "x_2", "x_sum"):
+        return words.short(round(value, 9), 6)
+    return words.number(value, DECIMALS[kind])
+
+
+def points_table(scene: GearScene) -> View:
+    """Return the table of the twelve points: ordinates of the velocities, their differences, specific sliding.
+
+    Differences are those of the printed ordinates, and sliding has as many digits as come out of these.
+    """
+    words, places = scene.words, marks(scene.solved.values)
+    mm = words.unit("mm")
+    letters = {point: letter(name) for name, point in places.items()}
+    y_1, y_2 = words.symbol("y_1"), words.symbol("y_2")
+    head = [words["gear.point"], None, *(f"{y}, {mm}" for y in (y_1, y_2, f"{y_1} − {y_2}")), words.symbol("theta_12")]
+    head += [f"{y_2} − {y_1}, {mm}", words.symbol("theta_21")]
+    rows: list[list[str | None]] = [head]
+    for point in POINTS:
+        first, second = (round(_mm(scene, f"y_{i}_{point}"), SLIDING) for i in WHEELS)
+        cells = [words.number(y, SLIDING) for y in (first, second)]
+        for pair, own, mate in (("12", first, second), ("21", second, first)):
+            exact = float(scene.solved.values[f"theta_{pair}_{point}"])
+            cells += [words.number(own - mate, SLIDING), _sliding(scene, own, mate, exact)]
+        rows.append([str(int(point)), letters.get(point, ""), *cells])
+    return table("points", words["heading.gear_points"], rows, scene.style)
+
+
+def _mm(scene: GearScene, name: str) -> float:
+    return float(scene.solved.values[name]) * TIMES[MM]
+
+
+def _sliding(scene: GearScene, own: float, mate: float, exact: float) -> str:
+    """Return specific sliding with the digits with which it comes out of the printed ordinates."""
+    if math.isinf(exact):
+        return "−∞"
+    if own == 0.0 or math.isnan(exact):
+        return scene.words["table.calculated"]
+    printed = (own - mate) / own
+    digits = next((d for d in range(SLIDING, -4, -1) if round(printed, d) == round(exact, d)), -4)
+    return scene.words.number(round(exact, digits), digits)
+
+
+def checks_table(scene: GearScene) -> View:
+    """Return the checks, each with its number, its limit and the verdict."""
+    words = scene.words
+    head = [words[f"gear.{name}"] for name in ("check", "condition", "value", "limit", "verdict")]
+    found = checks(scene.solved.pair, scene.solved.values)
+    rows = [_check_row(scene, check) for check in found]
+    return table("checks", words["heading.gear_checks"], [head, *rows], scene.style)
+
+
+def _check_row(scene: GearScene, check: Check) -> list[str]:
+    words = scene.words
+    kind, _, wheel = check.name.partition("_")
+    about = words[f"gear.check.{kind}"]
+    if wheel.isdigit():
+        about += f", {words.symbol(f'z_{wheel}')}"
+    sides = _number_of(scene, check, check.value), _number_of(scene, check, check.limit)
+    verdict = words["said.cam_ok" if check.ok else "said.cam_fails"]
+    return [about, condition(scene, check), *sides, verdict]
+
+
+def condition(scene: GearScene, check: Check) -> str:
+    """Return what is demanded, in symbols."""
+    words = scene.words
+    if check.name.startswith("centre"):
+        return f"{words.symbol('a_w')} = {CENTRES[check.quantity](words.symbol)}"
+    if check.of:
+        limit = words.symbol(check.of)
+    elif check.name.startswith("tip"):
+        limit = f"{words.short(scene.solved.pair.least_tip)}m"
+    else:
+        limit = words.short(check.limit)
+    return f"{words.symbol(check.quantity)} {SIGNS[check.relation]} {limit}"
+
+
+def _number_of(scene: GearScene, check: Check, value: float) -> str:
+    """Return one side of a check, lengths in mm."""
+    words = scene.words
+    if check.quantity == "epsilon_alpha" or check.quantity.startswith("x_"):
+        return words.number(value, DECIMALS[NUMBER])
+    return f"{words.number(value * TIMES[MM], DECIMALS[MM])} {words.unit('mm')}"
+
+
+Symbol = Callable[[str], str]
+# the distance of the centres in other ways, in symbols
+CENTRES: dict[str, Callable[[Symbol], str]] = {
+    "a_w_rolling": lambda s: f"({s('d_w1')} + {s('d_w2')})/2",
+    "a_w_shift": lambda s: f"({s('d_1')} + {s('d_2')})/2 + {s('y')}·{s('m')}",
+    "a_w_tip1": lambda s: f"({s('d_a1')} + {s('d_f2')})/2 + {s('c')}·{s('m')}",
+    "a_w_tip2": lambda s: f"({s('d_a2')} + {s('d_f1')})/2 + {s('c')}·{s('m')}",
+}
