@@ -1,0 +1,297 @@
+"""A hoist integrated step by step: the load on its support until it lifts off, then a swing on the rope.
+
+Many hoists go at once, each with its own step. The lift-off and the extrema of the rope's force lie within steps: they
+are found there by steps of the same method that are shorter, so that no order is lost. A run whose oscillation grows by
+its method is refused: its numbers would look like some.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .steppers import STEPPERS, Motion, State, Stepper, growth, stability_limit
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+NAMES = ("m", "C_01", "C_12", "V_0", "a", "g")
+GROWN = 1.1  # growth of an oscillation over a run from which on it is refused
+ROUNDS = 60  # of closing in on an event within a step
+CLOSE = 1e-15  # parts of a step that are no step
+MARGIN = 1.5  # times as long as the exact lift-off can take
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """States at the steps, a row a step, a column a hoist: times, s, displacements from the static one, velocities."""
+
+    t: Array
+    u: Array
+    v: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Run:
+    """What an integrator finds, of N hoists; NaN where it is refused.
+
+    Parameters
+    ----------
+    step : array
+        k h, rad: of the swing on the support, of that on the rope where the support is rigid.
+    t_1, F_12_t1, F_12_max, P_12_max, F_max : array
+        As of the closed form, SI.
+    grown : array
+        By what the method makes oscillations grow over the run.
+    refused : array of bool
+        Steps beyond the stability limit, or oscillations that grow by more than `GROWN`.
+    steps : array of int
+        Steps until the end, one period after lift-off.
+    t, F_12 : array of shape (rows, N)
+        The force of the rope at the steps; NaN after the end.
+    """
+
+    step: Array
+    t_1: Array
+    F_12_t1: Array
+    F_12_max: Array
+    P_12_max: Array
+    F_max: Array
+    grown: Array
+    refused: Flags
+    steps: NDArray[np.int64]
+    t: Array
+    F_12: Array
+
+
+class Hoists:
+    """The load's motion in both phases, of many hoists: `m C_01 C_12 V_0 a g` as arrays of one shape (N,)."""
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        given = np.broadcast_arrays(*(np.atleast_1d(np.asarray(values[name], float)) for name in NAMES))
+        self.m, self.C_01, self.C_12, self.V_0, self.a, self.g = (np.asarray(one) for one in given)
+        self.rigid = np.isinf(self.C_01)
+        self.support = np.where(self.rigid, 1.0, self.C_01)
+        self.k_1 = np.sqrt(self.C_12 / self.m)
+        self.k = np.where(self.rigid, self.k_1, np.sqrt((self.support + self.C_12) / self.m))
+
+    def chosen(self, which: Any) -> Hoists:
+        """Return some of the hoists."""
+        return Hoists({name: getattr(self, name)[which] for name in NAMES})
+
+    def travel(self, t: Any) -> Any:
+        """Return what has been wound up, m."""
+        return (self.V_0 + 0.5 * self.a * t) * t
+
+    def on_support(self) -> Motion:
+        """Return the motion while the support carries; on a rigid one there is none."""
+        free = np.where(self.rigid, 0.0, 1.0 / self.m)
+        square, pull = (self.support + self.C_12) * free, self.C_12 * free
+        return Motion(square, lambda t: pull * self.travel(t))
+
+    def lifted(self) -> Motion:
+        """Return the motion on the rope alone."""
+        square = self.C_12 / self.m
+        return Motion(square, lambda t: square * self.travel(t) - self.g)
+
+    def one_sided(self) -> Motion:
+        """Return the motion on a support that only pushes: both phases in one, bent at lift-off."""
+        pull, push = self.C_12 / self.m, self.support / self.m
+
+        def acceleration(t: Any, u: Any) -> Any:
+            return pull * (self.travel(t) - u) - np.minimum(push * u, self.g)
+
+        return Motion(pull, lambda t: pull * self.travel(t) - self.g, acceleration)
+
+    def force(self, t: Any, state: State) -> Any:
+        """Return the rope's force, N."""
+        return self.C_12 * (self.travel(t) - state[0])
+
+    def rate(self, t: Any, state: State) -> Any:
+        """Return the speed at which the rope is stretched, m/s."""
+        return self.V_0 + self.a * t - state[1]
+
+    def lift(self, t: Any, state: State) -> Any:
+        """Return F_01: the load leaves its support where it becomes positive, N."""
+        pulled = np.where(self.rigid, self.C_12 * self.travel(t), self.support * state[0])
+        return pulled - self.m * self.g
+
+    def latest(self) -> Array:
+        """Return times before which the load lifts off, s."""
+        yielding = np.where(self.rigid, 0.0, 1.0 / self.support) + 1.0 / self.C_12
+        height = self.m * self.g * yielding + np.where(
+            self.rigid, 0.0, self.V_0 / self.k + 2.0 * self.a / (self.k * self.k)
+        )
+        found: Array = 2.0 * height / (self.V_0 + np.sqrt(self.V_0 * self.V_0 + 2.0 * self.a * height))
+        return found
+
+
+def integrate(values: Mapping[str, Any], method: str, step: Any, located: bool = True) -> Run:
+    """Integrate hoists until one period after lift-off.
+
+    Parameters
+    ----------
+    values : mapping of str to float or array
+        `m C_01 C_12 V_0 a g`, SI; C_01 may be infinite.
+    method : str
+        One of `STEPPERS`.
+    step : float or array
+        k h, rad.
+    located : bool
+        Whether lift-off and extrema are found within steps; else they are taken at the steps, as programs do that
+        know no events, and the support is one-sided. A finite C_01 is needed then, and a method that is not implicit.
+    """
+    hoists = Hoists(values)
+    z = np.broadcast_to(np.asarray(step, float), hoists.m.shape)
+    h = z / hoists.k
+    with np.errstate(over="ignore", invalid="ignore"):
+        return (_located if located else _missed)(hoists, method, z, h)
+
+
+def _located(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
+    take = STEPPERS[method]
+    none = np.zeros_like(h)
+    first, off = _until_lift_off(hoists, method, none, (none, none), h)
+    t_1, state = off[0], off[1:]
+    last = np.ceil(2.0 * math.pi / (hoists.k_1 * h)).astype(np.int64) + 1
+    second = _steps(take, hoists.lifted(), t_1, state, h, int(last.max()))
+    F_12_t1 = hoists.force(t_1, state)
+    F_12_max = np.maximum(F_12_t1, _peak(hoists, take, Hoists.on_support, first, t_1))
+    end = t_1 + 2.0 * math.pi / hoists.k_1
+    P_12_max = np.maximum(F_12_t1, _peak(hoists, take, Hoists.lifted, second, end + h))
+    counted = np.ceil(t_1 / h).astype(np.int64)
+    t = np.concatenate((first.t, second.t))
+    force = np.concatenate((hoists.force(first.t, (first.u, first.v)), hoists.force(second.t, (second.u, second.v))))
+    return _judged(hoists, method, (z, counted, last), (t_1, F_12_t1, F_12_max, P_12_max), (t, force, end))
+
+
+def _missed(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
+    until = hoists.latest() + 2.0 * math.pi / hoists.k_1
+    none = np.zeros_like(h)
+    course = _steps(STEPPERS[method], hoists.one_sided(), none, (none, none), h, int(np.ceil(until / h).max()) + 1)
+    force = hoists.force(course.t, (course.u, course.v))
+    off = (hoists.lift(course.t, (course.u, course.v)) >= 0.0).argmax(axis=0)
+    own = np.arange(len(off))
+    t_1 = course.t[off, own]
+    end = t_1 + 2.0 * math.pi / hoists.k_1
+    before, after = course.t <= t_1, (course.t >= t_1) & (course.t <= end + h)
+    F_12_max, P_12_max = (np.max(force, axis=0, initial=-np.inf, where=part) for part in (before, after))
+    steps = (z, off, np.ceil((end - t_1) / h).astype(np.int64))
+    return _judged(hoists, method, steps, (t_1, force[off, own], F_12_max, P_12_max), (course.t, force, end))
+
+
+def _judged(
+    hoists: Hoists, method: str, taken: tuple[Array, Any, Any], found: tuple[Array, ...], course: tuple[Array, ...]
+) -> Run:
+    """Refuse what the method has made grow."""
+    z, first, last = taken
+    z_1 = z * (hoists.k_1 / hoists.k)
+    slow, fast = growth(method, z_1), np.where(hoists.rigid, 1.0, growth(method, z))
+    grown = np.exp(np.log(fast) * first + np.log(slow) * last)
+    limit = stability_limit(method)
+    beyond = (np.where(hoists.rigid, z_1, z) > limit) & (limit > 0.0)
+    refused: Flags = beyond | (grown > GROWN) | ~np.isfinite(found[0])
+    t_1, F_12_t1, F_12_max, P_12_max = (np.where(refused, np.nan, one) for one in found)
+    t, force, end = course
+    over = refused | (t > end)
+    highest = np.maximum(F_12_max, P_12_max)
+    masked = (np.where(over, np.nan, one) for one in (t, force))
+    return Run(z, t_1, F_12_t1, F_12_max, P_12_max, highest, grown, refused, first + last, *masked)
+
+
+def _steps(take: Stepper, motion: Motion, t: Array, state: State, h: Array, count: int) -> Course:
+    """Go so many steps."""
+    rows = [(t, *state)]
+    for i in range(count):
+        state = take(motion, t + i * h, state, h)
+        rows.append((t + (i + 1) * h, *state))
+    return _course(rows)
+
+
+def _until_lift_off(hoists: Hoists, method: str, t: Array, state: State, h: Array) -> tuple[Course, Any]:
+    """Step until every load has left its support; return the steps, and time and state where it does."""
+    take, motion = STEPPERS[method], hoists.on_support()
+    rows = [(t, *state)]
+    going = np.ones(h.shape, bool)
+    for i in range(int(np.ceil(MARGIN * hoists.latest() / h).max()) + 1):
+        new = take(motion, t + i * h, state, h)
+        going = going & (hoists.lift(t + (i + 1) * h, new) < 0.0)
+        old = rows[-1]
+        state = new[0], new[1]
+        rows.append(
+            (
+                np.where(going, t + (i + 1) * h, old[0]),
+                *(np.where(going, *pair) for pair in zip(new, old[1:], strict=True)),
+            )
+        )
+        if not going.any():
+            break
+    begin = rows[-1]
+    lifted = _within(hoists.lift, _Step(take, motion, (begin[0], (begin[1], begin[2])), h))
+    off = tuple(np.where(going, np.nan, one) for one in lifted)
+    return _course([*rows, off]), off
+
+
+def _course(rows: list[Any]) -> Course:
+    return Course(*(np.stack([row[i] for row in rows]) for i in range(3)))
+
+
+def _peak(hoists: Hoists, take: Stepper, phase: Callable[[Hoists], Motion], course: Course, end: Array) -> Array:
+    """Return the highest maximum of the rope's force up to `end`, found within steps; minus infinity for none."""
+    rate = hoists.rate(course.t, (course.u, course.v))
+    row, own = np.nonzero((rate[:-1] > 0.0) & (rate[1:] <= 0.0) & (course.t[1:] <= end))
+    found = np.full(end.shape, -np.inf)
+    if row.size:
+        some = hoists.chosen(own)
+        begin, h = _at(course, row, own), course.t[row + 1, own] - course.t[row, own]
+        t, u, v = _within(some.rate, _Step(take, phase(some), begin, h))
+        np.maximum.at(found, own, some.force(t, (u, v)))
+    return found
+
+
+def _at(course: Course, row: Any, own: Any) -> tuple[Array, State]:
+    return course.t[row, own], (course.u[row, own], course.v[row, own])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Step:
+    """A step from a time and a state."""
+
+    take: Stepper
+    motion: Motion
+    begin: tuple[Array, State]
+    h: Array
+
+    def part(self, part: Array) -> tuple[Array, Any, Any]:
+        """Return time and state after a part of the step, by a step of that length."""
+        t, state = self.begin
+        return t + part * self.h, *self.take(self.motion, t, state, part * self.h)
+
+
+def _within(of: Callable[[Any, State], Any], step: _Step) -> tuple[Array, Any, Any]:
+    """Return time and state where `of` changes its sign in a step: by chords, as Illinois does."""
+
+    def at(part: Array) -> Array:
+        t, u, v = step.part(part)
+        found: Array = of(t, (u, v))
+        return found
+
+    low, high = np.zeros_like(step.h), np.ones_like(step.h)
+    f_low, f_high = at(low), at(high)
+    part, stayed = low, np.zeros(step.h.shape, int)
+    for _ in range(ROUNDS):
+        chord = low + (high - low) * (f_low / (f_low - f_high + (f_low == f_high)))
+        chord = np.where((chord > low) & (chord < high), chord, 0.5 * (low + high))
+        if np.all(np.abs(chord - part) <= CLOSE):
+            break
+        part, f = chord, at(chord)
+        same = np.signbit(f) == np.signbit(f_low)
+        f_high = np.where(same, np.where(stayed > 0, 0.5 * f_high, f_high), f)
+        f_low = np.where(same, f, np.where(stayed < 0, 0.5 * f_low, f_low))
+        low, high = np.where(same, part, low), np.where(same, high, part)
+        stayed = np.where(same, 1, -1)
+    return step.part(part)
