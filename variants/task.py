@@ -18,6 +18,7 @@ from ..scales.units import Unit, parse
 
 if TYPE_CHECKING:
     from ..plans.cams.cam import Cam
+    from ..plans.gears.gear import GearPair
 
 # In SI; no drawing has links, masses or forces beyond these, and none of their products leaves the range of a float.
 SMALLEST, LARGEST = 1e-12, 1e9
@@ -127,7 +128,7 @@ class Variant:
 class Task:
     """A task of a textbook as data.
 
-    `mechanism` is what it is about: a linkage, a cam; `kind` is the table that describes it, and names its kind.
+    `mechanism` is what it is about: a linkage, a cam, a gear pair; `kind` is the table that describes it, and names its kind.
     `choices` says which values each word of a choice sets, `constants` holds the literals of the mechanism;
     `file` is what was read, as the user named it, `None` for a bundled task; `display` are the units of results.
     """
@@ -140,7 +141,7 @@ class Task:
     givens: Mapping[str, Given]
     choices: Mapping[str, Mapping[str, Mapping[str, float]]]
     constants: Mapping[str, float]
-    mechanism: Mechanism | Cam
+    mechanism: Mechanism | Cam | GearPair
     scales: Mapping[str, str]
     variants: Mapping[str, Variant]
     file: str | None = None

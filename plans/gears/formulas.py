@@ -6,12 +6,13 @@ Each takes and gives numbers or arrays, in SI, angles in radians. Own and other 
 from __future__ import annotations
 
 import math
+from functools import wraps
 from typing import Any
 
 import numpy as np
 
-from ..laws import NAN, define
-from .involute import angle_of_involute, involute
+from ..laws import NAN, Law, define
+from .involute import angle_of_involute, involute, unrolled
 
 
 def _angle_of(base: Any, diameter: Any) -> Any:
@@ -62,7 +63,24 @@ def _middle(first: Any, second: Any, third: Any) -> Any:
     return np.maximum(np.minimum(first, second), np.minimum(np.maximum(first, second), third))
 
 
-define(
+def _on_numbers(law: Law) -> Law:
+    """Return a law that gives a plain number for plain numbers, and NaN rather than a warning."""
+
+    @wraps(law)
+    def found(*operands: Any) -> Any:
+        with np.errstate(all="ignore"):
+            value = law(*operands)
+        return value if np.ndim(value) else float(value)
+
+    return found
+
+
+def _define(**laws: Law) -> None:
+    """Add laws to the table, for numbers and for arrays."""
+    define(**{name: _on_numbers(law) for name, law in laws.items()})
+
+
+_define(
     # a = m (z_1 + z_2) / 2
     reference_centre=lambda m, z_1, z_2: 0.5 * m * (z_1 + z_2),
     involute=involute,
@@ -136,4 +154,18 @@ define(
     # y = PW rho / rho at the pole; theta = (y - y of the mate) / y
     velocity_ordinate=lambda PW, rho, rho_P: PW * (rho / rho_P),
     sliding_by_ordinates=lambda own, other: _sliding(own, other, 1.0),
+    # drawn quantities: lengths and numbers on paper, epsilon_alpha = g_alpha / p_b = phi_alpha / tau
+    half_of=lambda whole: 0.5 * whole,
+    on_paper=lambda value, mu: value / mu,
+    ratio_of=lambda part, whole: part / whole,
+    # directions on the drawing: the line of action, radii where it touches, the axis and the flanks of a tooth
+    angle_of_action=lambda alpha_w, sense: 0.5 * math.pi + sense * (0.5 * math.pi - alpha_w),
+    unrolled_part=lambda length, part, whole: length * (part / whole),
+    angle_of_tangency=lambda base, sense, alpha_w, rho_w, rho, r_b: base - sense * (alpha_w - (rho_w - rho) / r_b),
+    angle_of_thickness=lambda s, d: s / d,
+    angle_of_tooth=lambda base, sense, half, tau, number: base + sense * (number * tau - half),
+    angle_beside=lambda axis, sense, half: axis + sense * half,
+    # the angle at the centre between two points of a flank: inv alpha_y - inv alpha
+    unrolled_involute=unrolled,
+    angle_on_flank=lambda inv_y, inv, sense: sense * (inv_y - inv),
 )

@@ -13,6 +13,9 @@ from dataclasses import dataclass, replace
 CCW, CW = ROTATIONS = ("ccw", "cw")
 HOMOGENEOUS, HARDENED = MATERIALS = ("homogeneous", "hardened")
 WHEELS = (1, 2)  # the pinion, which drives, and the wheel
+SHIFTS = ("x_1", "x_2", "x_sum", "a_w")  # of which some are given
+# parts of the construction that may be wanted
+GEOMETRY_PART, MESHING_PART, SLIDING_PART = PLANS = ("geometry", "meshing", "sliding")
 # names of the numbers, and what they are
 VALUES = {
     "m": "m",  # module
@@ -27,9 +30,10 @@ VALUES = {
     "h_l": "",
     "c": "",
     "PW": "m",  # drawn length of the velocity along the profiles at the pole
+    "mu_theta": "1/mm",  # scale factor of the diagrams of specific sliding
 }
-# what is not given: the basic rack of GOST 13755-81, and a drawn length
-STANDARD = {"alpha": math.radians(20.0), "h_a": 1.0, "h_l": 2.0, "c": 0.25, "PW": 40e-3}
+# what is not given: the basic rack of GOST 13755-81, a drawn length, a scale factor
+STANDARD = {"alpha": math.radians(20.0), "h_a": 1.0, "h_l": 2.0, "c": 0.25, "PW": 40e-3, "mu_theta": 50.0}
 
 
 @dataclass(frozen=True, slots=True)

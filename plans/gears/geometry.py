@@ -113,8 +113,8 @@ def measures(board: Board) -> None:
     board.calc("rho_f", "rack_corner", "h_a", "h_l", "c", "alpha", "m")
 
 
-def sliding_table(board: Board) -> None:
-    """Twelve points of N1N2: ordinates of the velocities along the profiles, and specific sliding."""
+def sliding_places(board: Board) -> None:
+    """Twelve points of N1N2: their distances from both ends."""
     ends = ("_rho_at_A1", "rho_w1", "_rho_at_A2")
     board.calc("_rho_at_A1", "within_line", "rho_p1", "l_N1N2")
     board.calc("_rho_at_A2", "within_line", "rho_a1", "l_N1N2")
@@ -129,17 +129,31 @@ def sliding_table(board: Board) -> None:
     board.calc(f"_rho_1_{POINTS[-1]}", "sum", "_zero", "l_N1N2")
     for point in POINTS:
         board.calc(f"_rho_2_{point}", "excess", "l_N1N2", f"_rho_1_{point}")
+
+
+def calculated_ordinates(board: Board) -> None:
+    """Ordinates of the velocities along the profiles at the twelve points, by proportion."""
+    for point in POINTS:
         for i in WHEELS:
             board.calc(f"y_{i}_{point}", "velocity_ordinate", "PW", f"_rho_{i}_{point}", f"_rho_at_P{i}")
+
+
+def specific_sliding(board: Board) -> None:
+    """Specific sliding at the twelve points, by the ordinates."""
+    for point in POINTS:
         board.calc(f"theta_12_{point}", "sliding_by_ordinates", f"y_1_{point}", f"y_2_{point}")
         board.calc(f"theta_21_{point}", "sliding_by_ordinates", f"y_2_{point}", f"y_1_{point}")
+
+
+SIZES = (main_sizes, centre_again, auxiliary_sizes, quality, action, measures)
+TABLE = (sliding_places, calculated_ordinates, specific_sliding)
 
 
 @cache
 def geometry_program() -> Program:
     """Return all calculations, in order, recorded."""
     board = RecordingBoard()
-    for part in (main_sizes, centre_again, auxiliary_sizes, quality, action, measures, sliding_table):
+    for part in (*SIZES, *TABLE):
         part(board)
     return Program(board.steps)
 

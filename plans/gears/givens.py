@@ -16,16 +16,13 @@ import numpy as np
 from ...scales.errors import InputError
 from ..laws import LAWS
 from . import formulas as formulas  # its laws of calculation
-from .gear import STANDARD, WHEELS
+from .gear import SHIFTS, STANDARD, WHEELS
 from .geometry import geometry
+from .limits import impossible
 from .profile import tooth_of
 
-FEWEST = 3  # teeth
-ALPHA = math.radians(10.0), math.radians(35.0)
-NEAR = 1e-12  # by which a limit may be passed: rounding
 HALVINGS = 200
 BALANCE = ("theta_12_A1", "theta_21_A2")
-SHIFTS = ("x_1", "x_2", "x_sum", "a_w")
 BASIC = ("a", "x_sum", "a_w", "alpha_w", "inv_alpha", "inv_alpha_w")
 
 
@@ -43,8 +40,8 @@ def complete(values: Mapping[str, float]) -> dict[str, float]:
         Numbers of which no pair can be made: the wheels, the rack, the shifts, the teeth, the meshing.
     """
     found = {**STANDARD, **values}
-    _wheels(found)
-    _rack(found)
+    for _, error in impossible(found):
+        raise error
     x_1, x_2 = shifts(found)
     found = {name: float(value) for name, value in found.items() if name not in SHIFTS} | {"x_1": x_1, "x_2": x_2}
     _meshes(found)
@@ -53,10 +50,7 @@ def complete(values: Mapping[str, float]) -> dict[str, float]:
 
 def shifts(values: Mapping[str, float]) -> tuple[float, float]:
     """Return x_1 and x_2 of a pair of which those are given, or one and a_w or x_sum, or one of the latter alone."""
-    given = tuple(name for name in SHIFTS if name in values)
-    if not all(math.isfinite(values[name]) for name in given):
-        raise InputError("gear-shifts", given=", ".join(given))
-    match given:
+    match given := tuple(name for name in SHIFTS if name in values):
         case ("x_1", "x_2"):
             return float(values["x_1"]), float(values["x_2"])
         case ("x_1", "x_sum" | "a_w"):
@@ -119,28 +113,6 @@ def _between(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
         raise _no_mesh(values, x_sum)
     most = [math.hypot(2.0 * found["l_N1N2"], found[f"d_b{i}"]) - found[f"d_a{i}"] for i in WHEELS]
     return -0.5 * most[1] / values["m"], 0.5 * most[0] / values["m"]
-
-
-def _wheels(values: Mapping[str, float]) -> None:
-    m = values["m"]
-    if not (math.isfinite(m) and m > 0.0):
-        raise InputError("gear-module", text=f"{m * 1e3:.7g}")
-    for i in WHEELS:
-        z = values[f"z_{i}"]
-        if not (math.isfinite(z) and z >= FEWEST and z == round(z)):
-            raise InputError("gear-teeth", name=f"z_{i}", text=f"{z:.7g}", least=FEWEST)
-
-
-def _rack(values: Mapping[str, float]) -> None:
-    """Look at the rack: its angle, and that its tooth has a tip, a straight edge and room for a corner."""
-    alpha, h_a, h_l, c = (values[name] for name in ("alpha", "h_a", "h_l", "c"))
-    if not ALPHA[0] - NEAR <= alpha <= ALPHA[1] + NEAR:
-        low, high = (f"{math.degrees(angle):.0f}" for angle in ALPHA)
-        raise InputError("gear-alpha", text=f"{math.degrees(alpha):.7g}", low=low, high=high)
-    depth = h_a + c
-    widest = 0.25 * math.pi / math.tan(alpha)
-    if not (h_a > 0.0 and c >= 0.0 and h_a < h_l <= h_a + depth + NEAR and depth <= widest + NEAR):
-        raise InputError("gear-rack", h_a=f"{h_a:.6g}", h_l=f"{h_l:.6g}", c=f"{c:.6g}", most=f"{widest:.4g}")
 
 
 def _meshes(values: Mapping[str, float]) -> None:

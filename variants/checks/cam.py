@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from ...plans.cams.cam import (
     AS_RISE,
@@ -31,7 +30,7 @@ from ...scales.units import Unit, customary, unit
 from ..task import Bound, Given
 from ..toml_places import Path
 from .basics import Checker, Field, array_of, one_of, record, rows, word
-from .givens import literal
+from .givens import literal, word_or_choice
 from .names import Names
 
 TABLE = "cam"
@@ -96,7 +95,7 @@ def read_cam(checker: Checker, raw: object, names: Names, givens: Mapping[str, G
     curves = _curves(checker, (*path, "curve"), raw["curve"]) if isinstance(raw, dict) and "curve" in raw else ()
     laws = (*LAWS, *(curve.name for curve in curves))
     known = {"law": laws, "law_fall": (AS_RISE, *laws), "fall": ORDERS, "rotation": ROTATIONS, "limits": LIMITS}
-    fields = {key: Field(_word(known[key], givens), required=key == "law") for key in WORDS}
+    fields = {key: Field(word_or_choice(known[key], givens), required=key == "law") for key in WORDS}
     fields |= {
         "followers": Field(array_of(one_of("follower-unknown", lambda: FOLLOWERS))),
         "sections": Field(_sections, required=False),
@@ -110,22 +109,6 @@ def read_cam(checker: Checker, raw: object, names: Names, givens: Mapping[str, G
     if len(checker.faults) > before:
         return None
     return Cam(**{**read, "followers": followers, "curves": curves})
-
-
-def _word(known: tuple[str, ...], givens: Mapping[str, Given]) -> Any:
-    """Return a reader of one of the `known` words, or of the name of a choice between some of them."""
-
-    def read_word(checker: Checker, path: Path, raw: object) -> str | None:
-        given = givens.get(raw) if isinstance(raw, str) else None
-        if given is None or not given.choices:
-            found: str | None = one_of("choice-unknown", lambda: known)(checker, path, raw)
-            return found
-        for i, choice in enumerate(given.choices):
-            if choice not in known:
-                checker.fault(("givens", given.name, "choices", i), unknown("choice-unknown", choice, known))
-        return given.name
-
-    return read_word
 
 
 def _sections(checker: Checker, path: Path, raw: object) -> int | None:

@@ -12,7 +12,7 @@ from ...scales.numbers import quote, split_number
 from ...scales.units import ONE, Dimension, Unit, parse, unit
 from ..task import Bound, Given, Variant
 from ..toml_places import Path
-from .basics import Checker, Field, array_of, as_is, label, name, record, rows, text, word
+from .basics import Checker, Field, array_of, as_is, label, name, one_of, record, rows, text, word
 
 NEVER_NEGATIVE = {unit("kg").dimension, unit("kg*m^2").dimension, unit("rad/s").dimension}
 
@@ -184,3 +184,19 @@ def _given(given: Given) -> Any:
             return None
 
     return read
+
+
+def word_or_choice(known: tuple[str, ...], givens: Mapping[str, Given]) -> Any:
+    """Return a reader of one of the `known` words, or of the name of a choice between some of them."""
+
+    def read_word(checker: Checker, path: Path, raw: object) -> str | None:
+        given = givens.get(raw) if isinstance(raw, str) else None
+        if given is None or not given.choices:
+            found: str | None = one_of("choice-unknown", lambda: known)(checker, path, raw)
+            return found
+        for i, choice in enumerate(given.choices):
+            if choice not in known:
+                checker.fault(("givens", given.name, "choices", i), unknown("choice-unknown", choice, known))
+        return given.name
+
+    return read_word

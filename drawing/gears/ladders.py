@@ -1,0 +1,29 @@
+"""Scale factors of the plans of gears: the ladder of the meshing, and those of the diagrams, which are known before."""
+
+from __future__ import annotations
+
+from ...plans.gears.meshing_plan import MESHING
+from ...plans.gears.sliding_plan import SLIDING, THETA
+from ...plans.gears.solve import PAPER_MM, SolvedGear
+from ...scales.choose import Choosers, From
+from ...scales.scale import Scale, steps
+
+TOOTH = 50.0  # mm, by which a drawn tooth should be high at least
+UNITS = {MESHING: "m", SLIDING: "m", THETA: "1"}
+
+
+def mu_ladder(solved: SolvedGear, choosers: Choosers) -> tuple[float, ...]:
+    """Return the scale factors of the meshing, the one wanted first: where nothing is said, teeth of 50 mm."""
+    most = solved.sizes["h"] / TOOTH
+    finest = max(mu for mu in steps(most / 10.0) if mu <= most * (1.0 + 1e-9))
+    return choosers.get("mu_l", From(finest)).ladder(lambda name: solved.sizes.get(name, solved.sizes["a_w"]))
+
+
+def scales_of(solved: SolvedGear, choosers: Choosers) -> dict[str, Scale]:
+    """Return the scale factors by plan as they are wanted."""
+    values = {
+        MESHING: mu_ladder(solved, choosers)[0],
+        SLIDING: solved.values["mu_rho"] * PAPER_MM,
+        THETA: solved.values["mu_theta"] * PAPER_MM,
+    }
+    return {plan: Scale(symbol, values[plan], UNITS[plan]) for plan, symbol in solved.scale_of_plan.items()}

@@ -1,0 +1,200 @@
+"""The plan of the meshing: circles and line of action, involutes by rolling, teeth, active part, angles of action.
+
+The pole `P` is the origin, the line of centres vertical, `O1` below. In names the first number is that of the wheel:
+
+`N1` `N2`
+    where the line of action touches the base circles.
+`A1` `A2`
+    ends of the active line: where the tip circles of the wheel and of the pinion cut it.
+`K1` `K2`
+    a base pitch after A1 and before A2: between them one pair alone touches.
+`H1` `H2`
+    as far from N1 and N2 as the boundary points of the profiles are curved.
+`C_a1` `C_f1` `C_a2` `C_f2`
+    where tip and root circles cut the line of centres.
+`D1_0` `D1_1` ..
+    divisions of P N1, numbered from P; those after N1 go on beyond it.
+`T1_0` .., `E1_0` ..
+    the same parts laid off as arcs on the base circle, and the involute: its point k is as far from T1_k, along the
+    tangent, as D1_k is from P. T1_n is N1 and E1_n is P, n being the number of parts of P N1; `T1_a` `E1_a` are those
+    of the tip circle.
+`L1` `L2`
+    lower active points of the flanks that touch in P.
+`M1_1` `S1_1` `R1_1` ..
+    teeth 1, 2, 3 on the reference circle: middle, driving or driven flank, flank at rest. Tooth 2 touches in P; 3 goes
+    before it, 1 follows.
+`B1_start` `B1_end` ..
+    where the flank cuts the rolling circle at the start and at the end of engagement.
+
+Directions: `tt` (the common tangent of the rolling circles), `centres`, `N1N2`.
+
+Source: Artobolevsky, Theory of mechanisms and machines (involute gearing).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ..board import Board
+from .gear import WHEELS
+
+MESHING = "meshing"
+TANGENT, CENTRES, ACTION = "tt", "centres", "N1N2"
+PARTS, MOST = 4, 16  # into how many parts P N is divided, and how many of these an involute has at most
+TEETH = {1: -1, 2: 0, 3: 1}  # of each wheel, and by how many pitches they go before the one that touches in P
+TIP = "a"
+NUMBERS = {
+    "_minus_one": -1.0,
+    "_base1": 0.5 * math.pi,  # directions from the centres to the pole
+    "_base2": -0.5 * math.pi,
+    **{f"_number{k}": float(k) for k in range(MOST + 1)},
+    **{f"_ahead1_{j}": float(pitches) for j, pitches in TEETH.items()},
+    **{f"_ahead2_{j}": float(-pitches) for j, pitches in TEETH.items()},
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Rolling:
+    """Into how many `parts` P N of a wheel is divided, and the `last` of these inside the tip circle."""
+
+    parts: int
+    last: int
+
+
+def rolling(rho_w: float, rho_a: float) -> Rolling:
+    """Return how the involute of a wheel is divided whose curvatures at the pole and at the tip have these radii."""
+    parts = max(min(PARTS, int(MOST * rho_w / rho_a)), 1)
+    return Rolling(parts, min(int(parts * rho_a / rho_w), MOST))
+
+
+def mark(letters: str, i: int | str = "", number: int | str = "") -> str:
+    """Return the name of a mark of this plan, `meshing.E1_2`."""
+    return f"{MESHING}.{letters}{i}" + (f"_{number}" if number != "" else "")
+
+
+def meshing(board: Board, rollings: tuple[Rolling, Rolling], sense: int) -> None:
+    """Draw the meshing and measure it."""
+    centres(board)
+    line_of_action(board)
+    active_line(board)
+    for i, rolled in zip(WHEELS, rollings, strict=True):
+        lower_point(board, i)
+        involute_by_rolling(board, i, rolled)
+        teeth(board, i)
+    for i in WHEELS:
+        engagement(board, i, sense if i == 1 else -sense)
+    contact_ratios(board)
+
+
+def centres(board: Board) -> None:
+    """Draw the line of centres with both centres, tip and root circles on it; measure the clearances."""
+    board.pole(mark("P"))
+    board.turn(TANGENT, "zero")
+    board.normal(CENTRES, TANGENT)
+    for i in WHEELS:
+        board.calc(f"_r_{i}", "half_of", f"d_{i}")
+        for circle in "wbaf":
+            board.calc(f"_r_{circle}{i}", "half_of", f"d_{circle}{i}")
+    board.back(mark("O1"), mark("P"), CENTRES, "_r_w1")
+    board.lay(mark("O2"), mark("P"), CENTRES, "_r_w2")
+    for circle in "af":
+        board.lay(mark("C", "", f"{circle}1"), mark("O1"), CENTRES, f"_r_{circle}1")
+        board.back(mark("C", "", f"{circle}2"), mark("O2"), CENTRES, f"_r_{circle}2")
+    board.distance("c_1", mark("C", "", "f1"), mark("C", "", "a2"))
+    board.distance("c_2", mark("C", "", "f2"), mark("C", "", "a1"))
+
+
+def line_of_action(board: Board) -> None:
+    """Lay off the angle of action at the pole, and draw the radii at right angles to the line."""
+    board.calc("_angle_of_action", "angle_of_action", "alpha_w", "_sense")
+    board.turn(ACTION, "_angle_of_action")
+    board.normal("_radius", ACTION)
+    for i in WHEELS:
+        board.meet(mark("N", i), mark("O", i), "_radius", mark("P"), ACTION)
+    board.distance("l_N1N2_drawn", mark("N1"), mark("N2"))
+
+
+def active_line(board: Board) -> None:
+    """Mark the active line by arcs of the tip circles, the ends of the double contacts, the boundary points."""
+    board.arc(mark("A1"), mark("O2"), "_r_a2", mark("P"), ACTION, "_minus_one")
+    board.arc(mark("A2"), mark("O1"), "_r_a1", mark("P"), ACTION, "one")
+    board.lay(mark("K1"), mark("A1"), ACTION, "p_b")
+    board.back(mark("K2"), mark("A2"), ACTION, "p_b")
+    board.lay(mark("H1"), mark("N1"), ACTION, "rho_l1")
+    board.back(mark("H2"), mark("N2"), ACTION, "rho_l2")
+    board.distance("g_alpha_drawn", mark("A1"), mark("A2"))
+
+
+def lower_point(board: Board, i: int) -> None:
+    """Carry the end of the active line to the flank in P by an arc about the wheel's centre."""
+    board.calc(f"_inv_p{i}", "unrolled_involute", f"nu_p{i}")
+    board.calc(f"_inv_a{i}", "involute", f"alpha_a{i}")
+    board.distance(f"r_p{i}", mark("O", i), mark("A", i))
+    board.calc(f"_down_flank{i}", "angle_on_flank", "inv_alpha_w", f"_inv_p{i}", "_sense")
+    board.calc(f"_angle_of_L{i}", "sum", f"_base{i}", f"_down_flank{i}")
+    board.turn(f"_to_L{i}", f"_angle_of_L{i}")
+    board.lay(mark("L", i), mark("O", i), f"_to_L{i}", f"r_p{i}")
+
+
+def involute_by_rolling(board: Board, i: int, rolled: Rolling) -> None:
+    """Divide P N, lay the parts off on the base circle, and from there along the tangents what has been unrolled."""
+    n = f"_number{rolled.parts}"
+    board.measure(f"_l_PN{i}", mark("P"), mark("N", i))
+    for k in range(rolled.last + 1):
+        board.calc(f"_unrolled{i}_{k}", "unrolled_part", f"_l_PN{i}", f"_number{k}", n)
+        if k == rolled.parts:
+            for letter, own in (("D", "N"), ("T", "N"), ("E", "P")):
+                board.same(mark(letter, i, k), mark(own, i) if own == "N" else mark(own))
+            continue
+        board.divide(mark("D", i, k), mark("P"), mark("N", i), f"_number{k}", n)
+        _unrolled(board, i, k, f"_unrolled{i}_{k}")
+    _unrolled(board, i, TIP, f"rho_a{i}")
+
+
+def _unrolled(board: Board, i: int, k: int | str, length: str) -> None:
+    """Mark the point of the base circle from which so much has been unrolled, and the end of what has been."""
+    end = f"{i}_{k}"
+    board.calc(
+        f"_tangency{end}", "angle_of_tangency", f"_base{i}", "_sense", "alpha_w", f"_l_PN{i}", length, f"_r_b{i}"
+    )
+    board.turn(f"_to_T{end}", f"_tangency{end}")
+    board.normal(f"_tangent{end}", f"_to_T{end}")
+    board.calc(f"_laid{end}", "signed", length, "_sense")
+    board.lay(mark("T", i, k), mark("O", i), f"_to_T{end}", f"_r_b{i}")
+    board.lay(mark("E", i, k), mark("T", i, k), f"_tangent{end}", f"_laid{end}")
+
+
+def teeth(board: Board, i: int) -> None:
+    """Lay off the angular pitch and the thickness on the reference circle, from the flank in P."""
+    board.calc(f"_half_w{i}", "angle_of_thickness", f"s_w{i}", f"d_w{i}")
+    board.calc(f"_half{i}", "angle_of_thickness", f"s_{i}", f"d_{i}")
+    for j in TEETH:
+        axis = f"_axis{i}_{j}"
+        board.calc(axis, "angle_of_tooth", f"_base{i}", "_sense", f"_half_w{i}", f"tau_{i}", f"_ahead{i}_{j}")
+        board.calc(f"_active{i}_{j}", "angle_beside", axis, "_sense", f"_half{i}")
+        board.calc(f"_resting{i}_{j}", "angle_beside", axis, "_against", f"_half{i}")
+        for letter, angle in (("M", axis), ("S", f"_active{i}_{j}"), ("R", f"_resting{i}_{j}")):
+            board.turn(f"_to_{letter}{i}_{j}", angle)
+            board.lay(mark(letter, i, j), mark("O", i), f"_to_{letter}{i}_{j}", f"_r_{i}")
+
+
+def engagement(board: Board, i: int, sense: int) -> None:
+    """Turn the flank so that it touches in A1 and in A2, and read the angle of action of a wheel that turns so."""
+    for end, ahead in (("start", "A1"), ("end", "A2")):
+        at = f"_inv_p{i}" if ahead == f"A{i}" else f"_inv_a{i}"
+        board.measure(f"_l_O{i}{ahead}", mark("O", i), mark(ahead))
+        board.direction(f"_O{i}{ahead}", mark("O", i), mark(ahead), f"_l_O{i}{ahead}")
+        board.calc(f"_along_flank{i}_{end}", "angle_on_flank", at, "inv_alpha_w", "_sense")
+        board.turn(f"_slope{i}_{end}", f"_along_flank{i}_{end}")
+        board.incline(f"flank{i}_{end}", f"_O{i}{ahead}", f"_slope{i}_{end}")
+        board.lay(mark("B", i, end), mark("O", i), f"flank{i}_{end}", f"_r_w{i}")
+    ends = (f"flank{i}_start", f"flank{i}_end")
+    board.angle(f"phi_alpha{i}_drawn", *(ends if sense > 0 else reversed(ends)))
+
+
+def contact_ratios(board: Board) -> None:
+    """Calculate the contact ratio from the active line as it is drawn, and from the angles of action."""
+    board.calc("epsilon_alpha_drawn", "ratio_of", "g_alpha_drawn", "p_b")
+    for i in WHEELS:
+        board.calc(f"epsilon_alpha_arc{i}", "ratio_of", f"phi_alpha{i}_drawn", f"tau_{i}")

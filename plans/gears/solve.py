@@ -1,0 +1,145 @@
+"""A gear pair solved: its construction, values and quantities together, and its teeth when they are asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from ...scales.scale import steps
+from ..boards.exact import run
+from ..quantities import Quantity, quantities, shown_on
+from ..solved import Solved
+from .checks import Check, checks
+from .construction import Layout, construct
+from .gear import PLANS, WHEELS, GearPair
+from .geometry import DIVISIONS, NOTHING, PARTS, POINTS, geometry
+from .givens import complete
+from .meshing import Meshing, meshing_of
+from .meshing_plan import CENTRES, MESHING, NUMBERS, TANGENT, rolling
+from .sliding_plan import DIAGRAMS, RIGHT, SLIDING, THETA, UP
+
+SCALES = {MESHING: "mu_l", SLIDING: "mu_rho", THETA: "mu_theta"}
+# the plan that shows a quantity as a segment, beside those that are read from one
+SHOWN_ON = dict.fromkeys(
+    (
+        *("a_w", "g_alpha", "g_f", "g_a", "l_N1N2", "p_b", "g_alpha_drawn", "l_N1N2_drawn", "c_1", "c_2"),
+        *(f"{name}{i}" for i in WHEELS for name in ("d_", "d_w", "d_b", "d_a", "d_f", "d_p")),
+        *(f"{name}{i}" for i in WHEELS for name in ("r_p", "rho_p", "rho_l", "rho_w", "rho_a")),
+    ),
+    MESHING,
+)
+PAPER_MM = 1e-3  # metres of paper in a millimetre: the diagrams are drawn in these
+LONGEST = 250.0  # mm, that N1N2 may be under the diagrams
+# the three points of the table that stand in A1, P, A2, in the order in which these follow from N1 to N2
+MARKS = tuple(POINTS[sum(n for _, n in DIVISIONS[: k + 1])] for k in range(3))
+ANGLES = ("inv_alpha", "alpha_", "tau_", "nu_p", "phi_alpha")
+NUMBERS_ONLY = ("x_", "epsilon_", "theta_", "z_W")
+
+
+def unit_of(name: str) -> str:
+    """Return the SI unit of a quantity of a pair by its name."""
+    if name in ("u", "y", "delta_y") or name.startswith(NUMBERS_ONLY):
+        return "1"
+    return "rad" if name.startswith(ANGLES) else "m"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolvedGear(Solved):
+    """A pair solved; `sizes` are its complete givens and all that is calculated of them, by name, SI."""
+
+    pair: GearPair
+    sizes: Mapping[str, float]
+    layout: Layout
+
+    @cached_property
+    def meshing(self) -> Meshing:
+        """The teeth of both wheels with their exact outlines, and how they mesh; made when first asked for."""
+        return meshing_of(self.sizes, self.pair.sense)
+
+    @property
+    def checks(self) -> list[Check]:
+        """What the pair is judged by."""
+        return checks(self.pair, self.sizes)
+
+    @property
+    def edges(self) -> tuple[str, ...]:
+        """The directions along which a drafting machine draws: tangent in the pole, line of centres, axes."""
+        return TANGENT, CENTRES, RIGHT, UP
+
+    def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
+        """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""
+        return {plan: PAPER_MM if plan in DIAGRAMS else mu for plan, mu in mus.items()}
+
+
+def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> SolvedGear:
+    """Solve a gear pair.
+
+    Parameters
+    ----------
+    pair : GearPair
+        Senses and materials, all chosen.
+    values : mapping of str to float
+        Its numbers in SI by name, as `givens.complete` takes them.
+    plans : iterable of str
+        Plans wanted, of `gear.PLANS`; those they need are built too, no others.
+
+    Raises
+    ------
+    InputError
+        Numbers of which no pair can be made.
+    """
+    found = complete(values)
+    sizes = geometry(found)
+    layout = layout_of(pair, sizes)
+    program = construct(layout, plans)
+    givens = {**found, **board_givens(pair, sizes)}
+    board = run(program, givens)
+    drawn = {*program.plans}
+    return SolvedGear(
+        program=program,
+        values=board.values,
+        quantities=_stated(givens, drawn) | quantities(program, board.values, _lengths(givens, drawn), unit_of),
+        sines=board.sines,
+        status=board.status,
+        trouble=board.trouble,
+        shown_on=shown_on(program) | {name: plan for name, plan in SHOWN_ON.items() if plan in drawn},
+        scale_of_plan={plan: SCALES[plan] for plan in program.plans if plan in SCALES},
+        givens=givens,
+        pair=pair,
+        sizes=sizes,
+        layout=layout,
+    )
+
+
+def layout_of(pair: GearPair, sizes: Mapping[str, float]) -> Layout:
+    """Return what the construction of a pair with these sizes depends on."""
+    first, second = (rolling(sizes[f"rho_w{i}"], sizes[f"rho_a{i}"]) for i in WHEELS)
+    return Layout((first, second), pair.sense, point_at_pole(sizes))
+
+
+def point_at_pole(sizes: Mapping[str, float]) -> str:
+    """Return the point of the table of sliding that stands in P: the second of three, unless A1 or A2 is beyond it."""
+    before = sum(min(max(sizes[name], 0.0), sizes["l_N1N2"]) < sizes["rho_w1"] for name in ("rho_p1", "rho_a1"))
+    return MARKS[before]
+
+
+def board_givens(pair: GearPair, sizes: Mapping[str, float]) -> dict[str, float]:
+    """Return what the board begins with beside the numbers of the pair: senses, numbers, the scale of the diagrams."""
+    sense = float(pair.sense)
+    mu_rho = steps(sizes["l_N1N2"] / LONGEST)[0]
+    return {**PARTS, **NOTHING, **NUMBERS, "_sense": sense, "_against": -sense, "mu_rho": mu_rho / PAPER_MM}
+
+
+def _stated(givens: Mapping[str, Any], drawn: set[str]) -> dict[str, Quantity]:
+    """Return the scale factors of the diagrams, which are results, too."""
+    units = {SLIDING: ("mu_rho", "m/mm"), THETA: ("mu_theta", "1/mm")}
+    return {
+        name: Quantity(name, givens[name] * PAPER_MM, unit) for plan, (name, unit) in units.items() if plan in drawn
+    }
+
+
+def _lengths(givens: Mapping[str, Any], drawn: set[str]) -> dict[str, float]:
+    """Return the given lengths that are results, too."""
+    return {"PW": givens["PW"]} if SLIDING in drawn else {}

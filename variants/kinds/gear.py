@@ -1,0 +1,134 @@
+"""Tasks about gear pairs: a table `[gear]` with the pinion's sense and the material of the teeth."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from ...plans.gears.gear import PLANS, GearPair
+from ...plans.gears.limits import impossible
+from ...scales.choose import Choosers
+from ...scales.errors import InputError
+from ...scales.names import unknown
+from ...scales.scale import Scale
+from ..checks.gear import read_gear, words_of
+from ..task import Given, Task
+from .kind import Kind, Verdicts
+
+if TYPE_CHECKING:
+    from ...drawing.formats import Format
+    from ...drawing.page import Drawn
+    from ...drawing.pens import Norm
+    from ...drawing.titleblock import Stamp
+    from ...drawing.words import Words
+    from ...plans.gears.solve import SolvedGear
+    from ...plans.quantities import Quantity
+    from ..case import Case
+    from ..checks.basics import Checker
+    from ..checks.names import Names
+
+SYMBOLS = ("mu_l",)  # the scale factors of the diagrams are found, or given
+
+
+class Gears(Kind[GearPair, "SolvedGear"]):
+    """External pairs of involute spur gears cut by a standard rack."""
+
+    table, plans = "gear", PLANS
+
+    def words(self, raw: object) -> frozenset[str]:
+        """Return the words of `[gear]` that may be names of choices."""
+        return words_of(raw)
+
+    def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> GearPair | None:
+        """Read `[gear]`."""
+        return read_gear(checker, raw, names, givens)
+
+    def fits(self, checker: Checker, subject: GearPair, head: Mapping[str, Any]) -> None:
+        """Check that the scale factors are those that may be chosen."""
+        for name in head.get("scales", {}):
+            if name not in SYMBOLS:
+                checker.fault(("scales", name), unknown("scale-unknown", name, SYMBOLS, task=head.get("id", "")))
+
+    def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
+        """Check that every variant is one of a pair; if `thorough`, that its wheels have teeth and can mesh."""
+        for row, variant in enumerate(task.variants.values()):
+            errors = [*impossible(task.values(variant.id))]
+            if thorough and not errors:
+                errors = [("", error) for error in self._refused(task, variant.id)]
+            for name, error in errors:
+                checker.fault(("variant", row, name) if name in variant.values else ("variant", row), error)
+
+    def _refused(self, task: Task, variant: str) -> list[InputError]:
+        """Return why a variant has no pair."""
+        from ...plans.gears.givens import complete  # needs numpy
+
+        try:
+            complete(task.values(variant))
+        except InputError as error:
+            return [error]
+        return []
+
+    def solve(
+        self, subject: GearPair, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
+    ) -> SolvedGear:
+        """Solve a pair.
+
+        Raises
+        ------
+        InputError
+            Numbers of which no pair can be made.
+        """
+        from ...plans.gears.solve import solve_gear
+
+        return solve_gear(subject.chosen(words), values, plans)
+
+    def scale_symbols(self, solved: SolvedGear) -> tuple[str, ...]:
+        """Return the symbols of the scale factors that may be chosen."""
+        return SYMBOLS
+
+    def first_scales(self, solved: SolvedGear, choosers: Choosers) -> dict[str, Scale]:
+        """Return the scale factors by plan: those of the diagrams are known before."""
+        from ...drawing.gears.ladders import scales_of
+
+        return scales_of(solved, choosers)
+
+    def checks(self, solved: SolvedGear, quantities: Mapping[str, Quantity]) -> Verdicts:
+        """Return what the pair is judged by: the compared value, its limit, how they have to stand, SI."""
+        from ...plans.gears.solve import unit_of
+
+        return {
+            check.name: {
+                "ok": check.ok,
+                "quantity": check.quantity,
+                "value": check.value,
+                "limit": check.limit,
+                "relation": check.relation,
+                "unit": unit_of(check.quantity),
+            }
+            for check in solved.checks
+        }
+
+    def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
+        """Draw the sheet of a pair."""
+        from ...drawing.gears.fitting import Contents
+        from ...drawing.gears.sheet import draw
+
+        contents = Contents(gear(case.solved), case.plans, case.choosers, case.givens, words, norm)
+        return draw(contents, stamp, paper)
+
+    def lettered(self, words: Words, solved: SolvedGear) -> Words:
+        """Return the words with the letters of a pair's quantities."""
+        from ...drawing.gears.letters import lettered
+
+        return lettered(words)
+
+
+KIND = Gears()
+
+
+def gear(solved: Any) -> SolvedGear:
+    """Return what has been solved as the pair that it is."""
+    from ...plans.gears.solve import SolvedGear
+
+    assert isinstance(solved, SolvedGear)
+    return solved
