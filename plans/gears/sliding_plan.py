@@ -2,9 +2,9 @@
 
 On `sliding` the abscissas are distances from N1, the ordinates velocities of the common point along both profiles. Its
 marks are `N1` `N2`, the pole `P` with `W` above it, the twelve points `01` .. `12` of the table, and over them `V1_01`
-`V2_01` .. on the lines from N1 and N2 through W, whose directions are `vk1` and `vk2`. On `theta` the same points carry
-`T12_02` .. and `T21_01` .., ordinates of specific sliding; on its own base circle, where that is minus infinity, a wheel
-has none. Abscissas have the scale factor mu_rho, ordinates of sliding mu_theta.
+`V2_01` .. on the lines from N1 and N2 through W, whose directions are `vk1` and `vk2`. On `theta` the same points
+carry `T12_02` .. and `T21_01` .., ordinates of specific sliding; on its own base circle, where that is minus infinity,
+a wheel has none. Abscissas have the scale factor mu_rho, ordinates of sliding mu_theta.
 
 Source: GOST 16532-70; the construction is that of the note to the task `madi-gear`.
 """
