@@ -19,7 +19,7 @@ from .steppers import STEPPERS, Motion, State, Stepper, growth, stability_limit
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-NAMES = ("m", "C_01", "C_12", "V_0", "a", "g")
+NAMES = ("m", "C_01", "C_12", "V_t", "a", "g")
 GROWN = 1.1  # growth of an oscillation over a run from which on it is refused
 ROUNDS = 60  # of closing in on an event within a step
 CLOSE = 1e-15  # parts of a step that are no step
@@ -69,11 +69,11 @@ class Run:
 
 
 class Hoists:
-    """The load's motion in both phases, of many hoists: `m C_01 C_12 V_0 a g` as arrays of one shape (N,)."""
+    """The load's motion in both phases, of many hoists: `m C_01 C_12 V_t a g` as arrays of one shape (N,)."""
 
     def __init__(self, values: Mapping[str, Any]) -> None:
         given = np.broadcast_arrays(*(np.atleast_1d(np.asarray(values[name], float)) for name in NAMES))
-        self.m, self.C_01, self.C_12, self.V_0, self.a, self.g = (np.asarray(one) for one in given)
+        self.m, self.C_01, self.C_12, self.V_t, self.a, self.g = (np.asarray(one) for one in given)
         self.rigid = np.isinf(self.C_01)
         self.support = np.where(self.rigid, 1.0, self.C_01)
         self.k_1 = np.sqrt(self.C_12 / self.m)
@@ -85,7 +85,7 @@ class Hoists:
 
     def travel(self, t: Any) -> Any:
         """Return what has been wound up, m."""
-        return (self.V_0 + 0.5 * self.a * t) * t
+        return (self.V_t + 0.5 * self.a * t) * t
 
     def on_support(self) -> Motion:
         """Return the motion while the support carries; on a rigid one there is none."""
@@ -113,7 +113,7 @@ class Hoists:
 
     def rate(self, t: Any, state: State) -> Any:
         """Return the speed at which the rope is stretched, m/s."""
-        return self.V_0 + self.a * t - state[1]
+        return self.V_t + self.a * t - state[1]
 
     def lift(self, t: Any, state: State) -> Any:
         """Return F_01: the load leaves its support where it becomes positive, N."""
@@ -124,9 +124,9 @@ class Hoists:
         """Return times before which the load lifts off, s."""
         yielding = np.where(self.rigid, 0.0, 1.0 / self.support) + 1.0 / self.C_12
         height = self.m * self.g * yielding + np.where(
-            self.rigid, 0.0, self.V_0 / self.k + 2.0 * self.a / (self.k * self.k)
+            self.rigid, 0.0, self.V_t / self.k + 2.0 * self.a / (self.k * self.k)
         )
-        found: Array = 2.0 * height / (self.V_0 + np.sqrt(self.V_0 * self.V_0 + 2.0 * self.a * height))
+        found: Array = 2.0 * height / (self.V_t + np.sqrt(self.V_t * self.V_t + 2.0 * self.a * height))
         return found
 
 
@@ -136,7 +136,7 @@ def integrate(values: Mapping[str, Any], method: str, step: Any, located: bool =
     Parameters
     ----------
     values : mapping of str to float or array
-        `m C_01 C_12 V_0 a g`, SI; C_01 may be infinite.
+        `m C_01 C_12 V_t a g`, SI; C_01 may be infinite.
     method : str
         One of `STEPPERS`.
     step : float or array

@@ -152,13 +152,13 @@ def hoist_row(values: Mapping[str, Any]) -> RowMotion:
     Parameters
     ----------
     values : mapping of str to float or array
-        `m C_01 C_12 V_0 a g`, SI; the stiffnesses finite.
+        `m C_01 C_12 V_t a g`, SI; the stiffnesses finite.
     """
-    m, C_01, C_12, V_0, a, g = np.broadcast_arrays(
-        *(np.asarray(values[name], float) for name in ("m", "C_01", "C_12", "V_0", "a", "g"))
+    m, C_01, C_12, V_t, a, g = np.broadcast_arrays(
+        *(np.asarray(values[name], float) for name in ("m", "C_01", "C_12", "V_t", "a", "g"))
     )
     none = np.zeros_like(m)
     row = Row(
         m[..., None], np.stack((C_01, C_12), axis=-1), (-m * g)[..., None], np.stack((none, np.asarray(a)), axis=-1)
     )
-    return row.motion(np.stack((m * g, none), axis=-1), np.stack((none, -C_12 * V_0), axis=-1))
+    return row.motion(np.stack((m * g, none), axis=-1), np.stack((none, -C_12 * V_t), axis=-1))

@@ -152,7 +152,7 @@ def test_what_is_refused_would_have_passed_for_results(monkeypatch: pytest.Monke
 
 def test_rigid_support_needs_no_first_phase() -> None:
     hoist = {name: value[:3] for name, value in SEVERAL.items()} | {"C_01": np.full(3, np.inf)}
-    m, C_12, V_0, a, g = (hoist[name] for name in ("m", "C_12", "V_0", "a", "g"))
+    m, C_12, V_0, a, g = (hoist[name] for name in ("m", "C_12", "V_t", "a", "g"))
     at_off = np.sqrt(V_0**2 + 2.0 * a * m * g / C_12)  # the end's speed when the rope has mg
     radius = np.hypot(m * a, at_off * np.sqrt(m * C_12))
 

@@ -96,14 +96,14 @@ HOISTS = {
     "m": np.array([5100.0, 2045.0, 3098.0]),
     "C_01": np.array([3.7e7, 1.1e6, 1.6e7]),
     "C_12": np.array([1.6e6, 1.9e6, 4.0e5]),
-    "V_0": np.array([0.1, 0.0, 0.5]),
+    "V_t": np.array([0.1, 0.0, 0.5]),
     "a": np.array([0.15, 0.4, 0.0]),
     "g": np.full(3, 9.81),
 }
 
 
 def test_hoist_is_the_row_of_one_mass() -> None:
-    m, C_01, C_12, V_0, a, g = (HOISTS[name] for name in ("m", "C_01", "C_12", "V_0", "a", "g"))
+    m, C_01, C_12, V_0, a, g = (HOISTS[name] for name in ("m", "C_01", "C_12", "V_t", "a", "g"))
     C, k = C_01 * C_12 / (C_01 + C_12), np.sqrt((C_01 + C_12) / m)
 
     motion = hoist_row(HOISTS)
