@@ -7,8 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ..scales.scale import Scale
-from .shapes import Circle, Group, Head, Line, Pen, Polyline
+from .shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from .symbols import dimension
+from .text import lay_out
 from .view import Canvas
 
 PAST = 8.0  # mm by which an axis runs past its last division
@@ -119,6 +120,18 @@ def rays(canvas: Canvas, field: Field, pole: Pole, ordinates: Iterable[tuple[int
         canvas.add(Line(start, foot - 1.5j, Pen.THIN, role="extension"))
     canvas.add(dimension(*feet, pole.name, style))
     canvas.label(pole.text, feet, prefer=-1j, clear=0.8, height=style.text)
+
+
+def numbers(lines: Sequence[float], level: float, height: float, first: int = 0) -> list[Text]:
+    """Return the numbers of section lines at a level, from the `first` on, those that do not touch the one before."""
+    found: list[Text] = []
+    end = -math.inf
+    for i, x in enumerate(lines, start=first):
+        half = 0.5 * lay_out(str(i), height).width
+        if x - half > end + 0.25 * height:
+            found.append(Text(complex(x, level), str(i), height, "middle", role="number", name=str(i)))
+            end = x + half
+    return found
 
 
 def divisions(high: float, low: float, mu: float, apart: float = 12.0) -> Sequence[float]:

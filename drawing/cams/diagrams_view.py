@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from math import inf
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from ...plans.cams.motion import PHASES, RISE
 from ..diagram import Axis, Field, Pole, axes
 from ..dimensions import linear
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
-from ..text import Box, box, lay_out
+from ..text import Box, box
 from ..view import Canvas, View
 from .fan import aside, fan
 from .scene import CamScene, pieces
@@ -103,18 +102,6 @@ def _section_lines(canvas: Canvas, scene: CamScene, fields: Sequence[Field], box
     lines = [top.at(phi, 0.0).real for phi in scene.solved.angles.tolist()]
     above, below = top.at(0.0, top.y.high).imag + 2.3, bottom.at(0.0, bottom.y.low).imag - 2.3 - height
     canvas.add(*numbers(lines, above, height)[1:], *numbers(lines, below, height))
-
-
-def numbers(lines: Sequence[float], level: float, height: float) -> list[Text]:
-    """Return the numbers of section lines at a level, those that do not touch the one before."""
-    found: list[Text] = []
-    end = -inf
-    for i, x in enumerate(lines):
-        half = 0.5 * lay_out(str(i), height).width
-        if x - half > end + 0.25 * height:
-            found.append(Text(complex(x, level), str(i), height, "middle", role="number", name=str(i)))
-            end = x + half
-    return found
 
 
 def _exact(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:

@@ -6,10 +6,9 @@ import math
 
 from ...plans.cams.motion import RISE
 from ...scales.scale import Scale, steps
-from ..diagram import Axis, Field, axes, divisions
+from ..diagram import Axis, Field, axes, divisions, numbers
 from ..shapes import Circle, Group, Line, Pen, Polyline
 from ..view import Canvas, View
-from .diagrams_view import numbers
 from .pressing import courses, permitted, theta
 from .scene import CamScene
 
