@@ -9,7 +9,7 @@ import numpy as np
 
 from ...plans.cams.integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
 from ...plans.cams.motion import PHASES, RISE
-from ..diagram import Axis, Field, Pole, axes
+from ..diagram import Axis, Field, Pole, axes, numbers
 from ..dimensions import linear
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import Box, box
