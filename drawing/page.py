@@ -36,11 +36,15 @@ class Page:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A drawn sheet: its pages, the scale factors that they have, by plan, and its format."""
+    """A drawn sheet: its pages, the scale factors that they have, by plan, and its format.
+
+    `reduction` is what a millimetre of a drawing is there whose lengths on paper the task has given.
+    """
 
     pages: list[Page]
     scales: Mapping[str, Scale]
     format: str
+    reduction: float = 1.0
 
 
 def _reach(shape: Shape) -> tuple[complex, ...]:

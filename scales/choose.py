@@ -17,7 +17,7 @@ from .units import parse, unit
 
 RUNGS = 16
 CRANK = {"V": 1, "a": 2}
-UNITS = {"l": "m", "V": "m/s", "a": "m/s^2", "F": "N"}
+UNITS = {"l": "m", "s": "m", "V": "m/s", "a": "m/s^2", "F": "N"}
 # a segment by its letters on the plan, and the quantity that it shows: pa is V_A, p'a' is a_A, OA is l_OA
 SEGMENT_OF = {
     "a": re.compile(r"[pπ]['′]?([a-z])(\d*)['′](\d*)"),

@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ...plans.cams.cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_PART
-from ...plans.cams.solve import SolvedCam
+from ...plans.cams.solve import REDUCED, SolvedCam, reduced
 from ...scales.scale import Scale
 from ..compose import room
 from ..contents import SheetContents
 from ..formats import Format
-from ..givens import givens_view
+from ..givens import Given, givens_view
 from ..rungs import Figure
 from ..style import STYLES
 from ..view import View
 from ..words import Words
-from .ladders import mu_ladder
+from .ladders import SYMBOLS, ladder
 from .letters import lettered
 from .scene import CamScene
 
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
-REDUCTIONS = (1.0, 0.8, 0.5, 0.4, 0.25, 0.2, 0.1)  # of the diagrams, whose scale factors grow as much
-COARSER = (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)  # scale factors of the S-ds/dphi diagram, in those of the travel
+REDUCTIONS = (1.0, 0.8, 0.5, 0.4, 0.25, 0.2, 0.1)  # of the lengths that the task has on the diagrams
+ROUNDING = 12  # digits of a length that is drawn smaller
 CamFigure = Figure[CamScene]
 NARROW = 0.65  # part of the width of lines that those on the sizes of a cam may have
 
@@ -34,10 +34,11 @@ class Contents(SheetContents[SolvedCam]):
 
 @dataclass(frozen=True, slots=True)
 class Rungs:
-    """How small things are drawn: the diagrams, the S-ds/dphi diagram beside them, the profiles; each a rung."""
+    """How small things are drawn: the diagrams, the plans made of two of them, the profiles; each a rung."""
 
     reduction: int = 0
-    coarser: int = 0
+    mu_s_ds: int = 0
+    mu_s_d2s: int = 0
     mu_l: int = 0
 
 
@@ -49,21 +50,31 @@ class Fitting:
     ladders: Mapping[str, tuple[float, ...]] = field(init=False)
     _words: Words = field(init=False)
     _drawn: dict[tuple[str, int, tuple[int, ...]], View] = field(default_factory=dict)
+    _scenes: dict[tuple[str, Rungs], CamScene] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Find the ladders."""
         self._words = lettered(self.contents.words)
-        self.ladders = {
-            "reduction": REDUCTIONS,
-            "coarser": COARSER,
-            "mu_l": mu_ladder(self.contents.solved, self.contents.choosers),
-        }
+        self.ladders = {"reduction": REDUCTIONS, **self._chosen(self.contents.solved)}
+
+    def _chosen(self, solved: SolvedCam) -> dict[str, tuple[float, ...]]:
+        return {symbol: ladder(solved, self.contents.choosers, symbol) for symbol in SYMBOLS}
 
     def scene(self, sheet: Format, rungs: Rungs) -> CamScene:
-        """Return the scene of a sheet on a format."""
-        reduction, coarser, mu_l = (self.ladders[name][getattr(rungs, name)] for name in self.ladders)
-        contents, style = self.contents, STYLES[sheet.letters]
-        return CamScene(contents.solved, self._words, style, contents.givens, reduction, coarser, mu_l)
+        """Return the scene of a sheet on a format: of the construction with lengths as they are drawn there."""
+        key = sheet.letters, rungs
+        if key not in self._scenes:
+            part = self.reduction(rungs)
+            solved = reduced(self.contents.solved, part)
+            # coarser diagrams leave no fewer rungs to the plans made of them
+            mus = {symbol: mus[getattr(rungs, symbol)] for symbol, mus in self._chosen(solved).items()}
+            givens = {name: _reduced(name, given, part) for name, given in self.contents.givens.items()}
+            self._scenes[key] = CamScene(solved, self._words, STYLES[sheet.letters], givens, mus)
+        return self._scenes[key]
+
+    def reduction(self, rungs: Rungs) -> float:
+        """Return what a millimetre of the task's diagrams is on the sheet."""
+        return self.ladders["reduction"][rungs.reduction]
 
     def views(self, sheet: Format, rungs: Rungs) -> list[tuple[View, CamFigure]]:
         """Return the views of a sheet in the order of the work."""
@@ -80,13 +91,25 @@ class Fitting:
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
         scene = self.scene(sheet, rungs)
-        return {plan: scene.scale(plan) for plan in self.contents.solved.scale_of_plan if scene.shows(plan)}
+        return {plan: scene.scale(plan) for plan in self.contents.solved.scale_of_plan}
+
+
+def _reduced(name: str, given: Given, part: float) -> Given:
+    """Return a given as it is drawn: the lengths of the diagrams so many times as long."""
+    if name not in REDUCED or isinstance(given.value, str):
+        return given
+    return replace(given, value=float(f"{given.value * part ** REDUCED[name]:.{ROUNDING}g}"))
 
 
 def figures(contents: Contents, width: float) -> list[CamFigure]:
     """Return the figures of a sheet in the order of the work; lines of text are at most `width` long."""
     made = {DIAGRAMS_PART: _diagrams, SIZES_PART: _sizes, PROFILE_PART: _profiles, PRESSURE_PART: _pressure}
     return [figure for plan in contents.plans for figure in made[plan](contents, width)]
+
+
+def _givens(scene: CamScene) -> View:
+    numbers = {name: given for name, given in scene.givens.items() if not isinstance(given.value, str)}
+    return givens_view(numbers, scene.words, scene.style)
 
 
 # A view is imported when its plan is wanted.
@@ -97,8 +120,7 @@ def _diagrams(contents: Contents, width: float) -> Iterator[CamFigure]:
     from .tables import motion_table
     from .text import choices_block, scales_block
 
-    numbers = {name: given for name, given in contents.givens.items() if not isinstance(given.value, str)}
-    yield Figure(lambda scene: givens_view(numbers, scene.words, scene.style))
+    yield Figure(_givens, ("reduction",))
     yield Figure(lambda scene: choices_block(scene, NARROW * width))
     yield Figure(motion_table)
     yield Figure(diagrams_view, ("reduction",))
@@ -113,13 +135,13 @@ def _sizes(contents: Contents, width: float) -> Iterator[CamFigure]:
     from .text import plate_block, roller_block
 
     if contents.solved.roller is not None:
-        yield Figure(sizes_view, ("coarser", "reduction"))
+        yield Figure(sizes_view, ("mu_s_ds", "reduction"))
         yield Figure(lambda scene: roller_block(scene, NARROW * width))
     if contents.solved.rocker is not None:
         yield Figure(rocker_sizes_view, ("mu_l",))
         yield Figure(lambda scene: rocker_block(scene, NARROW * width))
     if contents.solved.plate is not None:
-        yield Figure(plate_sizes_view, ("reduction",))
+        yield Figure(plate_sizes_view, ("mu_s_d2s", "reduction"))
         yield Figure(lambda scene: plate_block(scene, width))
 
 

@@ -1,16 +1,49 @@
-"""The ladder of the scale factor of a cam's profiles: the wanted one first, then coarser and coarser."""
+"""Ladders of the scale factors of a cam's plans: the wanted one first, then coarser and coarser."""
 
 from __future__ import annotations
 
-from ...plans.cams.solve import SolvedCam
+from ...plans.cams.solve import EQUAL, SolvedCam
 from ...scales.choose import Choosers, Fixed
+from ...scales.scale import Scale, rounded
 
 MU_L = 0.001  # m/mm, M 1:1, where nothing is said
+COARSER = (1.0, 2.0, 2.5, 4.0, 5.0, 8.0, 10.0, 20.0, 25.0)  # of a plan with equal scale factors, in the finest one
+LARGEST = 150.0  # mm of the least radius and the stroke on such a plan, where nothing is said
+DIGITS = 5  # of a scale factor that is chosen, not found
+SYMBOLS = ("mu_l", *EQUAL)  # what may be chosen: the others follow from the drawn amplitude and the pole distances
 
 
-def mu_ladder(solved: SolvedCam, choosers: Choosers) -> tuple[float, ...]:
-    """Return the scale factors of the profiles, the one wanted first."""
-    sizes = [part.sizes.r_0 + solved.motion.h for part in (solved.roller, solved.plate) if part is not None]
-    sizes += [solved.rocker.sizes.l_OC] if solved.rocker is not None else []
-    across = 2.0 * max(sizes, default=MU_L)
-    return choosers.get("mu_l", Fixed(MU_L)).ladder(lambda _: across)
+def ladder(solved: SolvedCam, choosers: Choosers, symbol: str) -> tuple[float, ...]:
+    """Return the scale factors of `symbol`, one of `SYMBOLS`, the one wanted first.
+
+    A plan that is made of two diagrams is drawn to the scale factor of one of them, or to a multiple of it.
+    """
+    across = _across(solved, symbol)
+    if symbol not in EQUAL:
+        return choosers.get(symbol, Fixed(MU_L)).ladder(lambda _: 2.0 * across)
+    if symbol in choosers:
+        return choosers[symbol].ladder(lambda _: across)
+    finest = float(solved.values[EQUAL[symbol]]) if EQUAL[symbol] in solved.values else MU_L
+    rungs = [rounded(finest * times, DIGITS) for times in COARSER]
+    return tuple(mu for mu in rungs if across <= LARGEST * mu) or (rungs[-1],)
+
+
+def first_scales(solved: SolvedCam, choosers: Choosers) -> dict[str, Scale]:
+    """Return the scale factors by plan as they are wanted: those of the diagrams follow from the construction."""
+    mus = {symbol: ladder(solved, choosers, symbol)[0] for symbol in SYMBOLS}
+    return scales(solved, mus)
+
+
+def scales(solved: SolvedCam, mus: dict[str, float]) -> dict[str, Scale]:
+    """Return the scale factors by plan, the chosen ones of `mus` among them."""
+    values = {**solved.values, **mus}
+    return {plan: Scale(symbol, float(values[symbol]), "m") for plan, symbol in solved.scale_of_plan.items()}
+
+
+def _across(solved: SolvedCam, symbol: str) -> float:
+    """Return the largest size that plans of a scale factor show, m: to the cam's centre from the follower's top."""
+    parts = {"mu_s_ds": (solved.roller,), "mu_s_d2s": (solved.plate,)}.get(symbol, (solved.roller, solved.plate))
+    sizes = [part.sizes.r_0 + solved.motion.h for part in parts if part is not None]
+    if symbol == "mu_l" and solved.rocker is not None:
+        sizes.append(solved.rocker.sizes.l_OC)
+    return max(sizes, default=MU_L)

@@ -13,6 +13,7 @@ from ..view import Canvas, View
 from .diagrams_view import SAME
 from .scene import CamScene, pieces
 from .sizes_view import on_lines
+from .transfer import transfer
 
 PAST = 8.0  # mm by which axes run past the curve
 OUT = {"r_0_flat_min": 14.0, "r_0_flat": 46.0}  # mm from the axis to the dimensions
@@ -35,11 +36,8 @@ def plate_sizes_view(scene: CamScene) -> View:
     _tangent(canvas, scene, plate.sizes.r_0_min / mu, plate.sizes.phi)
     _nodes(canvas, scene)
     _sizes(canvas, scene)
-    equal = f"{words.symbol('mu_s')} = {scene.factor(scene.scale(PLATE_SIZES))}"
-    slope = solved.values["mu_s"] / solved.values["mu_d2s"]
-    ratio = f"{words.symbol('mu_s')}/{words.symbol('mu_d2s')} = {scene.value(slope)}"
-    notes = (words["said.cam_equal"], words["said.cam_reduced"].format(ratio=ratio))
-    return canvas.finish("plate_sizes", (words["heading.cam_plate_sizes"], equal), notes)
+    heading = words["heading.cam_plate_sizes"], scene.factor(scene.scale(PLATE_SIZES))
+    return canvas.finish("plate_sizes", heading, transfer(scene, PLATE_SIZES))
 
 
 def _curve(canvas: Canvas, scene: CamScene) -> list[complex]:

@@ -10,12 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...plans.cams.integration import ACCELERATION, TRAVEL, VELOCITY
-from ...plans.cams.inversion import PLATE_PROFILE, PROFILE
+from ...plans.cams.integration import DIAGRAMS
 from ...plans.cams.motion import Phase
-from ...plans.cams.rocker_plans import ROCKER_SIZES
-from ...plans.cams.size_plans import PLATE_SIZES, SIZES
-from ...plans.cams.solve import PAPER_MM, SolvedCam
+from ...plans.cams.solve import PAPER_MM, SCALES, SolvedCam
 from ...scales.scale import Scale
 from ..givens import Given
 from ..printed import decimals_for
@@ -25,43 +22,33 @@ from ..words import Words
 Array = NDArray[np.float64]
 MU_DIGITS = 5  # of a scale factor that follows from a drawing: enough for 0.01 mm
 FINE = np.radians(0.5)  # between points of a curve
-FULL_SIZE = (PROFILE, PLATE_PROFILE, ROCKER_SIZES)  # drawn as large as the cam itself, or in its scale
-DIAGRAM_SCALES = {ACCELERATION: "mu_d2s", VELOCITY: "mu_ds", TRAVEL: "mu_s"}
 
 
 @dataclass(frozen=True, slots=True)
 class CamScene:
     """A solved cam on a certain format, in certain words.
 
-    `reduction` is what a millimetre of the board's diagrams is on the sheet, `coarser` how many times the scale factor
-    of the S-ds/dphi diagram is that of the travels, `mu_l` the scale factor of the profiles, m/mm.
+    `solved` has the diagrams as large as they are drawn; `mus` are the scale factors that are chosen, m/mm.
     """
 
     solved: SolvedCam
     words: Words
     style: Style
     givens: Mapping[str, Given]
-    reduction: float
-    coarser: float
-    mu_l: float
+    mus: Mapping[str, float]
+
+    @property
+    def mu_l(self) -> float:
+        """The scale factor of the profiles, m/mm."""
+        return self.mus["mu_l"]
 
     def mu(self, symbol: str) -> float:
-        """Return a scale factor of the diagrams as they are drawn, SI per mm."""
-        return float(self.solved.values[symbol]) / self.reduction
+        """Return a scale factor as it is drawn, SI per mm."""
+        return self.mus[symbol] if symbol in self.mus else float(self.solved.values[symbol])
 
     def scale(self, plan: str) -> Scale:
         """Return the scale factor of a plan as it is drawn."""
-        if plan in DIAGRAM_SCALES:
-            symbol = DIAGRAM_SCALES[plan]
-            return Scale(symbol, self.mu(symbol), "m")
-        if plan in FULL_SIZE:
-            return Scale("mu_l", self.mu_l, "m")
-        symbol, times = {SIZES: ("mu_s", self.coarser), PLATE_SIZES: ("mu_d2s", 1.0)}[plan]
-        return Scale(symbol, self.mu(symbol) * times, "m")
-
-    def shows(self, plan: str) -> bool:
-        """Whether the sheet has a view of a plan."""
-        return plan in DIAGRAM_SCALES or plan in (SIZES, PLATE_SIZES, *FULL_SIZE)
+        return Scale(SCALES[plan], self.mu(SCALES[plan]), "m")
 
     @property
     def across(self) -> Scale:
@@ -71,13 +58,13 @@ class CamScene:
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""
         plan = mark.rpartition(".")[0]
-        if plan in DIAGRAM_SCALES:
-            return self.solved.point(mark) * (self.reduction / PAPER_MM)
+        if plan in DIAGRAMS:
+            return self.solved.point(mark) * (1.0 / PAPER_MM)
         return self.solved.point(mark) * (1.0 / self.scale(plan).mu)
 
     def paper(self, name: str) -> float:
         """Return a length on the diagrams, mm as drawn."""
-        return float(self.solved.values[name]) * (self.reduction / PAPER_MM)
+        return float(self.solved.values[name]) / PAPER_MM
 
     def factor(self, scale: Scale) -> str:
         """Return a scale factor with as many digits as drawings of 0.01 mm need."""

@@ -46,11 +46,11 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
 def _single(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     """Try one page with the S-ds/dphi diagram, if it must be, smaller than at these rungs."""
     norm = fitting.contents.norm
-    others = [view for view, figure in fitting.views(sheet, rungs) if "coarser" not in figure.ladders]
+    others = [view for view, figure in fitting.views(sheet, rungs) if "mu_s_ds" not in figure.ladders]
     if _on_a_page(others, sheet, norm) is None:
         return None
-    for coarser in range(rungs.coarser, len(fitting.ladders["coarser"])):
-        rungs = replace(rungs, coarser=coarser)
+    for rung in range(rungs.mu_s_ds, len(fitting.ladders["mu_s_ds"])):
+        rungs = replace(rungs, mu_s_ds=rung)
         views = [view for view, _ in fitting.views(sheet, rungs)]
         places = _on_a_page(views, sheet, norm)
         if places is not None:
@@ -69,4 +69,4 @@ def _on_a_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] 
 def _drawn(fitting: Fitting, stamp: Stamp, sheet: Format, found: Found) -> Drawn:
     rungs, views, places = found
     pages = compose(views, places, sheet, fitting.contents.norm, stamp)
-    return Drawn(pages, fitting.scales(sheet, rungs), sheet.name)
+    return Drawn(pages, fitting.scales(sheet, rungs), sheet.name, fitting.reduction(rungs))

@@ -20,6 +20,7 @@ from .hatching import hatched
 from .offsets import permitted_offsets
 from .pressing import pressed
 from .scene import CamScene, pieces
+from .transfer import transfer
 
 PAST = 8.0  # mm by which an axis runs past the curve
 BELOW = 30.0  # mm of the permitted places shown below the lowest one
@@ -46,14 +47,8 @@ def sizes_view(scene: CamScene) -> View:
     permitted_offsets(canvas, scene, mu)
     _nodes(canvas, scene)
     _centre(canvas, scene, roller, centre)
-    equal = f"{words.symbol('mu_ds')} = {scene.factor(scene.scale(SIZES))}"
-    slope = solved.values["mu_s"] / solved.values["mu_ds"]
-    tangent = (
-        f"tg {words.symbol('nu')} = {words.symbol('mu_s')}/{words.symbol('mu_ds')} = {scene.value(slope)};  "
-        f"{words.symbol('nu')} = {scene.degrees(math.atan(slope))}"
-    )
-    notes = (words["said.cam_equal"], tangent, words["said.cam_permitted"])
-    return canvas.finish("sizes", (words["heading.cam_sizes"], equal), notes)
+    notes = (*transfer(scene, SIZES), words["said.cam_permitted"])
+    return canvas.finish("sizes", (words["heading.cam_sizes"], scene.factor(scene.scale(SIZES))), notes)
 
 
 def _curve(canvas: Canvas, scene: CamScene) -> list[complex]:

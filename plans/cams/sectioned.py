@@ -18,7 +18,7 @@ from .division import Division
 from .givens import diagram_givens
 from .integration import ACCELERATION, TRAVEL, VELOCITY
 from .motion import Motion, Phase
-from .solve import SolvedCam
+from .solve import EQUAL, SolvedCam
 
 Array = NDArray[np.float64]
 V_MAX, S_MAX, MU_S, R_0 = "V_max_chord", "S_max_chord", "mu_s_chord", "r_0_tangents"
@@ -108,7 +108,8 @@ def drawn_on(solved: SolvedCam, angles: Array, division: Division, names: tuple[
 
 def _worth(solved: SolvedCam) -> dict[str, float]:
     """Return what a millimetre of the plans that are drawn is worth to the board, SI."""
-    return solved.worth({plan: solved.values.get(mu, MU_L) for plan, mu in solved.scale_of_plan.items()})
+    mus = ((plan, EQUAL.get(mu, mu)) for plan, mu in solved.scale_of_plan.items())
+    return solved.worth({plan: solved.values.get(mu, MU_L) for plan, mu in mus})
 
 
 def _sectioned(solved: SolvedCam, angles: Array, division: Division, names: tuple[str, ...]) -> Sectioned:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..board import Program, with_needs
@@ -26,12 +26,14 @@ SCALES = {
     ACCELERATION: "mu_d2s",
     VELOCITY: "mu_ds",
     TRAVEL: "mu_s",
-    SIZES: "mu_s",
-    PLATE_SIZES: "mu_d2s",
+    SIZES: "mu_s_ds",
+    PLATE_SIZES: "mu_s_d2s",
     ROCKER_SIZES: "mu_l",
     PROFILE: "mu_l",
     PLATE_PROFILE: "mu_l",
 }
+# the plans with equal scale factors on both axes, and the factor of a diagram that is the finest for each
+EQUAL = {"mu_s_ds": "mu_s", "mu_s_d2s": "mu_d2s"}
 # the plan that shows a quantity as a segment, beside those that are read from one
 SHOWN_ON = {
     "A_1": ACCELERATION,
@@ -43,6 +45,8 @@ SHOWN_ON = {
     **dict.fromkeys(("rho_min", "R_roller"), PROFILE),
     **dict.fromkeys(("r_0_flat", "R_plate"), PLATE_PROFILE),
 }
+# how the numbers that a task has on the paper of the diagrams change with the size of the drawing
+REDUCED = {"l_A1": 1, "H_a": 1, "H_v": 1, "mu_phi": -1}
 PAPER_MM = 1e-3  # metres of paper in a millimetre: the diagrams are drawn in these
 UNITS = {
     "v_max": "m/s",
@@ -84,6 +88,11 @@ class SolvedCam(Solved):
         return RIGHT, UP
 
     @property
+    def on_paper(self) -> tuple[str, ...]:
+        """The diagrams, whose scale factors come from what is measured on them."""
+        return DIAGRAMS
+
+    @property
     def draws_profiles(self) -> bool:
         """Whether the profiles are constructed, not only the sizes."""
         return any(plan in (PROFILE, PLATE_PROFILE) for plan in self.program.plans)
@@ -119,17 +128,11 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     layout = _layout(cam, motion, angles, division, cams)
     program = construct(layout, wanted)
     givens = {**values, **_givens(cam, motion, angles, layout, cams)}
-    board = run(program, givens)
     return SolvedCam(
+        **_found(program, givens),
         program=program,
-        values=board.values,
-        quantities=_stated(values) | quantities(program, board.values, _lengths(values), unit_of),
-        sines=board.sines,
-        status=board.status,
-        trouble=board.trouble,
         shown_on=_shown_on(program),
         scale_of_plan={plan: SCALES[plan] for plan in program.plans if plan in SCALES},
-        givens=givens,
         cam=cam,
         motion=motion,
         angles=angles,
@@ -138,6 +141,27 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
         plate=cams.get(PLATE),
         rocker=cams.get(ROCKER),
     )
+
+
+def reduced(solved: SolvedCam, part: float) -> SolvedCam:
+    """Return the cam with diagrams `part` times as large as the task has them: drawn so, and measured on it."""
+    if part == 1.0:
+        return solved
+    drawn = {name: solved.givens[name] * part**power for name, power in REDUCED.items()}
+    return replace(solved, **_found(solved.program, {**solved.givens, **drawn}))
+
+
+def _found(program: Program, givens: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what the construction gives with these numbers, by fields of a cam solved."""
+    board = run(program, givens)
+    return {
+        "givens": givens,
+        "values": board.values,
+        "quantities": _stated(givens) | quantities(program, board.values, _lengths(givens), unit_of),
+        "sines": board.sines,
+        "status": board.status,
+        "trouble": board.trouble,
+    }
 
 
 def _layout(cam: Cam, motion: Motion, angles: Array, division: Division, cams: Mapping[str, Any]) -> Layout:

@@ -13,7 +13,7 @@ from kulman.plans.cams.construction import construct
 from kulman.plans.cams.givens import diagram_givens
 from kulman.plans.cams.integration import ray
 from kulman.plans.cams.motion import motion_of
-from kulman.plans.cams.solve import SolvedCam, solve_cam
+from kulman.plans.cams.solve import EQUAL, SolvedCam, solve_cam
 from kulman.plans.hands.hand import preset
 from kulman.plans.hands.shaky import draw, paper_of
 from kulman.scales.errors import InputError
@@ -218,7 +218,8 @@ def test_a_law_of_ones_own_is_drawn_like_that_of_the_table() -> None:
 def test_a_hand_draws_the_cam_as_well_as_its_pencil_lets_it() -> None:
     solved = madi()
     hand = preset("normal").hand
-    board = draw(paper_of(solved, {**solved.values, "mu_l": 1e-3}), hand, np.random.default_rng(1), 400)
+    chosen = {"mu_l": 1e-3, **{symbol: solved.values[mu] for symbol, mu in EQUAL.items()}}
+    board = draw(paper_of(solved, {**solved.values, **chosen}), hand, np.random.default_rng(1), 400)
 
     for name in ("mu_s_chord", "r_0_tangents"):
         exact = solved.values[name]

@@ -15,6 +15,7 @@ NEAR, STEEP = 0.01, 0.05  # mm, degrees
 Faults = Iterator[str]
 MU = r"μ(?:[_^]\{[^}]*\})+"
 MU_PHI, MU_S, MU_DS, MU_D2S, MU_L = "μ_{φ}", "μ_{s}", "μ_{ds/dφ}", "μ_{d}^{2}_{s/dφ}^{2}", "μ_{l}"
+MU_S_DS, MU_S_D2S = "μ_{S(ds/dφ)}", "μ_{S(d}^{2}_{s/dφ}^{2}_{)}"  # of plans with one scale factor on both axes
 DERIVATIVE = {"diagram_s": 0, "diagram_v": 1, "diagram_a": 2}
 
 
@@ -105,9 +106,17 @@ def printed_scales(view: View) -> dict[str, float]:
     """Scale factors in the headings and beside the axes of a view, by symbol, a unit a mm."""
     found = {}
     for text in view.texts:
-        for symbols, number in re.findall(rf"((?:{MU} = )+)(\d+[.,]?\d*)", text.string):
+        for symbols, number in re.findall(rf"(?<!/)((?:{MU} = )+)(\d+[.,]?\d*)", text.string):
             found |= dict.fromkeys(re.findall(MU, symbols), float(number.replace(",", ".")))
     return found
+
+
+def ratio(view: View, over: str, under: str) -> float:
+    """The printed ratio of two scale factors."""
+    (found,) = [
+        m[1] for t in view.texts if (m := re.search(re.escape(f"{over}/{under}") + r" = (\d+[.,]?\d*)", t.string))
+    ]
+    return float(found.replace(",", "."))
 
 
 def mu_l(view: View) -> float:

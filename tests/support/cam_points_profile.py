@@ -97,7 +97,7 @@ def c8_plate(case: CamCase, sheet: Sheet) -> Faults:
     solved = case.solved
     plate = solved.plate
     assert plate is not None
-    yield from convex_faults(case, sheet["plate_sizes"])
+    yield from convex_faults(case, sheet)
     view = sheet["plate_profile"]
     mu, (centre, r_0) = mu_l(view), ring(view, "circle", "r_0_flat")
     yield from unless(abs(r_0 - plate.sizes.r_0 / mu) < NEAR, f"r_0 is {r_0} mm")

@@ -8,15 +8,19 @@ from kulman.tests.support.cam_cases import (
     MU_D2S,
     MU_DS,
     MU_S,
+    MU_S_D2S,
+    MU_S_DS,
     NEAR,
     STEEP,
     CamCase,
     Faults,
     curve,
+    drawn_diagrams,
     level,
     measured,
     mu_l,
     printed_scales,
+    ratio,
     ring,
     unless,
 )
@@ -28,8 +32,8 @@ def c5_sizes(case: CamCase, sheet: Sheet) -> Faults:
     view, solved = sheet["sizes"], case.solved
     roller = solved.roller
     assert roller is not None
-    mu = printed_scales(view)[MU_DS]
-    yield from unless(mu == printed_scales(view)[MU_S], "the scale factors differ")
+    mu = printed_scales(view)[MU_S_DS]
+    yield from _transferred(case, sheet, view, mu, {"diagram_s": (MU_S, MU_S_DS), "diagram_v": (MU_DS, MU_S_DS)})
     origin = _crossing(view)
     at = view.point("O")
     for phase, sign in (("rise", 1), ("fall", -1)):
@@ -62,6 +66,16 @@ def c5_sizes(case: CamCase, sheet: Sheet) -> Faults:
     yield from _pressure(case, sheet)
 
 
+def _transferred(case: CamCase, sheet: Sheet, view: View, mu: float, symbols: dict[str, tuple[str, str]]) -> Faults:
+    """The plan says by how much ordinates of the diagrams are multiplied."""
+    if "diagrams" not in sheet.names:
+        return
+    diagrams = drawn_diagrams(case, sheet["diagrams"])
+    for plan, (over, under) in symbols.items():
+        times = 1.0 / (diagrams[plan].up * mu)
+        yield from unless(abs(ratio(view, over, under) - times) < 2e-4, f"ordinates of {plan} are not {times} times")
+
+
 def _crossing(view: View) -> complex:
     """Where the axes of a view meet."""
     axes = [s for s in view.lines("axis") if not s.dashed]
@@ -83,11 +97,11 @@ def _pressure(case: CamCase, sheet: Sheet) -> Faults:
         yield from unless(max(over) < 0.02, f"the pressure angle passes its limit in the {phase} by {max(over)} mm")
 
 
-def convex_faults(case: CamCase, view: View) -> Faults:
-    plate = case.solved.plate
+def convex_faults(case: CamCase, sheet: Sheet) -> Faults:
+    view, plate = sheet["plate_sizes"], case.solved.plate
     assert plate is not None
-    mu = printed_scales(view)[MU_D2S]
-    yield from unless(mu == printed_scales(view)[MU_S], "the scale factors differ")
+    mu = printed_scales(view)[MU_S_D2S]
+    yield from _transferred(case, sheet, view, mu, {"diagram_s": (MU_S, MU_S_D2S), "diagram_a": (MU_D2S, MU_S_D2S)})
     (limit,) = view.lines("limit", "convex")
     a, b = sorted(limit.points, key=lambda p: p.real)
     along, origin = (b - a) / abs(b - a), _crossing(view)

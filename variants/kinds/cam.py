@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from ..sweeps.asked import Asked
     from ..sweeps.cam import CamSweep
 
-SYMBOLS = ("mu_l",)  # the others follow from the drawn amplitude and the pole distances
+SYMBOLS = ("mu_l", "mu_s_ds", "mu_s_d2s")  # the others follow from the drawn amplitude and the pole distances
 PER_MM, MILLI = 1e-3, 1e3
 AXES = ("diagram_a", "diagram_v", "diagram_s")  # the plans of the diagrams on one axis of angles
 DRAWN = ("_chord", "_tangents")  # what the name of a quantity ends with that is drawn, and so asked in place of another
@@ -104,10 +104,9 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def first_scales(self, solved: SolvedCam, choosers: Choosers) -> dict[str, Scale]:
         """Return the scale factors by plan: those of the diagrams follow from the construction."""
-        from ...drawing.cams.ladders import mu_ladder
+        from ...drawing.cams.ladders import first_scales
 
-        values = {**solved.values, "mu_l": mu_ladder(solved, choosers)[0]}
-        return {plan: Scale(symbol, values[symbol], "m") for plan, symbol in solved.scale_of_plan.items()}
+        return first_scales(solved, choosers)
 
     def sweep(self, case: Case, words: Words, asked: Asked) -> CamSweep:
         """Look at a cam over its turn."""
