@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .scales import KulmanError as KulmanError
+    from .variants import batch as batch
     from .variants import chart as chart
     from .variants import check as check
     from .variants import load_task as load_task
@@ -12,11 +13,11 @@ if TYPE_CHECKING:
     from .variants import sweep as sweep
 
 __version__ = "0.1.0"
-__all__ = ["KulmanError", "__version__", "chart", "check", "load_task", "sheet", "solve", "sweep"]
+__all__ = ["KulmanError", "__version__", "batch", "chart", "check", "load_task", "sheet", "solve", "sweep"]
 
 _HOMES = {
     "KulmanError": "scales",
-    **dict.fromkeys(("chart", "check", "load_task", "sheet", "solve", "sweep"), "variants"),
+    **dict.fromkeys(("batch", "chart", "check", "load_task", "sheet", "solve", "sweep"), "variants"),
 }
 
 

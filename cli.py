@@ -5,8 +5,8 @@ from __future__ import annotations
 import errno
 import os
 import sys
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,10 +18,13 @@ from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import system_language
 from .variants.kinds import KINDS
 from .variants.options import (
+    BLOCK,
     Word,
+    count,
     count_if_given,
     example,
     given,
+    of_block,
     of_check,
     of_task,
     output,
@@ -183,15 +186,9 @@ def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, 
 )
 @of_task
 @output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
-@click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything.")
-@click.option("--norm", type=Word("gost", "iso"), default="gost", show_default=True, help="Frame and title block.")
 @click.option("--tile", type=Word("A4", "A3"), help="Cut a PDF into pages of this format for a small printer.")
 @click.option("--student", help="For the title block.")
-@click.option("--group", help="For the title block.")
-@click.option("--teacher", help="For the title block.")
-@click.option("--department", help="For the title block.")
-@click.option("--designation", help="For the title block.")
-@click.option("--date", help="For the title block; none is invented.")
+@of_block
 def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
     """Draw the sheet of TASK (an id, or a TOML file) to scale."""
     from . import variants
@@ -346,10 +343,23 @@ def _mark_one(asked: Check, answers: Answers, files: tuple[Path, ...], as_json: 
 
 def _mark_class(asked: Check, found: list[Answers], folder: str | None, jobs: int | None) -> list[Result]:
     """Mark a class; a console shows how far it is."""
+    with _progress() as advance:
+        return asked.mark_all(found, folder, lambda done: advance(done, len(found)), jobs)
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[int, int], None]]:
+    """Show on a console how far a class is: told how many students more are done, and of how many."""
     if sys.stderr is None or not sys.stderr.isatty():
-        return asked.mark_all(found, folder, jobs=jobs)
-    with click.progressbar(length=len(found), file=sys.stderr) as bar:
-        return asked.mark_all(found, folder, bar.update, jobs)
+        yield lambda done, whole: None
+        return
+    with click.progressbar(length=0, file=sys.stderr) as bar:
+
+        def advance(done: int, whole: int) -> None:
+            bar.length = whole
+            bar.update(done)
+
+        yield advance
 
 
 def _print_class(
@@ -363,6 +373,63 @@ def _print_class(
     absent = asked.roster.missing(found) if asked.roster else []
     for line in class_lines(results, absent, asked.request.language):
         click.echo(line)
+
+
+@commands.command(
+    epilog=example(
+        "kulman batch nau-slider-crank --roster class.csv --out sheets",
+        "kulman batch madi-four-bar --roster class.xlsx --out sheets --as pdf --teacher 'О. Коваль' --lang ru",
+    )
+)
+@of_task
+@click.option(
+    "--roster",
+    metavar="FILE",
+    required=True,
+    help="A student a row: name, group, variant or record book, givens of one's own: .csv or .xlsx.",
+)
+@click.option("--out", "folder", metavar="FOLDER", required=True, help="Where the files go, manifest.csv and key.csv.")
+@click.option(
+    "--as",
+    "kinds",
+    type=Word("svg", "pdf", "png"),
+    multiple=True,
+    default=("svg", "pdf"),
+    show_default=True,
+    help="Which files each student gets. Repeatable.",
+)
+@click.option(
+    "--digits",
+    metavar="N",
+    default="1",
+    show_default=True,
+    callback=count,
+    help="How many last digits of the record book give the variant, where the roster has none.",
+)
+@of_block
+@click.option("--jobs", metavar="N", default="0", callback=count, help="Processes; as many as cores when left out.")
+def batch(task: str, settings: dict[str, str], kinds: tuple[str, ...], **options: Any) -> int:
+    """Draw the sheets of TASK for a class, with a list of the files and the key for the teacher.
+
+    A run that was stopped goes on where it was; one with a longer roster draws the new sheets alone. A row that is
+    wrong costs no other student anything.
+    """
+    from . import variants
+
+    if options.pop("variant") is not None:
+        raise InputError("batch-variant")
+    block = {name: text for name in BLOCK if (text := options.pop(name, None)) is not None}
+    language, roster, folder = options.pop("lang") or "uk", options.pop("roster"), options.pop("folder")
+    with _progress() as advance:
+        made = variants.batch(
+            task, roster, folder, set=settings, lang=language, suffixes=[f".{kind}" for kind in kinds], block=block,
+            advance=advance, jobs=options.pop("jobs") or None, **options,
+        )  # fmt: skip
+    n, bad = len(made.students), made.problems
+    click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))
+    for problem in bad:
+        click.echo(problem, err=True)
+    return _refuse(InputError("batch-problems", n=len(bad), file=str(Path(folder) / "manifest.csv"))) if bad else 0
 
 
 @commands.command(

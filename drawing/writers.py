@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from io import BytesIO
@@ -41,6 +42,7 @@ WRITERS: dict[str, Writer] = {".svg": _svg, ".pdf": _pdf, ".png": _png}
 SUFFIXES = tuple(WRITERS)
 ONE_PAGE = {".svg", ".png"}  # several pages become x-1.svg, x-2.svg, ...
 SHOWN = 200  # characters of a path in a message
+LONGEST = 120  # bytes of a name within that of a file: systems take 255 for the whole
 
 
 def writer_for(path: Path) -> Writer:
@@ -167,6 +169,34 @@ def _tiled(path: Path, paper: str) -> Writer:
         write_tiles(pages, stream, paper)
 
     return write
+
+
+def slug(name: str) -> str:
+    """Return a name fit for a file on any system, in its own letters.
+
+    >>> slug("О'Коннор, І. / 3"), slug("..")
+    ('О-Коннор-І-3', 'x')
+    """
+    plain = re.sub(r"[^\w]+", "-", name).strip("-_").encode("utf-8", "ignore")[:LONGEST]
+    return plain.decode("utf-8", "ignore").strip("-_") or "x"
+
+
+def folder_for(folder: str | os.PathLike[str]) -> Path:
+    """Return a folder for files, made where it is missing.
+
+    Raises
+    ------
+    InputError
+        It cannot be made.
+    """
+    of_kind("folder", folder, (str, os.PathLike), "str | PathLike")
+    path = Path(folder)
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as problem:
+        reason = getattr(problem, "strerror", "") or ""
+        raise InputError("output-refused", file=quote(path, SHOWN), reason=reason) from None
+    return path
 
 
 def write_whole(path: Path, data: bytes) -> None:

@@ -4,15 +4,17 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .charts.charts import chart as chart
+    from .classes.batch import batch as batch
     from .marking.checks import check as check
     from .reader import load_task as load_task
     from .sheets import sheet as sheet
     from .solution import solve as solve
     from .sweeps.sweeps import sweep as sweep
 
-__all__ = ["chart", "check", "load_task", "sheet", "solve", "sweep"]
+__all__ = ["batch", "chart", "check", "load_task", "sheet", "solve", "sweep"]
 
 _HOMES = {
+    "batch": "classes.batch",
     "chart": "charts.charts",
     "check": "marking.checks",
     "load_task": "reader",

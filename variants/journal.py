@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, Generic, TypeVar
+
+from ..drawing.writers import write_whole
+from ..scales.errors import InputError
 
 Result = TypeVar("Result")
 
@@ -40,9 +43,17 @@ class Journal(Generic[Result]):
 
     def note(self, digest: str, result: Result) -> None:
         """Keep a result."""
-        item = {"digest": digest, "result": self.dump(result)}
         with self.path.open("a", encoding="utf-8") as stream:
-            stream.write(json.dumps(item, ensure_ascii=True) + "\n")
+            stream.write(self._line(digest, result))
+
+    def keep(self, results: Iterable[tuple[str, Result]]) -> None:
+        """Keep these results alone, for a run that comes later, each with its digest."""
+        lines = (self._line(digest, result) for digest, result in results)
+        with suppress(InputError):  # a folder that takes no note keeps what is there
+            write_whole(self.path, "".join(lines).encode("ascii"))
+
+    def _line(self, digest: str, result: Result) -> str:
+        return json.dumps({"digest": digest, "result": self.dump(result)}, ensure_ascii=True) + "\n"
 
     def finish(self) -> None:
         """Forget: all is done."""

@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ..scales.choices import HANDS
+from ..scales.choices import HANDS, SIZES
 from ..scales.errors import LANGUAGES, InputError
 from ..scales.numbers import quote
 
+# what the title blocks of a class have in common, but for the group that the roster says
+BLOCK = ("group", "teacher", "department", "designation", "date")
+NORMS = ("gost", "iso")
 Command = TypeVar("Command", bound=Callable[..., Any])
 if TYPE_CHECKING:
     TextType = click.ParamType[str]
@@ -127,6 +130,21 @@ def count(ctx: click.Context, param: click.Parameter, value: str) -> int:
 def count_if_given(ctx: click.Context, param: click.Parameter, value: str | None) -> int | None:
     """Read a whole number where there is one."""
     return None if value is None else count(ctx, param, value)
+
+
+def of_block(command: Command) -> Command:
+    """Add what the sheets of a class have in common."""
+    options = (
+        click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything."),
+        click.option(
+            "--norm", type=Word("gost", "iso"), default="gost", show_default=True, help="Frame and title block."
+        ),
+        *(click.option(f"--{name}", help="For the title block.") for name in BLOCK[:-1]),
+        click.option("--date", help="For the title block; none is invented."),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
 
 
 def moodle_out(ctx: click.Context, param: click.Parameter, value: str | None) -> Path | None:

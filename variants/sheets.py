@@ -166,11 +166,15 @@ def draw_case(
     said = {name: block.get(name, "") for name in BLOCK}
     stamp = Stamp(
         title=case.task.title[lang],
-        organisation=said.pop("department"),
+        designation=said["designation"],
+        organisation=said["department"],
+        group=said["group"],
+        student=said["student"],
+        teacher=said["teacher"],
+        date=said["date"],
         document_type=words["sheet.document"],
         language=lang,
         identity=sheet_id(case.task, case.variant, case.settings),
-        **said,
     )
     return sheet_of(case, case.kind.draw(case, words, stamp, norm, paper))
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-import re
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ... import __version__
-from ...drawing.writers import write_whole
+from ...drawing.writers import slug, write_whole
 from ...scales.errors import InputError, KulmanError
 from ..crew import shared_out
 from ..journal import Journal, digest_of
@@ -96,15 +95,6 @@ def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     for kind, name in zip(REPORTS, names, strict=True):
         write_whole(Path(job.folder) / name, report_bytes(said, kind))
     return replace(result, reports=names)
-
-
-def slug(name: str) -> str:
-    """Return a name fit for a file on any system, in its own letters.
-
-    >>> slug("О'Коннор, І. / 3"), slug("..")
-    ('О-Коннор-І-3', 'x')
-    """
-    return re.sub(r"[^\w]+", "-", name).strip("-_")[:60] or "x"
 
 
 def sweep(folder: Path, results: Sequence[Result]) -> None:

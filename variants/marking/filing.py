@@ -6,21 +6,19 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from ...drawing.writers import Files, save_all
-from ...scales.errors import InputError
-from ...scales.numbers import quote
+from ...drawing.writers import Files, folder_for, save_all
 from .answers import Answers
 from .cells_out import csv_bytes, table_bytes
 from .checks import Check
 from .class_run import Advance, Job, mark_class
 from .class_table import class_rows, moodle_rows
 from .form import class_header, form_rows
-from .grid import SHOWN, SUFFIXES
+from .grid import SUFFIXES
 from .marked import Desk
 from .report import Report, report
 from .reports import REPORTS, report_bytes
 from .result import Result, result_of
-from .roster import Roster, variant_of_book
+from .roster import Roster
 from .wording import texts
 
 
@@ -53,9 +51,7 @@ def write_form(check: Check, file: str | os.PathLike[str]) -> Path:
 def _students(check: Check, roster: Roster) -> Iterator[tuple[str, ...]]:
     """Go through the rows of a class's form: who they are, which variant; the sheet id is for them to copy."""
     for entry in roster.entries:
-        variant = entry.variant
-        if not variant and entry.who.book:
-            variant = variant_of_book(check.request.task, entry.who.book, check.digits)
+        variant = entry.variant_of(check.request.task, check.digits)
         yield entry.who.student, entry.who.group, entry.who.book, entry.who.number, variant, ""
 
 
@@ -81,18 +77,8 @@ def mark_all(
     check: Check, answers: Sequence[Answers], folder: str | os.PathLike[str] | None, advance: Advance, jobs: int | None
 ) -> list[Result]:
     """Mark a class; with a folder each student's reports go there."""
-    if folder is not None:
-        _make(Path(folder))
-    return mark_class(Job(check, None if folder is None else str(folder)), answers, advance, jobs)
-
-
-def _make(folder: Path) -> None:
-    """Make a folder for reports."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except (OSError, ValueError) as problem:
-        reason = getattr(problem, "strerror", "") or ""
-        raise InputError("output-refused", file=quote(folder, SHOWN), reason=reason) from None
+    place = None if folder is None else str(folder_for(folder))
+    return mark_class(Job(check, place), answers, advance, jobs)
 
 
 def write_tables(

@@ -22,12 +22,26 @@ KEYS = ("number", "book", "email", "student")  # by which a student is found, th
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One student of the roster: the variant, empty where the record book decides, and other values for givens."""
+    """One student of the roster: the variant, empty where the record book decides, and other values for givens.
+
+    `problem` is why the row cannot be used, where others can be without it.
+    """
 
     who: Who
     variant: str
     settings: Mapping[str, str]
     place: str
+    problem: InputError | None = None
+
+    def variant_of(self, task: Task, digits: int = 1) -> str:
+        """Return the variant, that of the record book where none is written; empty where neither is.
+
+        Raises
+        ------
+        InputError
+            The record book has no such digits.
+        """
+        return self.variant or (variant_of_book(task, self.who.book, digits) if self.who.book else "")
 
 
 @dataclass(frozen=True)
@@ -65,8 +79,13 @@ def _folded(text: str) -> str:
     return re.sub(r"[\s.'’ʼ`]+", "", text.casefold().replace("ё", "е"))
 
 
-def read_roster(file: str | Path, task: Task) -> Roster:
+def read_roster(file: str | Path, task: Task, each: bool = False) -> Roster:
     """Read a roster: CSV or XLSX with a column `student`, and `variant`, `record book`, givens such as `phi [deg]`.
+
+    Parameters
+    ----------
+    each : bool
+        Let a row that is wrong be the problem of its student alone.
 
     Raises
     ------
@@ -89,7 +108,8 @@ def read_roster(file: str | Path, task: Task) -> Roster:
             error = unknown("given-unknown", part[0], task.givens, task=task.id)
             raise LocatedError(grid.place(header, column), error)
     rows = range(header + 1, len(grid.rows))
-    return Roster(tuple(_entry(grid, row, about, givens, task) for row in rows if any(grid.rows[row])))
+    read = _told if each else _entry
+    return Roster(tuple(read(grid, row, about, givens, task) for row in rows if any(grid.rows[row])))
 
 
 def _is_header(row: tuple[str, ...]) -> bool:
@@ -97,9 +117,21 @@ def _is_header(row: tuple[str, ...]) -> bool:
     return bool(kinds & set(KEYS)) and len(row) > 1
 
 
+def _told(grid: Grid, row: int, about: Mapping[str, int], givens: Mapping[int, tuple[str, str]], task: Task) -> Entry:
+    """Read one student; what is wrong is said with the student."""
+    try:
+        return _entry(grid, row, about, givens, task)
+    except InputError as error:
+        return Entry(Who.of(_said(grid, row, about)), "", {}, grid.place(row), error)
+
+
+def _said(grid: Grid, row: int, about: Mapping[str, int]) -> dict[str, str]:
+    return {kind: grid.text(row, column) for kind, column in about.items()}
+
+
 def _entry(grid: Grid, row: int, about: Mapping[str, int], givens: Mapping[int, tuple[str, str]], task: Task) -> Entry:
     """Read one student."""
-    said = {kind: grid.text(row, column) for kind, column in about.items()}
+    said = _said(grid, row, about)
     variant = said.get("variant", "")
     if variant and variant not in task.variants:
         error = unknown("variant-unknown", variant, task.variants, task=task.id)

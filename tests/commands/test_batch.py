@@ -1,0 +1,261 @@
+"""A class: every student gets what is theirs, whole; who cannot get anything is named; nothing is done twice."""
+
+from __future__ import annotations
+
+import csv
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from xml.dom import minidom
+
+import pytest
+
+from kulman import batch, check, cli
+from kulman.variants.classes.making import Made, Making, Student
+
+TASK = "nau-slider-crank"
+
+
+def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    with pytest.raises(SystemExit) as left:
+        cli.main(arguments)
+    out, err = capsys.readouterr()
+    return int(left.value.code or 0), out, err
+
+
+def roster(folder: Path, *rows: str) -> Path:
+    file = folder / "class.csv"
+    file.write_text("\n".join(("student;group;variant;phi", *rows)) + "\n", encoding="utf-8")
+    return file
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir() if not path.name.startswith(".")}
+
+
+def table(file: Path) -> list[dict[str, str]]:
+    return list(csv.DictReader(file.read_text(encoding="utf-8-sig").splitlines()))
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """The numbers of the students for whom something is made."""
+    numbers: list[int] = []
+    first = Making.make
+
+    def counting(making: Making, student: Student) -> Made:
+        numbers.append(student.number)
+        return first(making, student)
+
+    monkeypatch.setattr(Making, "make", counting)
+    return numbers
+
+
+def test_every_student_gets_a_sheet_and_who_does_not_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = roster(tmp_path, "Ivan Koval;MM-21;3;", "Olha;MM-22;5;45 deg", "Bad;MM-21;77;", "None;MM-21;;", "Far;;1;x")
+    out = tmp_path / "out"
+
+    status, printed, err = run(
+        capsys, "batch", TASK, "--roster", str(file), "--out", str(out), "--lang", "en", "--teacher", "O. Lys",
+    )  # fmt: skip
+
+    assert status == 2
+    assert "students: 5, done: 2" in printed
+    problems = err.splitlines()
+    assert [line.split(":")[1].strip() for line in problems[:3]] == ["C4", "5", "D6, phi"]
+    assert "manifest.csv" in problems[3]
+    sheets = {f"{stem}{end}" for stem in ("001-Ivan-Koval-3", "002-Olha-5") for end in (".pdf", ".svg")}
+    assert set(files(out)) == {*sheets, "key.csv", "manifest.csv"}
+    svg = (out / "002-Olha-5.svg").read_text(encoding="utf-8")
+    assert all(text in svg for text in ("Olha", "MM-22", "O. Lys"))
+    rows = table(out / "manifest.csv")
+    assert [row["variant"] for row in rows] == ["3", "5", "", "", ""]
+    assert rows[1]["sheet id"] in svg
+    assert "77" in rows[2]["notes"]
+    keys = table(out / "key.csv")
+    assert float(keys[1]["V_B [m/s]"]) != float(keys[0]["V_B [m/s]"])
+    assert keys[2]["V_B [m/s]"] == ""
+
+
+def test_the_key_is_marked_right(tmp_path: Path) -> None:
+    file = roster(tmp_path, "A;;3;", "B;;5;45 deg", "C;;7;")
+    for lang in ("en", "uk"):
+        out = tmp_path / lang
+        batch(TASK, file, out, suffixes=[".svg"], lang=lang, jobs=1)
+        asked = check(TASK, roster=file, lang=lang)
+
+        marks = [asked.mark(answers).marked.mark for answers in asked.read(str(out / "key.csv"))]
+
+        assert marks == [100.0, 100.0, 100.0]
+
+
+def test_only_what_is_missing_or_has_changed_is_made_again(tmp_path: Path, made: list[int]) -> None:
+    out = tmp_path / "out"
+
+    def run_again(*rows: str) -> None:
+        batch(TASK, roster(tmp_path, *rows), out, only="structure", suffixes=[".svg"], jobs=1)
+
+    run_again("A;;1;", "B;;2;", "C;;3;")
+    assert made == [1, 2, 3]
+    whole = files(out)
+    made.clear()
+
+    run_again("A;;1;", "B;;2;", "C;;3;")
+    assert made == []
+    (out / "001-A-1.svg").unlink()
+    (out / "003-C-3.svg").write_bytes(b"torn")
+    run_again("A;;1;", "B;;2;", "C;;3;")
+    assert (made, files(out)) == ([1, 3], whole)
+    made.clear()
+    run_again("A;;1;", "B;;4;", "C;;3;", "D;;5;")
+
+    assert made == [2, 4]
+    assert "002-B-2.svg" not in files(out)  # nobody's any more
+    assert {"002-B-4.svg", "004-D-5.svg"} < set(files(out))
+
+
+def test_a_file_that_somebody_has_changed_is_not_removed(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    batch(TASK, roster(tmp_path, "A;;1;", "B;;2;"), out, suffixes=[".svg"], jobs=1)
+    (out / "002-B-2.svg").write_bytes(b"with remarks")
+
+    batch(TASK, roster(tmp_path, "A;;1;"), out, suffixes=[".svg"], jobs=1)
+
+    assert (out / "002-B-2.svg").read_bytes() == b"with remarks"
+
+
+def test_processes_give_the_same_bytes(tmp_path: Path) -> None:
+    file = roster(tmp_path, *(f"S{number};;{number % 10};" for number in range(18)))
+
+    for jobs in (1, 2):
+        batch(TASK, file, tmp_path / str(jobs), only="structure", suffixes=[".svg"], jobs=jobs)
+
+    assert files(tmp_path / "1") == files(tmp_path / "2")
+
+
+def test_who_kills_the_process_is_named_and_the_others_are_done(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = Making.make
+
+    def poisoned(making: Making, student: Student) -> Made:
+        if student.number == 7:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return first(making, student)
+
+    monkeypatch.setattr(Making, "make", poisoned)
+    file = roster(tmp_path, *(f"S{number};;{number % 10};" for number in range(1, 19)))
+
+    done = batch(TASK, file, tmp_path / "out", only="structure", suffixes=[".svg"], jobs=2, lang="en")
+
+    assert len(done.problems) == 1
+    assert "class.csv: 8" in done.problems[0]
+    assert len([name for name in files(tmp_path / "out") if name.endswith(".svg")]) == 17
+
+
+LIMITED = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]),) * 2)
+from kulman.cli import main
+main(sys.argv[2:])
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such limit")
+def test_a_full_disk_leaves_nothing_half_written(tmp_path: Path) -> None:
+    file, out = roster(tmp_path, "A;;1;", "B;;2;"), tmp_path / "out"
+    arguments = ["batch", TASK, "--roster", str(file), "--out", str(out), "--only", "structure", "--jobs", "1"]
+
+    full = subprocess.run(
+        [sys.executable, "-c", LIMITED, "9000", *arguments], capture_output=True, text=True, check=False
+    )
+
+    assert full.returncode == 2
+    assert full.stderr.count("\n") == 1
+    assert [name for name in files(out) if name.endswith((".svg", ".pdf", ".part"))] == []
+    subprocess.run([sys.executable, "-c", LIMITED, "1000000", *arguments], check=True, capture_output=True)
+    assert len(files(out)) == 6
+
+
+def _killed_after(arguments: list[str], there: Callable[[], bool]) -> None:
+    """Start the program and kill it as soon as `there` is true."""
+    going = subprocess.Popen([sys.executable, "-m", "kulman", *arguments], stdout=subprocess.DEVNULL)
+    while not there() and going.poll() is None:
+        time.sleep(0.01)
+    going.kill()
+    going.wait()
+
+
+def test_a_killed_run_is_gone_on_with(tmp_path: Path, made: list[int]) -> None:
+    file, out = roster(tmp_path, *(f"S{number};;{number % 10};" for number in range(1, 13))), tmp_path / "out"
+    arguments = ["batch", TASK, "--roster", str(file), "--out", str(out), "--as", "svg", "--jobs", "1", "--lang", "en"]
+
+    _killed_after(arguments, lambda: len(list(out.glob("0*.svg"))) >= 8)
+    before = len(list(out.glob("0*.svg")))
+    batch(TASK, file, out, suffixes=[".svg"], lang="en", jobs=1)
+
+    assert 8 <= before <= 12
+    assert set(made).isdisjoint(range(1, 8))  # a piece of eight is noted as it is written
+    batch(TASK, file, tmp_path / "whole", suffixes=[".svg"], lang="en", jobs=1)
+    assert files(out) == files(tmp_path / "whole")
+
+
+HOSTILE = (
+    "../../etc/passwd", "..\\..\\windows", "/abs/path", "C:\\x", "CON", "nul.txt", "<script>alert(1)</script>",
+    "&amp;<b>", "]]>", "=1+1", "+cmd", "-2", "@SUM(A1)", "\tTab", "|x", "%s%n", "{names}", "{0}", "$HOME", "`id`",
+    "'; DROP TABLE x", '"quoted"', "\u202eevil", "\u202dx\u202c", "\u200b", "אבג", "مرحبا", "😀", "中文", "x" * 300,
+    "Я" * 300, " ", "a\nb", "\x07bell", "\x1b[31mred", "\ufeffbom", "é̂̃", "Ünïcödé", "О'Коннор",
+    "name;semicolon", "name,comma",
+    "#hash", "~/.ssh", "*", "?", "a:b", "trailing.", "trailing ", ".hidden", "\x85next",
+)  # fmt: skip
+
+
+def test_hostile_names_escape_nowhere(tmp_path: Path) -> None:
+    file, out = tmp_path / "class.csv", tmp_path / "deep" / "out"
+    with file.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, delimiter=";")
+        writer.writerows([("student", "group", "variant"), *((name, name[:5], "1") for name in HOSTILE)])
+
+    done = batch(TASK, file, out, only="structure", suffixes=[".svg"], lang="en", jobs=1)
+
+    assert len(done.students) >= 49  # a name of nothing but blanks is no student
+    assert len(done.problems) <= 7
+    assert {path.name for path in tmp_path.iterdir()} == {"class.csv", "deep"}
+    assert [path.name for path in (tmp_path / "deep").iterdir()] == ["out"]
+    for path in out.iterdir():
+        assert path.is_file()
+        assert len(path.name.encode()) < 200
+        if path.suffix == ".svg":
+            document = minidom.parse(str(path))
+            assert not document.getElementsByTagName("script")
+    for name in ("manifest.csv", "key.csv"):
+        cells = [cell for row in csv.reader((out / name).read_text(encoding="utf-8-sig").splitlines()) for cell in row]
+        assert not [cell for cell in cells if cell.startswith(("=", "+", "@", "\t", "|", "%"))]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["-v", "3"], "roster"),
+        (["--set", "l_XX=3"], "l_XX"),
+        (["--only", "velocit"], "velocity"),
+        (["--format", "A9"], "A9"),
+        (["--digits", "two"], "two"),
+    ],
+)
+def test_what_is_wrong_for_all_is_refused_before_any_work(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], said: str
+) -> None:
+    file, out = roster(tmp_path, "A;;1;"), tmp_path / "out"
+
+    status, printed, err = run(capsys, "batch", TASK, "--roster", str(file), "--out", str(out), *arguments)
+
+    assert (status, printed, err.count("\n")) == (2, "", 1)
+    assert said in err
+    assert not out.exists()

@@ -1,0 +1,51 @@
+"""Tables of a batch: which files each student has got, and the right values for the teacher."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ...scales.packaged import packaged
+from ..marking.answers import WHO
+from ..marking.cells_out import Cell, csv_bytes
+from ..marking.wording import texts
+
+if TYPE_CHECKING:
+    from .batch import Batch, Outcome
+    from .making import Student
+
+Rows = Iterator[tuple[Cell, ...]]
+
+
+def manifest_rows(batch: Batch, language: str) -> Rows:
+    """Go through the rows of the list: a header; who, which variant and sheet, which files, or what the problem is."""
+    said = packaged(__package__, "texts", language)
+    yield (*_about(language), said["files"], said["notes"])
+    for student, outcome in zip(batch.students, batch.outcomes, strict=True):
+        yield (*_who(student, outcome), ", ".join(outcome.files), outcome.problem or "; ".join(outcome.notes))
+
+
+def key_rows(batch: Batch, language: str) -> Rows:
+    """Go through the rows of the key: a header; who, which variant and sheet, and every right value.
+
+    The columns are those of a class that hands in its answers.
+    """
+    names = tuple(dict.fromkeys(name for outcome in batch.outcomes for name in outcome.key))
+    yield (*_about(language), *names)
+    for student, outcome in zip(batch.students, batch.outcomes, strict=True):
+        yield (*_who(student, outcome), *(outcome.key.get(name) for name in names))
+
+
+def _about(language: str) -> tuple[str, ...]:
+    said = texts(language)
+    return tuple(said[f"about.{key}"] for key in (*WHO, "variant", "sheet"))
+
+
+def _who(student: Student, outcome: Outcome) -> tuple[Cell, ...]:
+    who = student.entry.who
+    return (*(getattr(who, key) for key in WHO), outcome.variant, outcome.sheet)
+
+
+def tables(rows: Rows, language: str) -> bytes:
+    """Return rows as CSV."""
+    return csv_bytes(list(rows), language)
