@@ -172,7 +172,9 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
             values = case.task.values(case.variant, case.settings)
             whole = cycle(mechanism_of(case.task), values, ("position", "velocity", "acceleration"))
-        contents = Contents(linkage(case.solved), case.plans, case.choosers, case.givens, words, norm, whole)
+        solved = _placed(case)
+        plans = case.plans if solved is case.solved else (*case.plans, POSITION)
+        contents = Contents(solved, plans, case.choosers, case.givens, words, norm, whole)
         return draw(contents, stamp, paper)
 
     def lettered(self, words: Words, solved: SolvedLinkage) -> Words:
@@ -184,6 +186,10 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
     def asks(self, solved: SolvedLinkage, question: Question) -> bool:
         """Ask not for each force of a couple: these are as large as the couple's force."""
         return "_couple_" not in question.name
+
+    def form_notes(self, solved: SolvedLinkage) -> tuple[str, ...]:
+        """Tell how arms on the lever are written."""
+        return ("arms",) if "lever" in solved.program.plans else ()
 
     def section(self, solved: SolvedLinkage, question: Question, current: str) -> str:
         """Return the section of a question: its plan, or the plan of the forces that it goes with."""
@@ -254,3 +260,22 @@ def linkage(solved: Any) -> SolvedLinkage:
 def _short(value: float) -> str:
     """Return a number with three digits, a large one with a power of ten."""
     return f"{float(f'{value:.3g}'):g}" if value < 1e6 else f"{value:.1e}".replace("e+0", "e").replace("e+", "e")
+
+
+def _placed(case: Case) -> SolvedLinkage:
+    """Return what is drawn, in its position: a structure is drawn with its scheme.
+
+    Raises
+    ------
+    PositionError
+        There is none.
+    """
+    solved = linkage(case.solved)
+    if POSITION in solved.program.plans:
+        return solved
+    values, words = case.task.values(case.variant, case.settings), case.task.words(case.variant, case.settings)
+    placed = KIND.solve(mechanism_of(case.task), values, words, (*case.plans, POSITION))
+    error = placed.error()
+    if error is not None:
+        raise error
+    return placed
