@@ -11,6 +11,7 @@ from ..symbols import guide, hatching
 
 COILS = 5
 OF_CAM = 0.2  # largest radius of the shaft in least radii of the cam
+OF_OFFSET, NEAR = 0.65, (0.6, 1.5)  # radius of the shaft in offsets where that of the circle is near, in shaft radii
 SHAFT, KEY = 1.8, 0.45  # radius of the shaft in heights of letters; half width of its key in radii
 
 
@@ -65,9 +66,10 @@ class Rod:
         return tuple(found)
 
 
-def shaft_radius(cam: float, style: Style) -> float:
-    """Return the radius of the shaft of a cam whose least radius is `cam`, mm."""
-    return min(SHAFT * style.label, OF_CAM * cam)
+def shaft_radius(cam: float, style: Style, offset: float = 0.0) -> float:
+    """Return the radius of the shaft of a cam whose least radius is `cam`, mm; clear of the circle of the offset."""
+    radius = min(SHAFT * style.label, OF_CAM * cam)
+    return OF_OFFSET * offset if NEAR[0] * radius < offset < NEAR[1] * radius else radius
 
 
 def shaft(centre: complex, r: float, style: Style) -> Group:

@@ -17,8 +17,11 @@ from .hardware import shaft, shaft_radius
 from .scene import CamScene
 
 PAST = 5.0  # mm of the axes of a cam beyond its circles
+SHARES = (0.5, 0.7, 0.3, 0.8, 0.2)  # of the arc of a phase at which its text may stand
 LOST = 3  # significant digits of a travel that is lost
-SIDEWAYS = 0.3  # rad, about, between the horizontal and the letter of the centre
+SIDEWAYS = 0.3  # sine of the angle below the horizontal from which on the support is there
+BESIDE = 0.15  # rad between the middle of the lower dwell and the letter of the centre
+RADIUS, ARROW = 0.35, 1.0  # rad from that middle towards the rod to the radius dimensioned, and to the arrow of omega
 SMALLEST = 7.0  # least radius of a cam, in heights of letters, that has room for letters inside
 
 
@@ -63,14 +66,13 @@ def numbers(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
             written.append(at)
 
 
-def phases(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
-    """Dimension the phases in degrees, on an arc outside of all positions."""
+def phases(canvas: Canvas, scene: CamScene, e: float, radius: float, past: complex = 0j) -> None:
+    """Dimension the phases in degrees, on an arc outside of all positions; no text stands at the line to `past`."""
     motion, sense, words = scene.solved.motion, scene.solved.cam.sense, scene.words
     first = cmath.phase(on_circle(e, radius, 1j))
     for phase in motion.phases:
         if not phase.lasts:
             continue
-        at = 0.3 if phase.name == LOWER else 0.5  # beside the radius dimensioned
         start, sweep = first - sense * phase.start, -sense * phase.length
         name = f"phi_{phase.name}"
         canvas.add(angle_dimension(0j, radius, start, sweep, name, scene.style))
@@ -79,7 +81,11 @@ def phases(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
                 Line(cmath.rect(radius - 1.5, angle), cmath.rect(radius + 2.0, angle), Pen.THIN, role="extension")
             )
         text = f"{words.symbol(name)} = {scene.degrees(phase.length)}"
-        canvas.add(_along(text, radius, start + sweep * at, abs(sweep), scene.style.text))
+        shares = SHARES[2:] if phase.name == LOWER else SHARES  # beside the radius dimensioned
+        half = 0.6 * lay_out(text, scene.style.text).width / radius
+        middles = [start + sweep * share for share in shares]
+        clear = (a for a in middles if not past or abs(cmath.phase(past * cmath.rect(1.0, -a))) > half)
+        canvas.add(_along(text, radius, next(clear, middles[0]), abs(sweep), scene.style.text))
 
 
 def _along(text: str, radius: float, angle: float, sweep: float, height: float) -> Text:
@@ -91,30 +97,25 @@ def _along(text: str, radius: float, angle: float, sweep: float, height: float) 
     return Text(out * (radius + away + (height if below else 0.0)), text, height, "middle", turn)
 
 
-def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: float = 0.0) -> None:
+def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: float = 0.0, offset: float = 0.0) -> None:
     """Draw the cam's shaft, its axes, and the arrow of omega.
 
-    `turned` is the angle from the upright to the roller's centre in its lowest position.
+    `turned` is the angle from the upright to the roller's centre in its lowest position, `offset` the radius of the
+    circle that the follower's line touches, mm.
     """
     style, sense = scene.style, scene.solved.cam.sense
     for a, b in ((complex(-reach - PAST, 0.0), complex(reach + PAST, 0.0)), (complex(0.0, -reach - PAST), 1j * top)):
         canvas.add(Line(a, b, Pen.AXIS, role="axis"))
-    r = shaft_radius(reach, style)
+    r = shaft_radius(reach, style, offset)
     canvas.add(shaft(0j, r, style))
     middle = dwelling(scene.solved.motion, sense) + turned
-    arrow, radius = middle - 0.8 * sense, 1.9 * r
+    arrow, radius = middle - ARROW * sense, max(1.9 * r, offset + 0.6 * style.label)
     if math.sin(arrow) < -SIDEWAYS:  # the support is there
         arrow = -arrow
-    side = -SIDEWAYS if math.cos(middle) > 0.0 else math.pi + SIDEWAYS
     canvas.add(turning_arrow(0j, radius, arrow, 0.9, float(sense), "omega"))
-    omega = scene.words.symbol("omega")
-    places = ("O", r + 0.7 * style.label, side), (omega, radius + 0.9 * style.label, arrow)
-    for text, far, angle in places:
-        at = cmath.rect(far, angle)
-        if reach > SMALLEST * style.label:
-            canvas.add(Text(at - 0.5j * style.label, text, style.label, "middle"))
-        else:  # there is no room for letters inside
-            canvas.label(text, cmath.rect(r if text == "O" else radius, angle), prefer=at, clear=0.8)
+    canvas.label(scene.words.symbol("omega"), cmath.rect(radius, arrow), prefer=cmath.rect(1.0, arrow), clear=0.8)
+    side = cmath.rect(1.0, middle + BESIDE * sense)
+    canvas.label("O", max(r, offset) * side, prefer=side, clear=0.8, priority=1)
 
 
 def circle(radius: float, name: str) -> Group:
@@ -127,13 +128,15 @@ def radius_at(
 ) -> None:
     """Dimension the radius of a circle about the cam's centre along a ray.
 
-    The text runs along the ray: between the shaft and the first of the radii `free`, or else beyond the second; that
-    of a cam without room for letters stands where it finds a place.
+    The text runs along the ray: between the shaft and the first of the radii `free`, if need be without its number,
+    or else beyond the second; that of a cam without room for letters stands where it finds a place.
     """
     style, size = scene.style, value / scene.mu_l
     ray, text = cmath.rect(1.0, angle), f"{scene.words.symbol(name)} = {scene.length(value)}"
-    wide, low = lay_out(text, style.text).width, shaft_radius(size, style) + 1.0
-    high = min(free[0], size - style.arrow)
+    low, high = shaft_radius(size, style) + 1.0, min(free[0], size - style.arrow)
+    if lay_out(text, style.text).width >= high - low:
+        text = scene.words.symbol(name)
+    wide = lay_out(text, style.text).width
     inside, small = wide < high - low, size < SMALLEST * style.label
     tip = size if inside or small else free[1] + wide + 1.5
     canvas.add(Line(0j, ray * tip, Pen.THIN, role="radius", name=name), Head(ray * size, ray))
@@ -144,6 +147,11 @@ def radius_at(
     turn = 1.0 if ray.real > -1e-9 else -1.0
     at = ray * complex(middle, turn)
     canvas.add(Text(at, text, style.text, "middle", cmath.phase(ray * turn), role="label", name=name))
+
+
+def quiet(motion: Motion, sense: int) -> float:
+    """Return the direction along which a radius is dimensioned: in the lower dwell, beside the letter of the centre."""
+    return dwelling(motion, sense) - RADIUS * sense
 
 
 def dwelling(motion: Motion, sense: int) -> float:

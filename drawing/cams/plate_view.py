@@ -6,16 +6,17 @@ import math
 
 from ...plans.cams.inversion import PLATE_PROFILE
 from ..dimensions import linear
-from ..shapes import Circle, Group, Line, Pen, Polyline
+from ..shapes import Circle, Group, Line, Pen, Polyline, Text
+from ..text import lay_out
 from ..view import Canvas, View
 from .hardware import Rod
-from .inversion import centre, circle, corners, dwelling, heading, numbers, phases, radius_at, undercut_notes, unit_at
+from .inversion import centre, circle, corners, heading, numbers, phases, quiet, radius_at, undercut_notes, unit_at
 from .roller_view import NUMBERS, PHASES
 from .scene import CamScene
 
 SAME = 1e-4  # part of the greatest velocity within which that of the fall is the same
 ANALOGUE = "|s′|"  # letter of the velocity analogue where there is little room
-ABOVE = 2.3, 4.9  # heights of letters from the plate to its dimensions
+ABOVE = 2.2, 4.6  # heights of letters from the plate to its dimensions
 THICK = 0.5  # thickness of the plate, in heights of letters
 
 
@@ -71,25 +72,39 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
     solved, words, mu, sense = scene.solved, scene.words, scene.mu_l, scene.solved.cam.sense
     plate, motion = solved.plate, solved.motion
     assert plate is not None
-    middle = dwelling(motion, sense)
+    middle = quiet(motion, sense)
     radius_at(canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (plate.sizes.r_0 / mu, plate.sizes.r_0 / mu))
-    level, up = rod.low, 1j * scene.style.text
-    text = f"{words.symbol('R_plate')} = {scene.length(plate.sizes.R_plate)}"
-    linear(canvas, (complex(0.0, level), complex(-sense * R, level)), ABOVE[1] * up, text, "R_plate")
-    right, left = (motion.maximum(0.0, side, 0.0).value for side in (sense, -sense))
+    level, up = 1j * rod.low, 1j * scene.style.text
+    _over(canvas, (level, level - sense * R), ABOVE[1] * up, words.symbol("R_plate"), "R_plate")
+    right, left = (motion.maximum(0.0, side, 0.0).value for side in (1.0, -1.0))
     for far, name in ((right, "ds_right"), (-left, "ds_left")):
-        ends = complex(0.0, level), complex(far / mu, level)
-        same = far * sense > 0.0 and abs(right - left) < SAME * right  # there is more room on the other side
-        linear(canvas, ends, ABOVE[0] * up, "" if same else ANALOGUE, name)
+        ends = level, level + far / mu
+        if far * sense < 0.0:  # where the lower dwell leaves room
+            _over(canvas, ends, ABOVE[0] * up, ANALOGUE, name)
+        else:
+            same = abs(right - left) < SAME * right
+            linear(canvas, ends, ABOVE[0] * up, "" if same else ANALOGUE, name)
     top = solved.layout.division.top
     axis = unit_at(float(solved.angles[top]), sense)
     ends = axis * (plate.sizes.r_0 / mu), scene.mm(f"{PLATE_PROFILE}.B{top}")
     linear(canvas, ends, axis * (-1j * sense) * 4.0, words.symbol("h"), "h")
 
 
+def _over(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: str, name: str) -> None:
+    """Dimension a level distance on a line moved upwards by `out`, the text on the line."""
+    height = canvas.style.text
+    narrow = abs(ends[1] - ends[0]) < lay_out(text, height).width + 1.0
+    linear(canvas, ends, out, text if narrow else "", name)
+    if not narrow:
+        canvas.add(Text(0.5 * (ends[0] + ends[1]) + out + 0.5j * height, text, height, "middle", role="label"))
+
+
 def _numbers(scene: CamScene) -> str:
     """Return the numbers of what has only a letter in the figure."""
-    words, motion = scene.words, scene.solved.motion
+    words, motion, plate = scene.words, scene.solved.motion, scene.solved.plate
+    assert plate is not None
+    sizes = {"h": motion.h, "r_0_flat": plate.sizes.r_0, "R_plate": plate.sizes.R_plate}
+    lengths = "; ".join(f"{words.symbol(name)} = {scene.length(size)}" for name, size in sizes.items())
     said = dict.fromkeys(scene.length(motion.maximum(0.0, way, 0.0).value) for way in (1.0, -1.0))
     contact = f"{ANALOGUE} = |{words.symbol('ds')}|_{{max}} = {', '.join(said)}"
-    return f"{words.symbol('h')} = {scene.length(motion.h)}; {contact}"
+    return f"{lengths}; {contact}"

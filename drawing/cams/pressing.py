@@ -58,10 +58,12 @@ def permitted(solved: SolvedCam) -> list[tuple[str, float]]:
 
 
 def pressed(scene: CamScene, part: float) -> int:
-    """Return the section line of the rise at which the pressure angle is nearest to a part of the greatest one."""
-    solved = scene.solved
-    lines = [*range(1, solved.layout.division.top)]
-    angles = (solved.cam.sense * theta(solved, solved.angles[lines])).tolist()
-    pressure: dict[int, float] = dict(zip(lines, angles, strict=True))
-    most = part * max(pressure.values())
-    return min(pressure, key=lambda line: abs(pressure[line] - most))
+    """Return the section line at which the pressure angle is nearest to a part of the greatest one.
+
+    It is a line within the phase in which the cam presses more aslant, where the angle is best seen.
+    """
+    solved, division = scene.solved, scene.solved.layout.division
+    phases = (division.rise[1:-1], 1), (division.fall[1:-1], -1)
+    found = [(way * solved.cam.sense * theta(solved, solved.angles[[*lines]]), lines) for lines, way in phases]
+    angles, lines = max(found, key=lambda phase: float(np.max(phase[0])))
+    return int(lines[int(np.argmin(np.abs(angles - part * np.max(angles))))])

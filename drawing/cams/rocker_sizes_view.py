@@ -19,15 +19,15 @@ from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension, fixed_pivot, turning_arrow
 from ..text import Box
 from ..view import Canvas, View
-from .hatching import Side, clipped, hatched
+from .hatching import Side, hatched
 from .inversion import ratio
 from .pressing import pressed, theta
 from .scene import Array, CamScene, pieces
 from .sizes_view import SHOWN, on_lines
 
 AROUND = 24.0  # mm of the permitted places shown about the chosen one
-PAST, SPARE = 8.0, 4.0  # mm of the rocker's path beyond its ends, of a limit beyond the end of an analogue
-NEAR = 12.0  # mm of a limit beyond where it comes nearest to the centre
+PAST = 8.0  # mm of the rocker's path beyond its ends
+LIMIT = 3.0  # length of a limit at the end of an analogue, in heights of letters: only those that bound are drawn out
 
 
 def rocker_sizes_view(scene: CamScene) -> View:
@@ -37,7 +37,7 @@ def rocker_sizes_view(scene: CamScene) -> View:
     centre = scene.mm(f"{ROCKER_SIZES}.C")
     _rocker(canvas, scene, cam)
     frame = _frame(scene, centre)
-    _limits(canvas, scene, frame, centre)
+    _limits(canvas, scene)
     for limit in cam.rocker.limits(cam.limits):
         _bound(canvas, scene, limit, frame)
     _permitted(canvas, scene, cam, centre)
@@ -84,16 +84,12 @@ def _frame(scene: CamScene, centre: complex) -> Box:
     return left, centre.imag - AROUND, max(right + PAST, centre.real + AROUND), top + PAST
 
 
-def _limits(canvas: Canvas, scene: CamScene, frame: Box, centre: complex) -> None:
-    """Draw the limit through the end of each analogue, past the centre."""
-    x0, y0, x1, y1 = frame
-    box: list[Side] = [(1 + 0j, x0), (-1 + 0j, -x1), (1j, y0), (-1j, -y1)]
+def _limits(canvas: Canvas, scene: CamScene) -> None:
+    """Draw the direction of the limit at the end of each analogue, towards the cam's centre."""
     for i, phase in on_lines(scene):
-        end, along = _end(scene, i, phase), _along(scene, i, phase)
-        here, nearest = ((along.conjugate() * place).real for place in (end, centre))
-        parts: list[Side] = [(along, here - SPARE), (-along, -max(here, nearest) - NEAR)]
-        for line in clipped((end,), along, [*box, *parts], abs(complex(x1 - x0, y1 - y0))):
-            canvas.add(Line(line.a, line.b, Pen.THIN, role="limit", name=f"{i}_{phase}"))
+        end = _end(scene, i, phase)
+        past = end + _along(scene, i, phase) * (LIMIT * scene.style.label)
+        canvas.add(Line(end, past, Pen.THIN, role="limit", name=f"{i}_{phase}"))
 
 
 def _end(scene: CamScene, i: int, phase: str) -> complex:

@@ -128,6 +128,8 @@ def _lettered(scene: CamScene) -> tuple[str, ...]:
     cam, words = scene.solved.rocker, scene.words
     assert cam is not None
     lengths = {
+        "r_0": cam.sizes.r_0,
+        "l_OC": cam.sizes.l_OC,
         "l_rocker": cam.sizes.l,
         "R_roller": cam.profile.R,
         "rho_min": cam.profile.rho_min,

@@ -10,13 +10,14 @@ from ..shapes import Circle, Group, Line, Pen
 from ..symbols import revolute
 from ..view import Canvas, View
 from .hardware import Rod
-from .inversion import centre, circle, dwelling, heading, numbers, on_circle, phases, radius_at, undercut_notes, unit_at
+from .inversion import centre, circle, heading, numbers, on_circle, phases, quiet, radius_at, undercut_notes, unit_at
 from .pressing import pressed
-from .rolling import Contact, curves, lettered_sizes, normal, roller_radius, sharpest
+from .rolling import Contact, curves, lettered_sizes, normal, past_normal, roller_radius, sharpest
 from .scene import CamScene
 from .sizes_view import SHOWN
 
-NUMBERS, PHASES = 1.4, 2.5  # heights of letters from the outermost roller to the numbers, and to the arcs of the phases
+OUT = 1.5  # heights of letters from the roller to the dimension of the stroke
+NUMBERS, PHASES = 1.7, 2.8  # heights of letters from the outermost roller to the numbers, and to the arcs of the phases
 
 
 def roller_view(scene: CamScene) -> View:
@@ -30,22 +31,23 @@ def roller_view(scene: CamScene) -> View:
     label = scene.style.label
     rod = Rod(e, s_0, outer + (PHASES + 1.5) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
-    centre(canvas, scene, roller.sizes.r_0 / mu, rod.top + 12.0)
+    centre(canvas, scene, roller.sizes.r_0 / mu, rod.top + 12.0, offset=abs(e))
     canvas.add(circle(roller.sizes.r_0 / mu, "r_0"))
     if abs(e) > 0.05:
         canvas.add(circle(abs(e), "e"))
     _positions(canvas, scene, e, reach - 0.9 * label)
     curves(canvas, scene, roller.profile)
     numbers(canvas, scene, e, reach)
-    phases(canvas, scene, e, outer + PHASES * label)
+    contact = _contact(scene, pressed(scene, SHOWN))
+    phases(canvas, scene, e, outer + PHASES * label, past_normal(contact, scene.style))
     sharpest(canvas, scene, roller.profile)
-    normal(canvas, scene, _contact(scene, pressed(scene, SHOWN)))
+    normal(canvas, scene, contact)
     _follower(canvas, scene, rod, R)
     _sizes(canvas, scene, rod)
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
     notes = (
-        lettered_sizes(scene, roller.profile, pressed(scene, SHOWN)),
+        lettered_sizes(scene, roller.profile, contact.line),
         *undercut_notes(scene, roller.profile.undercuts),
     )
     return canvas.finish("profile", heading(scene, "heading.cam_profile", PROFILE), notes)
@@ -82,7 +84,7 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> None:
     solved, words, mu = scene.solved, scene.words, scene.mu_l
     roller, sense = solved.roller, solved.cam.sense
     assert roller is not None
-    middle = dwelling(solved.motion, sense)
+    middle = quiet(solved.motion, sense)
     r_0 = roller.sizes.r_0
     radius_at(canvas, scene, "r_0", r_0, middle, ((r_0 - roller.profile.R) / mu, r_0 / mu))
     level = rod.top + 6.0
@@ -90,8 +92,6 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> None:
     linear(canvas, ends, 1j * (level - rod.top), f"{words.symbol('e')} = {scene.length(abs(roller.sizes.e))}", "e")
     last = solved.layout.division.last
     roller_radius(canvas, scene, scene.mm(f"{PROFILE}.B{last}"), last, roller.profile.R)
-    top = solved.layout.division.top
-    up = unit_at(float(solved.angles[top]), sense)
-    low = on_circle(rod.x, roller.sizes.r_0 / mu, up)
-    aside = up * (-1j * sense) * (0.5 * roller.profile.R / mu)
-    linear(canvas, (low, scene.mm(f"{PROFILE}.B{top}")), aside, words.symbol("h"), "h")
+    low = complex(rod.x, rod.low)  # the stroke on the side of the lower dwell, where there is room
+    out = -sense * max(roller.profile.R / mu + OUT * scene.style.text, OUT * scene.style.label)
+    linear(canvas, (low, low + 1j * rod.stroke), out, words.symbol("h"), "h")

@@ -8,12 +8,14 @@ from dataclasses import dataclass
 
 from ...plans.cams.profile import RollerProfile
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
+from ..style import Style
 from ..symbols import angle_dimension
 from ..view import Canvas
 from .inversion import corners, unit_at
 from .pressing import theta
 from .scene import CamScene
 
+REACH, BEYOND = 7.0, 6.0  # heights of letters from the roller's centre to the arc of theta; mm of the normal beyond it
 PARTS = (1.0, 0.85, 1.15, 0.7)  # of the radius of an arc that may be taken instead of it
 
 
@@ -59,13 +61,19 @@ def sharpest(canvas: Canvas, scene: CamScene, profile: RollerProfile) -> None:
     canvas.label(scene.words.symbol("rho_min"), core, prefer=-normal, clear=0.8, height=scene.style.text)
 
 
+def past_normal(contact: Contact, style: Style) -> complex:
+    """Return the outer end of the normal that is drawn."""
+    out = (contact.at - contact.touch) / abs(contact.at - contact.touch)
+    return contact.at + out * (REACH * style.label + BEYOND)
+
+
 def normal(canvas: Canvas, scene: CamScene, contact: Contact) -> None:
     """Draw the normal of one position with the point of contact, the pressure and the transmission angle."""
     words, style, i = scene.words, scene.style, contact.line
     at, up = contact.at, contact.up
     out = (at - contact.touch) / abs(at - contact.touch)
-    reach = 7.0 * style.label
-    canvas.add(Line(contact.pole, at + out * (reach + 6.0), Pen.THIN, role="normal", name=str(i)))
+    reach = REACH * style.label
+    canvas.add(Line(contact.pole, past_normal(contact, style), Pen.THIN, role="normal", name=str(i)))
     canvas.add(Line(at - 1j * up * reach, at + 1j * up * reach, Pen.THIN, role="transverse", name=str(i)))
     canvas.add(Line(0j, contact.pole, Pen.THIN, role="transverse", name=f"P{i}"))
     for mark, place in (("K", contact.touch), ("P", contact.pole)):
@@ -83,13 +91,14 @@ def normal(canvas: Canvas, scene: CamScene, contact: Contact) -> None:
 
 
 def _clear(canvas: Canvas, at: complex, rays: tuple[complex, complex], radius: float) -> float:
-    """Return a radius near the one wanted at which the ends of an arc between two rays are clear of all numbers."""
+    """Return a radius near the one wanted at which an arc between two rays ends clear of numbers, as does its text."""
     numbers = [shape.at for shape in canvas.shapes if isinstance(shape, Text)]
     room = 1.5 * canvas.style.label
 
     def nearest(part: float) -> float:
-        ends = [at + ray * (radius * part) for ray in rays]
-        return min((abs(end - number) for end in ends for number in numbers), default=room)
+        middle = rays[0] * cmath.rect(1.0, 0.5 * cmath.phase(rays[1] / rays[0]))
+        places = [*(at + ray * (radius * part) for ray in rays), at + middle * (radius * part + 0.7 * room)]
+        return min((abs(place - number) for place in places for number in numbers), default=room)
 
     return radius * max(PARTS, key=lambda part: min(nearest(part), room))
 
@@ -99,7 +108,7 @@ def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> str:
     words, solved = scene.words, scene.solved
     pressure = abs(float(theta(solved, solved.angles[line])))
     angles = {"theta": pressure, "gamma": 0.5 * math.pi - pressure}
-    lengths = {"rho_min": profile.rho_min, "h": solved.values["h"], "R_roller": profile.R}
+    lengths = {"r_0": solved.values["r_0"], "rho_min": profile.rho_min, "h": solved.values["h"], "R_roller": profile.R}
     said = (f"{words.symbol(name)}_{{{line}}} = {scene.degrees(angle)}" for name, angle in angles.items())
     sizes = (f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size))
     return "; ".join([*said, *sizes])
