@@ -13,9 +13,10 @@ from ..pens import Norm
 from ..rungs import fitted, on_pages
 from ..titleblock import Stamp
 from ..view import View
+from ..zones import zoned
 from .fitting import Contents as Contents
 from .fitting import Fitting, Rungs
-from .zones import zoned
+from .zones import LAYOUTS
 
 Found = tuple[Rungs, list[View], list[Placement]]
 
@@ -60,7 +61,7 @@ def _single(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
 
 def _on_a_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:
     """Place views on one page, in the customary zones or in reading order."""
-    places = zoned(views, sheet, norm)
+    places = zoned(LAYOUTS, views, sheet, norm)
     if places is None and sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height:
         places = arrange([view.size for view in views], sheet, norm, 1)
     return places

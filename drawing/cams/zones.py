@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from ..nesting import column, row
+from ..zones import BLOCK, TURNED
 
-from ..compose import usable
-from ..formats import Format, reserved_boxes
-from ..nesting import column, names, nested, row
-from ..packing import Placement
-from ..pens import Norm
-from ..view import View
-
-BLOCK, TURNED = "block", "turned"  # the title block below the last column, column 26 above the first one
 LAYOUT = row(
     column(TURNED, "diagrams", "equations_plate"),
     column(
@@ -28,22 +21,4 @@ ROCKER_LAYOUT = row(
     column("profile", row("motion", column("givens", "choices"))),
     column("rocker_sizes", "equations_rocker", "pressure", "equations_scales", BLOCK),
 )
-GAP = 4.0  # mm between views
-
-
-def zoned(views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Return the places of the views on one page; None if they have no room, or are others than those of a cam."""
-    x0, y0, x1, y1 = usable(sheet, norm)
-    block, *turned = reserved_boxes(sheet, norm)
-    sizes = {view.name: view.size for view in views}
-    layout = next((nest for nest in (LAYOUT, ROCKER_LAYOUT) if sizes.keys() <= set(names((nest,)))), None)
-    if layout is None:
-        return None
-    sizes[BLOCK] = x1 - block[0], block[3] - y0
-    for box in turned:
-        sizes[TURNED] = box[2] - x0, y1 - box[1]
-    found = nested(layout, sizes, (x1 - x0, y1 - y0), GAP)
-    if found is None:
-        return None
-    places = {name: Placement(0, x0 + x, y0 + y) for name, x, y in found}
-    return [places[view.name] for view in views]
+LAYOUTS = LAYOUT, ROCKER_LAYOUT

@@ -9,14 +9,30 @@ from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, steps
 
 TOOTH = 50.0  # mm, by which a drawn tooth should be high at least
+LONGEST = 230.0  # mm, that N1N2 may be where the involutes are constructed
 UNITS = {MESHING: "m", SLIDING: "m", THETA: "1"}
 
 
 def mu_ladder(solved: SolvedGear, choosers: Choosers) -> tuple[float, ...]:
     """Return the scale factors of the meshing, the one wanted first: where nothing is said, teeth of 50 mm."""
+    wanted = choosers.get("mu_l", From(_finest(solved)))
+    return wanted.ladder(lambda name: solved.sizes.get(name, solved.sizes["a_w"]))
+
+
+def near_ladder(solved: SolvedGear) -> tuple[float, ...]:
+    """Return the scale factors of the middle of a meshing that is drawn apart."""
+    return From(_finest(solved)).ladder(lambda _: solved.sizes["a_w"])
+
+
+def rolled_ladder(solved: SolvedGear) -> tuple[float, ...]:
+    """Return the scale factors of the construction of the involutes and of the line of action straightened."""
+    least = max(_finest(solved), steps(solved.sizes["l_N1N2"] / LONGEST)[0])
+    return From(least).ladder(lambda _: solved.sizes["a_w"])
+
+
+def _finest(solved: SolvedGear) -> float:
     most = solved.sizes["h"] / TOOTH
-    finest = max(mu for mu in steps(most / 10.0) if mu <= most * (1.0 + 1e-9))
-    return choosers.get("mu_l", From(finest)).ladder(lambda name: solved.sizes.get(name, solved.sizes["a_w"]))
+    return max(mu for mu in steps(most / 10.0) if mu <= most * (1.0 + 1e-9))
 
 
 def scales_of(solved: SolvedGear, choosers: Choosers) -> dict[str, Scale]:

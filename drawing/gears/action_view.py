@@ -1,0 +1,114 @@
+"""The line of action straightened: its active part, how many pairs touch where, radii of curvature at its ends."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+from ..dimensions import linear
+from ..printed import Input, calculation
+from ..shapes import Circle, Group, Line, Pen, Polyline, Text
+from ..view import Canvas, View
+from .scene import GearScene
+
+LEVEL = 2.2  # heights of letters for each pair that touches
+ROW = 2.4  # heights of letters between dimension lines
+FIRST = 3.0  # heights of letters from the line to the first of them
+SAME = 1e-9  # part of the base pitch: places that are one
+
+
+def action_view(overall: GearScene) -> View:
+    """Draw N1N2 along the abscissa, N1 on the left."""
+    scene = replace(overall, mu_l=overall.rolled)
+    canvas = Canvas(scene.style)
+    _zones(canvas, scene)
+    _line(canvas, scene)
+    _dimensions(canvas, scene)
+    heading = scene.words["heading.gear_action"], scene.factor(scene.mu_l)
+    return canvas.finish("action", heading, ratios(scene))
+
+
+def ratios(scene: GearScene) -> tuple[str, ...]:
+    """Return the contact ratio by the active line and by the angles of action, printed so that it recomputes."""
+    words = scene.words
+    epsilon = words.symbol("epsilon_alpha")
+    found = []
+    ways = [("g_alpha", "p_b", 1e3, words.unit("mm"))]
+    ways += [(f"phi_alpha{i}", f"tau_{i}", 180.0 / math.pi, "°") for i in (1, 2)]
+    for over, under, times, unit in ways:
+        inputs = [Input(scene.size(name) * times) for name in (over, under)]
+        (a, b), result = calculation(words, lambda x, y: x / y, inputs)
+        gap = "" if unit == "°" else " "
+        ratio = f"{words.symbol(over)}/{words.symbol(under)} = {a}{gap}{unit}/{b}{gap}{unit}"
+        found.append(f"{epsilon} = {ratio} = {result}")
+    return tuple(found)
+
+
+def zones(scene: GearScene) -> list[tuple[float, float, int]]:
+    """Return the parts of the active line, m from N1, each with the number of pairs that touch while one is in it."""
+    first, last = scene.meshing.touching
+    pitch = scene.size("p_b")
+    more = int((last - first) / pitch)
+    ends = {first, last}
+    for k in range(1, more + 1):
+        ends |= {first + k * pitch, last - k * pitch}
+    places = [place for place in sorted(ends) if first <= place <= last]
+    found = []
+    for low, high in pairwise(places):
+        if high - low > SAME * pitch:
+            middle = 0.5 * (low + high)
+            count = sum(first < middle + k * pitch < last for k in range(-more - 1, more + 2))
+            found.append((low, high, count))
+    return found
+
+
+def _zones(canvas: Canvas, scene: GearScene) -> None:
+    """Draw over each part as many steps as pairs touch, with their number."""
+    label, mu = scene.style.label, scene.mu_l
+    for k, (low, high, count) in enumerate(zones(scene)):
+        a, b, top = low / mu, high / mu, LEVEL * label * count
+        corners = complex(a, 0.0), complex(a, top), complex(b, top), complex(b, 0.0)
+        canvas.add(Group((Polyline(corners, Pen.THIN),), "zone", f"{k + 1}_{count}"))
+        middle = complex(0.5 * (a + b), top - 0.5 * LEVEL * label - 0.5 * label)
+        canvas.add(Text(middle, str(count), label, "middle", role="zone", name=str(k + 1)))
+
+
+def _line(canvas: Canvas, scene: GearScene) -> None:
+    """Draw the line with its points."""
+    mu, style = scene.mu_l, scene.style
+    ends = {name: scene.size(size) / mu for name, size in (("A1", "rho_p1"), ("P", "rho_w1"), ("A2", "rho_a1"))}
+    line = scene.size("l_N1N2") / mu
+    low, high = min(0.0, *ends.values()), max(line, *ends.values())
+    canvas.add(Line(complex(low, 0.0), complex(high, 0.0), Pen.THIN, role="line-of-action", name="N1N2"))
+    canvas.add(Line(complex(ends["A1"], 0.0), complex(ends["A2"], 0.0), Pen.MAIN, role="active", name="A1A2"))
+    pitch = scene.size("p_b") / mu
+    ends |= {"N1": 0.0, "N2": line, "K1": ends["A1"] + pitch, "K2": ends["A2"] - pitch}
+    for i, x in ((1, scene.size("rho_l1") / mu), (2, line - scene.size("rho_l2") / mu)):
+        if 0.0 < x < line:
+            ends[f"H{i}"] = x
+    for name, x in ends.items():
+        canvas.add(Group((Circle(complex(x, 0.0), style.node, Pen.THIN, fill="white"),), "point", name))
+        letter = f"{name[0]}_{{{name[1:]}}}" if name[1:] else name
+        canvas.label(letter, complex(x, 0.0), prefer=-1j, clear=style.node + 0.8)
+
+
+def _dimensions(canvas: Canvas, scene: GearScene) -> None:
+    """Dimension the active line, the base pitch from both its ends, radii of curvature, row by row below the line."""
+    first, last, line = (scene.size(name) for name in ("rho_p1", "rho_a1", "l_N1N2"))
+    pitch = scene.size("p_b")
+    rows = [
+        [("rho_l1", 0.0, scene.size("rho_l1"), "rho_l1"), ("rho_l2", line - scene.size("rho_l2"), line, "rho_l2")],
+        [("rho_p1", 0.0, first, "rho_p1"), ("rho_p2", last, line, "rho_p2")],
+        [("p_b_1", first, first + pitch, "p_b")],
+        [("p_b_2", last - pitch, last, "p_b")],
+        [("g_alpha", first, last, "g_alpha")],
+        [("l_N1N2", 0.0, line, "l_N1N2")],
+    ]
+    y = -FIRST * scene.style.label
+    for row in rows:
+        shown = [one for one in row if one[2] - one[1] > 0.0]
+        for name, low, high, quantity in shown:
+            ends = complex(low / scene.mu_l, 0.0), complex(high / scene.mu_l, 0.0)
+            linear(canvas, ends, 1j * y, scene.stated(quantity), name)
+        y -= ROW * scene.style.label * bool(shown)

@@ -1,0 +1,79 @@
+"""Dimensions along circles: thickness of a tooth, space, pitch, angles of pitch and of action; and the radial gap."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Sequence
+
+from ..dimensions import linear
+from ..shapes import Line, Pen
+from ..symbols import angle_dimension
+from ..view import Canvas
+from .scene import GearScene
+from .wheels import Wheel
+
+INSIDE = 1.8  # heights of letters from the root circle to the arc of the pitch
+TAU, PHI = 0.42, 0.7  # parts of the radius at which the angles of pitch and of action are dimensioned
+FREE = 1.25  # lengths of a text that an arc has to have for the text to stand on it
+Ends = tuple[complex, complex]
+
+
+def thickness(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
+    """Dimension on the reference circle a tooth beside the one in contact, away from N, and the space between both."""
+    radius, i = wheel.radius(""), wheel.number
+    tooth = wheel.at(radius, wheel.side), wheel.at(radius, wheel.side, active=False)
+    along(canvas, scene, wheel, tooth, f"s_{i}")
+    along(canvas, scene, wheel, (tooth[1], wheel.at(radius)), f"e_{i}")
+
+
+def pitch(canvas: Canvas, scene: GearScene, wheel: Wheel, to_centre: bool) -> None:
+    """Dimension the pitch below the root, on lines from the reference circle; these run `to_centre` with its angle."""
+    i, radius = wheel.number, wheel.radius("")
+    ends = wheel.at(radius, wheel.side), wheel.at(radius)
+    low = wheel.radius("f") - INSIDE * scene.style.label
+    foot = 0.0 if to_centre else (low - 0.4 * scene.style.label) / radius
+    for end in ends:
+        canvas.add(Line(end, wheel.centre + foot * (end - wheel.centre), Pen.THIN, role="extension", name=f"p_{i}"))
+    along(canvas, scene, wheel, _nearer(wheel, ends, low / radius), f"p_{i}", scene.stated("p"))
+    if to_centre:
+        name = f"tau_{i}"
+        along(canvas, scene, wheel, _nearer(wheel, ends, TAU), name, scene.angle(name))
+
+
+def action(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
+    """Dimension the angles by which the wheels turn while one pair of teeth touches, between rays to its flanks."""
+    for wheel in pair:
+        i = wheel.number
+        ends = scene.mm(f"B{i}_start"), scene.mm(f"B{i}_end")
+        for end in ends:
+            canvas.add(Line(end, wheel.centre, Pen.THIN, role="ray", name=f"phi_alpha{i}"))
+        name = f"phi_alpha{i}"
+        along(canvas, scene, wheel, _nearer(wheel, ends, PHI), name, scene.angle(name))
+
+
+def gaps(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
+    """Dimension the radial gap on the line of centres at the root of both wheels."""
+    words, height = scene.words, scene.style.text
+    gap = scene.size("c") * scene.size("m")
+    text = f"{words.symbol('c')}{words.symbol('m')} = {scene.length(gap)}"
+    for wheel, mate in zip(pair, reversed(pair), strict=True):
+        ends = scene.mm(f"C_f{wheel.number}"), scene.mm(f"C_a{mate.number}")
+        linear(canvas, ends, 0j, "", f"gap_{wheel.number}")
+        canvas.label(text, 0.5 * (ends[0] + ends[1]), prefer=complex(wheel.side, 0.0), clear=2.0, height=height)
+
+
+def along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str, text: str = "") -> None:
+    """Dimension an arc about the wheel's centre between two points of it; the text stands on it where it has room."""
+    text, height = text or scene.stated(name), scene.style.text
+    arms = [end - wheel.centre for end in ends]
+    radius, start, sweep = abs(arms[0]), cmath.phase(arms[0]), cmath.phase(arms[1] / arms[0])
+    canvas.add(angle_dimension(wheel.centre, radius, start, sweep, name, scene.style))
+    out = cmath.rect(1.0, start + 0.5 * sweep)
+    middle = wheel.centre + radius * out
+    canvas.label(text, middle, prefer=-out, clear=1.0, height=height)
+
+
+def _nearer(wheel: Wheel, ends: Ends, part: float) -> Ends:
+    """Return points on the rays from the centre to the ends, at a part of their distance."""
+    a, b = (wheel.centre + part * (end - wheel.centre) for end in ends)
+    return a, b

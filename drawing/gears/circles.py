@@ -1,0 +1,138 @@
+"""The frame of a meshing: circles with their diameters, line of centres, common tangent, line of action."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+
+from ..dimensions import linear
+from ..shapes import Arc, Circle, Group, Line, Pen, Text
+from ..symbols import angle_dimension, fixed_pivot, right_angle, turning_arrow
+from ..view import Canvas
+from .scene import GearScene
+from .wheels import CIRCLES, SHOWN, Wheel
+
+PENS = {"a": Pen.THIN, "w": Pen.EXTREME, "": Pen.AXIS, "b": Pen.DASHED, "f": Pen.THIN}
+PAST = 8.0  # mm of a line beyond what it goes to
+PITCH = 1.9  # heights of letters between diameters written under one another
+SHELF = 5.0  # mm from the longest arc to the diameters
+WIDEST = 0.9 * math.pi  # half the angle of circles at most
+TURNING = 3.2  # radius of the arrows of omega, in heights of letters
+
+
+def beside_teeth(wheel: Wheel) -> float:
+    """Return how far from the line of centres the circles of a wheel reach that go just beyond its teeth, rad."""
+    lean = abs(wheel.angle(wheel.centre + wheel.facing))
+    return min(0.5 * SHOWN * wheel.pitch + lean + PAST / wheel.radius("a"), WIDEST)
+
+
+def beside_ends(wheel: Wheel) -> float:
+    """Return how far from the line of centres circles reach that go beyond the end of the line of action, too, rad."""
+    return max(beside_teeth(wheel), wheel.sizes["alpha_w"] + PAST / wheel.radius("b"))
+
+
+def circles(canvas: Canvas, wheel: Wheel, half: float) -> None:
+    """Draw arcs of the five circles, each with a line of its own; tip and root are thin as what they bound is thick."""
+    start = cmath.phase(wheel.up) - half
+    for name in CIRCLES:
+        arc = Arc(wheel.centre, wheel.radius(name), start, 2.0 * half, PENS[name])
+        canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
+
+
+def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, half: float) -> None:
+    """Write the diameters where the circles end on the right, under one another, each on a leader."""
+    height = scene.style.text
+    ends = {f"d_{name}{wheel.number}": wheel.on(wheel.radius(name), -half * wheel.up.imag) for name in CIRCLES}
+    names = sorted(ends, key=lambda name: ends[name].imag)
+    x = max(end.real for end in ends.values()) + SHELF
+    for name, y in zip(names, _apart([ends[name].imag for name in names], PITCH * height), strict=True):
+        at = complex(x, y)
+        canvas.add(Line(ends[name], at, Pen.THIN, role="leader", name=name))
+        canvas.add(Text(at + complex(1.0, -0.5 * height), scene.stated(name), height, role="diameter", name=name))
+
+
+def _apart(levels: Sequence[float], least: float) -> list[float]:
+    """Return rising levels moved as little as it takes for them to stand apart."""
+    groups: list[tuple[float, int]] = []  # of levels side by side: their middle, how many they are
+    for level in levels:
+        groups.append((level, 1))
+        while len(groups) > 1:
+            (a, m), (b, n) = groups[-2:]
+            if b - a >= 0.5 * least * (m + n):
+                break
+            groups[-2:] = [((a * m + b * n) / (m + n), m + n)]
+    return [middle + (k - 0.5 * (count - 1)) * least for middle, count in groups for k in range(count)]
+
+
+def centres(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel], left: float) -> None:
+    """Draw both centres on the line of centres, their distance as a dimension at the abscissa `left`."""
+    style, sense = scene.style, scene.meshing.sense
+    below, above = (scene.mm(f"O{wheel.number}") for wheel in pair)
+    canvas.add(Line(below - 2j * PAST, above + 2j * PAST, Pen.AXIS, role="axis", name="O1O2"))
+    for wheel, at in zip(pair, (below, above), strict=True):
+        canvas.add(fixed_pivot(at, f"O{wheel.number}", style, -wheel.up))
+        canvas.label(f"O_{{{wheel.number}}}", at, prefer=complex(1.0, 0.3), clear=style.pair + 0.8)
+        turns = sense if wheel.number == 1 else -sense
+        _turning(canvas, scene, wheel, float(turns))
+    linear(canvas, (below, above), complex(left, 0.0), scene.stated("a_w"), "a_w")
+
+
+def _turning(canvas: Canvas, scene: GearScene, wheel: Wheel, turns: float) -> None:
+    """Draw the arrow of a wheel's turning beside its centre, away from the teeth."""
+    radius, name = TURNING * scene.style.label, f"omega_{wheel.number}"
+    middle = cmath.phase(wheel.up) + turns * 0.5 * math.pi
+    canvas.add(turning_arrow(wheel.centre, radius, middle, 0.9, turns, name))
+    at = wheel.centre + cmath.rect(radius, middle)
+    canvas.label(scene.words.symbol(name), at, prefer=at - wheel.centre, clear=1.0)
+
+
+def tangent(canvas: Canvas, reach: float) -> None:
+    """Draw the common tangent t-t of the rolling circles through the pole."""
+    canvas.add(Line(complex(-reach, 0.0), complex(reach, 0.0), Pen.THIN, role="tangent", name="t"))
+    for side in (-1.0, 1.0):
+        canvas.label("t", complex(side * reach, 0.0), prefer=complex(side, 0.0), clear=0.8)
+
+
+def line_of_action(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel]) -> None:
+    """Draw N1N2 with the radii to its ends."""
+    along, size = scene.meshing.along, 0.6 * scene.style.label
+    ends = [scene.mm(f"N{wheel.number}") for wheel in pair]
+    canvas.add(Line(ends[0] - PAST * along, ends[1] + PAST * along, Pen.THIN, role="line-of-action", name="N1N2"))
+    for wheel, end, inside in zip(pair, ends, (along, -along), strict=True):
+        name = f"N{wheel.number}"
+        canvas.add(Line(wheel.centre, end, Pen.THIN, role="radius", name=name))
+        radius = (wheel.centre - end) / abs(wheel.centre - end)
+        canvas.add(right_angle(end, radius, inside, size))
+        node(canvas, scene, name, -radius)
+
+
+def active_line(canvas: Canvas, scene: GearScene, inner: bool = True) -> None:
+    """Draw the active part of the line of action thick, the pole on it, and its `inner` ends of single contact."""
+    along = scene.meshing.along
+    canvas.add(Line(scene.mm("A1"), scene.mm("A2"), Pen.MAIN, role="active", name="A1A2"))
+    node(canvas, scene, "A1", -along - 1j)
+    node(canvas, scene, "A2", along + 1j)
+    node(canvas, scene, "P", along.conjugate() * -1j)
+    for name in ("K1", "K2") if inner else ():
+        node(canvas, scene, name, 1j * along)
+
+
+def angle_of_action(canvas: Canvas, scene: GearScene) -> None:
+    """Dimension alpha_w between t-t and N1N2, on the side of the farther end of the line."""
+    first, second = (scene.mm(name) for name in ("N1", "N2"))
+    far = max((first, second), key=abs)
+    reach = 0.85 * abs(far)
+    start = math.pi if far.real < 0.0 else 0.0
+    sweep = math.remainder(cmath.phase(far) - start, 2.0 * math.pi)
+    canvas.add(angle_dimension(0j, reach, start, sweep, "alpha_w", scene.style))
+    middle = cmath.rect(reach, start + 0.5 * sweep)
+    canvas.label(scene.angle("alpha_w"), middle, prefer=middle, clear=1.0, height=scene.style.text)
+
+
+def node(canvas: Canvas, scene: GearScene, name: str, prefer: complex) -> None:
+    """Mark a point of the meshing with its letter."""
+    at, radius = scene.mm(name), scene.style.node
+    canvas.add(Group((Circle(at, radius, Pen.THIN, fill="white"),), "point", name))
+    number = name[1:]
+    canvas.label(f"{name[0]}_{{{number}}}" if number else name, at, prefer=prefer, clear=radius + 0.6)

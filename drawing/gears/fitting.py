@@ -1,0 +1,125 @@
+"""The views of a gear pair's sheet for a format, in the order of the work, at scale factors that have room."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+
+from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
+from ...plans.gears.solve import SolvedGear
+from ...scales.scale import Scale
+from ..compose import room
+from ..contents import SheetContents
+from ..formats import Format
+from ..rungs import Figure
+from ..style import STYLES
+from ..view import View
+from ..words import Words
+from .ladders import mu_ladder, near_ladder, rolled_ladder, scales_of
+from .letters import lettered
+from .scene import MESHING, GearScene
+
+TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
+GearFigure = Figure[GearScene]
+
+
+@dataclass(frozen=True, slots=True)
+class Contents(SheetContents[SolvedGear]):
+    """What the sheet of a gear pair shows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rungs:
+    """How small things are drawn: the meshing, its middle apart, the construction of the involutes; each a rung."""
+
+    mu_l: int = 0
+    near: int = 0
+    rolled: int = 0
+
+
+@dataclass(slots=True)
+class Fitting:
+    """Draws the figures of `contents` for any format, each only once."""
+
+    contents: Contents
+    ladders: Mapping[str, tuple[float, ...]] = field(init=False)
+    _words: Words = field(init=False)
+    _drawn: dict[tuple[str, str, tuple[int, ...], bool], View] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Find the ladders."""
+        self._words = lettered(self.contents.words)
+        solved = self.contents.solved
+        self.ladders = {
+            "mu_l": mu_ladder(solved, self.contents.choosers),
+            "near": near_ladder(solved),
+            "rolled": rolled_ladder(solved),
+        }
+
+    def scene(self, sheet: Format, rungs: Rungs) -> GearScene:
+        """Return the scene of a sheet on a format."""
+        mus = {name: self.ladders[name][getattr(rungs, name)] for name in self.ladders}
+        contents, style = self.contents, STYLES[sheet.letters]
+        return GearScene(contents.solved, self._words, style, contents.givens, **mus)
+
+    def views(self, sheet: Format, rungs: Rungs) -> list[tuple[View, GearFigure]]:
+        """Return the views of a sheet in the order of the work."""
+        scene = self.scene(sheet, rungs)
+        width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
+        found = []
+        for name, figure in figures(self.contents, scene, width):
+            key = sheet.name, name, tuple(getattr(rungs, ladder) for ladder in figure.ladders), scene.apart
+            if key not in self._drawn:
+                self._drawn[key] = figure.draw(scene)
+            found.append((self._drawn[key], figure))
+        return found
+
+    def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
+        """Return the scale factors of the plans as they are drawn."""
+        scales = scales_of(self.contents.solved, self.contents.choosers)
+        if MESHING in scales:
+            scales[MESHING] = Scale("mu_l", self.scene(sheet, rungs).mu_l, "m")
+        return scales
+
+
+def figures(contents: Contents, scene: GearScene, width: float) -> Iterator[tuple[str, GearFigure]]:
+    """Go through the figures of a sheet, by name, in the order of the work; lines of text are at most `width` long."""
+    made: dict[str, Callable[[], Iterator[tuple[str, GearFigure]]]] = {
+        MESHING_PART: partial(_meshing, scene.apart),
+        GEOMETRY_PART: partial(_geometry, width),
+        SLIDING_PART: _sliding,
+    }
+    for part, figures_of in made.items():
+        if part in contents.plans:
+            yield from figures_of()
+
+
+# A view is imported when its plan is wanted.
+
+
+def _meshing(apart: bool) -> Iterator[tuple[str, GearFigure]]:
+    from .action_view import action_view
+    from .meshing_view import meshing_view, near_view
+    from .rolling_view import rolling_view
+
+    yield "meshing", Figure(meshing_view, ("mu_l",))
+    if apart:
+        yield "teeth", Figure(near_view, ("near",))
+    yield "rolling", Figure(rolling_view, ("rolled",))
+    yield "action", Figure(action_view, ("rolled",))
+
+
+def _geometry(width: float) -> Iterator[tuple[str, GearFigure]]:
+    from .tables import checks_table, data_table
+
+    yield "data", Figure(data_table)
+    yield "checks", Figure(checks_table)
+
+
+def _sliding() -> Iterator[tuple[str, GearFigure]]:
+    from .sliding_view import sliding_view
+    from .tables import points_table
+
+    yield "sliding", Figure(sliding_view)
+    yield "points", Figure(points_table)

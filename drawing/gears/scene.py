@@ -1,0 +1,92 @@
+"""What every view of a gear pair needs: the pair solved, scale factors as drawn, words, sizes of the format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...plans.gears.meshing import Meshing
+from ...scales.scale import Scale
+from ..givens import Given
+from ..printed import decimals_for
+from ..style import Style
+from ..words import Words
+from .wheels import Wheel, wheels
+
+if TYPE_CHECKING:
+    from ...plans.gears.solve import SolvedGear
+
+MESHING = "meshing"
+TALL = 7.0  # heights of letters that a tooth must have for what is measured on it
+
+
+@dataclass(frozen=True, slots=True)
+class GearScene:
+    """A solved pair on a certain format, in certain words.
+
+    `mu_l` is the scale factor of the meshing with both centres, `near` that of its middle, which has a view of its own
+    where teeth are too small beside their letters, `rolled` that of the construction of the involutes; m/mm.
+    """
+
+    solved: SolvedGear
+    words: Words
+    style: Style
+    givens: Mapping[str, Given]
+    mu_l: float
+    near: float
+    rolled: float
+
+    @property
+    def meshing(self) -> Meshing:
+        """The teeth and how they mesh."""
+        return self.solved.meshing
+
+    @property
+    def apart(self) -> bool:
+        """Whether the middle of the meshing has a view of its own."""
+        return self.near < self.mu_l and self.paper("h") < TALL * self.style.label
+
+    def size(self, name: str) -> float:
+        """Return a quantity, SI."""
+        return float(self.solved.sizes[name])
+
+    def paper(self, name: str) -> float:
+        """Return a length as it is drawn in the meshing, mm."""
+        return self.size(name) / self.mu_l
+
+    def mm(self, mark: str) -> complex:
+        """Return a mark of the meshing in mm from the pole."""
+        return self.solved.point(f"{MESHING}.{mark}") * (1.0 / self.mu_l)
+
+    def wheels(self, rho_1: float | None = None) -> tuple[Wheel, Wheel]:
+        """Return both wheels on the paper while they touch at `rho_1`, m from N1; by default at the pole."""
+        return wheels(self.meshing, self.solved.sizes, self.mu_l, rho_1)
+
+    def factor(self, mu: float) -> str:
+        """Return the scale of a view as drawings have it, and its scale factor: M 5:1; mu_l = 0.0002 m/mm."""
+        words, size = self.words, 1e-3 / mu
+        ratio = f"{words.short(round(size, 6))}:1" if size >= 1.0 else f"1:{words.short(round(1.0 / size, 6))}"
+        return f"{words['said.cam_drawn'].format(ratio=ratio)};  {words.scale(Scale('mu_l', mu, 'm'))}"
+
+    def stated(self, name: str, decimals: int = 2) -> str:
+        """Return a quantity in mm as a dimension has it: d_a1 = 86.53."""
+        return f"{self.words.symbol(name)} = {self.length(self.size(name), decimals)}"
+
+    def length(self, value: float, decimals: int = 2) -> str:
+        """Return a length in mm."""
+        return self.words.number(value * 1e3, decimals)
+
+    def degrees(self, angle: float) -> str:
+        """Return an angle as a dimension has it: to a hundredth of a degree, without zeros at the end."""
+        return f"{self.words.short(round(float(np.degrees(angle)), 2))}°"
+
+    def angle(self, name: str) -> str:
+        """Return an angle with its letter: alpha_w = 26.65°."""
+        return f"{self.words.symbol(name)} = {self.degrees(self.size(name))}"
+
+    def value(self, value: float) -> str:
+        """Return a number with the usual digits."""
+        return self.words.number(value, decimals_for(value))
