@@ -12,19 +12,22 @@ from .units import SYMBOLS, Unit, unit
 
 LENGTHS = tuple(name for name, symbol in SYMBOLS.items() if symbol.dimension == SYMBOLS["m"].dimension)
 PAPER = ("mm", "cm")
-METRE = "m"
+METRE, RADIAN = "m", "rad"
+ANGLES = (RADIAN, "deg")
 
 
 @dataclass(frozen=True, slots=True)
 class Display:
     """`length` stands for the metre in units of lengths, velocities, accelerations; `paper` measures segments.
 
-    With `size` lengths alone have this unit, those of a cam millimetres, say, while its velocities stay in m/s.
+    With `size` lengths alone have this unit, those of a cam millimetres, say, while its velocities stay in m/s; `angle`
+    is the unit of angles.
     """
 
     length: str = METRE
     paper: str = "mm"
     size: str = ""
+    angle: str = RADIAN
 
     def unit(self, si: str) -> str:
         """Return the unit in which a value of an SI unit is shown.
@@ -32,6 +35,8 @@ class Display:
         >>> Display("cm").unit("m/s^2"), Display("cm").unit("rad/s")
         ('cm/s^2', 'rad/s')
         """
+        if si == RADIAN:
+            return self.angle
         if self.size and si == METRE:
             return self.size
         powers = unit(si).powers

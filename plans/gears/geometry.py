@@ -138,11 +138,17 @@ def calculated_ordinates(board: Board) -> None:
             board.calc(f"y_{i}_{point}", "velocity_ordinate", "PW", f"_rho_{i}_{point}", f"_rho_at_P{i}")
 
 
+def sliding_at(board: Board, point: str, i: int) -> None:
+    """Specific sliding of a wheel at a point of the table, by the ordinates."""
+    mate = 3 - i
+    board.calc(f"theta_{i}{mate}_{point}", "sliding_by_ordinates", f"y_{i}_{point}", f"y_{mate}_{point}")
+
+
 def specific_sliding(board: Board) -> None:
-    """Specific sliding at the twelve points, by the ordinates."""
+    """Specific sliding at the twelve points."""
     for point in POINTS:
-        board.calc(f"theta_12_{point}", "sliding_by_ordinates", f"y_1_{point}", f"y_2_{point}")
-        board.calc(f"theta_21_{point}", "sliding_by_ordinates", f"y_2_{point}", f"y_1_{point}")
+        for i in WHEELS:
+            sliding_at(board, point, i)
 
 
 SIZES = (main_sizes, centre_again, auxiliary_sizes, quality, action, measures)

@@ -43,8 +43,9 @@ def complete(values: Mapping[str, float]) -> dict[str, float]:
     for _, error in impossible(found):
         raise error
     x_1, x_2 = shifts(found)
+    given = ", ".join(name for name in SHIFTS if name in found)
     found = {name: float(value) for name, value in found.items() if name not in SHIFTS} | {"x_1": x_1, "x_2": x_2}
-    _meshes(found)
+    _meshes(found, given if given != "x_1, x_2" else "")
     return found
 
 
@@ -115,14 +116,17 @@ def _between(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
     return -0.5 * most[1] / values["m"], 0.5 * most[0] / values["m"]
 
 
-def _meshes(values: Mapping[str, float]) -> None:
-    """Look whether the wheels have teeth, and whether these can touch each other."""
+def _meshes(values: Mapping[str, float], given: str) -> None:
+    """Look whether the wheels have teeth, and whether these can touch; `given` is what the shifts are found by."""
     found = geometry(values, BASIC)
     if not found["inv_alpha_w"] > 0.0:
         raise _no_mesh(values, found["x_sum"])
     for i in WHEELS:
         if not tooth_of(values, i).whole:
-            raise InputError("gear-no-tooth", name=f"x_{i}", text=f"{values[f'x_{i}']:.6g}", wheel=i)
+            said = {"name": f"x_{i}", "text": f"{values[f'x_{i}']:.6g}", "wheel": i}
+            raise (
+                InputError("gear-no-tooth-found", given=given, **said) if given else InputError("gear-no-tooth", **said)
+            )
     line = geometry(values, ("g_alpha",))["g_alpha"]
     if not line > 0.0:
         raise InputError("gear-no-contact", gap=f"{-line * 1e3:.4g}")

@@ -190,7 +190,8 @@ def engagement(board: Board, i: int, sense: int) -> None:
         board.incline(f"flank{i}_{end}", f"_O{i}{ahead}", f"_slope{i}_{end}")
         board.lay(mark("B", i, end), mark("O", i), f"flank{i}_{end}", f"_r_w{i}")
     ends = (f"flank{i}_start", f"flank{i}_end")
-    board.angle(f"phi_alpha{i}_drawn", *(ends if sense > 0 else reversed(ends)))
+    board.angle(f"_swept{i}", *(ends if sense > 0 else reversed(ends)))
+    board.calc(f"phi_alpha{i}_drawn", "given", f"_swept{i}")
 
 
 def contact_ratios(board: Board) -> None:

@@ -2,9 +2,9 @@
 
 On `sliding` the abscissas are distances from N1, the ordinates velocities of the common point along both profiles. Its
 marks are `N1` `N2`, the pole `P` with `W` above it, the twelve points `01` .. `12` of the table, and over them `V1_01`
-`V2_01` .. on the lines from N1 and N2 through W, whose directions are `vk1` and `vk2`. On `theta` the same points
-carry `T12_02` .. and `T21_01` .., ordinates of specific sliding; on its own base circle, where that is minus infinity,
-a wheel has none. Abscissas have the scale factor mu_rho, ordinates of sliding mu_theta.
+`V2_01` .. on the lines from N1 and N2 through W. On `theta` the same points carry `T12_02` .. and `T21_01` ..,
+ordinates of specific sliding; on its own base circle, where that is minus infinity, a wheel has none. Abscissas have
+the scale factor mu_rho, ordinates of sliding mu_theta.
 
 Source: GOST 16532-70; the construction is that of the note to the task `madi-gear`.
 """
@@ -13,12 +13,13 @@ from __future__ import annotations
 
 from ..board import Board
 from .gear import WHEELS
-from .geometry import POINTS, sliding_places, specific_sliding
+from .geometry import POINTS, sliding_at, sliding_places
 
 SLIDING, THETA = "sliding", "theta"
 DIAGRAMS = (SLIDING, THETA)
 RIGHT, UP = "_right", "_up"
 FIRST = {1: POINTS[0], 2: POINTS[-1]}  # the point of a wheel's own base circle
+ENDLESS = tuple(f"theta_{i}{3 - i}_{point}" for i, point in FIRST.items())  # minus infinity, which nobody draws
 
 
 def sliding(board: Board, pole: str) -> None:
@@ -27,12 +28,14 @@ def sliding(board: Board, pole: str) -> None:
     velocity_lines(board)
     for point in POINTS:
         ordinates(board, point, pole)
-    specific_sliding(board)
+    for point in POINTS:
+        for i in (i for i in WHEELS if FIRST[i] != point):
+            sliding_at(board, point, i)
     theta_diagram(board)
 
 
 def velocity_lines(board: Board) -> None:
-    """Draw N1N2 with the pole, the velocity over it, and the lines from both ends through its tip."""
+    """Draw N1N2 with the pole, and the velocity over it, to whose tip the lines from both ends run."""
     board.turn(RIGHT, "zero")
     board.normal(UP, RIGHT)
     board.pole(f"{SLIDING}.N1")
@@ -40,13 +43,13 @@ def velocity_lines(board: Board) -> None:
         board.calc(f"_paper_{name}", "on_paper", rho, "mu_rho")
         board.lay(f"{SLIDING}.{name}", f"{SLIDING}.N1", RIGHT, f"_paper_{name}")
     board.lay(f"{SLIDING}.W", f"{SLIDING}.P", UP, "PW")
-    for i in WHEELS:
-        board.measure(f"_l_N{i}W", f"{SLIDING}.N{i}", f"{SLIDING}.W")
-        board.direction(f"vk{i}", f"{SLIDING}.N{i}", f"{SLIDING}.W", f"_l_N{i}W")
 
 
 def ordinates(board: Board, point: str, pole: str) -> None:
-    """Read both velocities at a point of the table: at N1 and N2 one of them is nothing, at the pole they are one."""
+    """Read both velocities at a point of the table: at N1 and N2 one of them is nothing, at the pole they are one.
+
+    The lines are straight, so that their points divide them as the feet divide N1P and N2P.
+    """
     foot = f"{SLIDING}.{point}"
     ends = {POINTS[0]: "N1", POINTS[-1]: "N2", pole: "P"}
     if point in ends:
@@ -63,7 +66,7 @@ def ordinates(board: Board, point: str, pole: str) -> None:
         if point == pole:
             board.same(tip, f"{SLIDING}.W")
         else:
-            board.meet(tip, foot, UP, f"{SLIDING}.N{i}", f"vk{i}")
+            board.divide(tip, f"{SLIDING}.N{i}", f"{SLIDING}.W", f"_rho_{i}_{point}", f"_rho_at_P{i}")
         board.distance(f"y_{i}_{point}", foot, tip)
 
 
@@ -74,8 +77,7 @@ def theta_diagram(board: Board) -> None:
         foot = f"{THETA}.{point}"
         board.calc(f"_abscissa_{point}", "on_paper", f"_rho_1_{point}", "mu_rho")
         board.lay(foot, f"{THETA}.N1", RIGHT, f"_abscissa_{point}")
-        for i, letters in ((1, "12"), (2, "21")):
-            if point != FIRST[i]:
-                theta = f"theta_{letters}_{point}"
-                board.calc(f"_paper_{theta}", "on_paper", theta, "mu_theta")
-                board.lay(f"{THETA}.T{letters}_{point}", foot, UP, f"_paper_{theta}")
+        for i in (i for i in WHEELS if FIRST[i] != point):
+            end = f"{i}{3 - i}_{point}"
+            board.calc(f"_paper_{end}", "on_paper", f"theta_{end}", "mu_theta")
+            board.lay(f"{THETA}.T{end}", foot, UP, f"_paper_{end}")

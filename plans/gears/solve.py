@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,7 +19,7 @@ from .geometry import DIVISIONS, NOTHING, PARTS, POINTS, geometry
 from .givens import complete
 from .meshing import Meshing, meshing_of
 from .meshing_plan import CENTRES, MESHING, NUMBERS, TANGENT, rolling
-from .sliding_plan import DIAGRAMS, RIGHT, SLIDING, THETA, UP
+from .sliding_plan import DIAGRAMS, ENDLESS, RIGHT, SLIDING, THETA, UP
 
 SCALES = {MESHING: "mu_l", SLIDING: "mu_rho", THETA: "mu_theta"}
 # the plan that shows a quantity as a segment, beside those that are read from one
@@ -34,13 +35,13 @@ PAPER_MM = 1e-3  # metres of paper in a millimetre: the diagrams are drawn in th
 LONGEST = 250.0  # mm, that N1N2 may be under the diagrams
 # the three points of the table that stand in A1, P, A2, in the order in which these follow from N1 to N2
 MARKS = tuple(POINTS[sum(n for _, n in DIVISIONS[: k + 1])] for k in range(3))
-ANGLES = ("inv_alpha", "alpha_", "tau_", "nu_p", "phi_alpha")
-NUMBERS_ONLY = ("x_", "epsilon_", "theta_", "z_W")
+ANGLES = ("alpha_", "tau_", "nu_p", "phi_alpha")
+PLAIN = ("x_", "inv_", "epsilon_", "theta_", "z_W")
 
 
 def unit_of(name: str) -> str:
     """Return the SI unit of a quantity of a pair by its name."""
-    if name in ("u", "y", "delta_y") or name.startswith(NUMBERS_ONLY):
+    if name in ("u", "y", "delta_y") or name.startswith(PLAIN):
         return "1"
     return "rad" if name.startswith(ANGLES) else "m"
 
@@ -97,10 +98,11 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
     givens = {**found, **board_givens(pair, sizes)}
     board = run(program, givens)
     drawn = {*program.plans}
+    results = quantities(program, board.values, _lengths(givens, drawn), unit_of)
     return SolvedGear(
         program=program,
-        values=board.values,
-        quantities=_stated(givens, drawn) | quantities(program, board.values, _lengths(givens, drawn), unit_of),
+        values={**board.values, **(dict.fromkeys(ENDLESS, -math.inf) if SLIDING in drawn else {})},
+        quantities=_stated(givens, drawn, values) | (_with_ends(results) if SLIDING in drawn else results),
         sines=board.sines,
         status=board.status,
         trouble=board.trouble,
@@ -132,12 +134,21 @@ def board_givens(pair: GearPair, sizes: Mapping[str, float]) -> dict[str, float]
     return {**PARTS, **NOTHING, **NUMBERS, "_sense": sense, "_against": -sense, "mu_rho": mu_rho / PAPER_MM}
 
 
-def _stated(givens: Mapping[str, Any], drawn: set[str]) -> dict[str, Quantity]:
-    """Return the scale factors of the diagrams, which are results, too."""
+def _stated(givens: Mapping[str, Any], drawn: set[str], values: Mapping[str, float]) -> dict[str, Quantity]:
+    """Return what the board begins with and is a result: scale factors of diagrams, shifts that have been found."""
     units = {SLIDING: ("mu_rho", "m/mm"), THETA: ("mu_theta", "1/mm")}
-    return {
-        name: Quantity(name, givens[name] * PAPER_MM, unit) for plan, (name, unit) in units.items() if plan in drawn
-    }
+    scales = (item for plan, item in units.items() if plan in drawn)
+    found = {name: Quantity(name, givens[name] * PAPER_MM, unit) for name, unit in scales}
+    return found | {name: Quantity(name, givens[name], "1") for name in ("x_1", "x_2") if name not in values}
+
+
+def _with_ends(results: Mapping[str, Quantity]) -> dict[str, Quantity]:
+    """Return the quantities with those of the table that are undefined, each beside the other one of its point."""
+    found: dict[str, Quantity] = {}
+    for name, quantity in results.items():
+        ends = [Quantity(end, None, unit_of(end)) for end in ENDLESS if end[-3:] == name[-3:] and "theta" in name]
+        found |= {item.name: item for item in sorted((quantity, *ends), key=lambda item: item.name)}
+    return found
 
 
 def _lengths(givens: Mapping[str, Any], drawn: set[str]) -> dict[str, float]:

@@ -34,6 +34,11 @@ class Gears(Kind[GearPair, "SolvedGear"]):
     """External pairs of involute spur gears cut by a standard rack."""
 
     table, plans = "gear", PLANS
+    instead = (
+        (frozenset(("x_1", "x_2")), ("x_sum", "a_w")),
+        (frozenset(("x_sum",)), ("x_1", "x_2", "a_w")),
+        (frozenset(("a_w",)), ("x_1", "x_2", "x_sum")),
+    )
 
     def words(self, raw: object) -> frozenset[str]:
         """Return the words of `[gear]` that may be names of choices."""
