@@ -15,7 +15,7 @@ from typing import Any
 from ..drawing.words import notations
 from ..scales.arguments import of_kind
 from ..scales.choose import chooser
-from ..scales.display import AS_INSIDE, LENGTHS, METRE, PAPER, Display
+from ..scales.display import ANGLES, AS_INSIDE, LENGTHS, METRE, PAPER, Display
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote
@@ -196,8 +196,8 @@ def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
 
 
 def _display(checker: Checker, path: Path, raw: object) -> Display:
-    """Read `[display]`: the units of lengths in results, and that of segments."""
-    units = {"length": LENGTHS, "size": LENGTHS, "paper": PAPER}
+    """Read `[display]`: the units of lengths and angles in results, and that of segments."""
+    units = {"length": LENGTHS, "size": LENGTHS, "paper": PAPER, "angle": ANGLES}
     fields = {
         name: Field(one_of("display-unit", partial(tuple, known)), required=False) for name, known in units.items()
     }
@@ -254,6 +254,7 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
         variants=variants,
         file=checker.file,
         kind=table,
+        instead=kind.instead,
     )
     kind.varies(checker, task, thorough)
     return None if checker.faults else task

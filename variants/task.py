@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 # In SI; no drawing has links, masses or forces beyond these, and none of their products leaves the range of a float.
 SMALLEST, LARGEST = 1e-12, 1e9
 
+Instead = tuple[tuple[frozenset[str], tuple[str, ...]], ...]  # givens, and those in whose place they stand
 WITH_FORCES = frozenset(("forces", "lever"))  # plans whose units hang together in SI alone
 
 
@@ -128,9 +129,11 @@ class Variant:
 class Task:
     """A task of a textbook as data.
 
-    `mechanism` is what it is about: a linkage, a cam, a gear pair; `kind` is the table that describes it, and names its kind.
+    `mechanism` is what it is about: a linkage, a cam, a gear pair; `kind` is the table that describes it, and names its
+    kind.
     `choices` says which values each word of a choice sets, `constants` holds the literals of the mechanism;
     `file` is what was read, as the user named it, `None` for a bundled task; `display` are the units of results.
+    `instead` says of which givens, once a user has set them, others of the variant no longer hold.
     """
 
     id: str
@@ -147,6 +150,7 @@ class Task:
     file: str | None = None
     display: Display = AS_INSIDE
     kind: str = "mechanism"
+    instead: Instead = ()
 
     def variant(self, variant_id: str | None = None) -> Variant:
         """Return a variant, the first one without an id."""
@@ -175,6 +179,9 @@ class Task:
         """
         row = self.variant(variant_id).values
         resolved = {name: row.get(name, given.default) for name, given in self.givens.items()}
+        for stated, others in self.instead:
+            if stated <= {*(settings or {})}:
+                resolved |= dict.fromkeys((name for name in others if name in resolved), None)
         for name, value in (settings or {}).items():
             if name not in self.givens:
                 raise unknown("given-unknown", name, self.givens, task=self.id)

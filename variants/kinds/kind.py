@@ -10,7 +10,7 @@ from ...plans.solved import Solved
 from ...scales.choose import Choosers
 from ...scales.errors import InputError
 from ...scales.scale import Scale
-from ..task import Given, Task
+from ..task import Given, Instead, Task
 
 if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...drawing.formats import Format
@@ -38,6 +38,7 @@ class Kind(ABC, Generic[Subject, Answer]):
 
     table: ClassVar[str]
     plans: ClassVar[tuple[str, ...]]
+    instead: ClassVar[Instead] = ()  # which givens of a user stand in the place of others
 
     # Reading a task file. Faults go to the checker.
 
