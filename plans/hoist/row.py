@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -95,9 +95,9 @@ class RowMotion:
     ----------
     frequencies : array of shape (..., n + 1)
         Of the modes, rad/s, falling; the last is zero.
-    modes : array of shape (..., n + 1, n + 1)
+    modes : array of shape (..., n + 1, links)
         A mode a row, in forces divided by the square roots of the stiffnesses.
-    scale : array of shape (..., n + 1)
+    scale : array of shape (..., links)
         Square roots of the stiffnesses.
     start, rates, drive : array of shape (..., n + 1)
         Forces, their rates at t = 0 and right-hand sides, in modes.
@@ -109,6 +109,11 @@ class RowMotion:
     start: Array
     rates: Array
     drive: Array
+
+    def of(self, *links: int) -> RowMotion:
+        """Return the same motion, of which only some links are looked at."""
+        chosen = list(links)
+        return replace(self, modes=self.modes[..., chosen], scale=self.scale[..., chosen])
 
     def forces(self, t: ArrayLike) -> Array:
         """Return the forces, N, at times (of the shape of the leading axes, or of axes before them), s."""
