@@ -377,18 +377,18 @@ def _print_class(
 
 @commands.command(
     epilog=example(
-        "kulman batch nau-slider-crank --roster class.csv --out sheets",
-        "kulman batch madi-four-bar --roster class.xlsx --out sheets --as pdf --teacher 'О. Коваль' --lang ru",
+        "kulman batch nau-slider-crank --form class.xlsx",
+        "kulman batch nau-slider-crank --roster class.xlsx --out sheets --as pdf --teacher 'О. Коваль'",
     )
 )
 @of_task
 @click.option(
     "--roster",
     metavar="FILE",
-    required=True,
     help="A student a row: name, group, variant or record book, givens of one's own: .csv or .xlsx.",
 )
-@click.option("--out", "folder", metavar="FOLDER", required=True, help="Where the files go, manifest.csv and key.csv.")
+@click.option("--form", metavar="FILE", help="Write a roster to fill in, .csv or .xlsx, a row for each variant.")
+@click.option("--out", "folder", metavar="FOLDER", help="Where the files go, manifest.csv and key.csv.")
 @click.option(
     "--as",
     "kinds",
@@ -414,22 +414,33 @@ def batch(task: str, settings: dict[str, str], kinds: tuple[str, ...], **options
     A run that was stopped goes on where it was; one with a longer roster draws the new sheets alone. A row that is
     wrong costs no other student anything.
     """
-    from . import variants
-
     if options.pop("variant") is not None:
         raise InputError("batch-variant")
-    block = {name: text for name in BLOCK if (text := options.pop(name, None)) is not None}
-    language, roster, folder = options.pop("lang") or "uk", options.pop("roster"), options.pop("folder")
+    language, form = options.pop("lang") or "uk", options.pop("form")
+    if form is not None:
+        from .variants.classes.batch import write_roster
+
+        click.echo(str(write_roster(task, form, language)))
+    if options["roster"] is not None and options["folder"] is not None:
+        return _draw_class(task, set=settings, lang=language, suffixes=[f".{kind}" for kind in kinds], **options)
+    if form is None:
+        raise InputError("batch-nothing")
+    return 0
+
+
+def _draw_class(task: str, roster: str, folder: str, jobs: int, **options: Any) -> int:
+    """Draw the sheets of a class; a console shows how far it is."""
+    from . import variants
+    from .variants.classes.batch import MANIFEST
+
+    block = {name: text for name in BLOCK if (text := options.pop(name)) is not None}
     with _progress() as advance:
-        made = variants.batch(
-            task, roster, folder, set=settings, lang=language, suffixes=[f".{kind}" for kind in kinds], block=block,
-            advance=advance, jobs=options.pop("jobs") or None, **options,
-        )  # fmt: skip
+        made = variants.batch(task, roster, folder, block=block, advance=advance, jobs=jobs or None, **options)
     n, bad = len(made.students), made.problems
     click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))
     for problem in bad:
         click.echo(problem, err=True)
-    return _refuse(InputError("batch-problems", n=len(bad), file=str(Path(folder) / "manifest.csv"))) if bad else 0
+    return _refuse(InputError("batch-problems", n=len(bad), file=str(Path(folder) / MANIFEST))) if bad else 0
 
 
 @commands.command(

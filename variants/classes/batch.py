@@ -12,7 +12,7 @@ from typing import Any
 from ...drawing.formats import format_named
 from ...drawing.pens import Norm
 from ...drawing.words import Words
-from ...drawing.writers import WRITERS, folder_for, write_whole
+from ...drawing.writers import WRITERS, folder_for, save_all, write_whole
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError
 from ...scales.names import unknown
@@ -21,11 +21,13 @@ from ..case import Settings
 from ..crew import shared_out
 from ..journal import Journal, digest_of
 from ..kinds import kind_of
+from ..marking.cells_out import csv_bytes, table_bytes
+from ..marking.grid import SUFFIXES
 from ..marking.roster import read_roster
 from ..reader import load_task
 from ..task import Task
 from .making import Made, Making, Student
-from .tables import key_rows, manifest_rows, tables
+from .tables import key_rows, manifest_rows, roster_rows
 
 JOURNAL = ".kulman-batch.jsonl"
 MANIFEST, KEY = "manifest.csv", "key.csv"
@@ -140,8 +142,21 @@ def batch(
     outcomes = _run(making, students, place, jobs or os.cpu_count() or 1, advance or (lambda done, whole: None))
     done = Batch(students, outcomes)
     for name, rows in ((MANIFEST, manifest_rows(done, lang)), (KEY, key_rows(done, lang))):
-        write_whole(place / name, tables(rows, lang))
+        write_whole(place / name, csv_bytes(list(rows), lang))
     return done
+
+
+def write_roster(task: str | os.PathLike[str] | Task, file: str | os.PathLike[str], lang: str = "uk") -> Path:
+    """Write a roster to fill in, .csv or .xlsx: a row for each variant. As it is, each has a sheet without a name.
+
+    Raises
+    ------
+    InputError
+        A kind of file that is no roster, or a place where none can be written.
+    """
+    found = task if isinstance(task, Task) else load_task(task)
+    rows = list(roster_rows(found, lang))
+    return save_all((file,), SUFFIXES, lambda path: [(path, table_bytes(path, rows, lang, found.id, [0], 1))])[0]
 
 
 def _known(suffixes: Sequence[str]) -> tuple[str, ...]:

@@ -82,7 +82,7 @@ class Making:
         who = student.entry.who
         block = {**self.block, "student": who.student, "group": who.group or self.block.get("group", "")}
         drawn = draw_case(case, block, self.format, self.norm, self.notation, self.language)
-        stem = Path(f"{student.number:03d}-{slug(who.student)}-{slug(case.variant)}")
+        stem = Path(f"{student.number:03d}-{slug(f'{who.student} {case.variant}')}")
         files = {
             path.name: data for end in self.suffixes for path, data in page_files(drawn.pages, stem.with_suffix(end))
         }

@@ -7,14 +7,23 @@ from typing import TYPE_CHECKING
 
 from ...scales.packaged import packaged
 from ..marking.answers import WHO
-from ..marking.cells_out import Cell, csv_bytes
+from ..marking.cells_out import Cell
 from ..marking.wording import texts
 
 if TYPE_CHECKING:
+    from ..task import Task
     from .batch import Batch, Outcome
     from .making import Student
 
 Rows = Iterator[tuple[Cell, ...]]
+
+
+def roster_rows(task: Task, language: str) -> Rows:
+    """Go through the rows of a roster to fill in: a header, and a row for each variant."""
+    said = texts(language)
+    yield tuple(said[f"about.{key}"] for key in ("student", "group", "variant"))
+    for variant in task.variants:
+        yield "", "", variant
 
 
 def manifest_rows(batch: Batch, language: str) -> Rows:
@@ -44,8 +53,3 @@ def _about(language: str) -> tuple[str, ...]:
 def _who(student: Student, outcome: Outcome) -> tuple[Cell, ...]:
     who = student.entry.who
     return (*(getattr(who, key) for key in WHO), outcome.variant, outcome.sheet)
-
-
-def tables(rows: Rows, language: str) -> bytes:
-    """Return rows as CSV."""
-    return csv_bytes(list(rows), language)
