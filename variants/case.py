@@ -105,6 +105,8 @@ def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser
     known = kind_of(task.kind).scale_symbols(solved)
     for name, text in scales.items():
         if name.startswith("mu_") and name not in known:
+            if name in solved.quantities:
+                raise InputError("scale-follows", symbol=name, known=", ".join(known))
             raise unknown("scale-unknown", name, known, task=task.id)
         try:
             symbol = name if name.startswith("mu_") else segment_symbol(name)

@@ -180,7 +180,12 @@ def draw_case(
 
 
 def scales_of(case: Case, words: Words, paper: Format) -> Mapping[str, Scale]:
-    """Return the scale factors that the sheet of a case takes on a format, by plan.
+    """Return the scale factors that the sheet of a case takes on a format, by plan; errors are those of `drawn_on`."""
+    return drawn_on(case, words, paper).scales
+
+
+def drawn_on(case: Case, words: Words, paper: Format) -> Drawn:
+    """Draw a case on a format, for what it measures there.
 
     Raises
     ------
@@ -188,12 +193,13 @@ def scales_of(case: Case, words: Words, paper: Format) -> Mapping[str, Scale]:
         The sheet does not fit on it.
     """
     stamp = Stamp(title=case.task.title[words.language], language=words.language)
-    return case.kind.draw(case, words, stamp, paper=paper).scales
+    return case.kind.draw(case, words, stamp, paper=paper)
 
 
 def sheet_of(case: Case, drawn: Drawn) -> Sheet:
     """Return the sheet of a case that has been drawn, with what a user should know of it."""
-    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, (*case.warnings, *_coarser(case, drawn)))
+    _, fitted = case.kind.fitted(case.solved, drawn)
+    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, (*case.warnings, *fitted, *_coarser(case, drawn)))
 
 
 def _coarser(case: Case, drawn: Drawn) -> Iterator[InputError]:

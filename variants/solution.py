@@ -235,27 +235,33 @@ def solve(
     2.7614
     """
     case = solve_case(task, variant, set, only, scales)
-    solved = case.solved
     words = case.words(lang, notation)
-    by_plan = _scales(case, words if lang else case.words("uk"), format)
+    solved, by_plan, warnings = _on_paper(case, words if lang else case.words("uk"), format)
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
     found = case.kind.conditions(case) if condition else {}
     drawn = None if hand is None else _drawing(solved, by_plan, hand)
-    return Solution(case.task, case.variant, solved, items, used, solved.error(), case.warnings, words, found, drawn)
+    return Solution(case.task, case.variant, solved, items, used, solved.error(), warnings, words, found, drawn)
 
 
-def _scales(case: Case, words: Words, format: str | None) -> Mapping[str, Scale]:
-    """Return the scale factors by plan: the wanted ones, or those of a sheet; none for a position without a plan."""
-    paper = None if format is None else format_named(format)
-    if case.solved.trouble is not None:
-        return {}
+def _on_paper(
+    case: Case, words: Words, format: str | None
+) -> tuple[Solved, Mapping[str, Scale], tuple[InputError, ...]]:
+    """Return what is solved, its scale factors by plan, warnings: as they are wanted, or as on the sheet of a format.
+
+    A position without a plan has no scale factors.
+    """
+    solved, paper = case.solved, None if format is None else format_named(format)
+    if solved.trouble is not None:
+        return solved, {}, case.warnings
     if paper is None:
-        return case.kind.first_scales(case.solved, case.choosers)
-    from .sheets import scales_of  # draws the whole sheet, which takes a second or two
+        return solved, case.kind.first_scales(solved, case.choosers), case.warnings
+    from .sheets import drawn_on  # draws the whole sheet, which takes a second or two
 
-    scales = scales_of(case, words, paper)
-    return {plan: scales[plan] for plan in case.solved.scale_of_plan}  # some views are drawn larger
+    drawn = drawn_on(case, words, paper)
+    solved, said = case.kind.fitted(solved, drawn)
+    # some views are drawn larger
+    return solved, {plan: drawn.scales[plan] for plan in solved.scale_of_plan}, (*case.warnings, *said)
 
 
 def _drawing(solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:

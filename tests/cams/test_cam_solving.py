@@ -162,7 +162,10 @@ def test_solve_prints_json_with_the_scale_factors_and_checks(capsys: pytest.Capt
             ("solve", TASK, "--only", "velocity"),
             "unknown plan 'velocity'; known are: diagrams, sizes, profile, pressure\n",
         ),
-        (("solve", TASK, "--scale", "mu_s=1"), "task madi-cam has no scale factor 'mu_s'; did you mean 'mu_l'?\n"),
+        (
+            ("solve", TASK, "--scale", "mu_s=1"),
+            "mu_s follows from the lengths on paper that are given; chosen may be: mu_l, mu_s_ds, mu_s_d2s\n",
+        ),
         (("solve", TASK, "--set", "h=-1"), "h: '-1': must be greater than zero\n"),
     ],
 )

@@ -56,9 +56,12 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def fits(self, checker: Checker, subject: Cam, head: Mapping[str, Any]) -> None:
         """Check that the scale factors are those that may be chosen."""
-        for name in head.get("scales", {}):
-            if name not in SYMBOLS:
-                checker.fault(("scales", name), unknown("scale-unknown", name, SYMBOLS, task=head.get("id", "")))
+        for name in (name for name in head.get("scales", {}) if name not in SYMBOLS):
+            if _follows(name):
+                error = InputError("scale-follows", symbol=name, known=", ".join(SYMBOLS))
+            else:
+                error = unknown("scale-unknown", name, SYMBOLS, task=head.get("id", ""))
+            checker.fault(("scales", name), error)
 
     def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
         """Check that every variant is one of a cam; if `thorough`, that its cam can be found."""
@@ -188,6 +191,17 @@ class Cams(Kind[Cam, "SolvedCam"]):
         contents = Contents(cam(case.solved), case.plans, case.choosers, case.givens, words, norm)
         return draw(contents, stamp, paper)
 
+    def fitted(self, solved: SolvedCam, drawn: Drawn) -> tuple[SolvedCam, tuple[InputError, ...]]:
+        """Return the cam with diagrams as small as the format has room for, and with what lengths these are drawn."""
+        from ...plans.cams.solve import REDUCED, reduced
+
+        if drawn.reduction == 1.0:
+            return solved, ()
+        smaller = reduced(solved, drawn.reduction)
+        said = {name: _millimetres(smaller.givens[name]) for name in REDUCED if name != "mu_phi"}
+        said |= {"angle": _degrees(smaller.givens["mu_phi"]), "part": f"{drawn.reduction:g}"}
+        return smaller, (InputError("cam-smaller", format=drawn.format, **said),)
+
     def lettered(self, words: Words, solved: SolvedCam) -> Words:
         """Return the words with the letters of a cam's quantities."""
         from ...drawing.cams.letters import lettered
@@ -212,6 +226,13 @@ def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlatePro
 
     if solved.draws_profiles:
         yield from ((follower, profile) for _, follower, profile in profiles(solved))
+
+
+def _follows(symbol: str) -> bool:
+    """Whether a scale factor is found with the diagrams."""
+    from ...plans.cams.solve import UNITS  # needs numpy
+
+    return symbol in UNITS
 
 
 def _degrees(angle: float) -> str:

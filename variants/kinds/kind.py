@@ -123,6 +123,10 @@ class Kind(ABC, Generic[Subject, Answer]):
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a case; on the smallest format that holds everything where `paper` is not said."""
 
+    def fitted(self, solved: Answer, drawn: Drawn) -> tuple[Answer, tuple[InputError, ...]]:
+        """Return what has been solved as large as a sheet draws it, and what a user should know of that."""
+        return solved, ()
+
     # Marking.
 
     def lettered(self, words: Words, solved: Answer) -> Words:
