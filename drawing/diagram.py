@@ -55,7 +55,8 @@ def axes(canvas: Canvas, field: Field, lettered: bool = True, past: float = PAST
     for a, b in ((left, right), (foot, top)):
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
     canvas.label(y.letter, top, prefer=1.0 - 0.3j, clear=1.2)
-    canvas.label(x.letter, right, prefer=1j, clear=1.2)
+    if x.letter:
+        canvas.label(x.letter, right, prefer=1j, clear=1.2)
     tick, text = 0.4 * canvas.style.text, canvas.style.text
     for value, number in x.divisions.items():
         canvas.add(Line(field.at(value, y.low), field.at(value, y.high), Pen.THIN, role="section"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from ...plans.gears.checks import AT_LEAST, AT_MOST, Check, checks
+from ...plans.gears.checks import AT_LEAST, AT_MOST, Check
 from ...plans.gears.gear import WHEELS
 from ...plans.gears.geometry import POINTS
 from ..table import table
@@ -55,7 +55,7 @@ def named(scene: GearScene, name: str, kind: str) -> str:
 
 def number(scene: GearScene, name: str, kind: str) -> str:
     """Return a quantity as its row has it: a given as it is, what is undefined as a dash."""
-    value, words = float(scene.solved.values[name]), scene.words
+    value, words = scene.size(name), scene.words
     if not math.isfinite(value):
         return words["table.calculated"]
     if kind == WHOLE:
@@ -71,7 +71,7 @@ def points_table(scene: GearScene) -> View:
 
     Differences are those of the printed ordinates, and sliding has as many digits as come out of these.
     """
-    words, places = scene.words, marks(scene.solved.values)
+    words, places = scene.words, marks(scene.solved.sizes)
     mm = words.unit("mm")
     letters = {point: letter(name) for name, point in places.items()}
     y_1, y_2 = words.symbol("y_1"), words.symbol("y_2")
@@ -82,14 +82,14 @@ def points_table(scene: GearScene) -> View:
         first, second = (round(_mm(scene, f"y_{i}_{point}"), SLIDING) for i in WHEELS)
         cells = [words.number(y, SLIDING) for y in (first, second)]
         for pair, own, mate in (("12", first, second), ("21", second, first)):
-            exact = float(scene.solved.values[f"theta_{pair}_{point}"])
+            exact = scene.size(f"theta_{pair}_{point}")
             cells += [words.number(own - mate, SLIDING), _sliding(scene, own, mate, exact)]
         rows.append([str(int(point)), letters.get(point, ""), *cells])
     return table("points", words["heading.gear_points"], rows, scene.style)
 
 
 def _mm(scene: GearScene, name: str) -> float:
-    return float(scene.solved.values[name]) * TIMES[MM]
+    return scene.size(name) * TIMES[MM]
 
 
 def _sliding(scene: GearScene, own: float, mate: float, exact: float) -> str:
@@ -107,8 +107,7 @@ def checks_table(scene: GearScene) -> View:
     """Return the checks, each with its number, its limit and the verdict."""
     words = scene.words
     head = [words[f"gear.{name}"] for name in ("check", "condition", "value", "limit", "verdict")]
-    found = checks(scene.solved.pair, scene.solved.values)
-    rows = [_check_row(scene, check) for check in found]
+    rows = [_check_row(scene, check) for check in scene.solved.checks]
     return table("checks", words["heading.gear_checks"], [head, *rows], scene.style)
 
 

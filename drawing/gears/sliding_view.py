@@ -1,0 +1,127 @@
+"""The diagrams over the line of action: velocities along both profiles, and below them specific sliding."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...plans.gears.gear import WHEELS
+from ...plans.gears.geometry import POINTS
+from ...scales.scale import Scale, steps
+from ..diagram import Axis, Field, axes, numbers
+from ..dimensions import linear
+from ..shapes import Circle, Group, Line, Pen
+from ..view import Canvas, View
+from .marks import along, letter
+from .scene import GearScene
+from .theta_diagram import cut_of, place, theta_diagram, theta_field, widest
+
+REDUCTIONS = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02, 0.01)  # of the ordinates of velocities
+TALLEST = {5.0: 130.0, 3.5: 75.0}  # mm of the highest ordinate, by the height of letters
+LONGEST = {5.0: 250.0, 3.5: 140.0}  # mm of the line of action
+BETWEEN = 5.0  # heights of letters between the diagrams
+SIDES = {1: 1.0, 2: -1.0}  # of the pole, on which a wheel's profile is the faster one
+PAST = 1.6  # heights of letters by which axes run past their ends
+
+
+@dataclass(frozen=True, slots=True)
+class Ordinates:
+    """Ordinates of velocities on the paper: `reduction` times those of the table, whose `highest` is so many mm."""
+
+    reduction: float
+    highest: float
+
+    def mm(self, value: float) -> float:
+        """Return an ordinate of the table, m, as it is drawn."""
+        return value * 1e3 * self.reduction
+
+
+def sliding_view(scene: GearScene) -> View:
+    """Draw both diagrams over N1N2, with the points of the table as section lines through both."""
+    canvas, words = Canvas(scene.style), scene.words
+    ordinates = _ordinates(scene)
+    above = Field(0j, _across(scene), Axis(words.symbol("V_k"), Scale("", 1.0, "mm"), 0.0, ordinates.highest, {}))
+    below = theta_field(scene, above, BETWEEN * scene.style.label)
+    past = PAST * scene.style.label
+    for field in (above, below):
+        axes(canvas, field, False, past)
+    _sections(canvas, scene, above, below, ordinates)
+    _velocities(canvas, scene, above, ordinates)
+    _pole(canvas, scene, above, ordinates)
+    theta_diagram(canvas, scene, below)
+    notes = [words["gear.hatched"], words["gear.cut"].format(theta=words.number(cut_of(scene), 0))]
+    if ordinates.reduction < 1.0:
+        notes.append(words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / ordinates.reduction)}"))
+    theta = f"{words.symbol('mu_theta')} = {words.short(below.y.scale.mu)} {words.unit('mm')}^{{−1}}"
+    heading = words["heading.gear_sliding"], f"{words.scale(above.x.scale)};  {theta}"
+    return canvas.finish("sliding", heading, tuple(notes))
+
+
+def _ordinates(scene: GearScene) -> Ordinates:
+    """Return how the ordinates are drawn: as the table has them, or reduced where the highest has no room."""
+    highest = max(scene.size(f"y_{i}_{point}") for i in WHEELS for point in POINTS) * 1e3
+    most = TALLEST[scene.style.label]
+    reduction = next((part for part in REDUCTIONS if highest * part <= most), REDUCTIONS[-1])
+    return Ordinates(reduction, highest * reduction)
+
+
+def _across(scene: GearScene) -> Axis:
+    """Return the axis along N1N2, longer where interference puts an end of the active line beyond it."""
+    places = along(scene.solved.sizes)
+    ends = min(places.values()), max(places.values())
+    return Axis(scene.words.symbol("rho_1"), rho_scale(scene), *ends, {})
+
+
+def rho_scale(scene: GearScene) -> Scale:
+    """Return the scale factor of the line of action, the given one or a coarser one of its series."""
+    given = float(scene.solved.values["mu_rho"]) * 1e-3  # a millimetre, not a metre of paper
+    least = scene.size("l_N1N2") / LONGEST[scene.style.label]
+    return Scale("mu_rho", next(mu for mu in steps(given) if mu >= least * (1.0 - 1e-9)), "m")
+
+
+def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordinates: Ordinates) -> None:
+    """Draw a line through both diagrams at every point of the table, with its number; the named places with letters.
+
+    The lines begin at the higher ordinate of velocities, so that letters above these stand free.
+    """
+    height = scene.style.text
+    foot = below.at(0.0, below.y.low).imag - 1.5
+    lines = []
+    for i, point in enumerate(POINTS, start=1):
+        top = above.at(place(scene, point), max(ordinates.mm(scene.size(f"y_{k}_{point}")) for k in WHEELS))
+        canvas.add(Line(top, complex(top.real, foot), Pen.THIN, role="section", name=str(i)))
+        lines.append(top.real)
+    canvas.add(*numbers(lines, foot - 0.8 - height, height, first=1))
+    for name, rho in along(scene.solved.sizes).items():
+        at = above.at(rho, 0.0)
+        canvas.add(Group((Circle(at, scene.style.node, Pen.MAIN, fill="white"),), "point", name))
+        canvas.label(letter(name), at, prefer=-0.6 - 1j if name == "N1" else 0.6 - 1j, clear=1.0, priority=1)
+
+
+def _velocities(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) -> None:
+    """Draw the lines of both velocities from N1 and N2, marked at the points of the table."""
+    words, style, w = scene.words, scene.style, w_of(scene, field, ordinates)
+    for i in WHEELS:
+        heights = [ordinates.mm(scene.size(f"y_{i}_{point}")) for point in POINTS]
+        tips = [field.at(place(scene, point), y) for point, y in zip(POINTS, heights, strict=True)]
+        canvas.add(Group((Line(tips[0], tips[-1], Pen.MAIN),), "curve", f"V_k{i}"))
+        for point, tip in zip(POINTS, tips, strict=True):
+            canvas.add(Group((Circle(tip, style.node, Pen.THIN, fill="white"),), "ordinate", f"y_{i}_{point}"))
+        far = [tip for tip in tips if (tip - w).real * SIDES[i] > -1e-6]
+        canvas.label(words.symbol(f"V_k{i}"), widest(far, w), prefer=1j, clear=1.0)
+        point, tip = (POINTS[-1], tips[-1]) if i == 1 else (POINTS[0], tips[0])
+        text = f"{words.symbol(f'y_{i}')} = {words.number(scene.size(f'y_{i}_{point}') * 1e3, 2)}"
+        linear(canvas, (complex(tip.real, 0.0), tip), 2.0 * style.label * SIDES[i], text, f"y_{i}_{point}")
+
+
+def w_of(scene: GearScene, field: Field, ordinates: Ordinates) -> complex:
+    """Return W, over the pole."""
+    return field.at(scene.size("rho_w1"), ordinates.mm(scene.size("PW")))
+
+
+def _pole(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) -> None:
+    """Mark W over the pole, and dimension PW."""
+    w = w_of(scene, field, ordinates)
+    text = f"{scene.words.symbol('PW')} = {scene.words.short(round(scene.size('PW') * 1e3, 6))}"
+    linear(canvas, (complex(w.real, 0.0), w), 0j, text, "PW")
+    canvas.add(Group((Circle(w, scene.style.node, Pen.MAIN, fill="white"),), "point", "W"))
+    canvas.label("W", w, prefer=1j, clear=1.2, priority=1)
