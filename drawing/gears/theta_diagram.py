@@ -114,7 +114,7 @@ def _free(scene: GearScene, field: Field, i: int) -> tuple[complex, complex]:
 
 
 def widest(tips: Sequence[complex], pole: complex) -> tuple[complex, complex]:
-    """Return the two neighbours that are farthest apart across, those beside the pole left out: lines are near there."""
+    """Return the two neighbours that are farthest apart across, but for those beside the pole."""
     pairs = sorted(pairwise(tips), key=lambda ends: abs((ends[0] + ends[1]).real - 2.0 * pole.real))
     return max(pairs[1:] or pairs, key=lambda ends: abs((ends[1] - ends[0]).real))
 
