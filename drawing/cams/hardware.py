@@ -10,6 +10,7 @@ from ..style import Style
 from ..symbols import guide, hatching
 
 COILS = 5
+GUIDE = 0.75  # length of a guide in sliders
 OF_CAM = 0.2  # largest radius of the shaft in least radii of the cam
 OF_OFFSET, NEAR = 0.65, (0.6, 1.5)  # radius of the shaft in offsets where that of the circle is near, in shaft radii
 SHAFT, KEY = 1.8, 0.45  # radius of the shaft in heights of letters; half width of its key in radii
@@ -33,13 +34,13 @@ class Rod:
     @property
     def guide(self) -> tuple[float, float]:
         """Where the guide begins and ends: with room for the spring pressed together by the stroke."""
-        low = self.collar + self.stroke + 2.5 * self.style.label
-        return low, low + self.style.slider[0]
+        low = self.collar + self.stroke + 2.0 * self.style.label
+        return low, low + GUIDE * self.style.slider[0]
 
     @property
     def top(self) -> float:
         """The end of the rod."""
-        return self.guide[1] + 4.0
+        return self.guide[1] + 3.0
 
     def shapes(self) -> tuple[Shape, ...]:
         """Return the rod with its collar, the spring on it, and the guide of the frame."""

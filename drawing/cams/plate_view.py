@@ -28,7 +28,7 @@ def plate_view(scene: CamScene) -> View:
     r_0, stroke, R = plate.sizes.r_0 / mu, solved.motion.h / mu, plate.sizes.R_plate / mu
     label = scene.style.label
     outer = math.hypot(r_0 + stroke, R)
-    rod = Rod(0.0, r_0 + THICK * label, outer + (PHASES + 1.5) * label, stroke, scene.style)
+    rod = Rod(0.0, r_0 + THICK * label, outer + (PHASES + 1.2) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
     centre(canvas, scene, r_0, rod.top + 6.0)
     canvas.add(circle(r_0, "r_0_flat"))

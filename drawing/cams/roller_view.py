@@ -29,7 +29,7 @@ def roller_view(scene: CamScene) -> View:
     R = roller.profile.R / mu
     outer = math.hypot(e, s_0 + stroke) + R
     label = scene.style.label
-    rod = Rod(e, s_0, outer + (PHASES + 1.5) * label, stroke, scene.style)
+    rod = Rod(e, s_0, outer + (PHASES + 1.2) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
     centre(canvas, scene, roller.sizes.r_0 / mu, rod.top + 12.0, offset=abs(e))
     canvas.add(circle(roller.sizes.r_0 / mu, "r_0"))

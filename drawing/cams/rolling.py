@@ -15,7 +15,7 @@ from .inversion import corners, unit_at
 from .pressing import theta
 from .scene import CamScene
 
-REACH, BEYOND = 7.0, 6.0  # heights of letters from the roller's centre to the arc of theta; mm of the normal beyond it
+REACH, BEYOND = 6.5, 4.0  # heights of letters from the roller's centre to the arc of theta; mm of the normal beyond it
 PARTS = (1.0, 0.85, 1.15, 0.7)  # of the radius of an arc that may be taken instead of it
 
 

@@ -18,7 +18,7 @@ def transfer(scene: CamScene, plan: str) -> tuple[str, ...]:
     """Return by how much the ordinates of both diagrams are multiplied, and the angle of the projecting line."""
     words = scene.words
     ratios = [f"{words.symbol(DRAWN[mu])}: {_ratio(scene, mu, SCALES[plan])}" for mu in FROM[plan]]
-    lines = [words["said.cam_equal"], *ratios]
+    lines = [words["said.cam_equal"], ";  ".join(ratios)]
     if plan in ANGLES:
         nu, over, under = ANGLES[plan]
         angle = scene.degrees(math.atan(scene.mu(over) / scene.mu(under)))
