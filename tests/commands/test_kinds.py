@@ -72,5 +72,6 @@ def test_every_table_leads_to_its_kind() -> None:
     assert len(set(KINDS)) == len(MODULES)
 
 
-def test_reading_a_task_about_a_cam_needs_no_arrays() -> None:
-    assert loaded("from kulman.variants import load_task; load_task('madi-cam')") == set()
+@pytest.mark.parametrize("task", ["madi-cam", "madi-gear"])
+def test_reading_a_task_about_a_cam_or_gears_needs_no_arrays(task: str) -> None:
+    assert loaded(f"from kulman.variants import load_task; load_task('{task}')") == set()
