@@ -83,8 +83,14 @@ def sensitivities(paper: Paper, hand: Hand, names: Iterable[str] = ()) -> Sensit
     paper = replace(paper, program=paper.program.needed_for(wanted))
     steps = tuple(draw(paper, hand, _OneByOne(), 1).erred)
     board = draw(paper, hand, _OneByOne(), (2, len(steps)))
-    misses = {}
-    for name in wanted:
-        forth, back = np.broadcast_to(board.values[name], (2, len(steps)))
-        misses[name] = (forth - back) * (0.5 / STEP)
-    return Sensitivities(steps, misses, run(paper.program, paper.givens).values)
+    exact = run(paper.program, paper.givens).values
+    misses = {name: _misses(np.broadcast_to(board.values[name], (2, len(steps))), exact[name]) for name in wanted}
+    return Sensitivities(steps, misses, exact)
+
+
+def _misses(values: Array, exact: Any) -> Array:
+    """Return what errors forth and back do: a distance that should be none grows with either."""
+    forth, back = values
+    slope, kink = (forth - back) * (0.5 / STEP), abs((forth + back) * 0.5 - exact) * (1.0 / STEP)
+    found: Array = np.where(kink > abs(slope), kink, slope)
+    return found
