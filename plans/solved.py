@@ -48,6 +48,11 @@ class Solved:
         return dict(mus)
 
     @property
+    def on_paper(self) -> tuple[str, ...]:
+        """Plans that are drawn in millimetres of paper, so that a segment is its own value."""
+        return ()
+
+    @property
     def edges(self) -> tuple[str, ...]:
         """Names of the directions of the sheet's edges, along which a drafting machine draws without an error."""
         return ()

@@ -24,6 +24,7 @@ from ..scales.units import format_unit, parse, unit
 from .tables import aligned
 
 OWN = "own"
+NONE: Mapping[str, Any] = MappingProxyType({})
 BETWEEN = re.compile(r"\s*;\s*|,\s+|(?<=[^\d\s]),")  # not a decimal comma
 DIGITS = 4
 STEP = 7  # the column of the worst step
@@ -37,12 +38,13 @@ LINES = ("turn", "incline", "decline", "direction", "tangent", "normal")
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """A solution drawn by a hand: the hand by its name, what is let pass, and what comes out, by quantity."""
+    """A solution drawn by a hand: the hand by its name, what is let pass, what comes out by quantity, the steps."""
 
     name: str
     hand: Hand
     tolerance: Tolerance
     expected: Mapping[str, Expectation]
+    program: Program
 
     def head(self) -> dict[str, Any]:
         """Return as JSON whose hand draws, and how often."""
@@ -99,18 +101,29 @@ def _tolerance(hand: Hand) -> Tolerance:
     return [*PRESETS.values()][-1].tolerance
 
 
-def drawing(paper: Paper, text: str | Hand) -> Drawing:
-    """Draw a construction with the hand that is named."""
+def drawing(
+    paper: Paper, text: str | Hand, limits: Mapping[str, float] = NONE, other_names: Mapping[str, str] = NONE
+) -> Drawing:
+    """Draw a construction with the hand that is named.
+
+    Parameters
+    ----------
+    limits : mapping of str to float
+        What to let pass of single quantities, SI, in the place of the rule.
+    other_names : mapping of str to str
+        By what other name a quantity goes, and its own in the construction.
+    """
     name, hand, tolerance = hand_of(text)
-    return Drawing(name, hand, tolerance, expectations(paper, hand, tolerance))
+    expected = expectations(paper, hand, tolerance, limits)
+    expected |= {other: expected[own] for other, own in other_names.items() if own in expected}
+    return Drawing(name, hand, tolerance, expected, paper.program)
 
 
 def table(
     drawn: Drawing,
     quantities: Iterable[Quantity],
-    program: Program,
     words: Words,
-    conditions: Mapping[str, tuple[str, str]] = MappingProxyType({}),
+    conditions: Mapping[str, tuple[str, str]] = NONE,
 ) -> str:
     """Return a table: value, interval of drawings, half of it on paper and in per cents, what to let pass, worst step.
 
@@ -127,7 +140,7 @@ def table(
     for quantity in quantities:
         expected = drawn.expected.get(quantity.name)
         if expected is not None:
-            rows.append(_row(quantity, expected, program, words))
+            rows.append(_row(quantity, expected, drawn.program, words))
             if conditions:
                 rows[-1][STEP:STEP] = conditions.get(quantity.name, ("", ""))
     if conditions:

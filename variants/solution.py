@@ -62,6 +62,12 @@ class Solution:
         """Of which kind the task is."""
         return kind_of(self.task.kind)
 
+    @property
+    def drawn_by_students(self) -> Solved:
+        """What has been solved, as a student draws it."""
+        found: Solved = self.kind.as_drawn(self.solved)
+        return found
+
     def __getitem__(self, name: str) -> Quantity:
         """Return a quantity by its name."""
         if name not in self.quantities:
@@ -121,7 +127,7 @@ class Solution:
 
         words = self._words(language)
         conditions = {name: _condition(words, found) for name, found in self.conditions.items()}
-        return table(self.drawing, self._tidy(), self.solved.program, words, conditions)
+        return table(self.drawing, self._tidy(), words, conditions)
 
     def _tidy(self) -> list[Quantity]:
         """Return the quantities without what is nothing but rounding."""
@@ -240,7 +246,7 @@ def solve(
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
     found = case.kind.conditions(case) if condition else {}
-    drawn = None if hand is None else _drawing(solved, by_plan, hand)
+    drawn = None if hand is None else _drawing(case.kind, solved, by_plan, hand)
     return Solution(case.task, case.variant, solved, items, used, solved.error(), warnings, words, found, drawn)
 
 
@@ -264,12 +270,14 @@ def _on_paper(
     return solved, {plan: drawn.scales[plan] for plan in solved.scale_of_plan}, (*case.warnings, *said)
 
 
-def _drawing(solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:
-    from ..plans.hands.shaky import Paper
+def _drawing(kind: Kind[Any, Any], solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:
+    """Draw what is solved as a student does; what goes by another name there is told by its own, too."""
+    from ..plans.hands.shaky import drawing_of
     from .hands import drawing, hand_of
 
-    hand_of(hand)  # a wrong one is refused in any position
+    _, _, tolerance = hand_of(hand)  # a wrong one is refused in any position
     if solved.trouble is not None:
         return None
-    mus = solved.worth({plan: scale.mu for plan, scale in scales.items()})
-    return drawing(Paper(solved.program, solved.givens, mus, solved.edges), hand)
+    drawn = kind.as_drawn(solved)
+    paper = drawing_of(drawn, {plan: scale.mu for plan, scale in scales.items()})
+    return drawing(paper, hand, kind.limits(drawn, paper, tolerance), kind.stands_for(solved))

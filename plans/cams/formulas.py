@@ -10,6 +10,7 @@ from typing import Any
 from ..laws import define, dot
 
 MM = 1e3  # millimetres in a metre of paper
+SHARPEST = "sharpest"  # the law of the least radius of curvature
 
 
 def _angle(opposite: Any, adjacent: Any) -> Any:
@@ -46,6 +47,29 @@ def _touching(slope: Any, side: Any, *coordinates: Any) -> Any:
         inside = np.abs(rise) < bend  # else the outermost point is an end of the curve
         most = np.where(inside, here + 0.5 * rise * rise / np.where(inside, bend, 1.0), most)
     return most * side if np.ndim(most) else float(most) * side
+
+
+def _sharpest(stroke: Any, e: Any, s_0: Any, *parts: Any) -> Any:
+    """Return the least radius of curvature of a roller's pitch curve on its section lines, where it is convex.
+
+    `parts` are all s, then all s' with the sense of turning, then all s'', in parts of the stroke. The roller's centre
+    is e + i (s_0 + s) on paper that turns with the cam.
+    """
+    import numpy as np
+
+    deep = max(np.ndim(size) for size in (stroke, e, s_0))
+    s, ds, d2s = (stroke * np.array(third).reshape(-1, *(1,) * deep) for third in _thirds(parts))
+    up, aside = s_0 + s, ds - e
+    bend = up * (up - d2s) + aside * (aside + ds)
+    convex = bend > 0.0
+    radii = np.where(convex, np.sqrt(up * up + aside * aside) ** 3 / np.where(convex, bend, 1.0), np.inf)
+    least = np.min(radii, axis=0)
+    return least if np.ndim(least) else float(least)
+
+
+def _thirds(parts: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
+    third = len(parts) // 3
+    return parts[:third], parts[third : 2 * third], parts[2 * third :]
 
 
 def _outermost(side: Any, *places: Any) -> Any:
@@ -87,6 +111,8 @@ define(
     negative=lambda value: -value,
     # psi_0 = arccos((l^2 + l_OC^2 - r_0^2) / (2 l l_OC)): the angle between the sides a and b
     angle_of_triangle=_angle_of_triangle,
+    # rho_min = |v|^3 / (v x v'), v and v' being the derivatives of the roller's centre by the angle of the cam
+    **{SHARPEST: _sharpest},
     # R = |ds/dphi|max + 5..8 mm, r_0 = r_0min + rho_min
     enlarged=lambda size, margin: size + margin,
 )

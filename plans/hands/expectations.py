@@ -77,22 +77,22 @@ class Expectation:
 
 
 def expectations(
-    paper: Paper, hand: Hand, tolerance: Tolerance, seed: int = SEED, drawings: int = DRAWINGS
+    paper: Paper, hand: Hand, tolerance: Tolerance, limits: Mapping[str, float] | None = None, drawings: int = DRAWINGS
 ) -> dict[str, Expectation]:
-    """Draw a construction many times with a hand, and mark what comes out.
+    """Draw a construction many times with a hand, the same drawings every time, and mark what comes out.
 
     Parameters
     ----------
-    seed : int
-        Of the generator of errors: the same one draws the same.
+    limits : mapping of str to float, optional
+        Tolerances of single quantities in SI, in the place of the rule.
 
     Returns
     -------
     dict of str to Expectation
         For every quantity of the construction; what is only given does not err.
     """
-    found = drawn(paper, hand, np.random.default_rng(seed), drawings)
-    key = answer_key(paper, tolerance)
+    found = drawn(paper, hand, np.random.default_rng(SEED), drawings)
+    key = answer_key(paper, tolerance, limits)
     spreads, missed = found.spreads(SHARE), found.board.missed
     parts = sensitivities(paper, hand)
     failed, plans = failing(found, key.allowed), plans_of(paper.program)

@@ -48,18 +48,26 @@ class Paper:
         Scale factors by plan, value in SI per mm.
     edges : collection of str
         Names of the directions of the sheet's edges, along which a drafting machine draws without error.
+    unscaled : collection of str
+        Plans in millimetres of paper themselves: what is measured there has no scale factor.
     """
 
     program: Program
     givens: Mapping[str, Any]
     mus: Mapping[str, Any]
     edges: Collection[str] = ()
+    unscaled: Collection[str] = ()
 
 
 def paper_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
     """Return the drawing of what is solved with scale factors by symbol, `mu_V`, in SI per mm."""
     by_plan = {plan: mus[symbol] for plan, symbol in solved.scale_of_plan.items()}
-    return Paper(solved.program, solved.givens, solved.worth(by_plan), solved.edges)
+    return drawing_of(solved, by_plan)
+
+
+def drawing_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
+    """Return the drawing of what is solved with scale factors by plan, in SI per mm."""
+    return Paper(solved.program, solved.givens, solved.worth(mus), solved.edges, solved.on_paper)
 
 
 class ShakyBoard(ArrayBoard):

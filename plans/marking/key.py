@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ..board import POSITION, Step
@@ -18,6 +18,7 @@ from ..references import results, worst_behind
 ROUNDED = 0.005  # part of a value by which three digits are rounded
 COARSER = 2.0  # how much coarser than ours a student's own scale may be for its millimetres to count
 LIKE = 1.02  # ratio of scale factors that count as one
+SAME = 1e-9  # part of a value that is rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +34,10 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """The answer key; `allowed` are sizes in SI, `angles` directions in radians."""
+    """The answer key; `allowed` are sizes in SI, `angles` directions in radians.
+
+    `values` are those of the construction; `also` has what is right, too, because another way leads to it.
+    """
 
     paper: Paper
     tolerance: Tolerance
@@ -43,10 +47,20 @@ class Key:
     allowed: Mapping[str, float]
     angles: Mapping[str, float]
     questions: Mapping[str, Question]
+    also: Mapping[str, Any] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Any:
         """Return the right value, a float or complex."""
         return self.values[name]
+
+    def right(self, name: str) -> tuple[Any, ...]:
+        """Return all right values of a quantity, that of the construction first."""
+        return (self.values[name], self.also[name]) if name in self.also else (self.values[name],)
+
+    def or_else(self, values: Mapping[str, Any]) -> Key:
+        """Return the key in which the numbers that another way has led to are right, too, where they differ."""
+        also = {n: values[n] for n in self.questions if n in values and abs(values[n] - self[n]) > SAME * abs(self[n])}
+        return replace(self, also=also)
 
     def drawn_to(self, mus: Mapping[str, float]) -> Key:
         """Return the key for a sheet drawn to a student's own scale factors, by plan, value in SI per mm.
@@ -86,16 +100,21 @@ def answer_key(
 
 def _key(paper: Paper, key: Key) -> Key:
     """Find the tolerances of a key on another paper."""
-    allowed = tolerances(paper, key.values, key.sines, key.tolerance)
-    least = max(ROUNDED, 0.2 * key.tolerance.part)
+    ruled = key.questions.keys() - key.limits.keys()
+    allowed = {**(tolerances(paper, key.values, key.sines, key.tolerance) if ruled else {}), **key.limits}
     for name in key.questions:
-        size = abs(key.values[name])
-        allowed[name] = key.limits.get(name, max(allowed[name], least * size))
+        least = rounded(key.values[name], key.tolerance)
+        allowed[name] = key.limits.get(name, max(allowed[name], least))
     flat = worst_behind(paper.program, key.sines, same_plan)
     angles = {
         name: _angle(key, name, allowed[name], flat) for name, question in key.questions.items() if question.vector
     }
     return replace(key, paper=paper, allowed=allowed, angles=angles)
+
+
+def rounded(value: Any, tolerance: Tolerance) -> float:
+    """Return by how much a value may differ in any case: three digits, or a part of what a segment may miss."""
+    return float(max(ROUNDED, 0.2 * tolerance.part) * abs(value))
 
 
 def _angle(key: Key, name: str, allowed: float, flat: Mapping[str, float]) -> float:

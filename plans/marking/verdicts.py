@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from statistics import median
 from typing import Any, NamedTuple
 
@@ -92,7 +93,7 @@ def count_right(key: Key, answers: Iterable[Answer], least: float) -> int:
 
 
 def _marker(key: Key, answers: Iterable[Answer]) -> _Marker:
-    said = _by_name(key, answers)
+    said = _by_name(key, (_on_paper(key, answer) for answer in answers))
     return _Marker(key, said, {name: (known(a.mu) and a.mu) or None for name, a in said.items()})
 
 
@@ -126,6 +127,19 @@ def _by_name(key: Key, answers: Iterable[Answer]) -> dict[str, Answer]:
     return found
 
 
+def _on_paper(key: Key, answer: Answer) -> Answer:
+    """Return an answer on a drawing without a scale: what is measured there is the value, and no factor of it counts.
+
+    What is calculated there has its own factor, and no millimetres without it.
+    """
+    question = key.questions.get(answer.name)
+    if question is None or answer.mm is None or question.plan not in key.paper.unscaled:
+        return answer
+    if question.step.verb != "calc":
+        return replace(answer, mu=key.paper.mus[question.plan])
+    return answer if known(answer.mu) else replace(answer, mm=None)
+
+
 class _Held(NamedTuple):
     """An answer held against a value: the verdict, how it was taken, by how much it misses."""
 
@@ -150,8 +164,9 @@ class _Marker:
         """Find the scale factor of every line with millimetres, and draw the key to the student's scales."""
         by_plan: dict[str, list[str]] = {}
         for name, answer in self.answers.items():
-            if answer.mm and known(answer.mm) and answer.mm > 0.0:
-                by_plan.setdefault(self.key.questions[name].plan, []).append(name)
+            plan = self.key.questions[name].plan
+            if answer.mm and known(answer.mm) and answer.mm > 0.0 and plan not in self.key.paper.unscaled:
+                by_plan.setdefault(plan, []).append(name)
         drawn = {}
         for plan, names in by_plan.items():
             written = next((mu for name in names if (mu := self.mus[name])), None) or self._from_pairs(names)
@@ -215,7 +230,7 @@ class _Marker:
 
     def _line(self, question: Question, follows: Any) -> Line:
         name, held = question.name, self.held.get(question.name)
-        right, allowed = self.key[name], self.key.allowed[name]
+        right, allowed = self._right(name), self.key.allowed[name]
         if held is None:
             return Line(name, question.plan, Verdict.MISSING, None, None, right, follows, allowed, NEVER)
         verdict, way, found, against = held
@@ -225,6 +240,13 @@ class _Marker:
         about = found.about if verdict.faulty else ""
         answer = self.answers[name]
         return Line(name, question.plan, verdict, answer, said, right, follows, allowed, found.off, about, way)
+
+    def _right(self, name: str) -> Any:
+        """Return the right value, of two that which the answer is nearer to."""
+        found = self.key.right(name)
+        if len(found) == 1 or name not in self.held:
+            return found[0]
+        return min(found, key=lambda value: self._best(self.ways[name], name, value).miss.off)
 
     def _judge(self, name: str, value: Any) -> tuple[Said | None, bool]:
         """Judge a line whose value follows from what was wrong before; go on with what the student says if it differs.
@@ -265,8 +287,8 @@ class _Marker:
         return SLACK * max(tolerance.mm * float(mu), tolerance.part * value)
 
     def _held(self, ways: tuple[Said, ...], name: str, value: Any) -> _Held:
-        """Hold an answer against the right value, and against what follows."""
-        right = self._best(ways, name, self.key[name])
+        """Hold an answer against the right values, and against what follows."""
+        right = min((self._best(ways, name, value) for value in self.key.right(name)), key=_off)
         if right.miss.off <= 1.0:
             return right
         follows = [self._best(ways, name, x) for x in (value, self._follows(name))]
@@ -320,7 +342,7 @@ class _Marker:
         """Whether a line would pass with one of other values, and that in a few parts of a hundred."""
         if abs(self.key[name]) <= self.key.allowed[name]:
             return False  # anything is nothing in some unit
-        sizes = [abs(x) for x in (self.key[name], value, self._follows(name)) if x is not None]
+        sizes = [abs(x) for x in (*self.key.right(name), value, self._follows(name)) if x is not None]
         for x in others:
             if any(abs(abs(x) - size) <= SAME * size for size in sizes):  # else it need not be held against anything
                 held = self._held(readings(self.answers[name], (x,)), name, value)

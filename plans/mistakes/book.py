@@ -84,4 +84,5 @@ def key_of(key: Key, signature: Signature) -> Key:
     """Return the answer key as if the broken rule were the right one."""
     allowed = dict(zip(key.questions, signature.allowed.tolist(), strict=True))
     paper = replace(key.paper, program=signature.broken.program, givens=signature.broken.givens)
-    return replace(key, paper=paper, values={**key.values, **signature.values}, allowed={**key.allowed, **allowed})
+    values = {**key.values, **signature.values}
+    return replace(key, paper=paper, values=values, allowed={**key.allowed, **allowed}, also={})

@@ -15,11 +15,11 @@ from kulman.variants.solution import Solution
 TASK = "madi-cam"
 ROCKER = Path(__file__).resolve().parents[2] / "docs" / "examples" / "rocker-cam.toml"
 PRINTED = {
-    "mu_s_chord": Verdict.RIGHT,
-    "mu_a_chord": Verdict.RIGHT,
-    "ds_max_chord": Verdict.RIGHT,
-    "r_0_tangents": Verdict.RIGHT,
-    "e_tangents": Verdict.RIGHT,
+    "mu_s": Verdict.RIGHT,
+    "mu_a": Verdict.RIGHT,
+    "ds_max": Verdict.RIGHT,
+    "r_0": Verdict.RIGHT,
+    "e": Verdict.RIGHT,
     "rho_min": Verdict.WRONG,  # the radius of the upper dwell
     "r_0_flat_min": Verdict.WRONG,  # an amplitude on paper
     "r_0_flat": Verdict.CARRIED,
@@ -36,17 +36,30 @@ def test_printed_answers_are_right_but_for_two_that_are_no_sizes_of_a_cam() -> N
     asked = check(TASK, lang="en")
 
     (answers,) = asked.read("printed")
-    verdicts = {line.name: line.verdict for line in asked.mark(answers).marked.lines}
+    marked = asked.mark(answers).marked
 
+    verdicts = {line.name: line.verdict for line in marked.lines}
     assert {name: verdicts[name] for name in PRINTED} == PRINTED
+    assert marked.count(Verdict.MISSING) == 0
+    assert marked.mark == pytest.approx(100.0 * 13 / 15, abs=0.1)
 
 
-def test_form_asks_for_what_is_drawn_and_not_for_what_only_a_formula_gives(tmp_path: Any) -> None:
+def test_form_asks_for_each_size_once_by_its_plain_name(tmp_path: Any) -> None:
     text = check(TASK, lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
 
     asked = {line.split(",")[0] for line in text.splitlines()}
-    assert {"mu_s_chord", "r_0_tangents", "e_tangents", "rho_min", "R_plate"} <= asked
-    assert not {"mu_s", "r_0", "e", "s_0", "nu"} & asked
+    assert {"mu_s", "mu_ds", "mu_d2s", "mu_v", "mu_a", "nu", "r_0", "e", "s_0"} <= asked
+    assert {"r_0_flat_min", "rho_min", "R_plate"} <= asked
+    assert not {"s_max", "s_close", "v_close", "mu_s_chord", "r_0_tangents", "r_0_flat_tangent"} & asked
+    assert "Zhukovsky" not in text
+
+
+def test_form_asks_for_the_first_angle_of_a_rocker_and_for_no_given(tmp_path: Any) -> None:
+    text = check(ROCKER, lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
+
+    asked = {line.split(",")[0] for line in text.splitlines()}
+    assert {"psi_0", "r_0", "l_OC", "rho_min"} <= asked
+    assert not {"e", "l_rocker", "R_roller", "H_a"} & asked
 
 
 def test_form_of_a_rocker_is_headed_by_its_own_plans(tmp_path: Any) -> None:
@@ -76,7 +89,7 @@ def test_right_answers_get_the_full_mark(tmp_path: Any, solution: Solution) -> N
 
 @pytest.mark.parametrize(
     ("name", "times"),
-    [("mu_s_chord", 1e3), ("mu_a_chord", 10.0), ("gamma_rise_min", math.degrees(1.0)), ("r_0_tangents", 0.1)],
+    [("mu_s", 1e3), ("mu_a", 10.0), ("gamma_rise_min", math.degrees(1.0)), ("r_0", 0.1)],
 )
 def test_a_value_in_another_unit_is_told_from_a_wrong_one(
     name: str, times: float, tmp_path: Any, solution: Solution

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ...plans.cams.profile import PlateProfile, RollerProfile
     from ...plans.cams.solve import SolvedCam
     from ...plans.hands.hand import Tolerance
+    from ...plans.hands.shaky import Paper
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
@@ -36,8 +37,8 @@ if TYPE_CHECKING:
 SYMBOLS = ("mu_l", "mu_s_ds", "mu_s_d2s")  # the others follow from the drawn amplitude and the pole distances
 PER_MM, MILLI = 1e-3, 1e3
 AXES = ("diagram_a", "diagram_v", "diagram_s")  # the plans of the diagrams on one axis of angles
-DRAWN = ("_chord", "_tangents")  # what the name of a quantity ends with that is drawn, and so asked in place of another
-UNASKED = ("s_0", "r_0_flat_tangent")  # what goes with a size that is asked
+# what is not asked: the stroke, which is given, and what should be nothing
+UNASKED = ("s_max", "s_close", "v_close")
 RULES = ("roller_of_radius", "roller_of_curvature", "gamma_rise", "gamma_fall")  # checks that are told when they fail
 
 
@@ -161,17 +162,31 @@ class Cams(Kind[Cam, "SolvedCam"]):
             found["convex"] = {"ok": rho_min >= 0.0, "value": rho_min, "limit": 0.0, "unit": "m"}
         return found
 
-    def asks(self, solved: SolvedCam, question: Question) -> bool:
-        """Ask for what a drawing gives rather than for what only a formula gives."""
-        if question.name in UNASKED or question.name in solved.givens:
-            return False
-        return not any(f"{question.name}{end}" in solved.quantities for end in DRAWN)
+    def as_drawn(self, solved: SolvedCam) -> SolvedCam:
+        """Return the cam with chords and tangents in the place of closed forms."""
+        from ...plans.cams.drawn import as_drawn
 
-    def limits(self, solved: SolvedCam, mus: Mapping[str, float], tolerance: Tolerance) -> dict[str, float]:
-        """Let pass what is measured on a drawing, though it can be calculated, as a segment of its length."""
-        calculated = [step.name for step in solved.program if step.verb == "calc" and step.name in solved.shown_on]
-        shown = ((name, mus[solved.scale_of_plan[solved.shown_on[name]]]) for name in calculated)
-        return {name: tolerance.of_segment(abs(solved.values[name]) / mu) * mu for name, mu in shown}
+        return as_drawn(solved)
+
+    def stands_for(self, solved: SolvedCam) -> dict[str, str]:
+        """Return for what the sizes by chords and tangents stand."""
+        from ...plans.cams.drawn import stands_for
+
+        return stands_for(solved)
+
+    def asks(self, solved: SolvedCam, question: Question) -> bool:
+        """Ask for what is found, not for what is given, nor by how much a drawing does not close."""
+        return question.name not in UNASKED and question.name not in solved.givens
+
+    def limits(self, drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
+        """Let pass what the errors of all chords add up to."""
+        from ...plans.cams.tolerances import tolerances_of
+
+        return tolerances_of(drawn, paper, tolerance)
+
+    def form_notes(self, solved: SolvedCam) -> tuple[str, ...]:
+        """Tell that sizes may be drawn or calculated, and of the sign of e."""
+        return ("cam",)
 
     def section(self, solved: SolvedCam, question: Question, current: str) -> str:
         """Return the section of a question: the three diagrams are one drawing."""

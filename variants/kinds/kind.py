@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from ...plans.solved import Solved
@@ -20,6 +20,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...drawing.words import Words
     from ...plans.condition import Condition
     from ...plans.hands.hand import Tolerance
+    from ...plans.hands.shaky import Paper
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
@@ -93,6 +94,13 @@ class Kind(ABC, Generic[Subject, Answer]):
         """Return what a user should know of what has been solved."""
         return ()
 
+    def unfit(self, case: Case) -> Iterator[InputError]:
+        """Go through what makes a variant a poor exercise: what users are warned of, rules that it breaks."""
+        yield from case.warnings
+        for name, check in self.checks(case.solved, case.solved.quantities).items():
+            if not check["ok"]:
+                yield InputError("variant-check", check=name)
+
     def checks(self, solved: Answer, quantities: Mapping[str, Quantity]) -> Verdicts:
         """Return what a second route, or a rule of good design, says of a solution, by name."""
         return {}
@@ -137,15 +145,32 @@ class Kind(ABC, Generic[Subject, Answer]):
         """Whether a form asks for a quantity."""
         return True
 
-    def limits(self, solved: Answer, mus: Mapping[str, float], tolerance: Tolerance) -> dict[str, float]:
+    def as_drawn(self, solved: Answer) -> Answer:
+        """Return what has been solved as a student draws it: what hangs on a drawing hangs on it, and not on formulas.
+
+        It is marked, and drawn by hands. Its values may differ from those of `solved`, which are right, too.
+        """
+        return solved
+
+    def stands_for(self, solved: Answer) -> dict[str, str]:
+        """Return what quantities of `solved` are called in `as_drawn`, those that are called otherwise there."""
+        return {}
+
+    def limits(self, drawn: Answer, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Return by how much single quantities may miss, SI, where the usual rule does not hold.
 
         Parameters
         ----------
-        mus : mapping of str to float
-            Scale factors by symbol, SI per mm.
+        drawn : Solved
+            As `as_drawn` returns it.
+        paper : Paper
+            The same on paper, with its scale factors.
         """
         return {}
+
+    def form_notes(self, solved: Answer) -> tuple[str, ...]:
+        """Return the keys, after `form.`, of what a form of this kind says beside what every form does."""
+        return ()
 
     def section(self, solved: Answer, question: Question, current: str) -> str:
         """Return the section of the form in which a question stands; `current` is that of the one before it."""

@@ -60,7 +60,7 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
     said = texts(words.language)
     for key in ASKED_ABOUT:
         yield (said[f"about.{key}"], about.get(key, ""))
-    yield (said["form.hint"],)
+    yield (" ".join(said[f"form.{note}"] for note in _notes(keyed)),)
     yield tuple(said[f"column.{column}"] for column in COLUMNS)
     letters = keyed.solution.kind.vector_letters(keyed.solution.solved, words)
     for part in filter(attrgetter("asked"), keyed.parts):
@@ -71,6 +71,14 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
         for question in part.asked:
             name, unit = question.name, _written(asked.unit(question.name), words)
             yield (name, keyed.symbol(name), letters.get(name, ""), "", "", "", unit)
+
+
+def _notes(keyed: Keyed) -> Iterator[str]:
+    """Go through the keys of what stands over a form: how it is filled in."""
+    yield "hint"
+    if any(question.vector for part in keyed.parts for question in part.asked):
+        yield "directions"
+    yield from keyed.solution.kind.form_notes(keyed.solution.solved)
 
 
 def _written(unit: str, words: Words) -> str:

@@ -72,5 +72,10 @@ def read_all(names: Sequence[str], task: str, asked: Asked, warn: Callable[[Kulm
             warn(error)
             found.append(Answers(file, Who(), {}, {}, {}, unread=error))
             continue
-        found += [replace(one, source=PRINTED) for one in read] if file == _printed(task) else read
+        found += map(_of_source, read) if file == _printed(task) else read
     return found
+
+
+def _of_source(printed: Answers) -> Answers:
+    """Return the answers of a source: what it does not print is not missing."""
+    return replace(printed, source=PRINTED, columns=tuple(printed.lines))

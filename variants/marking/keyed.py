@@ -104,7 +104,7 @@ class Keyed:
 
 def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> Asked:
     """Return what can be answered in a task; the quantities of `names` alone where they are given."""
-    made = frozenset(solution.solved.program.names if names is None else names)
+    made = frozenset(solution.drawn_by_students.program.names if names is None else names)
     quantities = {
         name: q
         for name, q in solution.quantities.items()
@@ -124,10 +124,12 @@ def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) ->
     """
     solution = request.solution(variant, settings)
     mus = {scale.symbol: scale.mu for scale in solution.scales.values()}
-    limits = {**solution.kind.limits(solution.solved, mus, rubric.tolerance), **rubric.limits}
-    paper = paper_of(solution.solved, mus)
+    kind, drawn = solution.kind, solution.drawn_by_students
+    paper = paper_of(drawn, mus)
+    limits = {**kind.limits(drawn, paper, rubric.tolerance), **rubric.limits}
     key = answer_key(paper, rubric.tolerance, limits, units=lambda name: solution.quantities[name].unit)
-    words = solution.kind.lettered(solution.words, solution.solved)
+    key = key.or_else(solution.solved.values)
+    words = kind.lettered(solution.words, solution.solved)
     parts = tuple(sections(solution, key.questions.values(), words))
     asked = asked_of(solution, key.questions)
     own = sheet_id(request.task, solution.variant, {**request.settings, **settings})
