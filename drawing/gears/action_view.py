@@ -13,7 +13,7 @@ from ..view import Canvas, View
 from .scene import GearScene
 
 LEVEL = 2.2  # heights of letters for each pair that touches
-ROW = 2.4  # heights of letters between dimension lines
+ROW = 1.8  # heights of letters between dimension lines
 FIRST = 3.0  # heights of letters from the line to the first of them
 SAME = 1e-9  # part of the base pitch: places that are one
 
@@ -26,7 +26,7 @@ def action_view(overall: GearScene) -> View:
     _line(canvas, scene)
     _dimensions(canvas, scene)
     heading = scene.words["heading.gear_action"], scene.factor(scene.mu_l)
-    return canvas.finish("action", heading, ratios(scene))
+    return canvas.finish("action", heading, (*ratios(scene), scene.words["said.gear_zones"]))
 
 
 def ratios(scene: GearScene) -> tuple[str, ...]:
@@ -110,5 +110,7 @@ def _dimensions(canvas: Canvas, scene: GearScene) -> None:
         shown = [one for one in row if one[2] - one[1] > 0.0]
         for name, low, high, quantity in shown:
             ends = complex(low / scene.mu_l, 0.0), complex(high / scene.mu_l, 0.0)
-            linear(canvas, ends, 1j * y, scene.stated(quantity), name)
+            linear(canvas, ends, 1j * y, "", name)
+            at = ends[0] + 1j * y, ends[1] + 1j * y
+            canvas.label(scene.stated(quantity), at, prefer=1j, clear=0.8, height=scene.style.text)
         y -= ROW * scene.style.label * bool(shown)

@@ -13,6 +13,7 @@ from ..view import Canvas
 from .scene import GearScene
 from .wheels import CIRCLES, SHOWN, Wheel
 
+Span = tuple[float, float]
 PENS = {"a": Pen.THIN, "w": Pen.EXTREME, "": Pen.AXIS, "b": Pen.DASHED, "f": Pen.THIN}
 PAST = 8.0  # mm of a line beyond what it goes to
 PITCH = 1.9  # heights of letters between diameters written under one another
@@ -21,35 +22,37 @@ WIDEST = 0.9 * math.pi  # half the angle of circles at most
 TURNING = 3.2  # radius of the arrows of omega, in heights of letters
 
 
-def beside_teeth(wheel: Wheel) -> float:
-    """Return how far from the line of centres the circles of a wheel reach that go just beyond its teeth, rad."""
+def beside_teeth(wheel: Wheel) -> Span:
+    """Return between which angles from the direction to the pole the circles of a wheel are drawn, just beyond teeth.
+
+    The second one lies on the free side, away from the line of action.
+    """
     lean = abs(wheel.angle(wheel.centre + wheel.facing))
-    return min(0.5 * SHOWN * wheel.pitch + lean + PAST / wheel.radius("a"), WIDEST)
+    reach = 0.5 * SHOWN * wheel.pitch + PAST / wheel.radius("a")
+    return -wheel.side * min(reach + lean, WIDEST), wheel.side * min(reach - lean, WIDEST)
 
 
-def beside_ends(wheel: Wheel) -> float:
-    """Return how far from the line of centres circles reach that go beyond the end of the line of action, too, rad."""
-    return max(beside_teeth(wheel), wheel.sizes["alpha_w"] + PAST / wheel.radius("b"))
-
-
-def circles(canvas: Canvas, wheel: Wheel, half: float) -> None:
-    """Draw arcs of the five circles, each with a line of its own; tip and root are thin as what they bound is thick."""
-    start = cmath.phase(wheel.up) - half
+def circles(canvas: Canvas, wheel: Wheel, span: Span, to_end: bool) -> None:
+    """Draw arcs of the five circles, each with a line of its own; the base circle `to_end` of the line of action."""
     for name in CIRCLES:
-        arc = Arc(wheel.centre, wheel.radius(name), start, 2.0 * half, PENS[name])
+        low, high = span
+        if to_end and name == "b":
+            low = -wheel.side * max(abs(low), wheel.sizes["alpha_w"] + PAST / wheel.radius("b"))
+        arc = Arc(wheel.centre, wheel.radius(name), cmath.phase(wheel.up) + low, high - low, PENS[name])
         canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
 
 
-def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, half: float) -> None:
-    """Write the diameters where the circles end on the right, under one another, each on a leader."""
-    height = scene.style.text
-    ends = {f"d_{name}{wheel.number}": wheel.on(wheel.radius(name), -half * wheel.up.imag) for name in CIRCLES}
+def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float) -> None:
+    """Write the diameters where the circles end on the free side, under one another, each on a leader."""
+    height, out = scene.style.text, wheel.side * wheel.up.imag  # -1 to the left, on which the pinion's free side is
+    ends = {f"d_{name}{wheel.number}": wheel.on(wheel.radius(name), angle) for name in CIRCLES}
     names = sorted(ends, key=lambda name: ends[name].imag)
-    x = max(end.real for end in ends.values()) + SHELF
+    x = max(-out * end.real for end in ends.values()) + SHELF
     for name, y in zip(names, _apart([ends[name].imag for name in names], PITCH * height), strict=True):
-        at = complex(x, y)
+        at, anchor = complex(-out * x, y), ("right" if out > 0.0 else "left")
         canvas.add(Line(ends[name], at, Pen.THIN, role="leader", name=name))
-        canvas.add(Text(at + complex(1.0, -0.5 * height), scene.stated(name), height, role="diameter", name=name))
+        place = at + complex(-out, -0.5 * height)
+        canvas.add(Text(place, scene.stated(name), height, anchor, role="diameter", name=name))
 
 
 def _apart(levels: Sequence[float], least: float) -> list[float]:
@@ -87,11 +90,11 @@ def _turning(canvas: Canvas, scene: GearScene, wheel: Wheel, turns: float) -> No
     canvas.label(scene.words.symbol(name), at, prefer=at - wheel.centre, clear=1.0)
 
 
-def tangent(canvas: Canvas, reach: float) -> None:
+def tangent(canvas: Canvas, left: float, right: float) -> None:
     """Draw the common tangent t-t of the rolling circles through the pole."""
-    canvas.add(Line(complex(-reach, 0.0), complex(reach, 0.0), Pen.THIN, role="tangent", name="t"))
-    for side in (-1.0, 1.0):
-        canvas.label("t", complex(side * reach, 0.0), prefer=complex(side, 0.0), clear=0.8)
+    canvas.add(Line(complex(left, 0.0), complex(right, 0.0), Pen.THIN, role="tangent", name="t"))
+    for end in (left, right):
+        canvas.label("t", complex(end, 0.0), prefer=complex(end, 0.0), clear=0.8)
 
 
 def line_of_action(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel]) -> None:

@@ -21,6 +21,7 @@ from .letters import lettered
 from .scene import MESHING, GearScene
 
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
+PARTS = 1.0, 0.8, 0.6, 0.5  # of the usual size of the diagrams of sliding
 GearFigure = Figure[GearScene]
 
 
@@ -31,11 +32,12 @@ class Contents(SheetContents[SolvedGear]):
 
 @dataclass(frozen=True, slots=True)
 class Rungs:
-    """How small things are drawn: the meshing, its middle apart, the construction of the involutes; each a rung."""
+    """How small things are drawn: the meshing, its middle apart, the involutes, diagrams of sliding; each a rung."""
 
     mu_l: int = 0
     near: int = 0
     rolled: int = 0
+    part: int = 0
 
 
 @dataclass(slots=True)
@@ -55,6 +57,7 @@ class Fitting:
             "mu_l": mu_ladder(solved, self.contents.choosers),
             "near": near_ladder(solved),
             "rolled": rolled_ladder(solved),
+            "part": PARTS,
         }
 
     def scene(self, sheet: Format, rungs: Rungs) -> GearScene:
@@ -121,5 +124,5 @@ def _sliding() -> Iterator[tuple[str, GearFigure]]:
     from .sliding_view import sliding_view
     from .tables import points_table
 
-    yield "sliding", Figure(sliding_view)
+    yield "sliding", Figure(sliding_view, ("part",))
     yield "points", Figure(points_table)

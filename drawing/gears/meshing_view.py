@@ -16,9 +16,9 @@ Pair = tuple[Wheel, Wheel]
 def meshing_view(scene: GearScene) -> View:
     """Draw the pair about its centres while a pair of teeth touches at the pole."""
     canvas, pair = Canvas(scene.style), scene.wheels()
-    left, reach = _circles(canvas, scene, pair, [circles.beside_ends(wheel) for wheel in pair])
+    left, right = _circles(canvas, scene, pair, to_end=True)
     circles.centres(canvas, scene, pair, left - BESIDE)
-    circles.tangent(canvas, reach)
+    circles.tangent(canvas, left, right)
     circles.line_of_action(canvas, scene, pair)
     circles.active_line(canvas, scene, not scene.apart)
     circles.angle_of_action(canvas, scene)
@@ -29,29 +29,37 @@ def meshing_view(scene: GearScene) -> View:
     for wheel in pair:
         along_circles.pitch(canvas, scene, wheel, to_centre=True)
     along_circles.action(canvas, scene, pair)
-    return canvas.finish("meshing", (scene.words["heading.gear_meshing"], scene.factor(scene.mu_l)))
+    return _finished(canvas, scene, "meshing", not scene.apart)
 
 
 def near_view(overall: GearScene) -> View:
     """Draw the middle of the meshing apart, larger."""
     scene = replace(overall, mu_l=overall.near)
     canvas, pair = Canvas(scene.style), scene.wheels()
-    _, reach = _circles(canvas, scene, pair, [circles.beside_teeth(wheel) for wheel in pair])
-    circles.tangent(canvas, reach)
+    circles.tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
     circles.active_line(canvas, scene)
     _details(canvas, scene, pair)
     for wheel in pair:
         along_circles.pitch(canvas, scene, wheel, to_centre=False)
-    return canvas.finish("teeth", (scene.words["heading.gear_teeth"], scene.factor(scene.mu_l)))
+    return _finished(canvas, scene, "teeth", detailed=True)
 
 
-def _circles(canvas: Canvas, scene: GearScene, pair: Pair, halves: list[float]) -> tuple[float, float]:
-    """Draw the circles; return the abscissa of their left end, and how far t-t reaches."""
-    for wheel, half in zip(pair, halves, strict=True):
-        circles.circles(canvas, wheel, half)
-        circles.diameters(canvas, scene, wheel, half)
-    ends = [abs(wheel.on(wheel.radius("a"), half).real) for wheel, half in zip(pair, halves, strict=True)]
-    return -max(ends), min(ends)
+def _finished(canvas: Canvas, scene: GearScene, name: str, detailed: bool) -> View:
+    """Close a view, with what its lines and letters mean where it has details."""
+    words = scene.words
+    notes = words["said.gear_meshing"].split("|") if detailed else ()
+    return canvas.finish(name, (words[f"heading.gear_{name}"], scene.factor(scene.mu_l)), tuple(notes))
+
+
+def _circles(canvas: Canvas, scene: GearScene, pair: Pair, to_end: bool) -> tuple[float, float]:
+    """Draw the circles with their diameters; return the abscissas between which they lie."""
+    xs = []
+    for wheel in pair:
+        span = circles.beside_teeth(wheel)
+        circles.circles(canvas, wheel, span, to_end)
+        circles.diameters(canvas, scene, wheel, span[1])
+        xs += [wheel.on(wheel.radius("a"), angle).real for angle in span]
+    return min(xs), max(xs)
 
 
 def _details(canvas: Canvas, scene: GearScene, pair: Pair) -> None:

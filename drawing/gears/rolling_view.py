@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import cmath
+import math
 from dataclasses import replace
-from itertools import chain
 
 from ..shapes import Arc, Circle, Group, Line, Pen, Polyline
 from ..symbols import right_angle
@@ -16,6 +16,8 @@ from .wheels import Wheel
 DOT = 0.6  # of a division, in radii of nodes
 TIP = "a"  # the division that ends on the tip circle
 BESIDE = 0.03  # rad of an arc beyond what is drawn on it
+TIP_ARC = 3.0  # heights of letters of the tip circle to both sides
+LINE = "line-of-action"
 
 
 def rolling_view(overall: GearScene) -> View:
@@ -25,46 +27,68 @@ def rolling_view(overall: GearScene) -> View:
     for wheel in pair:
         _circles(canvas, scene, wheel)
         _involute(canvas, scene, wheel)
-    ends = scene.mm("N1"), scene.mm("N2")
-    canvas.add(Line(ends[0] - PAST * along, ends[1] + PAST * along, Pen.THIN, role="line-of-action", name="N1N2"))
     for wheel, inside in zip(pair, (along, -along), strict=True):
         _foot(canvas, scene, wheel, inside)
-    node(canvas, scene, "P", 1j)
+    ends = (_end(scene, wheel) for wheel in pair)
+    canvas.add(Line(next(ends) - PAST * along, next(ends) + PAST * along, Pen.THIN, role=LINE, name="N1N2"))
+    node(canvas, scene, "P", 1j * along)
     heading = scene.words["heading.gear_rolling"], scene.factor(scene.mu_l)
     return canvas.finish("rolling", heading, tuple(scene.words["said.gear_rolling"].split("|")))
 
 
+def _end(scene: GearScene, wheel: Wheel) -> complex:
+    """Return the last division of PN, or N itself."""
+    i = wheel.number
+    return max(scene.mm(f"N{i}"), scene.mm(f"D{i}_{_divisions(scene, wheel)[-1]}"), key=abs)
+
+
 def _circles(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
     """Draw the parts of the base circle and of the tip circle that the construction needs."""
-    i = wheel.number
-    feet = [wheel.angle(scene.mm(f"T{i}_{k}")) for k in _divisions(scene, wheel)]
+    i, height = wheel.number, scene.style.text
+    feet = [wheel.angle(scene.mm(f"T{i}_{k}")) for k in (*_divisions(scene, wheel), TIP)]
     end = wheel.angle(scene.mm(f"E{i}_{TIP}"))
-    spans = {"b": (min(feet), max(feet)), "a": (end - 2.0 * BESIDE, end + 2.0 * BESIDE)}
+    base = min(*feet, wheel.angle(scene.mm(f"N{i}"))), max(*feet, wheel.angle(scene.mm(f"N{i}")))
+    beside = TIP_ARC * scene.style.label / wheel.radius("a")
+    spans = {"b": base, "a": (end - beside, end + beside)}
     for name, (low, high) in spans.items():
         start = cmath.phase(wheel.up) + low - BESIDE
         arc = Arc(wheel.centre, wheel.radius(name), start, high - low + 2.0 * BESIDE, PENS[name])
         canvas.add(Group((arc,), "circle", f"d_{name}{i}"))
-        canvas.label(scene.stated(f"d_{name}{i}"), wheel.on(wheel.radius(name), high), height=scene.style.text)
+    far = max(base, key=abs)
+    at = wheel.on(wheel.radius("b"), far + math.copysign(BESIDE, far))
+    canvas.label(scene.stated(f"d_b{i}"), at, prefer=-wheel.up, clear=1.0, height=height)
+    out = wheel.side * wheel.up * -1j  # away from N
+    tip = wheel.on(wheel.radius("a"), end - wheel.side * beside)
+    canvas.label(scene.stated(f"d_a{i}"), tip, prefer=out, clear=1.0, height=height)
 
 
 def _involute(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
     """Draw the tangents with the points of the involute, and the curve through these."""
-    i, style = wheel.number, scene.style
-    for k in chain(_divisions(scene, wheel), (TIP,)):
+    i = wheel.number
+    for k in (*_divisions(scene, wheel), TIP):
         foot, end = scene.mm(f"T{i}_{k}"), scene.mm(f"E{i}_{k}")
         canvas.add(Line(foot, end, Pen.THIN, role="tangent", name=f"{i}_{k}"))
-        places = {"T": foot, "E": end} | ({"D": scene.mm(f"D{i}_{k}")} if k != TIP else {})
-        for letter, at in places.items():
-            dot = Circle(at, DOT * style.node, Pen.THIN, fill="black")
-            canvas.add(Group((dot,), "division", f"{letter}{i}_{k}"))
-        if k == TIP:
-            continue
-        inward = (wheel.centre - foot) / abs(wheel.centre - foot)
-        canvas.label(str(k), foot, prefer=inward, clear=1.0, height=style.text)
-        if abs(places["D"] - foot) > style.text:
-            canvas.label(str(k), places["D"], prefer=-inward, clear=1.0, height=style.text)
+        for letter, at in (("T", foot), ("E", end)):
+            canvas.add(_division(scene, at, f"{letter}{i}_{k}"))
+    for k in _divisions(scene, wheel):
+        _number(canvas, scene, wheel, k)
     curve = wheel.flank(0.0, wheel.sizes[f"rho_a{i}"])
     canvas.add(Group((Polyline(curve, Pen.MAIN),), "curve", f"involute_{i}"))
+
+
+def _number(canvas: Canvas, scene: GearScene, wheel: Wheel, k: int) -> None:
+    """Number a division of PN, and the same on the base circle; where both are one, only this."""
+    i, height = wheel.number, scene.style.text
+    foot, part = scene.mm(f"T{i}_{k}"), scene.mm(f"D{i}_{k}")
+    inward = (wheel.centre - foot) / abs(wheel.centre - foot)
+    canvas.add(_division(scene, part, f"D{i}_{k}"))
+    canvas.label(str(k), foot, prefer=inward, clear=1.0, height=height)
+    if k and abs(part - foot) > height:
+        canvas.label(str(k), part, prefer=-inward, clear=1.0, height=height)
+
+
+def _division(scene: GearScene, at: complex, name: str) -> Group:
+    return Group((Circle(at, DOT * scene.style.node, Pen.THIN, fill="black"),), "division", name)
 
 
 def _foot(canvas: Canvas, scene: GearScene, wheel: Wheel, inside: complex) -> None:

@@ -28,7 +28,8 @@ class GearScene:
     """A solved pair on a certain format, in certain words.
 
     `mu_l` is the scale factor of the meshing with both centres, `near` that of its middle, which has a view of its own
-    where teeth are too small beside their letters, `rolled` that of the construction of the involutes; m/mm.
+    where teeth are too small beside their letters, `rolled` that of the construction of the involutes;
+    m/mm. `part` is how much of their usual size the diagrams of sliding have.
     """
 
     solved: SolvedGear
@@ -38,6 +39,7 @@ class GearScene:
     mu_l: float
     near: float
     rolled: float
+    part: float = 1.0
 
     @property
     def meshing(self) -> Meshing:

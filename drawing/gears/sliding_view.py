@@ -59,7 +59,7 @@ def sliding_view(scene: GearScene) -> View:
 def _ordinates(scene: GearScene) -> Ordinates:
     """Return how the ordinates are drawn: as the table has them, or reduced where the highest has no room."""
     highest = max(scene.size(f"y_{i}_{point}") for i in WHEELS for point in POINTS) * 1e3
-    most = TALLEST[scene.style.label]
+    most = TALLEST[scene.style.label] * scene.part
     reduction = next((part for part in REDUCTIONS if highest * part <= most), REDUCTIONS[-1])
     return Ordinates(reduction, highest * reduction)
 
@@ -74,7 +74,7 @@ def _across(scene: GearScene) -> Axis:
 def rho_scale(scene: GearScene) -> Scale:
     """Return the scale factor of the line of action, the given one or a coarser one of its series."""
     given = float(scene.solved.values["mu_rho"]) * 1e-3  # a millimetre, not a metre of paper
-    least = scene.size("l_N1N2") / LONGEST[scene.style.label]
+    least = scene.size("l_N1N2") / (LONGEST[scene.style.label] * scene.part)
     return Scale("mu_rho", next(mu for mu in steps(given) if mu >= least * (1.0 - 1e-9)), "m")
 
 

@@ -46,7 +46,7 @@ def theta_field(scene: GearScene, above: Field, apart: float) -> Field:
     """Return the axes of specific sliding under those of the velocities."""
     words, low = scene.words, cut_of(scene)
     wanted = float(scene.solved.values["mu_theta"]) * 1e-3  # a millimetre, not a metre of paper
-    least = (1.0 - low) / TALL[scene.style.label]
+    least = (1.0 - low) / (TALL[scene.style.label] * scene.part)
     mu = next(step for step in steps(min(wanted, least)) if step >= least and step >= wanted * (1.0 - 1e-9))
     marks = {value: words.short(value) for value in divisions(1.0, low, mu, 9.0)}
     scale = Scale("mu_theta", mu, "1")
