@@ -124,7 +124,7 @@ def measured(
     """Return the quantities with the millimetres that show them; `scales` are by plan."""
     out = {}
     for name, item in items.items():
-        plan = POSITION if name.startswith("l_") else plans.get(name, "")
+        plan = POSITION if name.startswith("l_") and POSITION in scales else plans.get(name, "")
         scale = scales.get(plan)
         if scale is not None and item.kind != "point":
             mm = None if item.value is None else scale.drawn(abs(item.value))

@@ -15,7 +15,7 @@ from typing import Any
 from ..drawing.words import notations
 from ..scales.arguments import of_kind
 from ..scales.choose import chooser
-from ..scales.display import ANGLES, AS_INSIDE, LENGTHS, METRE, PAPER, Display
+from ..scales.display import ANGLES, LENGTHS, METRE, PAPER, Display
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote
@@ -195,13 +195,19 @@ def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     return good
 
 
-def _display(checker: Checker, path: Path, raw: object) -> Display:
+def _display(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     """Read `[display]`: the units of lengths and angles in results, and that of segments."""
     units = {"length": LENGTHS, "size": LENGTHS, "paper": PAPER, "angle": ANGLES}
     fields = {
         name: Field(one_of("display-unit", partial(tuple, known)), required=False) for name, known in units.items()
     }
-    return Display(**record(checker, path, raw, fields))
+    return record(checker, path, raw, fields)
+
+
+def _units(usual: Display, said: dict[str, str]) -> Display:
+    """Return the units of results: those that a file says, else the usual ones of its kind."""
+    # a unit for whatever has lengths is that of lengths alone, too
+    return replace(usual, **{"size": "", **said} if "length" in said else said)
 
 
 _FIELDS = {  # and the table of its kind
@@ -230,7 +236,8 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
     givens = {key: _bounded(given, names) for key, given in givens.items()}
     variants = read_variants(checker, raw["variant"], givens, names.optional) if "variant" in raw else {}
     _signs(checker, names, choices)
-    if head.get("display", AS_INSIDE).length != METRE and WITH_FORCES.intersection(head.get("plans", ())):
+    display = _units(kind.display, head.get("display", {}))
+    if display.length != METRE and WITH_FORCES.intersection(head.get("plans", ())):
         checker.fault(("display", "length"), InputError("display-forces"))
     if mechanism is not None and "plans" in head:
         kind.fits(checker, mechanism, head)
@@ -250,7 +257,7 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
         constants=names.constants,
         mechanism=mechanism,
         scales=head.get("scales", {}),
-        display=head.get("display", AS_INSIDE),
+        display=display,
         variants=variants,
         file=checker.file,
         kind=table,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...plans.cams.cam import DIAGRAMS_PART, PLANS, PLATE, PROFILE_PART, ROCKER, Cam
 from ...scales.choose import Choosers
+from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.scale import Scale
@@ -46,6 +47,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
     """Disk cams with translating roller and flat-faced followers, or with a rocker."""
 
     table, plans = "cam", PLANS
+    display = Display(size="mm", angle="deg")
 
     def words(self, raw: object) -> frozenset[str]:
         """Return the words of `[cam]` that may be names of choices."""

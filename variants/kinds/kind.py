@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from ...plans.solved import Solved
 from ...scales.choose import Choosers
+from ...scales.display import AS_INSIDE, Display
 from ...scales.errors import InputError
 from ...scales.scale import Scale
 from ..task import Given, Instead, Task
@@ -38,6 +39,7 @@ class Kind(ABC, Generic[Subject, Answer]):
     """A kind of tasks; `table` is where their files describe the subject, `plans` what can be drawn of it."""
 
     table: ClassVar[str]
+    display: ClassVar[Display] = AS_INSIDE  # the units of results where a file says no others
     plans: ClassVar[tuple[str, ...]]
     instead: ClassVar[Instead] = ()  # which givens of a user stand in the place of others
 

@@ -136,7 +136,8 @@ class _Teller:
             yield said["report.no_wrong"]
         else:
             heading = self._heading(first)
-            within = heading[:1].lower() + heading[1:]  # inside of a sentence; S stays a letter of a quantity
+            # inside of a sentence; S of a diagram stays the letter of a quantity
+            within = heading[:1].lower() + heading[1:] if heading[1:2].isalpha() else heading
             yield said["report.first"].format(symbol=self.symbol(first), heading=within)
 
     def again(self) -> Iterator[str]:

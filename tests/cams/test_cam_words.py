@@ -1,0 +1,93 @@
+"""What people read of a cam: units, notes, messages; a machine reads SI."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+from kulman import cli, solve
+
+TASK = "madi-cam"
+ROCKER = str(Path(__file__).parents[2] / "docs" / "examples" / "rocker-cam.toml")
+
+
+def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[str, str]:
+    with pytest.raises(SystemExit):
+        cli.main(arguments)
+    out, err = capsys.readouterr()
+    return out, err
+
+
+def unit_in(table: str, name: str) -> str:
+    (line,) = [line.split() for line in table.splitlines() if line.split()[:1] == [name]]
+    return line[2]
+
+
+def new_cam(folder: Path, capsys: pytest.CaptureFixture[str]) -> str:
+    file = str(folder / "mine.toml")
+    run(capsys, "new", file, "--kind", "cam", "--lang", "en")
+    return file
+
+
+def test_angles_are_read_in_degrees_and_lengths_in_millimetres(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for task in (TASK, ROCKER, new_cam(tmp_path, capsys)):
+        table = solve(task, lang="en").table()
+
+        assert " rad\n" not in table
+        assert {unit_in(table, name) for name in ("nu", "gamma_rise_min", "gamma_fall_min")} == {"°"}, task
+        assert {unit_in(table, name) for name in ("r_0", "H_a", "H_v", "S_max_chord", "rho_min")} == {"mm"}, task
+    assert unit_in(solve(ROCKER, lang="en").table(), "psi_0") == "°"
+    assert re.search(r"^nu +27\.6365 +°$", solve(TASK, lang="en").table(), re.MULTILINE)
+
+
+def test_machines_read_si(capsys: pytest.CaptureFixture[str]) -> None:
+    out, _ = run(capsys, "solve", TASK, "--json")
+
+    found = json.loads(out)["quantities"]["gamma_rise_min"]
+    assert found == {"value": pytest.approx(math.radians(75.0)), "unit": "rad"}
+
+
+def test_a_file_may_show_other_units(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = Path(new_cam(tmp_path, capsys))
+    text = file.read_text(encoding="utf-8")
+
+    file.write_text(text.replace("[givens]", '[display]\nlength = "cm"\nangle = "rad"\n\n[givens]'), encoding="utf-8")
+
+    table = solve(str(file), lang="en").table()
+    assert (unit_in(table, "r_0"), unit_in(table, "v_max"), unit_in(table, "nu")) == ("cm", "cm/s", "rad")
+
+
+def test_a_form_asks_for_degrees_and_the_report_answers_in_them(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    form = tmp_path / "form.csv"
+    run(capsys, "check", TASK, "--form", str(form), "--lang", "en")
+    rows = {row[0]: row for row in csv.reader(form.read_text(encoding="utf-8-sig").splitlines()) if row}
+    form.write_text("quantity,value\nnu,27.6\ngamma_rise_min,75\n", encoding="utf-8")
+
+    out, _ = run(capsys, "check", TASK, str(form), "--lang", "en")
+
+    assert rows["nu"][6] == rows["gamma_rise_min"][6] == "°"
+    assert "27.6 °" in out
+    assert "75 °" in out
+    assert "rad" not in out.replace("radius", "")
+
+
+def test_the_name_of_a_diagram_keeps_its_letter_in_a_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    form = tmp_path / "form.csv"
+    form.write_text("quantity,value\nr_0_flat_min,55\n", encoding="utf-8")
+
+    out, _ = run(capsys, "check", TASK, str(form), "--lang", "en")
+
+    assert "First wrong step: r_0 pl min, S – d" in out
+
+
+def test_the_pivot_of_a_rocker_is_a_segment_of_its_plan() -> None:
+    assert solve(ROCKER)["l_OC"].mm == pytest.approx(117.28, abs=0.01)
