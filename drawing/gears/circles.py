@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 
 from ..dimensions import linear
-from ..shapes import Arc, Circle, Group, Line, Pen, Text
+from ..shapes import Anchor, Arc, Circle, Group, Line, Pen, Text
 from ..symbols import angle_dimension, fixed_pivot, right_angle, turning_arrow
 from ..view import Canvas
 from .scene import GearScene
@@ -49,7 +49,8 @@ def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float) -> N
     names = sorted(ends, key=lambda name: ends[name].imag)
     x = max(-out * end.real for end in ends.values()) + SHELF
     for name, y in zip(names, _apart([ends[name].imag for name in names], PITCH * height), strict=True):
-        at, anchor = complex(-out * x, y), ("right" if out > 0.0 else "left")
+        at = complex(-out * x, y)
+        anchor: Anchor = "right" if out > 0.0 else "left"
         canvas.add(Line(ends[name], at, Pen.THIN, role="leader", name=name))
         place = at + complex(-out, -0.5 * height)
         canvas.add(Text(place, scene.stated(name), height, anchor, role="diameter", name=name))

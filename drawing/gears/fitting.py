@@ -108,7 +108,7 @@ def _meshing(apart: bool) -> Iterator[tuple[str, GearFigure]]:
 
     yield "meshing", Figure(meshing_view, ("mu_l",))
     if apart:
-        yield "teeth", Figure(near_view, ("near",))
+        yield "near", Figure(near_view, ("near",))
     yield "rolling", Figure(rolling_view, ("rolled",))
     yield "action", Figure(action_view, ("rolled",))
 

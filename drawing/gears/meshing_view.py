@@ -41,7 +41,7 @@ def near_view(overall: GearScene) -> View:
     _details(canvas, scene, pair)
     for wheel in pair:
         along_circles.pitch(canvas, scene, wheel, to_centre=False)
-    return _finished(canvas, scene, "teeth", detailed=True)
+    return _finished(canvas, scene, "near", detailed=True)
 
 
 def _finished(canvas: Canvas, scene: GearScene, name: str, detailed: bool) -> View:
