@@ -56,12 +56,20 @@ class Gears(Kind[GearPair, "SolvedGear"]):
 
     def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
         """Check that every variant is one of a pair; if `thorough`, that its wheels have teeth and can mesh."""
+        told: set[str] = set()  # what is at fault in a default is so in every variant
         for row, variant in enumerate(task.variants.values()):
             errors = [*impossible(task.values(variant.id))]
             if thorough and not errors:
                 errors = [("", error) for error in self._refused(task, variant.id)]
             for name, error in errors:
-                checker.fault(("variant", row, name) if name in variant.values else ("variant", row), error)
+                given = task.givens.get(name)
+                if name in variant.values:
+                    checker.fault(("variant", row, name), error)
+                elif given is None or given.default is None:
+                    checker.fault(("variant", row), error)
+                elif name not in told:
+                    told.add(name)
+                    checker.fault(("givens", name, "default"), error)
 
     def _refused(self, task: Task, variant: str) -> list[InputError]:
         """Return why a variant has no pair."""
