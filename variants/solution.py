@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ..plans.hands.hand import Hand
     from .hands import Drawing
 
+PLAIN = "1"  # the unit of what has none
 ROUNDING = 1e-14  # part of the largest quantity of a unit
 
 
@@ -150,11 +151,16 @@ class Solution:
             for quantity in self._tidy()
         ]
         widths = [max((len(row[i]) for row in rows), default=0) for i in range(7)]
-        return "\n".join(
-            f"{name:{widths[0]}}  {value:>{widths[1]}}  {unit:>{widths[2]}} {parts:{widths[3]}}"
-            f"  {mm:{widths[4]}}  {condition:{widths[5]}}  {sine}".rstrip()
-            for name, value, unit, parts, mm, condition, sine in rows
-        )
+        lines = []
+        headings = self.kind.headings(self.solved, words)
+        for name, value, unit, parts, mm, condition, sine in rows:
+            if name in headings:
+                lines += ["", headings[name]] if lines else [headings[name]]
+            lines.append(
+                f"{name:{widths[0]}}  {value:>{widths[1]}}  {unit:>{widths[2]}} {parts:{widths[3]}}"
+                f"  {mm:{widths[4]}}  {condition:{widths[5]}}  {sine}".rstrip()
+            )
+        return "\n".join(lines)
 
 
 def _without_rounding(q: Quantity, largest: float) -> Quantity:
@@ -165,7 +171,7 @@ def _without_rounding(q: Quantity, largest: float) -> Quantity:
 
 
 def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
-    unit = format_unit(q.unit, words.language)
+    unit = "" if q.unit == PLAIN else format_unit(q.unit, words.language)
     parts = "–" if q.x is None or q.y is None else f"({words.short(q.x, 6)}; {words.short(q.y, 6)})"
     if q.kind == "point":
         return q.name, parts, unit, "", ""

@@ -1,6 +1,7 @@
 """The plan of the meshing: circles and line of action, involutes by rolling, teeth, active part, angles of action.
 
-The pole `P` is the origin, the line of centres vertical, `O1` below. In names the first number is that of the wheel:
+The pole `P` is the origin, the line of centres vertical, `O1` below, `O2` above. The first number in a name is that of
+the wheel:
 
 `N1` `N2`
     where the line of action touches the base circles.

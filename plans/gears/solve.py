@@ -19,6 +19,7 @@ from .geometry import DIVISIONS, NOTHING, PARTS, POINTS, geometry
 from .givens import complete
 from .meshing import Meshing, meshing_of
 from .meshing_plan import CENTRES, MESHING, NUMBERS, TANGENT, rolling
+from .sections import place_of
 from .sliding_plan import DIAGRAMS, ENDLESS, RIGHT, SLIDING, THETA, UP
 
 SCALES = {MESHING: "mu_l", SLIDING: "mu_rho", THETA: "mu_theta"}
@@ -99,10 +100,12 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
     board = run(program, givens)
     drawn = {*program.plans}
     results = quantities(program, board.values, _lengths(givens, drawn), unit_of)
+    if SLIDING in drawn:
+        results = _with_ends(results)
     return SolvedGear(
         program=program,
         values={**board.values, **(dict.fromkeys(ENDLESS, -math.inf) if SLIDING in drawn else {})},
-        quantities=_stated(givens, drawn, values) | (_with_ends(results) if SLIDING in drawn else results),
+        quantities=_in_sections(_stated(givens, drawn, values) | results),
         sines=board.sines,
         status=board.status,
         trouble=board.trouble,
@@ -140,6 +143,11 @@ def _stated(givens: Mapping[str, Any], drawn: set[str], values: Mapping[str, flo
     scales = (item for plan, item in units.items() if plan in drawn)
     found = {name: Quantity(name, givens[name] * PAPER_MM, unit) for name, unit in scales}
     return found | {name: Quantity(name, givens[name], "1") for name in ("x_1", "x_2") if name not in values}
+
+
+def _in_sections(results: Mapping[str, Quantity]) -> dict[str, Quantity]:
+    """Return the quantities section by section, in each in the order of construction."""
+    return {name: results[name] for name in sorted(results, key=place_of)}
 
 
 def _with_ends(results: Mapping[str, Quantity]) -> dict[str, Quantity]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ...plans.gears.gear import PLANS, GearPair
 from ...plans.gears.limits import impossible
 from ...scales.choose import Choosers
+from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.scale import Scale
@@ -27,6 +28,13 @@ if TYPE_CHECKING:
     from ..checks.basics import Checker
     from ..checks.names import Names
 
+RULES = {  # checks that are told when they fail
+    "undercut": "gear-rule-undercut",
+    "interference": "gear-rule-interference",
+    "contact_ratio": "gear-rule-contact",
+    "tip": "gear-rule-tip",
+}
+IN_LENGTHS = ("interference", "tip")
 SYMBOLS = ("mu_l",)  # the scale factors of the diagrams are found, or given
 
 
@@ -34,6 +42,7 @@ class Gears(Kind[GearPair, "SolvedGear"]):
     """External pairs of involute spur gears cut by a standard rack."""
 
     table, plans = "gear", PLANS
+    display = Display(size="mm", angle="deg")
     instead = (
         (frozenset(("x_1", "x_2")), ("x_sum", "a_w")),
         (frozenset(("x_sum",)), ("x_1", "x_2", "a_w")),
@@ -105,6 +114,22 @@ class Gears(Kind[GearPair, "SolvedGear"]):
 
         return scales_of(solved, choosers)
 
+    def warnings(self, solved: SolvedGear) -> tuple[InputError, ...]:
+        """Tell which limits are not kept, and of teeth that are pointed."""
+        found = []
+        for check in solved.checks:
+            rule, _, wheel = check.name.rpartition("_") if check.name[-1].isdigit() else (check.name, "", "")
+            if check.ok or rule not in RULES:
+                continue
+            if rule == "tip" and solved.meshing.teeth[int(wheel) - 1].pointed:
+                found.append(InputError("gear-rule-pointed", wheel=wheel))
+                continue
+            said = _millimetres if rule in IN_LENGTHS else _plain
+            broken = rule == "contact_ratio" and check.value < 1.0
+            key = "gear-rule-broken" if broken else RULES[rule]
+            found.append(InputError(key, value=said(check.value), limit=said(check.limit), wheel=wheel))
+        return tuple(found)
+
     def checks(self, solved: SolvedGear, quantities: Mapping[str, Quantity]) -> Verdicts:
         """Return what the pair is judged by: the compared value, its limit, how they have to stand, SI."""
         from ...plans.gears.solve import unit_of
@@ -120,6 +145,15 @@ class Gears(Kind[GearPair, "SolvedGear"]):
             }
             for check in solved.checks
         }
+
+    def headings(self, solved: SolvedGear, words: Words) -> dict[str, str]:
+        """Return the headings of the sections of the note."""
+        from ...plans.gears.sections import section_of
+
+        first: dict[str, str] = {}
+        for name in solved.quantities:
+            first.setdefault(section_of(name), name)
+        return {name: words[f"heading.gear_{section}"] for section, name in first.items()}
 
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a pair."""
@@ -145,3 +179,11 @@ def gear(solved: Any) -> SolvedGear:
 
     assert isinstance(solved, SolvedGear)
     return solved
+
+
+def _millimetres(length: float) -> str:
+    return f"{length * 1e3:.4g}"
+
+
+def _plain(value: float) -> str:
+    return f"{value:.4g}"

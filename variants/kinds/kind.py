@@ -127,6 +127,10 @@ class Kind(ABC, Generic[Subject, Answer]):
         """
         raise InputError("kind-without", task=case.task.id, text="sweep")
 
+    def headings(self, solved: Answer, words: Words) -> dict[str, str]:
+        """Return the headings in a list of quantities, each by the first quantity under it; a short list has none."""
+        return {}
+
     # Drawing.
 
     @abstractmethod
