@@ -41,12 +41,14 @@ def room(sheet: Format, norm: Norm, first: bool = False) -> tuple[float, float]:
     return x1 - x0, top - block[3] - _gap(sheet) * first - CLOSE * (not first)
 
 
-def arrange(sizes: Sequence[Size], sheet: Format, norm: Norm, pages: int | None) -> list[Placement] | None:
+def arrange(
+    sizes: Sequence[Size], sheet: Format, norm: Norm, pages: int | None, any_order: bool = False
+) -> list[Placement] | None:
     """Place views of these sizes, in reading order, on at most `pages` pages of `sheet`, or on as many as they need.
 
-    None if they do not fit.
+    Where they do not fit so, a single page may have them in `any_order`. None if they do not fit.
     """
-    return _arranged(sizes, sheet, norm, pages)
+    return _arranged(sizes, sheet, norm, pages, any_order=any_order)
 
 
 def arrange_parts(parts: Sequence[Sequence[Size]], sheet: Format, norm: Norm) -> list[Placement] | None:
@@ -84,7 +86,12 @@ def arrange_halves(sizes: Sequence[Size], boundary: int, sheet: Format, norm: No
 
 
 def _arranged(
-    sizes: Sequence[Size], sheet: Format, norm: Norm, pages: int | None, first: bool = True
+    sizes: Sequence[Size],
+    sheet: Format,
+    norm: Norm,
+    pages: int | None,
+    first: bool = True,
+    any_order: bool = False,
 ) -> list[Placement] | None:
     return pack(
         [[size] for size in sizes],
@@ -93,7 +100,7 @@ def _arranged(
         later=reserved_boxes(sheet, norm, first=False),
         gap=_gap(sheet),
         pages=pages,
-        any_order=False,
+        any_order=any_order,
     )
 
 

@@ -16,17 +16,16 @@ GAP = 4.0  # mm between views
 
 
 def zoned(layouts: Sequence[Nest], views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Return the places of the views on one page by the first layout that has them all; None if they have no room."""
+    """Return the places of the views on one page by the first layout with room for them all; None if none has."""
     x0, y0, x1, y1 = usable(sheet, norm)
     block, *turned = reserved_boxes(sheet, norm)
     sizes = {view.name: view.size for view in views}
-    layout = next((nest for nest in layouts if sizes.keys() <= set(names((nest,)))), None)
-    if layout is None:
-        return None
+    fitting = [nest for nest in layouts if sizes.keys() <= set(names((nest,)))]
     sizes[BLOCK] = x1 - block[0], block[3] - y0
     for box in turned:
         sizes[TURNED] = box[2] - x0, y1 - box[1]
-    found = nested(layout, sizes, (x1 - x0, y1 - y0), GAP)
+    tried = (nested(layout, sizes, (x1 - x0, y1 - y0), GAP) for layout in fitting)
+    found = next((places for places in tried if places is not None), None)
     if found is None:
         return None
     places = {name: Placement(0, x0 + x, y0 + y) for name, x, y in found}

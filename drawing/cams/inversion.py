@@ -123,30 +123,34 @@ def circle(radius: float, name: str) -> Group:
     return Group((Circle(0j, radius, Pen.THIN),), "circle", name)
 
 
-def radius_at(
-    canvas: Canvas, scene: CamScene, name: str, value: float, angle: float, free: tuple[float, float]
-) -> None:
+def radius_at(canvas: Canvas, scene: CamScene, name: str, value: float, angle: float, free: tuple[float, float]) -> str:
     """Dimension the radius of a circle about the cam's centre along a ray.
 
     The text runs along the ray: between the shaft and the first of the radii `free`, if need be without its number,
     or else beyond the second; that of a cam without room for letters stands where it finds a place.
+
+    Returns
+    -------
+    str
+        The number, if it has no place in the figure.
     """
     style, size = scene.style, value / scene.mu_l
-    ray, text = cmath.rect(1.0, angle), f"{scene.words.symbol(name)} = {scene.length(value)}"
+    ray, whole = cmath.rect(1.0, angle), f"{scene.words.symbol(name)} = {scene.length(value)}"
     low, high = shaft_radius(size, style) + 1.0, min(free[0], size - style.arrow)
-    if lay_out(text, style.text).width >= high - low:
-        text = scene.words.symbol(name)
+    text = whole if lay_out(whole, style.text).width < high - low else scene.words.symbol(name)
+    left = "" if text == whole else whole
     wide = lay_out(text, style.text).width
     inside, small = wide < high - low, size < SMALLEST * style.label
     tip = size if inside or small else free[1] + wide + 1.5
     canvas.add(Line(0j, ray * tip, Pen.THIN, role="radius", name=name), Head(ray * size, ray))
     if small:
         canvas.label(text, (0.5 * ray * size, ray * size), prefer=ray, clear=0.8, height=style.text)
-        return
+        return left
     middle = 0.5 * (low + high) if inside else free[1] + 0.5 * wide + 1.5
     turn = 1.0 if ray.real > -1e-9 else -1.0
     at = ray * complex(middle, turn)
     canvas.add(Text(at, text, style.text, "middle", cmath.phase(ray * turn), role="label", name=name))
+    return left
 
 
 def quiet(motion: Motion, sense: int) -> float:

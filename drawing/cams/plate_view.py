@@ -39,8 +39,8 @@ def plate_view(scene: CamScene) -> View:
     numbers(canvas, scene, 0.0, reach)
     phases(canvas, scene, 0.0, outer + PHASES * label)
     _follower(canvas, scene, rod, R)
-    _sizes(canvas, scene, rod, R)
-    notes = _numbers(scene), *undercut_notes(scene, plate.profile.undercuts)
+    left = _sizes(canvas, scene, rod, R)
+    notes = "; ".join([*left, *_numbers(scene)]), *undercut_notes(scene, plate.profile.undercuts)
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
     return canvas.finish("plate_profile", heading(scene, "heading.cam_plate_profile", PLATE_PROFILE), notes)
@@ -67,13 +67,15 @@ def _follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
     canvas.add(*rod.shapes())
 
 
-def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
-    """Dimension the radii, the plate, how far to both sides it touches the profile, and the stroke."""
+def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> list[str]:
+    """Dimension radii, the plate, how far to both sides it touches, the stroke; return what has no place there."""
     solved, words, mu, sense = scene.solved, scene.words, scene.mu_l, scene.solved.cam.sense
     plate, motion = solved.plate, solved.motion
     assert plate is not None
     middle = quiet(motion, sense)
-    radius_at(canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (plate.sizes.r_0 / mu, plate.sizes.r_0 / mu))
+    left_out = radius_at(
+        canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (plate.sizes.r_0 / mu, plate.sizes.r_0 / mu)
+    )
     level, up = 1j * rod.low, 1j * scene.style.text
     _over(canvas, (level, level - sense * R), ABOVE[1] * up, words.symbol("R_plate"), "R_plate")
     right, left = (motion.maximum(0.0, side, 0.0).value for side in (1.0, -1.0))
@@ -88,6 +90,7 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
     axis = unit_at(float(solved.angles[top]), sense)
     ends = axis * (plate.sizes.r_0 / mu), scene.mm(f"{PLATE_PROFILE}.B{top}")
     linear(canvas, ends, axis * (-1j * sense) * 4.0, words.symbol("h"), "h")
+    return [left_out] if left_out else []
 
 
 def _over(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: str, name: str) -> None:
@@ -99,12 +102,11 @@ def _over(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: str
         canvas.add(Text(0.5 * (ends[0] + ends[1]) + out + 0.5j * height, text, height, "middle", role="label"))
 
 
-def _numbers(scene: CamScene) -> str:
+def _numbers(scene: CamScene) -> list[str]:
     """Return the numbers of what has only a letter in the figure."""
     words, motion, plate = scene.words, scene.solved.motion, scene.solved.plate
     assert plate is not None
-    sizes = {"h": motion.h, "r_0_flat": plate.sizes.r_0, "R_plate": plate.sizes.R_plate}
-    lengths = "; ".join(f"{words.symbol(name)} = {scene.length(size)}" for name, size in sizes.items())
+    sizes = {"h": motion.h, "R_plate": plate.sizes.R_plate}
+    lengths = [f"{words.symbol(name)} = {scene.length(size)}" for name, size in sizes.items()]
     said = dict.fromkeys(scene.length(motion.maximum(0.0, way, 0.0).value) for way in (1.0, -1.0))
-    contact = f"{ANALOGUE} = |{words.symbol('ds')}|_{{max}} = {', '.join(said)}"
-    return f"{lengths}; {contact}"
+    return [*lengths, f"{ANALOGUE} = |{words.symbol('ds')}|_{{max}} = {', '.join(said)}"]

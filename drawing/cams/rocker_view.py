@@ -41,11 +41,11 @@ def rocker_view(scene: CamScene) -> View:
     line = pressed(scene, SHOWN)
     _normal(canvas, scene, line)
     _follower(canvas, scene)
-    _sizes(canvas, scene, dwelling(solved.motion, solved.cam.sense) + turned)
+    left = _sizes(canvas, scene, dwelling(solved.motion, solved.cam.sense) + turned)
     edge = reach + 1.2 * label
     canvas.bounds = -edge, -edge, edge, edge
     scale = f"{ratio(scene)};  {scene.factor(scene.scale(PROFILE))}"
-    notes = *_lettered(scene), *undercut_notes(scene, cam.profile.undercuts, rocks=True)
+    notes = "; ".join([*_lettered(scene), *left]), *undercut_notes(scene, cam.profile.undercuts, rocks=True)
     return canvas.finish("profile", (scene.words["heading.cam_rocker_profile"], scale), notes)
 
 
@@ -100,15 +100,18 @@ def _follower(canvas: Canvas, scene: CamScene) -> None:
     canvas.label("B", at, prefer=1 + 1j, clear=style.pair + 0.5)
 
 
-def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> None:
-    """Dimension r_0, l_OC, the rocker, its swing, and the roller; `quiet` is the middle of the lower dwell."""
+def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
+    """Dimension r_0, l_OC, the rocker, its swing, and the roller; return what has no place in the figure.
+
+    `quiet` is the middle of the lower dwell.
+    """
     solved, words, mu, style = scene.solved, scene.words, scene.mu_l, scene.style
     cam, division = solved.rocker, solved.layout.division
     assert cam is not None
     sizes, R = cam.sizes, cam.profile.R
-    radius_at(canvas, scene, "r_0", sizes.r_0, quiet, ((sizes.r_0 - R) / mu, sizes.r_0 / mu))
+    left = [radius_at(canvas, scene, "r_0", sizes.r_0, quiet, ((sizes.r_0 - R) / mu, sizes.r_0 / mu))]
     far = sizes.l_OC / mu
-    radius_at(canvas, scene, "l_OC", sizes.l_OC, quiet + ASIDE * solved.cam.sense, (far, far))
+    left += [radius_at(canvas, scene, "l_OC", sizes.l_OC, quiet + ASIDE * solved.cam.sense, (far, far))]
     roller_radius(canvas, scene, scene.mm(f"{PROFILE}.B{division.last}"), division.last, R)
     top = division.top
     pivot = scene.mm(f"{PROFILE}.A{top}")
@@ -121,18 +124,17 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> None:
     canvas.label(words.symbol("psi"), middle, prefer=middle - pivot, clear=0.8, height=style.text)
     zero, start = scene.mm(f"{PROFILE}.A0"), scene.mm(f"{PROFILE}.B0")
     canvas.label(words.symbol("l_rocker"), (zero, start), prefer=1j, clear=0.8, height=style.text)
+    return [text for text in left if text]
 
 
-def _lettered(scene: CamScene) -> tuple[str, ...]:
+def _lettered(scene: CamScene) -> list[str]:
     """Return the numbers of what has only a letter in the figure."""
     cam, words = scene.solved.rocker, scene.words
     assert cam is not None
     lengths = {
-        "r_0": cam.sizes.r_0,
-        "l_OC": cam.sizes.l_OC,
         "l_rocker": cam.sizes.l,
         "R_roller": cam.profile.R,
         "rho_min": cam.profile.rho_min,
     }
     said = [f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size)]
-    return ("; ".join([*said, f"{words.symbol('psi')} = {scene.degrees(cam.rocker.motion.h)}"]),)
+    return [*said, f"{words.symbol('psi')} = {scene.degrees(cam.rocker.motion.h)}"]

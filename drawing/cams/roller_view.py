@@ -43,11 +43,11 @@ def roller_view(scene: CamScene) -> View:
     sharpest(canvas, scene, roller.profile)
     normal(canvas, scene, contact)
     _follower(canvas, scene, rod, R)
-    _sizes(canvas, scene, rod)
+    left = _sizes(canvas, scene, rod)
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
     notes = (
-        lettered_sizes(scene, roller.profile, contact.line),
+        "; ".join([*lettered_sizes(scene, roller.profile, contact.line), *left]),
         *undercut_notes(scene, roller.profile.undercuts),
     )
     return canvas.finish("profile", heading(scene, "heading.cam_profile", PROFILE), notes)
@@ -79,14 +79,14 @@ def _follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
     canvas.add(revolute(at, "B0", scene.style))
 
 
-def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> None:
-    """Dimension r_0, e, the roller and the stroke."""
+def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
+    """Dimension r_0, e, the roller and the stroke; return what has no place in the figure."""
     solved, words, mu = scene.solved, scene.words, scene.mu_l
     roller, sense = solved.roller, solved.cam.sense
     assert roller is not None
     middle = quiet(solved.motion, sense)
     r_0 = roller.sizes.r_0
-    radius_at(canvas, scene, "r_0", r_0, middle, ((r_0 - roller.profile.R) / mu, r_0 / mu))
+    left = radius_at(canvas, scene, "r_0", r_0, middle, ((r_0 - roller.profile.R) / mu, r_0 / mu))
     level = rod.top + 6.0
     ends = complex(0.0, rod.top), complex(rod.x, rod.top)
     linear(canvas, ends, 1j * (level - rod.top), f"{words.symbol('e')} = {scene.length(abs(roller.sizes.e))}", "e")
@@ -95,3 +95,4 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> None:
     low = complex(rod.x, rod.low)  # the stroke on the side of the lower dwell, where there is room
     out = -sense * max(roller.profile.R / mu + OUT * scene.style.text, OUT * scene.style.label)
     linear(canvas, (low, low + 1j * rod.stroke), out, words.symbol("h"), "h")
+    return [left] if left else []

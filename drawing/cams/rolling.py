@@ -103,15 +103,15 @@ def _clear(canvas: Canvas, at: complex, rays: tuple[complex, complex], radius: f
     return radius * max(PARTS, key=lambda part: min(nearest(part), room))
 
 
-def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> str:
+def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> list[str]:
     """Return the numbers of what has only a letter in the figure: the angles of one position, lengths."""
     words, solved = scene.words, scene.solved
     pressure = abs(float(theta(solved, solved.angles[line])))
     angles = {"theta": pressure, "gamma": 0.5 * math.pi - pressure}
-    lengths = {"r_0": solved.values["r_0"], "rho_min": profile.rho_min, "h": solved.values["h"], "R_roller": profile.R}
+    lengths = {"rho_min": profile.rho_min, "h": solved.values["h"], "R_roller": profile.R}
     said = (f"{words.symbol(name)}_{{{line}}} = {scene.degrees(angle)}" for name, angle in angles.items())
     sizes = (f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size))
-    return "; ".join([*said, *sizes])
+    return [*said, *sizes]
 
 
 def roller_radius(canvas: Canvas, scene: CamScene, at: complex, line: int, R: float) -> None:

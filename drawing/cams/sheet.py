@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from itertools import product
 
+from ...plans.cams.solve import EQUAL
 from ...scales.choices import SIZES
 from ..compose import arrange, compose, worth_trying
 from ..formats import FORMATS, Format
@@ -18,6 +19,8 @@ from .fitting import Contents as Contents
 from .fitting import Fitting, Rungs
 from .zones import LAYOUTS
 
+# what may be drawn smaller for the sake of one page, and by how many rungs
+GIVING = {"mu_l": 2, "reduction": 2, "mu_s_ds": 2, "mu_s_d2s": 2}
 Found = tuple[Rungs, list[View], list[Placement]]
 
 
@@ -33,9 +36,9 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
     formats = [sheet] if sheet is not None else worth_trying([v for v, _ in fitting.views(largest, Rungs())])
     for candidate in formats:
         last = candidate is formats[-1]
-        rungs = fitted(fitting, candidate, contents.norm, Rungs()) if last else Rungs()
-        found = _single(fitting, candidate, rungs)
+        found = _single(fitting, candidate, last)
         if found is None and last:
+            rungs = fitted(fitting, candidate, contents.norm, Rungs())
             views = [view for view, _ in fitting.views(candidate, rungs)]
             found = rungs, views, on_pages(views, candidate, contents.norm)
         if found is not None:
@@ -44,26 +47,42 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
     return _drawn(fitting, stamp, candidate, found)
 
 
-def _single(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
-    """Try one page with the S-ds/dphi diagram, if it must be, smaller than at these rungs."""
-    norm = fitting.contents.norm
-    others = [view for view, figure in fitting.views(sheet, rungs) if "mu_s_ds" not in figure.ladders]
-    if _on_a_page(others, sheet, norm) is None:
+def _single(fitting: Fitting, sheet: Format, last: bool) -> Found | None:
+    """Try one page as large as wanted, then with plans and, on the `last` format, diagrams and profiles smaller."""
+    ways = _ways(fitting, last)
+    views = [view for view, _ in fitting.views(sheet, max(ways, key=_steps))]
+    if not _may_fit(views, sheet):
         return None
-    for rung in range(rungs.mu_s_ds, len(fitting.ladders["mu_s_ds"])):
-        rungs = replace(rungs, mu_s_ds=rung)
-        views = [view for view, _ in fitting.views(sheet, rungs)]
-        places = _on_a_page(views, sheet, norm)
+    for way in ways:
+        views = [view for view, _ in fitting.views(sheet, way)]
+        places = _on_a_page(views, sheet, fitting.contents.norm)
         if places is not None:
-            return rungs, views, places
+            return way, views, places
     return None
 
 
+def _ways(fitting: Fitting, last: bool) -> list[Rungs]:
+    """Return rungs to be tried: first what is least missed gives way, what the task asks for at the end."""
+    most = {name: rungs if last or name in EQUAL else 0 for name, rungs in GIVING.items()}
+    ranges = (range(min(rungs, len(fitting.ladders[name]) - 1) + 1) for name, rungs in most.items())
+    ways = (Rungs(**dict(zip(GIVING, steps, strict=True))) for steps in product(*ranges))
+    return sorted(ways, key=_steps)
+
+
+def _steps(rungs: Rungs) -> tuple[int, int, int]:
+    """Return how much is given up, the worst first."""
+    return rungs.mu_l, rungs.reduction, rungs.mu_s_ds + rungs.mu_s_d2s
+
+
+def _may_fit(views: list[View], sheet: Format) -> bool:
+    return sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height
+
+
 def _on_a_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Place views on one page, in the customary zones or in reading order."""
+    """Place views on one page: in customary zones, in reading order, or wherever there is room."""
     places = zoned(LAYOUTS, views, sheet, norm)
-    if places is None and sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height:
-        places = arrange([view.size for view in views], sheet, norm, 1)
+    if places is None and _may_fit(views, sheet):
+        places = arrange([view.size for view in views], sheet, norm, 1, any_order=True)
     return places
 
 
