@@ -26,7 +26,15 @@ def action_view(overall: GearScene) -> View:
     _line(canvas, scene)
     _dimensions(canvas, scene)
     heading = scene.words["heading.gear_action"], scene.factor(scene.mu_l)
-    return canvas.finish("action", heading, (*ratios(scene), scene.words["said.gear_zones"]))
+    return canvas.finish("action", heading, (*ratios(scene), scene.words["said.gear_zones"], *_lacking(scene)))
+
+
+def _lacking(scene: GearScene) -> tuple[str, ...]:
+    """Say how long the flanks touch where undercut or pointed teeth lack a part of the active line."""
+    first, last = scene.meshing.touching
+    if last - first >= scene.size("g_alpha") * (1.0 - SAME):
+        return ()
+    return (scene.words["said.gear_lacking"].format(length=scene.length(last - first)),)
 
 
 def ratios(scene: GearScene) -> tuple[str, ...]:

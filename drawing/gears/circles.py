@@ -42,17 +42,23 @@ def circles(canvas: Canvas, wheel: Wheel, span: Span, to_end: bool) -> None:
         canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
 
 
-def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float) -> None:
-    """Write the diameters where the circles end on the free side, under one another, each on a leader."""
-    height, out = scene.style.text, wheel.side * wheel.up.imag  # -1 to the left, on which the pinion's free side is
+def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float, beyond: complex) -> None:
+    """Write the diameters where the circles end on the free side, under one another, each on a leader.
+
+    They also stand `beyond` the end of the mate's tip circle where this comes as high as they are.
+    """
+    height, side = scene.style.text, -wheel.up.imag  # in which the wheel is from the pole: +1 above, -1 below
+    out = wheel.side * side  # to the right, or to the left
     ends = {f"d_{name}{wheel.number}": wheel.on(wheel.radius(name), angle) for name in CIRCLES}
-    names = sorted(ends, key=lambda name: ends[name].imag)
-    x = max(-out * end.real for end in ends.values()) + SHELF
-    for name, y in zip(names, _apart([ends[name].imag for name in names], PITCH * height), strict=True):
-        at = complex(-out * x, y)
-        anchor: Anchor = "right" if out > 0.0 else "left"
+    names = sorted(ends, key=lambda name: side * ends[name].imag)
+    levels = _apart([side * ends[name].imag for name in names], PITCH * height)
+    high = [beyond] if side * beyond.imag > -height else []
+    x = max(out * end.real for end in (*ends.values(), *high)) + SHELF
+    anchor: Anchor = "left" if out > 0.0 else "right"
+    for k, (name, level) in enumerate(zip(names, levels, strict=True)):
+        at = complex(out * x, side * max(level, (k + 1) * PITCH * height))  # clear of t-t and its letters
         canvas.add(Line(ends[name], at, Pen.THIN, role="leader", name=name))
-        place = at + complex(-out, -0.5 * height)
+        place = at + complex(out, -0.5 * height)
         canvas.add(Text(place, scene.stated(name), height, anchor, role="diameter", name=name))
 
 
@@ -114,12 +120,21 @@ def line_of_action(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel]) 
 def active_line(canvas: Canvas, scene: GearScene, inner: bool = True) -> None:
     """Draw the active part of the line of action thick, the pole on it, and its `inner` ends of single contact."""
     along = scene.meshing.along
-    canvas.add(Line(scene.mm("A1"), scene.mm("A2"), Pen.MAIN, role="active", name="A1A2"))
+    first, last = scene.mm("A1"), scene.mm("A2")
+    if inner:
+        canvas.add(Line(first - PAST * along, last + PAST * along, Pen.THIN, role="line-of-action", name="A1A2"))
+    canvas.add(Line(first, last, Pen.MAIN, role="active", name="A1A2"))
     node(canvas, scene, "A1", -along - 1j)
     node(canvas, scene, "A2", along + 1j)
     node(canvas, scene, "P", along.conjugate() * -1j)
     for name in ("K1", "K2") if inner else ():
         node(canvas, scene, name, 1j * along)
+
+
+def middle(canvas: Canvas, pair: tuple[Wheel, Wheel]) -> None:
+    """Draw the line of centres as far as the teeth go."""
+    low, high = (wheel.on(wheel.radius("f") - PAST, 0.0) for wheel in pair)
+    canvas.add(Line(low, high, Pen.AXIS, role="axis", name="O1O2"))
 
 
 def angle_of_action(canvas: Canvas, scene: GearScene) -> None:

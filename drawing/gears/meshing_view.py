@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ..page import extent
 from ..view import Canvas, View
 from . import along_circles, circles, teeth
 from .scene import GearScene
@@ -17,7 +18,7 @@ def meshing_view(scene: GearScene) -> View:
     """Draw the pair about its centres while a pair of teeth touches at the pole."""
     canvas, pair = Canvas(scene.style), scene.wheels()
     left, right = _circles(canvas, scene, pair, to_end=True)
-    circles.centres(canvas, scene, pair, left - BESIDE)
+    circles.centres(canvas, scene, pair, extent(canvas.shapes)[0] - BESIDE)
     circles.tangent(canvas, left, right)
     circles.line_of_action(canvas, scene, pair)
     circles.active_line(canvas, scene, not scene.apart)
@@ -37,6 +38,7 @@ def near_view(overall: GearScene) -> View:
     scene = replace(overall, mu_l=overall.near)
     canvas, pair = Canvas(scene.style), scene.wheels()
     circles.tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
+    circles.middle(canvas, pair)
     circles.active_line(canvas, scene)
     _details(canvas, scene, pair)
     for wheel in pair:
@@ -53,12 +55,12 @@ def _finished(canvas: Canvas, scene: GearScene, name: str, detailed: bool) -> Vi
 
 def _circles(canvas: Canvas, scene: GearScene, pair: Pair, to_end: bool) -> tuple[float, float]:
     """Draw the circles with their diameters; return the abscissas between which they lie."""
-    xs = []
-    for wheel in pair:
-        span = circles.beside_teeth(wheel)
+    spans = [circles.beside_teeth(wheel) for wheel in pair]
+    tips = [[wheel.on(wheel.radius("a"), a) for a in span] for wheel, span in zip(pair, spans, strict=True)]
+    for wheel, span, mate in zip(pair, spans, reversed(tips), strict=True):
         circles.circles(canvas, wheel, span, to_end)
-        circles.diameters(canvas, scene, wheel, span[1])
-        xs += [wheel.on(wheel.radius("a"), angle).real for angle in span]
+        circles.diameters(canvas, scene, wheel, span[1], mate[0])
+    xs = [tip.real for both in tips for tip in both]
     return min(xs), max(xs)
 
 

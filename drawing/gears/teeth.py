@@ -13,6 +13,7 @@ from .scene import GearScene
 from .wheels import Wheel
 
 STRIP, STROKES = 0.5, 0.5  # width of the strip along an active flank, distance of its strokes, in heights of letters
+ROUNDING = 1.0 + 1e-9
 ENDS = ("start", "end")  # of the engagement
 
 
@@ -55,6 +56,8 @@ def lowest_points(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> No
     """Swing the ends of the active line about the wheel's centre to its flank: there the flank begins to touch."""
     for wheel in pair:
         name = f"L{wheel.number}"
+        if active_part(scene, wheel)[0] > scene.size(f"rho_p{wheel.number}") * ROUNDING:
+            continue  # there is no flank: it is undercut
         end, low = scene.mm(f"A{wheel.number}"), scene.mm(name)
         radius, start = abs(end - wheel.centre), cmath.phase(end - wheel.centre)
         sweep = cmath.phase((low - wheel.centre) / (end - wheel.centre))
