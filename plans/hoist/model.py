@@ -1,7 +1,7 @@
 """The forces of a hoist as a construction, in the order of a student's note: numbers, and the circle of phase 2.
 
 Until t_1 the load stands on the support beam, and the rope only takes it up; then it hangs. What the two-sided formulas
-give is only valid while the rope pulls and the support pushes: `checks` tells, and `onesided` finds what else happens.
+give is only valid while the rope pulls and the support pushes: `forces` looks, and takes the motion where it is not.
 
 Source: Karpenko, Muzyka, Gudym; the primed formulas are exact where the article simplifies.
 """
@@ -18,9 +18,9 @@ from ..board import Board, Program, RecordingBoard
 from ..boards.arrays import ArrayBoard
 from ..boards.exact import ExactBoard
 from . import formulas as formulas  # its laws of calculation
-from .hoist import VALUES
+from .refining import rest_of_root
 
-CIRCLE = "circle"
+CIRCLE, HORIZONTAL = "circle", "_right"
 BEAMS = (0, 2)  # the support beam and the bridge beam
 
 
@@ -49,8 +49,8 @@ def lifting_off(board: Board) -> None:
     board.calc("_t_1", "lift_off", "V_t", "a", "k", "_height")
     board.calc("t_1", "later", "_t_1", "_rest")
     rope_force(board, "F_12_t1", "t_1")
-    board.calc("_dy_t1", "winding_speed", "V_t", "a", "t_1")
     board.calc("_dosc_t1", "oscillation_rate", "V_t", "a", "k", "t_1")
+    board.calc("_dy_t1", "winding_speed", "V_t", "a", "t_1")
     board.calc("_dF_t1", "rope_force", "C", "_dy_t1", "_C_osc", "_dosc_t1")
 
 
@@ -73,8 +73,8 @@ def extremes(board: Board) -> None:
     board.calc("F_12_min", "smaller_of", "_F_first", "F_12_t1")
 
 
-def suspended(board: Board) -> None:
-    """Phase 2 by its circle: abscissas are the force of the rope, ordinates its rate by k_1; formulas (13) to (15')."""
+def circle(board: Board) -> None:
+    """Phase 2 as a circle: abscissas are the force of the rope, ordinates its rate by k_1; formula (13)."""
     board.calc("P_m", "mean_force", "m", "g", "a")
     board.calc("D_0", "excess", "F_12_t1", "P_m")
     board.calc("D_1", "ratio", "_dF_t1", "k_1")
@@ -82,10 +82,14 @@ def suspended(board: Board) -> None:
     board.place(f"{CIRCLE}.1", "F_12_t1", "D_1")
     board.distance("R", f"{CIRCLE}.C", f"{CIRCLE}.1")
     board.read("_radius", f"{CIRCLE}.C", f"{CIRCLE}.1")
-    board.turn("_right", "zero")
-    board.angle("_phi", "_right", "_radius")
-    board.calc("_angle", "whole_angle", "_phi")
-    board.calc("T_1", "ratio", "_angle", "k_1")
+    board.turn(HORIZONTAL, "zero")
+    board.angle("_phi", HORIZONTAL, "_radius")
+    board.calc("phi_1", "whole_angle", "_phi")
+
+
+def suspended(board: Board) -> None:
+    """The greatest and the least force of the rope in phase 2, at the ends of a diameter: formula (15')."""
+    board.calc("T_1", "ratio", "phi_1", "k_1")
     board.calc("P_12_max", "sum", "P_m", "R")
     board.calc("P_12_min", "excess", "P_m", "R")
 
@@ -118,30 +122,49 @@ def strength(board: Board) -> None:
         board.calc(f"x_w{i}", "place_of_deflection", f"b_{i}", f"l_{i}")
 
 
-PARTS = (reduced, lifting_off, extremes, suspended, lifted, printed, strength)
+def moved(board: Board) -> None:
+    """What the motion of a load on a one-sided support, by a one-sided rope, gives in the place of formulas."""
+    for name in ("t_1", "F_12_t1", "_dF_t1", "F_12_max", "t_F12_max", "F_12_min"):
+        board.calc(name, "given", motion_given(name))
+
+
+def moved_on(board: Board) -> None:
+    """The same after the load has left its support."""
+    for name in ("T_1", "P_12_max", "P_12_min", "s_min"):
+        board.calc(name, "given", motion_given(name))
+
+
+def motion_given(name: str) -> str:
+    """Return the name of the given that is a quantity's value in the motion."""
+    return f"_{name.lstrip('_')}_motion"
+
+
+TWO_SIDED = (reduced, lifting_off, extremes, circle, suspended, lifted, printed, strength)
+ONE_SIDED = (reduced, moved, circle, moved_on, printed, strength)
 
 
 @cache
-def model_program() -> Program:
-    """Return all steps, in order, recorded."""
+def model_program(one_sided: bool = False) -> Program:
+    """Return all steps, in order, recorded: formulas, or with the results of a motion in the place of some of them."""
     board = RecordingBoard()
-    for part in PARTS:
+    for part in ONE_SIDED if one_sided else TWO_SIDED:
         part(board)
     return Program(board.steps)
 
 
 @cache
-def _needed(wanted: tuple[str, ...]) -> Program:
-    return model_program().needed_for(wanted)
+def _needed(wanted: tuple[str, ...], one_sided: bool) -> Program:
+    program = model_program(one_sided)
+    return program.needed_for(wanted) if wanted else program
 
 
-def model(values: Mapping[str, Any], wanted: Iterable[str] = ()) -> dict[str, Any]:
-    """Return the quantities of a hoist by name, in SI, after the givens; the two-sided formulas, whether valid or not.
+def model(values: Mapping[str, Any], wanted: Iterable[str] = (), one_sided: bool = False) -> dict[str, Any]:
+    """Return the quantities of a hoist by name, in SI, after the givens; by the formulas, whether valid or not.
 
     Parameters
     ----------
     values : mapping of str to float or array
-        The complete givens, with any shapes that go together.
+        The complete givens, with any shapes that go together; with `one_sided` those of the motion, too.
     wanted : iterable of str
         Names of the quantities wanted, with which those come that they need; by default all.
 
@@ -150,12 +173,12 @@ def model(values: Mapping[str, Any], wanted: Iterable[str] = ()) -> dict[str, An
     dict of str to float or array
         Infinite where a beam is rigid.
     """
-    names = tuple(wanted)
-    program = _needed(names) if names else model_program()
-    arrays = np.broadcast_arrays(*(values[name] for name in VALUES if name in values))
-    givens = {"_rest": 0.0, **values}
-    board = ArrayBoard(givens, arrays[0].size) if arrays[0].ndim else ExactBoard(givens)
+    program = _needed(tuple(wanted), one_sided)
+    givens = {**values, "_rest": 0.0 if one_sided else rest_of_root(values)}
+    many = [value for value in givens.values() if np.ndim(value)]
+    board = ArrayBoard(givens, np.broadcast(*many).size) if many else ExactBoard(givens)
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         program.run(board)
-    found = {name: board.values[name] for name in (*values, *program.names) if "." not in name and name[0] != "_"}
+    names = (name for name in (*values, *program.names) if "." not in name and name[0] != "_")
+    found = {name: board.values[name] for name in names}
     return {name: value if np.ndim(value) else float(value) for name, value in found.items()}

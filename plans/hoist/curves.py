@@ -1,0 +1,142 @@
+"""Curves p_0 + p_1 t + p_2 t^2 + A cos w t + B sin w t: how a load on a spring moves, and where it passes zero.
+
+The slope of such a curve turns where its bend is zero, which is known in closed form; between two such places it passes
+zero once at most, and so does the curve between two of its own turnings. No passage can be missed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ..laws import TURN
+from .waves import rising_zero
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """p_0 + p_1 t + p_2 t^2 + A cos w t + B sin w t; without a swing A, B and w are zero."""
+
+    p_0: float
+    p_1: float
+    p_2: float
+    A: float = 0.0
+    B: float = 0.0
+    w: float = 0.0
+
+    def __neg__(self) -> Curve:
+        """Return the curve turned over."""
+        return Curve(-self.p_0, -self.p_1, -self.p_2, -self.A, -self.B, self.w)
+
+    def at(self, t: float) -> float:
+        """Return the ordinate."""
+        swing = self.A * math.cos(self.w * t) + self.B * math.sin(self.w * t)
+        return self.p_0 + (self.p_1 + self.p_2 * t) * t + swing
+
+    def slope(self, t: float) -> float:
+        """Return the slope."""
+        swing = self.B * math.cos(self.w * t) - self.A * math.sin(self.w * t)
+        return self.p_1 + 2.0 * self.p_2 * t + self.w * swing
+
+    def bend(self, t: float) -> float:
+        """Return the slope of the slope."""
+        swing = self.A * math.cos(self.w * t) + self.B * math.sin(self.w * t)
+        return 2.0 * self.p_2 - self.w * self.w * swing
+
+    @property
+    def swing(self) -> float:
+        """How far it swings to either side."""
+        return math.hypot(self.A, self.B)
+
+    def surely(self, side: float, room: float) -> float:
+        """Return a time from which on it is on one side of zero, +1 or -1, by more than `room`.
+
+        Its parabola runs away to that side.
+        """
+        p_0, p_1, p_2 = side * self.p_0 - self.swing - 2.0 * room, side * self.p_1, side * self.p_2
+        root = math.sqrt(max(p_1 * p_1 - 4.0 * p_0 * p_2, 0.0))
+        if p_1 < 0.0:
+            return (root - p_1) / (2.0 * p_2)
+        return max(-2.0 * p_0 / (p_1 + root), 0.0)
+
+    def turnings(self, end: float) -> Iterator[float]:
+        """Go through the places before `end` where it turns from rising to falling or back."""
+        if self.w == 0.0:
+            if self.p_2 != 0.0 and 0.0 < -self.p_1 / (2.0 * self.p_2) < end:
+                yield -self.p_1 / (2.0 * self.p_2)
+            return
+        begin, slope = 0.0, self.slope(0.0)
+        for node in self._nodes(end):
+            other = self.slope(node)
+            if (slope < 0.0 < other) or (other < 0.0 < slope):
+                sign = 1.0 if other > 0.0 else -1.0
+                yield float(rising_zero(_Signed(self, sign), begin, node))
+            elif other == 0.0 and slope != 0.0:
+                yield node
+            begin, slope = node, other
+
+    def _nodes(self, end: float) -> Iterator[float]:
+        """Go through places, `end` the last, between which the slope does not turn."""
+        size, psi = self.swing * self.w * self.w, math.atan2(self.B, self.A)
+        part = 2.0 * self.p_2 / size if size else 2.0
+        reach = math.acos(part) if abs(part) < 1.0 else 0.5 * math.pi
+        n = math.floor((-reach - psi) / TURN)
+        while True:
+            for angle in (psi - reach, psi + reach):
+                t = (angle + TURN * n) / self.w
+                if t >= end:
+                    yield end
+                    return
+                if t > 0.0:
+                    yield t
+            n += 1
+
+    def falls_through(self, end: float, room: float) -> float | None:
+        """Return where before `end` it first falls through zero, None where it does not.
+
+        At the beginning it is above zero, or there and rising; `room` is by how much it may dip below for rounding.
+        """
+        if self.w == 0.0:
+            return self._falls_straight(end, room)
+        begin, value = 0.0, max(self.at(0.0), 0.0)
+        for turning in (*self.turnings(end), end):
+            other = self.at(turning)
+            if other < -room:
+                if value <= 0.0:
+                    return begin
+                return float(rising_zero(_Falling(self), begin, turning))
+            begin, value = turning, other
+        return None
+
+    def _falls_straight(self, end: float, room: float) -> float | None:
+        """Return the same of a parabola."""
+        half, square = 0.5 * self.p_1, 0.25 * self.p_1 * self.p_1 - self.p_0 * self.p_2
+        if self.at(end) >= -room and (self.p_2 <= 0.0 or square <= 0.0):
+            return None
+        root = math.sqrt(max(square, 0.0))
+        larger = -(half + math.copysign(root, half))
+        roots = [larger / self.p_2] if self.p_2 else []
+        roots += [self.p_0 / larger] if larger else []
+        return min((t for t in roots if 0.0 < t <= end and self.slope(t) < 0.0), default=None)
+
+
+@dataclass(frozen=True, slots=True)
+class _Signed:
+    """The slope of a curve with a sign, and its own slope."""
+
+    curve: Curve
+    sign: float
+
+    def __call__(self, t: float) -> tuple[float, float]:
+        return self.sign * self.curve.slope(float(t)), self.sign * self.curve.bend(float(t))
+
+
+@dataclass(frozen=True, slots=True)
+class _Falling:
+    """A curve turned over, and its slope."""
+
+    curve: Curve
+
+    def __call__(self, t: float) -> tuple[float, float]:
+        return -self.curve.at(float(t)), -self.curve.slope(float(t))

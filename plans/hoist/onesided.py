@@ -1,0 +1,232 @@
+"""The motion of a load on a support that can only push, by a rope that can only pull: piece by piece, in closed form.
+
+A piece ends when the rope goes slack or becomes taut, or the load leaves its support or comes back to it. While both
+bear, the load swings with k; on the rope alone with k_1; on the support alone with its own frequency; else it flies.
+Nothing is lost: on a rope alone the swing is the same again after every slack, and when one swing has passed without
+the load coming back to its support none of the later ones, which are higher, does. So the motion is known for all time.
+To a rigid support no load comes back: it leaves it slower, beside the rope's end, than the end itself moves.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from ...scales.errors import InputError
+from ..laws import TURN
+from .curves import Curve
+
+MOST_PIECES = 20_000
+ROUNDING = 1e-12  # part of the static stretch that is nothing
+SAME = 1e-9  # part of a force within which two are alike
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A piece of the motion from `begin` on, which lasts `time`; the curves are of the time since its begin.
+
+    Parameters
+    ----------
+    rope, support : bool
+        Whether the rope pulls, and the support pushes.
+    stretch, height : Curve
+        Of the rope, and of the load above the unloaded support beam, m.
+    """
+
+    begin: float
+    time: float
+    rope: bool
+    support: bool
+    stretch: Curve
+    height: Curve
+
+    @property
+    def end(self) -> float:
+        """When it ends."""
+        return self.begin + self.time
+
+
+@dataclass(frozen=True, slots=True)
+class OneSided:
+    """The whole motion until it only repeats itself, higher and higher.
+
+    Parameters
+    ----------
+    pieces : tuple of Piece
+        In order; the last one is on the rope, and one swing or as long as it takes to go slack.
+    """
+
+    pieces: tuple[Piece, ...]
+    C_12: float
+
+    @property
+    def t_1(self) -> float:
+        """When the support is free of the load for the first time."""
+        return next(piece.begin for piece in self.pieces if not piece.support)
+
+    def force(self, t: float) -> float:
+        """Return the force of the rope at a time of the motion."""
+        piece = self._at(t)
+        return self.C_12 * max(piece.stretch.at(t - piece.begin), 0.0) if piece.rope else 0.0
+
+    def rate(self, t: float) -> float:
+        """Return how fast the force of the rope grows."""
+        piece = self._at(t)
+        return self.C_12 * piece.stretch.slope(t - piece.begin) if piece.rope else 0.0
+
+    def height(self, t: float) -> float:
+        """Return how high the load is above the unloaded support beam."""
+        piece = self._at(t)
+        return piece.height.at(t - piece.begin)
+
+    def _at(self, t: float) -> Piece:
+        return next((piece for piece in self.pieces if t < piece.end), self.pieces[-1])
+
+    def extremes(self, lifted: bool) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Return time and force where it is greatest, and where least, before the first lift-off or from then on.
+
+        Of maxima that are alike, as those of a swing that goes on, it is the first one.
+        """
+        times = [self.t_1]
+        for piece in self.pieces:
+            if (piece.begin >= self.t_1) == lifted:
+                inner = piece.stretch.turnings(piece.time) if piece.rope else ()
+                times += [piece.begin + t for t in (*inner, piece.time)]
+        last = math.nextafter(self.pieces[-1].end, 0.0)
+        forces = [(min(t, last), self.force(min(t, last))) for t in times]
+        most, least = max(force for _, force in forces), min(force for _, force in forces)
+        greatest = min(pair for pair in forces if pair[1] >= most * (1.0 - SAME))
+        return greatest, min(pair for pair in forces if pair[1] <= least)
+
+    @property
+    def lowest(self) -> float:
+        """How high the load is where it is lowest after the lift-off; after its first swing if it only rises."""
+        heights = [self.height(math.nextafter(self.pieces[-1].end, 0.0))]
+        for piece in self.pieces:
+            if piece.begin >= self.t_1:
+                turnings = [t for t in piece.height.turnings(piece.time) if piece.height.bend(t) > 0.0]
+                heights += [piece.height.at(t) for t in turnings]
+        return min(heights)
+
+    @property
+    def slack(self) -> tuple[tuple[float, float], ...]:
+        """When the rope is slack."""
+        return tuple((piece.begin, piece.end) for piece in self.pieces if not piece.rope)
+
+    @property
+    def slackens(self) -> bool:
+        """Whether the rope goes slack after the load has left its support."""
+        return any(begin >= self.t_1 for begin, _ in self.slack)
+
+    @property
+    def least_pull(self) -> float:
+        """The least force that a two-sided rope would have to bear on the way: below zero where this one is slack."""
+        hanging = (piece.stretch for piece in self.pieces if piece.rope and not piece.support)
+        return min(self.C_12 * (stretch.p_0 - stretch.swing) for stretch in hanging)
+
+    @property
+    def returns(self) -> tuple[float, ...]:
+        """When the load comes back to its support."""
+        pairs = zip(self.pieces, self.pieces[1:], strict=False)
+        return tuple(after.begin for before, after in pairs if after.support and not before.support)
+
+
+@dataclass(frozen=True, slots=True)
+class _State:
+    """Where the load is: time, stretch of the rope, height, speed; what bears."""
+
+    t: float
+    stretch: float
+    height: float
+    speed: float
+    rope: bool
+    support: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Hoisting:
+    """What moves a load: the numbers that the pieces of its motion follow from."""
+
+    m: float
+    g: float
+    C_01: float
+    C_12: float
+    V: float
+    a: float
+
+    @property
+    def room(self) -> float:
+        """What is nothing beside the static stretch of rope and support."""
+        return ROUNDING * self.m * self.g * (1.0 / self.C_01 + 1.0 / self.C_12)
+
+    def start(self) -> _State:
+        """Return the state with a rope just taut; on a rigid support that in which it carries the load."""
+        if math.isinf(self.C_01):
+            length = self.m * self.g / self.C_12
+            t = 2.0 * length / (self.V + math.sqrt(self.V * self.V + 2.0 * self.a * length))
+            return _State(t, length, 0.0, 0.0, rope=True, support=False)
+        return _State(0.0, 0.0, -self.m * self.g / self.C_01, 0.0, rope=True, support=True)
+
+    def curves(self, state: _State) -> tuple[Curve, Curve]:
+        """Return stretch and height from a state on, while the same bears."""
+        rope, beam = self.C_12 / self.m * state.rope, (self.C_01 / self.m if state.support else 0.0)
+        square, winding = rope + beam, self.V + self.a * state.t
+        whole = Curve(state.stretch + state.height, winding, 0.5 * self.a)
+        if square == 0.0:
+            height = Curve(state.height, state.speed, -0.5 * self.g)
+        else:
+            p_2, p_1 = rope * whole.p_2 / square, rope * whole.p_1 / square
+            p_0, w = (rope * whole.p_0 - self.g - 2.0 * p_2) / square, math.sqrt(square)
+            height = Curve(p_0, p_1, p_2, state.height - p_0, (state.speed - p_1) / w, w)
+        down = -height
+        p = (whole.p_0 + down.p_0, whole.p_1 + down.p_1, whole.p_2 + down.p_2)
+        return Curve(*p, down.A, down.B, down.w), height
+
+    def piece(self, state: _State) -> tuple[Piece, _State]:
+        """Return the piece that begins in a state, and the state in which it ends."""
+        stretch, height = self.curves(state)
+        room = self.room
+        if state.support:
+            end = (height if state.rope else stretch).surely(1.0, room)
+        else:
+            end = TURN / height.w if state.rope else height.surely(-1.0, room)
+        at_rope = (stretch if state.rope else -stretch).falls_through(end, room)
+        at_support = None
+        if not math.isinf(self.C_01):
+            at_support = (-height if state.support else height).falls_through(end, room)
+        time = min([end, *(t for t in (at_rope, at_support) if t is not None)])
+        moved = _State(state.t + time, stretch.at(time), height.at(time), height.slope(time), state.rope, state.support)
+        if time == at_rope:
+            moved = replace(moved, rope=not state.rope, stretch=0.0)
+        if time == at_support:
+            moved = replace(moved, support=not state.support, height=0.0)
+        return Piece(state.t, time, state.rope, state.support, stretch, height), moved
+
+
+def one_sided(found: Mapping[str, float]) -> OneSided:
+    """Return the motion of a load on a one-sided support, by a one-sided rope.
+
+    Parameters
+    ----------
+    found : mapping of str to float
+        Quantities `m g C_01 C_12 V_t a` in SI.
+
+    Raises
+    ------
+    InputError
+        A motion of more pieces than anybody wants to know.
+    """
+    hoisting = Hoisting(*(found[name] for name in ("m", "g", "C_01", "C_12", "V_t", "a")))
+    state, pieces, slack = hoisting.start(), [], False
+    for _ in range(MOST_PIECES):
+        piece, following = hoisting.piece(state)
+        pieces.append(piece)
+        if piece.rope and not piece.support and not following.support:
+            if following.rope or slack:  # a swing without an end, or one after a slack
+                return OneSided(tuple(pieces), hoisting.C_12)
+            slack = True
+        elif following.support:
+            slack = False
+        state = following
+    raise InputError("hoist-pieces", n=MOST_PIECES)
