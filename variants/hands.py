@@ -24,14 +24,13 @@ from ..scales.units import format_unit, parse, unit
 from .tables import aligned
 
 OWN = "own"
+PLAIN = "1"  # the unit of what has none
 NONE: Mapping[str, Any] = MappingProxyType({})
 BETWEEN = re.compile(r"\s*;\s*|,\s+|(?<=[^\d\s]),")  # not a decimal comma
 DIGITS = 4
 STEP = 7  # the column of the worst step
-PLANS = (  # those of compound motion have names of their own
-    *("position", "velocity", "acceleration", "forces", "lever"),
-    *("diagram", "sizes", "plate", "rocker", "profile"),
-)
+LETTERED = ("diagram", "sizes", "plate", "rocker", "profile", "meshing", "sliding", "theta")  # as marks are named
+PLANS = ("position", "velocity", "acceleration", "forces", "lever", *LETTERED)  # others are of compound motion
 READINGS = ("read", "measure", "distance", "angle")
 LINES = ("turn", "incline", "decline", "direction", "tangent", "normal")
 
@@ -172,7 +171,7 @@ def _row(quantity: Quantity, expected: Expectation, program: Program, words: Wor
     return [
         quantity.name,
         value,
-        format_unit(words.display.unit(si), words.language),
+        "" if si == PLAIN else format_unit(words.display.unit(si), words.language),
         interval,
         paper,
         part,
@@ -215,7 +214,8 @@ def _worst(expected: Expectation, program: Program, words: Words) -> str:
     else:
         plan = step.plan.partition("_")[0]
         where = words[f"hand.plan.{plan if plan in PLANS else 'compound'}"]
-        said = f"{words['hand.mark'].format(name=_plain(words.mark(step.name)))}, {where}"
+        mark = step.name.rpartition(".")[2] if plan in LETTERED else _plain(words.mark(step.name))
+        said = f"{words['hand.mark'].format(name=mark)}, {where}"
     return f"{said} {share}".rstrip()
 
 
@@ -224,7 +224,8 @@ def _line(step: Step, program: Program) -> str:
     letters = guide_letters(program)
     if step.name in letters:
         return letters[step.name]
-    return "".join(step.operands[:2]) if step.verb == "tangent" else step.name.lstrip("_").partition("_")[2]
+    name = step.name.lstrip("_")
+    return "".join(step.operands[:2]) if step.verb == "tangent" else name.partition("_")[2] or name
 
 
 def _plain(markup: str) -> str:

@@ -188,11 +188,11 @@ def engagement(board: Board, i: int, sense: int) -> None:
         board.direction(f"_O{i}{ahead}", mark("O", i), mark(ahead), f"_l_O{i}{ahead}")
         board.calc(f"_along_flank{i}_{end}", "angle_on_flank", at, "inv_alpha_w", "_sense")
         board.turn(f"_slope{i}_{end}", f"_along_flank{i}_{end}")
-        board.incline(f"flank{i}_{end}", f"_O{i}{ahead}", f"_slope{i}_{end}")
-        board.lay(mark("B", i, end), mark("O", i), f"flank{i}_{end}", f"_r_w{i}")
-    ends = (f"flank{i}_start", f"flank{i}_end")
-    board.angle(f"_swept{i}", *(ends if sense > 0 else reversed(ends)))
-    board.calc(f"phi_alpha{i}_drawn", "given", f"_swept{i}")
+        board.incline(f"flank_O{i}B{i}_{end}", f"_O{i}{ahead}", f"_slope{i}_{end}")
+        board.lay(mark("B", i, end), mark("O", i), f"flank_O{i}B{i}_{end}", f"_r_w{i}")
+    ends = (f"flank_O{i}B{i}_start", f"flank_O{i}B{i}_end")
+    board.angle(f"_phi_alpha{i}", *(ends if sense > 0 else reversed(ends)))
+    board.calc(f"phi_alpha{i}_drawn", "given", f"_phi_alpha{i}")
 
 
 def contact_ratios(board: Board) -> None:
