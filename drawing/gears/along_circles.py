@@ -53,9 +53,7 @@ def action(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
 
 def gaps(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
     """Dimension the radial gap on the line of centres at the root of both wheels."""
-    words, height = scene.words, scene.style.text
-    gap = scene.size("c") * scene.size("m")
-    text = f"{words.symbol('c')}{words.symbol('m')} = {scene.length(gap)}"
+    text, height = f"{scene.words.symbol('c')}{scene.words.symbol('m')}", scene.style.text
     for wheel, mate in zip(pair, reversed(pair), strict=True):
         ends = scene.mm(f"C_f{wheel.number}"), scene.mm(f"C_a{mate.number}")
         linear(canvas, ends, 0j, "", f"gap_{wheel.number}")

@@ -49,7 +49,8 @@ def near_view(overall: GearScene) -> View:
 def _finished(canvas: Canvas, scene: GearScene, name: str, detailed: bool) -> View:
     """Close a view, with what its lines and letters mean where it has details."""
     words = scene.words
-    notes = words["said.gear_meshing"].split("|") if detailed else ()
+    gap = f"{scene.length(scene.size('c') * scene.size('m'))} {words.unit('mm')}"
+    notes = words["said.gear_meshing"].format(gap=gap).split("|") if detailed else ()
     return canvas.finish(name, (words[f"heading.gear_{name}"], scene.factor(scene.mu_l)), tuple(notes))
 
 
