@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from ...drawing.titleblock import Stamp
     from ...drawing.words import Words
     from ...plans.gears.solve import SolvedGear
+    from ...plans.hands.hand import Tolerance
+    from ...plans.hands.shaky import Paper
     from ...plans.quantities import Quantity
     from ..case import Case
     from ..checks.basics import Checker
@@ -163,6 +165,12 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         contents = Contents(gear(case.solved), case.plans, case.choosers, case.givens, words, norm)
         return draw(contents, stamp, paper)
 
+    def limits(self, drawn: SolvedGear, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
+        """Let pass of angles what the errors of the marks they hang on add up to."""
+        from ...plans.gears.tolerances import tolerances_of
+
+        return tolerances_of(drawn, paper, tolerance)
+
     def lettered(self, words: Words, solved: SolvedGear) -> Words:
         """Return the words with the letters of a pair's quantities."""
         from ...drawing.gears.letters import lettered
@@ -176,6 +184,8 @@ KIND = Gears()
 def gear(solved: Any) -> SolvedGear:
     """Return what has been solved as the pair that it is."""
     from ...plans.gears.solve import SolvedGear
+    from ...plans.hands.hand import Tolerance
+    from ...plans.hands.shaky import Paper
 
     assert isinstance(solved, SolvedGear)
     return solved
