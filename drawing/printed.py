@@ -116,10 +116,15 @@ def worked(words: Words, formula: Formula, more: str = "") -> tuple[str, ...]:
     texts, result = calculation(words, formula.law, inputs, formula.decimals)
     names = [term for term, _, _ in formula.terms]
     symbols = formula.text.format(deg="", **{name: words.symbol(name) for name in names})
-    numbers = formula.text.format(deg="°", **dict(zip(names, texts, strict=True)))
+    numbers = formula.text.format(deg="°", **{name: _within(text) for name, text in zip(names, texts, strict=True)})
     gap, unit = "" if formula.unit == "deg" else " ", formula.unit
     said = f"= {result}{gap}{words.unit(unit)}" if unit else f"= {result}"
     return tuple(filter(None, (f"{words.symbol(formula.name)} = {symbols}", f"= {numbers}", said, more)))
+
+
+def _within(text: str) -> str:
+    """Return a number as it stands in a formula: a negative one in brackets."""
+    return f"({text})" if text.startswith("−") else text
 
 
 def _texts(words: Words, values: Sequence[float], places: Sequence[int | None]) -> list[str]:

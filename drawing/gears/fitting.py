@@ -114,10 +114,15 @@ def _meshing(apart: bool) -> Iterator[tuple[str, GearFigure]]:
 
 
 def _geometry(width: float) -> Iterator[tuple[str, GearFigure]]:
+    from .contour_view import contour_view
     from .tables import checks_table, data_table
+    from .text import auxiliary_block, quality_block, sizes_block
 
     yield "data", Figure(data_table)
     yield "checks", Figure(checks_table)
+    yield "contour", Figure(contour_view)
+    for name, block in (("sizes", sizes_block), ("auxiliary", auxiliary_block), ("quality", quality_block)):
+        yield f"equations_{name}", Figure(partial(block, width=width))
 
 
 def _sliding() -> Iterator[tuple[str, GearFigure]]:

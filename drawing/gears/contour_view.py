@@ -1,0 +1,177 @@
+"""The blocking contour: the plane of both shifts with the curves that bound them, and the shifts of the pair."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...plans.gears.blocking import BLOCKING, CURVES, RATIOS, Plane, plane_of
+from ...scales.scale import Scale, steps
+from ..diagram import Axis, Field, divisions
+from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
+from ..view import Canvas, View
+from .scene import GearScene
+
+SIDE = {5.0: 150.0, 3.5: 80.0}  # mm of the longer side of the window, by the height of letters
+FINE = 0.05  # mm by which a chord may miss its curve: places between are left out
+APART = 9.0  # mm at least between divisions
+REACH = 4.0  # mm of a curve to both sides of the place where its name stands
+PAST = 1.6  # heights of letters by which arrows run past the window
+EACH = 0.7  # of the longer side of the window: a curve has a number for each such part of it
+LEAST = 0.2  # of the longer side: shorter curves in a corner of the window, which bound nothing, are left out
+IN_A_LINE = 3  # entries of the legend
+FAR = 1e6 + 0j  # mm
+STEP = 2.0  # mm between places that are looked at
+Curve = Sequence[complex]
+
+
+def contour_view(scene: GearScene) -> View:
+    """Draw the window round the contour of the wheels."""
+    plane = plane_of(scene.solved.givens, scene.solved.pair.least_tip)
+    canvas, words = Canvas(scene.style), scene.words
+    field = _field(scene, plane)
+    _frame(canvas, scene, field)
+    sides = plane.contour()
+    curves = {name: [_thinned(field, run) for run in plane.curve(name)] for name in CURVES}
+    least = LEAST * SIDE[scene.style.label]
+    for name in set(CURVES).difference(name for name, _ in sides):
+        curves[name] = [run for run in curves[name] if abs(run[-1] - run[0]) >= least]
+    for name, runs in curves.items():
+        pen = Pen.THIN if name in BLOCKING else Pen.DASHED
+        canvas.add(Group(tuple(Polyline(tuple(run), pen) for run in runs), "limit", name))
+    for name, side in sides:
+        canvas.add(Group((Polyline(tuple(_thinned(field, side)), Pen.MAIN),), "contour", name))
+    _chosen(canvas, scene, field)
+    _numbers(canvas, scene, curves)
+    mu = f"{words.symbol('mu_x')} = {words.short(field.x.scale.mu)} {words.unit('mm')}^{{−1}}"
+    notes = words["gear.contour_lines"], *_legend(scene, seen(curves))
+    return canvas.finish("contour", (words["heading.gear_contour"], mu), notes)
+
+
+def _field(scene: GearScene, plane: Plane) -> Field:
+    """Return the plane on the paper, equal scale factors on both axes."""
+    size, words = plane.high - plane.low, scene.words
+    mu = steps(max(size.real, size.imag) / SIDE[scene.style.label])[0]
+    scale = Scale("mu_x", mu, "1")
+    ends = ((plane.low.real, plane.high.real), (plane.low.imag, plane.high.imag))
+    x, y = (
+        Axis(
+            words.symbol(f"x_{i}"),
+            scale,
+            low,
+            high,
+            {v: words.short(v) for v in (*divisions(high, low, mu, APART), 0.0)},
+        )
+        for i, (low, high) in enumerate(ends, start=1)
+    )
+    return Field(0j, x, y)
+
+
+def _frame(canvas: Canvas, scene: GearScene, field: Field) -> None:
+    """Draw the sides of the window with divisions below and on the left, the axes where they pass through it."""
+    x, y, height = field.x, field.y, scene.style.text
+    corners = tuple(field.at(*at) for at in ((x.low, y.low), (x.high, y.low), (x.high, y.high), (x.low, y.high)))
+    canvas.add(Polyline(corners, Pen.THIN, closed=True, role="window"))
+    tick = 0.4 * height
+    for value, text in x.divisions.items():
+        if x.low <= value <= x.high:
+            foot = field.at(value, y.low)
+            canvas.add(Line(foot, foot + 1j * tick, Pen.THIN, role="division"))
+            canvas.add(Text(foot - 1.6j * height, text, height, "middle", role="number"))
+    for value, text in y.divisions.items():
+        if y.low <= value <= y.high:
+            foot = field.at(x.low, value)
+            canvas.add(Line(foot, foot + tick, Pen.THIN, role="division"))
+            canvas.add(Text(foot - 0.6 * height - 0.5j * height, text, height, "right", role="number"))
+    if y.low < 0.0 < y.high:
+        canvas.add(Line(field.at(x.low, 0.0), field.at(x.high, 0.0), Pen.AXIS, role="axis"))
+    if x.low < 0.0 < x.high:
+        canvas.add(Line(field.at(0.0, y.low), field.at(0.0, y.high), Pen.AXIS, role="axis"))
+    label = scene.style.label
+    for end, along, letter, aside in (
+        (corners[1], 1 + 0j, x.letter, complex(0.0, 0.6 * label)),
+        (corners[3], 1j, y.letter, complex(0.8 * label, -0.5 * label)),
+    ):
+        tip = end + PAST * label * along
+        canvas.add(Line(end, tip, Pen.THIN, role="axis"), Head(tip, along))
+        canvas.add(Text(tip + aside, letter, label, "middle" if along == 1 else "left"))
+    canvas.bounds = (corners[0].real, corners[0].imag, corners[2].real, corners[2].imag)
+
+
+def _thinned(field: Field, run: NDArray[np.complexfloating]) -> list[complex]:
+    """Return places of a curve on the paper, those left out that a chord passes closely."""
+    points = [field.at(place.real, place.imag) for place in run.tolist()]
+    kept, last = [points[0]], 0
+    for k in range(2, len(points)):
+        chord = points[k] - points[last]
+        away = max((abs((chord.conjugate() * (p - points[last])).imag) for p in points[last + 1 : k]), default=0.0)
+        if away > FINE * abs(chord):
+            last = k - 1
+            kept.append(points[last])
+    return [*kept, points[-1]]
+
+
+def _chosen(canvas: Canvas, scene: GearScene, field: Field) -> None:
+    """Mark the shifts of the pair."""
+    x_1, x_2 = scene.size("x_1"), scene.size("x_2")
+    at = field.at(x_1, x_2)
+    for foot in (field.at(x_1, field.y.low), field.at(field.x.low, x_2)):
+        canvas.add(Line(at, foot, Pen.DASHED, role="projection"))
+    canvas.add(Group((Circle(at, 1.5 * scene.style.node, Pen.MAIN, fill="black"),), "point", "chosen"))
+
+
+def _numbers(canvas: Canvas, scene: GearScene, curves: Mapping[str, list[list[complex]]]) -> None:
+    """Number the curves that pass through the window, long ones in several places, where they are far from others."""
+    dense = [(name, _dense(run)) for name, runs in curves.items() for run in runs]
+    numbers = {name: str(n) for n, name in enumerate(seen(curves), start=1)}
+    long = EACH * SIDE[scene.style.label] / STEP
+    for n, (name, places) in enumerate(dense):
+        others = np.array([place for m, (_, found) in enumerate(dense) if m != n for place in found] or [FAR])
+        own = np.array(places)
+        room = np.min(np.abs(own[:, np.newaxis] - others[np.newaxis, :]), axis=1)
+        room[[0, -1]] = -1.0  # not on the sides of the window
+        for _ in range(1 + int(len(places) / long)):
+            k = int(np.argmax(room))
+            along = places[min(k + 1, len(places) - 1)] - places[max(k - 1, 0)]
+            half = along * (REACH / abs(along))
+            ends = places[k] - half, places[k] + half
+            canvas.label(numbers[name], ends, clear=0.8, height=scene.style.text)
+            room = np.minimum(room, np.abs(own - own[k]) - 0.5 * EACH * SIDE[scene.style.label])
+
+
+def seen(curves: Mapping[str, list[list[complex]]]) -> list[str]:
+    """Return the names of the curves that pass through the window."""
+    return [name for name, runs in curves.items() if runs]
+
+
+def _legend(scene: GearScene, names: Sequence[str]) -> Iterator[str]:
+    """Go through lines that say what the numbers of the curves stand for, and which shifts are chosen."""
+    texts = [f"{n}: {limit(scene, name)}" for n, name in enumerate(names, start=1)]
+    for k in range(0, len(texts), IN_A_LINE):
+        yield ";  ".join(texts[k : k + IN_A_LINE])
+    words = scene.words
+    shifts = (f"{words.symbol(name)} = {words.short(round(scene.size(name), 4))}" for name in ("x_1", "x_2"))
+    yield f"●  {';  '.join(shifts)}"
+
+
+def _dense(run: list[complex]) -> list[complex]:
+    """Return places along a curve, equally far apart, three at least."""
+    reach = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(run)))))
+    at = np.linspace(0.0, reach[-1], max(3, int(reach[-1] / STEP)))
+    found: list[complex] = (np.interp(at, reach, np.real(run)) + 1j * np.interp(at, reach, np.imag(run))).tolist()
+    return found
+
+
+def limit(scene: GearScene, name: str) -> str:
+    """Return what a curve stands for, in symbols."""
+    words = scene.words
+    kind, of = name.split("_")
+    if kind == "contact":
+        return f"{words.symbol('epsilon_alpha')} = {words.short(RATIOS[name])}"
+    if kind in ("pointed", "thin"):
+        least = "0" if kind == "pointed" else f"{words.short(scene.solved.pair.least_tip)}m"
+        return f"{words.symbol(f's_a{of}')} = {least}"
+    first, second = {"undercut": ("x_", "x_min"), "interference": ("rho_l", "rho_p")}[kind]
+    return f"{words.symbol(f'{first}{of}')} = {words.symbol(f'{second}{of}')}"
