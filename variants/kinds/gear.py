@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ...plans.gears.solve import SolvedGear
     from ...plans.hands.hand import Tolerance
     from ...plans.hands.shaky import Paper
+    from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
     from ..checks.basics import Checker
@@ -165,6 +166,20 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         contents = Contents(gear(case.solved), case.plans, case.choosers, case.givens, words, norm)
         return draw(contents, stamp, paper)
 
+    def asks(self, solved: SolvedGear, question: Question) -> bool:
+        """Ask not for what is given, nor for ordinates that are nothing or PW by construction."""
+        return question.name not in solved.givens and question.step.operands != ("_zero",)
+
+    def section(self, solved: SolvedGear, question: Question, current: str) -> str:
+        """Return the section of a question: that of the note."""
+        from ...plans.gears.sections import section_of
+
+        return section_of(question.name)
+
+    def plan_heading(self, solved: SolvedGear, plan: str, words: Words) -> str:
+        """Return the heading of a section, or of a plan, as the sheet has it."""
+        return words[f"heading.gear_{plan}"]
+
     def limits(self, drawn: SolvedGear, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let pass of angles what the errors of the marks they hang on add up to."""
         from ...plans.gears.tolerances import tolerances_of
@@ -184,8 +199,6 @@ KIND = Gears()
 def gear(solved: Any) -> SolvedGear:
     """Return what has been solved as the pair that it is."""
     from ...plans.gears.solve import SolvedGear
-    from ...plans.hands.hand import Tolerance
-    from ...plans.hands.shaky import Paper
 
     assert isinstance(solved, SolvedGear)
     return solved

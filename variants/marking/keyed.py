@@ -20,6 +20,8 @@ from .form import Section, sections
 from .rubric import Rubric
 from .wording import plain, texts
 
+PER_CENT = "%"  # what is compared in per cent is not asked
+
 
 @dataclass(frozen=True, slots=True)
 class Request:
@@ -108,7 +110,7 @@ def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> A
     quantities = {
         name: q
         for name, q in solution.quantities.items()
-        if name in made and q.kind != "point" and not name.startswith("delta")
+        if name in made and q.kind != "point" and q.unit != PER_CENT
     }
     scales = {s.symbol: s.unit for s in solution.scales.values() if s.symbol not in solution}  # chosen, not found
     return Asked(quantities, scales, solution.words.display)
