@@ -140,12 +140,12 @@ def integrate(values: Mapping[str, Any], method: str, step: Any, located: bool =
     method : str
         One of `STEPPERS`.
     step : float or array
-        k h, rad.
+        k h, rad; many steps of one hoist go at once, too.
     located : bool
         Whether lift-off and extrema are found within steps; else they are taken at the steps, as programs do that
         know no events, and the support is one-sided. A finite C_01 is needed then, and a method that is not implicit.
     """
-    hoists = Hoists(values)
+    hoists = Hoists({**values, "m": np.broadcast_arrays(values["m"], step)[0]})
     z = np.broadcast_to(np.asarray(step, float), hoists.m.shape)
     h = z / hoists.k
     with np.errstate(over="ignore", invalid="ignore"):

@@ -1,0 +1,116 @@
+"""A hoist over time, by the formulas or by its motion: travel, height, forces, and how far the beams bend."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..board import Board, Program, RecordingBoard
+from ..boards.exact import ExactBoard
+from .model import rope_force
+from .onesided import OneSided, Piece
+
+Array = NDArray[np.float64]
+# what is known over time, and in what; the forces of both phases are one
+UNITS = {"t": "s", "y": "m", "s": "m", "F_01": "N", "F_12": "N", "sigma": "Pa", "w_0": "m", "w_2": "m"}
+BOTH, ROPE, SUPPORT, NEITHER = STATES = ("both", "rope", "support", "neither")  # what bears the load
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """A hoist at times of shape (N,): `columns` by name, SI; `states` what bears."""
+
+    columns: Mapping[str, Array]
+    states: tuple[str, ...]
+
+
+def _phase_1(board: Board) -> None:
+    board.calc("_mu", "support_share", "C_12", "C_01")
+    board.calc("_C_osc", "product", "_mu", "C_12")
+    rope_force(board, "_rope_1", "t")
+    board.calc("_lagging", "lagging", "V_t", "a", "k", "t")
+    board.calc("_support_1", "support_force", "C", "_lagging", "P_st")
+
+
+def _phase_2(board: Board) -> None:
+    board.calc("_T", "excess", "t", "t_1")
+    board.calc("_swing", "swing", "D_0", "D_1", "k_1", "_T")
+    board.calc("_rope_2", "suspended_force", "P_m", "_swing")
+
+
+def _after(board: Board) -> None:
+    """What follows from the force of the rope in either phase."""
+    board.calc("y", "wound", "V_t", "a", "t")
+    board.calc("s", "height", "y", "P_st", "C_01", "F_12", "C_12")
+    board.calc("sigma", "stress", "F_12", "S")
+    board.calc("_pressed", "opposite", "F_01")
+    board.calc("w_0", "deflection", "_pressed", "C_01")
+    board.calc("w_2", "deflection", "F_12", "C_2")
+
+
+@cache
+def _programs() -> tuple[Program, Program]:
+    found = []
+    for parts in ((_phase_1, _phase_2), (_after,)):
+        board = RecordingBoard()
+        for part in parts:
+            part(board)
+        found.append(Program(board.steps))
+    return found[0], found[1]
+
+
+def rope_forces(found: Mapping[str, Any], t: Any) -> tuple[Any, Any]:
+    """Return the forces of support and rope by the formulas of the phase that each time is in, N.
+
+    Parameters
+    ----------
+    found : mapping of str to float
+        Quantities `V_t a k k_1 C C_01 C_12 P_st P_m D_0 D_1 t_1`, SI.
+    t : array
+        Times, s.
+    """
+    board = ExactBoard({**found, "t": t})
+    board.follow(_programs()[0])
+    resting = t < found["t_1"]
+    values = board.values
+    return np.where(resting, values["_support_1"], 0.0), np.where(resting, values["_rope_1"], values["_rope_2"])
+
+
+def course(found: Mapping[str, Any], motion: OneSided | None, t: Array) -> Course:
+    """Look at a hoist at times from its beginning on.
+
+    Parameters
+    ----------
+    found : mapping of str to float
+        All its quantities, SI.
+    motion : OneSided, optional
+        Its motion where the formulas are not valid.
+    t : array of shape (N,)
+        Times, s, none after the end of the motion.
+    """
+    if motion is None:
+        F_01, F_12 = rope_forces(found, t)
+        states = tuple(np.where(t < found["t_1"], BOTH, ROPE).tolist())
+        return Course(_columns(found, t, F_01, F_12), states)
+    F_12, height = (np.array([of(at) for at in t.tolist()]) for of in (motion.force, motion.height))
+    last = len(motion.pieces) - 1
+    index = np.minimum(np.searchsorted([piece.end for piece in motion.pieces], t, side="right"), last).tolist()
+    states = tuple(_state(motion.pieces[i]) for i in index)
+    pressed = np.array([motion.pieces[i].support for i in index])
+    F_01 = np.where(pressed, height, 0.0) * (found["C_01"] if np.isfinite(found["C_01"]) else 0.0)
+    return Course({**_columns(found, t, F_01, F_12), "s": height}, states)
+
+
+def _state(piece: Piece) -> str:
+    return {(True, True): BOTH, (True, False): ROPE, (False, True): SUPPORT}.get((piece.rope, piece.support), NEITHER)
+
+
+def _columns(found: Mapping[str, float], t: Array, F_01: Any, F_12: Any) -> dict[str, Array]:
+    board = ExactBoard({**found, "t": t, "F_01": F_01, "F_12": F_12})
+    board.follow(_programs()[1])
+    return {name: np.asarray(board.values[name], float) for name in UNITS}

@@ -1,0 +1,169 @@
+"""Closed forms and integrators of a hoist beside one another; a hoist over time."""
+
+from __future__ import annotations
+
+import math
+import time
+from functools import cache
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from kulman.plans import contest as contests
+from kulman.plans.contest import Contest, Effort
+from kulman.plans.hoist import rivals as races
+from kulman.plans.hoist.course import BOTH, NEITHER, ROPE, SUPPORT, UNITS, course
+from kulman.plans.hoist.finders import FINDERS, NEWTON
+from kulman.plans.hoist.forces import Forces, forces
+from kulman.plans.hoist.rivals import COURSE, FORMULAS, LIFT_OFF, PEAK, exact, rivals
+from kulman.plans.hoist.step_limits import StepLimits, step_limits
+from kulman.plans.hoist.steppers import EXPLICIT, ORDERS, RK4, SYMPLECTIC, TRAPEZOID, VERLET
+
+# 2.5 t on a soft support, no acceleration: V10 of hoist-variants.json
+STEADY = {
+    "G_1": 25e3, "G_2": 70.0, "L": 5.0, "S": 150e-6, "E_k": 1.1e11, "sigma": 1440e6, "K": 5.6,
+    "l_0": 7.0, "I_0": 3.2e-5, "E_0": 2.06e11, "beta_0": 0.4, "l_2": 12.0, "I_2": 5e-4, "E_2": 2.06e11, "beta_2": 0.35,
+    "V_0": 0.22, "a": 0.0, "slack": 0.0, "g": 9.81,
+}  # fmt: skip
+PUSHING = STEADY | {"I_0": 1e-6, "V_0": 0.5}  # the rope would have to push on so soft a support
+
+
+@cache
+def race() -> Contest:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(contests, "ROUNDS", 1)
+        patch.setattr(races, "STEPS", (0.4, 0.2, 0.1))
+        patch.setattr(races, "TINY", (0.0125,))
+        return rivals(STEADY, time.process_time, Effort((1, 10), 10))
+
+
+def errors(method: str, kind: str) -> dict[float | str, float | None]:
+    return {entry.setting: entry.error for entry in race().of(kind) if entry.method == method}
+
+
+def test_exact_values_have_more_digits_than_float64() -> None:
+    found = exact(STEADY)
+    with mp.workdps(40):
+        m, C_01, C_12 = (mp.mpf(float(found[name])) for name in ("m", "C_01", "C_12"))
+        k, V, g = mp.sqrt((C_01 + C_12) / m), mp.mpf(0.22), mp.mpf(9.81)
+        height = m * g * (1 / C_01 + 1 / C_12)
+        t_1 = mp.findroot(lambda t: V * t - V / k * mp.sin(k * t) - height, (0.15, 0.152))
+        force = C_12 * (V * t_1 - height) + m * g  # the load is where its beam is straight
+        rate = V * mp.cos(k * t_1) * C_12**2 / (C_01 + C_12) + C_01 * C_12 / (C_01 + C_12) * V
+        peak = m * g + mp.sqrt((force - m * g) ** 2 + rate**2 * m / C_12)
+
+    # rounding of the reduced values, with which both begin, is a few units of float64
+    assert float(found["t_1"]) == pytest.approx(float(t_1), rel=5e-15)
+    assert float(found["F_max"]) == pytest.approx(float(peak), rel=5e-15)
+
+
+@pytest.mark.parametrize("kind", [LIFT_OFF, COURSE, PEAK])
+def test_closed_forms_err_by_rounding(kind: str) -> None:
+    found = errors(FORMULAS, kind)
+
+    assert list(found) == [1, 10]
+    assert max(found.values()) < 2e-15  # type: ignore[type-var, operator]
+
+
+@pytest.mark.parametrize("finder", FINDERS)
+def test_ways_to_the_root_keep_their_tolerance_or_give_nothing(finder: str) -> None:
+    for tolerance, error in errors(finder, LIFT_OFF).items():
+        assert error is None if finder == NEWTON else error is not None and error <= 2.0 * float(tolerance)
+
+
+def test_greatest_force_does_not_feel_a_lift_off_that_is_a_little_wrong() -> None:
+    found = exact(STEADY)
+
+    wrong = [float(races.follow(STEADY, float(found["t_1"]) * (1.0 + part))["F_max"]) for part in (1e-3, 1e-4)]
+
+    coarse, fine = (abs(force / float(found["F_max"]) - 1.0) for force in wrong)
+    assert coarse < 1e-5
+    assert coarse / fine == pytest.approx(100.0, rel=0.1)
+
+
+def test_runs_that_are_refused_give_nothing_and_are_in_no_front() -> None:
+    assert set(errors(EXPLICIT, PEAK).values()) == {errors(EXPLICIT, PEAK)[0.0125], None}
+    assert errors(EXPLICIT, PEAK)[0.0125] is not None
+    refused = [entry for entry in race().entries if entry.failed]
+
+    assert {entry.error for entry in refused} == {None}
+    for kind in (LIFT_OFF, COURSE, PEAK):
+        assert not set(map(id, refused)) & set(map(id, race().front(kind)))
+        assert all(entry.error < 1e-15 for entry in race().front(kind)[:1])  # type: ignore[operator]
+
+
+@cache
+def limits() -> StepLimits:
+    return step_limits(STEADY, (4.0, 2.4, 1.0, 0.32, 0.16, 0.08), (0.0125, 0.00625))
+
+
+@pytest.mark.parametrize(
+    ("method", "order"), [(RK4, 4.0), (VERLET, 2.0), (TRAPEZOID, 2.0), (SYMPLECTIC, 2.0), (EXPLICIT, 1.0)]
+)
+def test_steps_show_their_orders(method: str, order: float) -> None:
+    assert limits().order(method) == pytest.approx(order, abs=0.15)
+
+
+def test_steps_are_refused_beyond_their_limits() -> None:
+    refused = {method: limits().refused_from(method) for method in ORDERS}
+
+    assert refused == {RK4: 4.0, VERLET: 2.4, SYMPLECTIC: 2.4, TRAPEZOID: None, EXPLICIT: 0.08}
+    assert np.nanmax(limits().errors[RK4]) < 0.5
+
+
+def end_of(found: Forces) -> float:
+    return found.found["t_1"] + 0.3 if found.motion is None else found.motion.pieces[-1].end
+
+
+@pytest.mark.parametrize("values", [STEADY, STEADY | {"a": 0.3, "slack": 0.01}, PUSHING], ids=["a=0", "a>0", "slack"])
+def test_forces_over_time_move_the_load(values: dict[str, float]) -> None:
+    found = forces(values)
+    t = np.linspace(0.0, end_of(found), 4001)
+
+    moved = course(found.found, found.motion, t)
+
+    column = moved.columns
+    m, step = found.found["m"], t[1] - t[0]
+    pulled = (column["F_12"] - column["F_01"] - m * 9.81)[1:-1]
+    bent = m * np.diff(column["s"], 2) / step**2
+    events = np.flatnonzero(np.array(moved.states[1:]) != np.array(moved.states[:-1]))
+    smooth = np.ones(len(bent), bool)
+    smooth[np.clip(np.concatenate((events - 1, events)), 0, len(bent) - 1)] = False
+    assert bent[smooth] == pytest.approx(pulled[smooth], abs=1e-4 * column["F_12"].max())
+    assert list(column) == list(UNITS)
+
+
+def test_states_say_what_bears() -> None:
+    found = forces(PUSHING)
+    t = np.linspace(0.0, end_of(found), 2001)
+
+    moved = course(found.found, found.motion, t)
+
+    states = np.array(moved.states)
+    assert {BOTH, ROPE, SUPPORT} <= set(moved.states) <= {BOTH, ROPE, SUPPORT, NEITHER}
+    assert np.all(moved.columns["F_12"][(states == SUPPORT) | (states == NEITHER)] == 0.0)
+    assert np.all(moved.columns["F_01"][(states == ROPE) | (states == NEITHER)] == 0.0)
+    assert np.all(moved.columns["F_12"] >= 0.0)
+    assert np.all(moved.columns["F_01"] <= 1e-9 * 25e3)
+
+
+def test_beams_bend_as_they_are_loaded() -> None:
+    found = forces(STEADY)
+
+    moved = course(found.found, None, np.array([0.0, found.found["t_1"] + found.found["T_1"]])).columns
+
+    assert moved["w_0"][0] == pytest.approx(found.found["P_st"] / found.found["C_01"], rel=1e-14)
+    assert moved["w_0"][1] == 0.0
+    assert moved["w_2"][1] == pytest.approx(found.found["P_12_max"] / found.found["C_2"], rel=1e-12)
+    assert moved["F_12"][1] == pytest.approx(found.found["P_12_max"], rel=1e-12)
+
+
+def test_rigid_support_does_not_bend() -> None:
+    found = forces(STEADY | {"I_0": math.inf})
+
+    moved = course(found.found, None, np.linspace(0.0, 0.2, 21)).columns
+
+    assert np.all(moved["w_0"] == 0.0)
+    assert np.all(np.isfinite(moved["F_01"]))
+    assert moved["F_01"][0] == pytest.approx(-found.found["P_st"], rel=1e-15)
