@@ -303,12 +303,15 @@ def converted(value: float, written: Unit, expected: Unit) -> float:
 def format_unit(written: Unit | str, language: str, *, raised: bool = False) -> str:
     """Return the spelling of a unit on paper: `м/с²`, `об/хв`, `кг·м²`, `(м/с)/мм`.
 
-    With `raised`, powers are marked up (`м/с^{2}`) for text that is set with true superscripts.
+    With `raised`, powers are marked up (`м/с^{2}`) for text that is set with true superscripts. A number without a unit
+    has nothing behind it.
 
     >>> format_unit("(m/s^2)/mm", "uk"), format_unit("1/s", "uk"), format_unit("1/s", "en")
     ('(м/с²)/мм', 'с⁻¹', '1/s')
     """
     spelled = unit(written) if isinstance(written, str) else written
+    if not spelled.powers:
+        return ""
     words = {name: str(getattr(symbol, language)) for name, symbol in SYMBOLS.items()}
 
     def power(exponent: int) -> str:

@@ -24,7 +24,6 @@ from ..scales.units import format_unit, parse, unit
 from .tables import aligned
 
 OWN = "own"
-PLAIN = "1"  # the unit of what has none
 NONE: Mapping[str, Any] = MappingProxyType({})
 BETWEEN = re.compile(r"\s*;\s*|,\s+|(?<=[^\d\s]),")  # not a decimal comma
 DIGITS = 4
@@ -171,7 +170,7 @@ def _row(quantity: Quantity, expected: Expectation, program: Program, words: Wor
     return [
         quantity.name,
         value,
-        "" if si == PLAIN else format_unit(words.display.unit(si), words.language),
+        format_unit(words.display.unit(si), words.language),
         interval,
         paper,
         part,

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from ..plans.hands.hand import Hand
     from .hands import Drawing
 
-PLAIN = "1"  # the unit of what has none
 ROUNDING = 1e-14  # part of the largest quantity of a unit
 
 
@@ -104,6 +103,7 @@ class Solution:
             "task": self.task.id,
             "variant": self.variant,
             "status": self.status,
+            **({"note": note} if (note := self.task.note_in(self.words.language)) else {}),
             "warnings": [warning.text(self.words.language) for warning in self.warnings],
             "checks": self.checks,
             "scales": {s.symbol: {"value": s.mu, "unit": s.per_mm_unit} for s in self.scales.values()},
@@ -171,7 +171,7 @@ def _without_rounding(q: Quantity, largest: float) -> Quantity:
 
 
 def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
-    unit = "" if q.unit == PLAIN else format_unit(q.unit, words.language)
+    unit = format_unit(q.unit, words.language)
     parts = "–" if q.x is None or q.y is None else f"({words.short(q.x, 6)}; {words.short(q.y, 6)})"
     if q.kind == "point":
         return q.name, parts, unit, "", ""

@@ -120,7 +120,8 @@ def _key(case: Case, drawn: Sheet, language: str) -> dict[str, float | None]:
     for name, quantity in measured(case.solved.quantities, case.solved.shown_on, drawn.scales).items():
         if quantity.kind != "point":
             shown = quantity.shown(case.display)
-            found[f"{name} [{format_unit(shown.unit, language)}]" if shown.unit else name] = shown.value
+            unit = format_unit(shown.unit, language)
+            found[f"{name} [{unit}]" if unit else name] = shown.value
             if quantity.mm is not None:
                 found[f"{name}.mm"] = quantity.mm
     return found

@@ -244,7 +244,7 @@ class _Teller:
         value = value if abs(value) > ROUNDING * allowed else 0.0
         si = self.marked.keyed.solution.quantities[name].unit
         shown = self.words.display.value(value, si)
-        return f"{self.words.short(shown, DIGITS)} {format_unit(self.words.display.unit(si), self.language)}"
+        return f"{self.words.short(shown, DIGITS)} {format_unit(self.words.display.unit(si), self.language)}".rstrip()
 
     def _answer(self, line: Line) -> str:
         """Return what the student has written."""
