@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from .variants.marking.answers import Answers
     from .variants.marking.checks import Check
     from .variants.marking.result import Result
+    from .variants.task import Task
 
 INTERRUPTED, CLOSED = 130, 1
 
@@ -106,6 +107,8 @@ def list_tasks(as_json: bool, file: str | None) -> int:
         click.echo(f"{task['id']}  {task['title'][language]}")
         for key in ("variants", "plans"):
             click.echo(f"    {words[f'list-{key}']}: {', '.join(task[key])}")
+        if "note" in task:
+            click.echo(f"    {words['list-note']}: {task['note'][language]}")
     return 0
 
 
@@ -132,6 +135,13 @@ def _warn(warnings: Sequence[KulmanError]) -> None:
     """Show what a user should know, a line each, on stderr."""
     for warning in warnings:
         click.echo(warning.text(system_language()), err=True)
+
+
+def _note(task: Task) -> None:
+    """Show on stderr what a task says of its data."""
+    language = system_language()
+    if note := task.note_in(language):
+        click.echo(f"{messages(language)['list-note']}: {note}", err=True)
 
 
 def _print_json(data: Mapping[str, Any]) -> None:
@@ -174,6 +184,7 @@ def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, 
     elif solution.reason is None:
         language = lang or system_language()
         click.echo(solution.table(language) if solution.drawing is None else solution.drawn(language))
+        _note(solution.task)
         _warn(solution.warnings)
     return _refuse(solution.reason) if solution.reason is not None else 0
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 from ..plans.solved import Solved
@@ -17,7 +17,10 @@ Subject = TypeVar("Subject", bound=Solved)
 
 @dataclass(frozen=True, slots=True)
 class SheetContents(Generic[Subject]):
-    """What a sheet shows: a solved subject, the plans wanted, choosers of scales, givens, words, norm."""
+    """What a sheet shows: a solved subject, the plans wanted, choosers of scales, givens, words, norm.
+
+    `note` is what the task says of its data, in the language of the sheet.
+    """
 
     solved: Subject
     plans: tuple[str, ...]
@@ -25,3 +28,4 @@ class SheetContents(Generic[Subject]):
     givens: Mapping[str, Given]
     words: Words
     norm: Norm = "gost"
+    note: str = field(default="", kw_only=True)

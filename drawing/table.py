@@ -80,6 +80,11 @@ def text_block(name: str, heading: str, lines: Sequence[Sequence[str]], style: S
     return _view(name, heading, shapes, (0.0, y, widest, 0.0), style, role="text")
 
 
+def words_of(sentence: str) -> tuple[str, ...]:
+    """Return a sentence as a line of text that may break between any two words."""
+    return tuple(sentence.split())
+
+
 def _broken(chunks: Sequence[str], h: float, width: float) -> list[str]:
     lines = [chunks[0]]
     for chunk in chunks[1:]:

@@ -47,7 +47,7 @@ class Display:
     @property
     def of_scales(self) -> Display:
         """The units in which scale factors are shown, and what they draw."""
-        return replace(self, size="")
+        return replace(self, size="", angle=RADIAN)
 
     def value(self, value: float, si: str) -> float:
         """Return a value of an SI unit as it is shown.
@@ -68,7 +68,7 @@ class Display:
         >>> Display("cm", "cm").scale(Scale("mu_V", 0.00075, "m/s"))
         Scale(symbol='mu_V', mu=0.75, unit='cm/s', paper='cm')
         """
-        if self.size:
+        if self != self.of_scales:
             return self.of_scales.scale(scale)
         if scale.paper == self.paper and self.unit(scale.unit) == scale.unit:
             return scale

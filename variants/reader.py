@@ -210,11 +210,17 @@ def _units(usual: Display, said: dict[str, str]) -> Display:
     return replace(usual, **{"size": "", **said} if "length" in said else said)
 
 
+def _in_languages(checker: Checker, path: Path, raw: object) -> dict[str, str]:
+    """Read what is said in each language of a sheet."""
+    return record(checker, path, raw, {language: Field(text) for language in LANGUAGES})
+
+
 _FIELDS = {  # and the table of its kind
     "id": Field(label),
     "source": Field(text),
     "notation": Field(one_of("notation-unknown", notations)),
-    "title": Field(lambda c, p, r: record(c, p, r, {language: Field(text) for language in LANGUAGES})),
+    "title": Field(_in_languages),
+    "note": Field(_in_languages, required=False),
     "givens": Field(as_is),
     "choices": Field(as_is, required=False),
     "scales": Field(_scales, required=False),
@@ -262,6 +268,7 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
         file=checker.file,
         kind=table,
         instead=kind.instead,
+        note=head.get("note", {}),
     )
     kind.varies(checker, task, thorough)
     return None if checker.faults else task

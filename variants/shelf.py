@@ -30,7 +30,7 @@ def bundled_text(task: str) -> str:
 
 
 def summary(task: str) -> dict[str, Any]:
-    """Return what `list` shows of a bundled task: id, title, source, variants, plans, givens with unit or choices.
+    """Return what `list` shows of a bundled task: id, title, source, note, variants, plans, givens and their units.
 
     To parse whole files would take most of the time of `list`: only their heads are parsed.
     """
@@ -39,7 +39,7 @@ def summary(task: str) -> dict[str, Any]:
     raw = tomllib.loads(_TABLE.sub("", head))
     rows = _GIVEN.findall(rest[: rest.index("\n[")])
     givens = {name: unit or re.findall('"([^"]+)"', choices) for name, unit, choices in rows}
-    return {name: raw[name] for name in ("id", "title", "source", "plans")} | {
+    return {name: raw[name] for name in ("id", "title", "source", "plans", "note") if name in raw} | {
         "variants": _ID.findall(text)[1:],
         "givens": givens,
     }

@@ -104,6 +104,7 @@ class Solution:
             "variant": self.variant,
             "status": self.status,
             **({"note": note} if (note := self.task.note_in(self.words.language)) else {}),
+            **({"note": note} if (note := self.task.note_in(self.words.language)) else {}),
             "warnings": [warning.text(self.words.language) for warning in self.warnings],
             "checks": self.checks,
             "scales": {s.symbol: {"value": s.mu, "unit": s.per_mm_unit} for s in self.scales.values()},

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from numbers import Real
 from typing import TYPE_CHECKING
@@ -133,6 +133,7 @@ class Task:
     kind.
     `choices` says which values each word of a choice sets, `constants` holds the literals of the mechanism;
     `file` is what was read, as the user named it, `None` for a bundled task; `display` are the units of results.
+    `note` is what a user should know of the data, by language;
     `instead` says of which givens, once a user has set them, others of the variant no longer hold.
     """
 
@@ -151,6 +152,11 @@ class Task:
     display: Display = AS_INSIDE
     kind: str = "mechanism"
     instead: Instead = ()
+    note: Mapping[str, str] = field(default_factory=dict)
+
+    def note_in(self, language: str) -> str:
+        """Return what a user should know of the data, in a language; nothing where the task says nothing."""
+        return self.note.get(language, "")
 
     def variant(self, variant_id: str | None = None) -> Variant:
         """Return a variant, the first one without an id."""

@@ -121,7 +121,7 @@ def _diagrams(contents: Contents, width: float) -> Iterator[CamFigure]:
     from .text import choices_block, scales_block
 
     yield Figure(_givens, ("reduction",))
-    yield Figure(lambda scene: choices_block(scene, NARROW * width))
+    yield Figure(lambda scene: choices_block(scene, contents.note, NARROW * width))
     yield Figure(motion_table)
     yield Figure(diagrams_view, ("reduction",))
     yield Figure(lambda scene: scales_block(scene, width), ("reduction",))

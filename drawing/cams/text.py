@@ -10,7 +10,7 @@ from ...plans.cams.rules import Rule, rules_of
 from .. import printed
 from ..givens import choice
 from ..printed import Formula, Input, Terms, calculation
-from ..table import text_block
+from ..table import text_block, words_of
 from ..view import View
 from .offsets import offsets_line
 from .scene import CamScene
@@ -24,13 +24,14 @@ def scales_block(scene: CamScene, width: float) -> View:
     return text_block("equations_scales", scene.words["heading.cam_scales"], lines, scene.style, width)
 
 
-def choices_block(scene: CamScene, width: float) -> View:
-    """Return the choices that the task makes in words, and what the lines of the diagrams are."""
+def choices_block(scene: CamScene, note: str, width: float) -> View:
+    """Return the choices that the task makes in words, what the lines of the diagrams are, and the task's note."""
     words = scene.words
     words_given = ((name, given.value) for name, given in scene.givens.items() if isinstance(given.value, str))
     chosen = ((name, choice(words, name, value)) for name, value in words_given)
     lines: Lines = [(f"{words.texts.get(f'given.cam_{name}', about)}:", said) for name, (about, said) in chosen]
     lines += _about(scene)
+    lines += [words_of(note)] if note else []
     return text_block("choices", words["heading.cam_choices"], lines, scene.style, width)
 
 

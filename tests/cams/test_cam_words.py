@@ -10,7 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from kulman import cli, solve
+from kulman import cli, sheet, solve
+from kulman.tests.support.printed_numbers import lines_of
+from kulman.tests.support.readback import read
+from kulman.variants import load_task
 
 TASK = "madi-cam"
 ROCKER = str(Path(__file__).parents[2] / "docs" / "examples" / "rocker-cam.toml")
@@ -91,3 +94,42 @@ def test_the_name_of_a_diagram_keeps_its_letter_in_a_report(tmp_path: Path, caps
 
 def test_the_pivot_of_a_rocker_is_a_segment_of_its_plan() -> None:
     assert solve(ROCKER)["l_OC"].mm == pytest.approx(117.28, abs=0.01)
+
+
+@pytest.mark.parametrize("lang", ["uk", "ru", "en"])
+def test_the_reconstructed_law_is_told_on_the_sheet_and_by_solve(lang: str) -> None:
+    note = load_task(TASK).note[lang]
+    read_back = read(sheet(TASK, only="diagrams", lang=lang).svg())
+
+    assert note in " ".join(" ".join(lines_of(read_back["choices"])).split())
+    assert solve(TASK, lang=lang).to_json()["note"] == note
+
+
+def test_the_reconstructed_law_is_told_by_list_and_after_the_table(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
+    told = f"note: {load_task(TASK).note['en']}\n"
+
+    assert f"    {told}" in run(capsys, "list")[0]
+    assert run(capsys, "solve", TASK, "--only", "diagrams") == (solve(TASK, only="diagrams").table() + "\n", told)
+    noted = [task["id"] for task in json.loads(run(capsys, "list", "--json")[0])["tasks"] if "note" in task]
+    assert TASK in noted
+    assert "note" not in json.loads(run(capsys, "solve", "nau-slider-crank", "--json")[0])
+
+
+def test_a_linkage_may_have_a_note_on_its_sheet(tmp_path: Path) -> None:
+    file = tmp_path / "press.toml"
+    text = (Path(ROCKER).parent / "crank-press.toml").read_text(encoding="utf-8")
+    table = "[note]\n" + "".join(f'{lang} = "a word {lang}"\n' for lang in ("uk", "ru", "en"))
+
+    file.write_text(text.replace("[givens]", f"{table}\n[givens]", 1), encoding="utf-8")
+
+    drawn = read(sheet(str(file), only="position", lang="en").svg())
+    assert lines_of(drawn["note"]) == ["a word en"]
+
+
+def test_the_scale_factor_of_angles_stays_in_radians() -> None:
+    view = read(sheet(TASK, only="diagrams", lang="en").svg())["diagrams"]
+
+    assert any("0.017453 rad/mm" in text.string for text in view.texts)

@@ -205,7 +205,8 @@ class Cams(Kind[Cam, "SolvedCam"]):
         from ...drawing.cams.fitting import Contents
         from ...drawing.cams.sheet import draw
 
-        contents = Contents(cam(case.solved), case.plans, case.choosers, case.givens, words, norm)
+        note = case.task.note_in(words.language)
+        contents = Contents(cam(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
         return draw(contents, stamp, paper)
 
     def fitted(self, solved: SolvedCam, drawn: Drawn) -> tuple[SolvedCam, tuple[InputError, ...]]:

@@ -174,7 +174,8 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             whole = cycle(mechanism_of(case.task), values, ("position", "velocity", "acceleration"))
         solved = _placed(case)
         plans = case.plans if solved is case.solved else (*case.plans, POSITION)
-        contents = Contents(solved, plans, case.choosers, case.givens, words, norm, whole)
+        note = case.task.note_in(words.language)
+        contents = Contents(solved, plans, case.choosers, case.givens, words, norm, whole, note=note)
         return draw(contents, stamp, paper)
 
     def lettered(self, words: Words, solved: SolvedLinkage) -> Words:

@@ -20,7 +20,7 @@ from ...style import STYLES
 from ...view import View
 from ..letters import lettered
 from ..scene import Scene
-from ..views import Figure, figures
+from ..views import Figure, figures, noted
 from .ladders import Ladders, by_plan, finer_of, ladders_of
 
 if TYPE_CHECKING:
@@ -137,7 +137,9 @@ class Fitting:
         mus = {s: self.mu(s, rungs[root[s]]) for s in self.ladders}
         scene = self._scene(sheet, mus)
         built = []
-        for number, figure in enumerate(figures(contents.solved, contents.plans, text_width, contents.cycle)):
+        wanted = [*noted(contents.note, text_width)]
+        wanted += figures(contents.solved, contents.plans, text_width, contents.cycle)
+        for number, figure in enumerate(wanted):
             view = self._drawn(sheet, number, figure, scene)
             built.append((view, root.get(self._sizing(figure, mus), "")))
         return built, scene.scales
