@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .scales import KulmanError as KulmanError
+    from .variants import all_variants as all_variants
     from .variants import batch as batch
     from .variants import chart as chart
     from .variants import check as check
@@ -13,12 +14,20 @@ if TYPE_CHECKING:
     from .variants import sweep as sweep
 
 __version__ = "0.1.0"
-__all__ = ["KulmanError", "__version__", "batch", "chart", "check", "load_task", "sheet", "solve", "sweep"]
+__all__ = [
+    "KulmanError",
+    "__version__",
+    "all_variants",
+    "batch",
+    "chart",
+    "check",
+    "load_task",
+    "sheet",
+    "solve",
+    "sweep",
+]
 
-_HOMES = {
-    "KulmanError": "scales",
-    **dict.fromkeys(("batch", "chart", "check", "load_task", "sheet", "solve", "sweep"), "variants"),
-}
+_HOMES = {name: "variants" for name in __all__ if name != "__version__"} | {"KulmanError": "scales"}
 
 
 def __getattr__(name: str) -> Any:

@@ -28,6 +28,7 @@ from .variants.options import (
     of_check,
     of_task,
     output,
+    pairs,
 )
 from .variants.usage import Group, usage_error
 
@@ -452,6 +453,61 @@ def _draw_class(task: str, roster: str, folder: str, jobs: int, **options: Any) 
     for problem in bad:
         click.echo(problem, err=True)
     return _refuse(InputError("batch-problems", n=len(bad), file=str(Path(folder) / MANIFEST))) if bad else 0
+
+
+@commands.command(
+    "variants",
+    epilog=example(
+        "kulman variants nau-slider-crank --quantities V_B,a_B,M_bal",
+        "kulman variants nau-slider-crank --make 3 --range 'l_OA=25..45/5 mm' -o my-class.toml -o key.xlsx",
+        "kulman variants my-class.toml --quantities V_B -o questions.xml -o questions.gift",
+    ),
+)
+@of_task
+@click.option("--quantities", metavar="NAME,...", multiple=True, callback=given, help="Only these: V_B,a_B,M_bal.")
+@click.option("--make", metavar="N", callback=count_if_given, help="Make N new variants, each a good exercise.")
+@click.option(
+    "--range",
+    "ranges",
+    metavar="NAME=RANGE",
+    multiple=True,
+    callback=pairs,
+    help="From, to and step of a given of new variants: 'l_OA=25..60/5 mm'; without it what the task's variants span.",
+)
+@click.option("--seed", metavar="N", callback=count_if_given, help="Another number makes other variants; else 1.")
+@click.option(
+    "--from",
+    "table",
+    metavar="FILE",
+    help="Read new variants from a spreadsheet, .csv or .xlsx: parameters in rows and variants in columns, or turned.",
+)
+@click.option("--preset", type=Word(*HANDS), default="normal", show_default=True, help="What a question lets pass.")
+@output(
+    ".classes.answers",
+    "Where to: all values to .csv or .xlsx, questions for Moodle to .xml or .gift, new variants to a task file, .toml.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
+    """Show the answers of all variants of TASK beside one another; make new variants, or read them from a spreadsheet.
+
+    A variant that is made can be solved and drawn on one sheet; its crank turns round, its lines meet at no small
+    angles, its plans fit at the task's scale factors.
+    """
+    from . import variants
+
+    if options.pop("variant") is not None:
+        raise InputError("variants-one")
+    language = options.pop("lang") or "uk"
+    with _progress() as advance:
+        found = variants.all_variants(task, set=settings, lang=language, advance=advance, **options)
+    for path in found.save(*files):
+        click.echo(str(path))
+    if as_json:
+        _print_json(found.to_json())
+    elif not files:
+        click.echo(found.table())
+    _warn(found.warnings)
+    return _refuse(InputError("variants-problems", n=len(found.left_out))) if found.left_out else 0
 
 
 @commands.command(

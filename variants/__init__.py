@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .charts.charts import chart as chart
+    from .classes.answers import all_variants as all_variants
     from .classes.batch import batch as batch
     from .marking.checks import check as check
     from .reader import load_task as load_task
@@ -11,9 +12,10 @@ if TYPE_CHECKING:
     from .solution import solve as solve
     from .sweeps.sweeps import sweep as sweep
 
-__all__ = ["batch", "chart", "check", "load_task", "sheet", "solve", "sweep"]
+__all__ = ["all_variants", "batch", "chart", "check", "load_task", "sheet", "solve", "sweep"]
 
 _HOMES = {
+    "all_variants": "classes.answers",
     "batch": "classes.batch",
     "chart": "charts.charts",
     "check": "marking.checks",

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..scales.display import AS_INSIDE, Display
-from ..scales.errors import InputError
+from ..scales.errors import InputError, KulmanError
 from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import Unit, parse
@@ -57,7 +57,7 @@ _ADMITTED: dict[Bound, Callable[[float], bool]] = {
 class LocatedError(InputError):
     """An error with its place before it: `file:line:column`, or the option that it came from."""
 
-    def __init__(self, place: str, cause: InputError) -> None:
+    def __init__(self, place: str, cause: KulmanError) -> None:
         """Put `place` before the message of `cause`."""
         super().__init__(cause.key, **cause.data)
         self.place = place

@@ -99,7 +99,8 @@ class Kind(ABC, Generic[Subject, Answer]):
     def unfit(self, case: Case) -> Iterator[InputError]:
         """Go through what makes a variant a poor exercise: what users are warned of, rules that it breaks."""
         yield from case.warnings
-        for name, check in self.checks(case.solved, case.solved.quantities).items():
+        solved: Any = case.solved
+        for name, check in self.checks(solved, solved.quantities).items():
             if not check["ok"]:
                 yield InputError("variant-check", check=name)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ...plans.board import POSITION
@@ -107,6 +107,17 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         from ...drawing.linkages.layout.ladders import first_scales
 
         return first_scales(solved, choosers)
+
+    def unfit(self, case: Case) -> Iterator[InputError]:
+        """Go through what makes a variant a poor exercise; its crank should turn round, too."""
+        from ...plans.linkages.cycles.limits import reach_of
+        from ...plans.linkages.cycles.swept import swept
+
+        yield from super().unfit(case)
+        values = case.task.values(case.variant, case.settings)
+        drive = swept(mechanism_of(case.task), values)
+        for arc in reach_of(drive, values).apart if drive.turns else ():
+            yield InputError("variant-apart", low=_degrees(arc.low), high=_degrees(arc.high))
 
     def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity."""
@@ -261,6 +272,10 @@ def linkage(solved: Any) -> SolvedLinkage:
 def _short(value: float) -> str:
     """Return a number with three digits, a large one with a power of ten."""
     return f"{float(f'{value:.3g}'):g}" if value < 1e6 else f"{value:.1e}".replace("e+0", "e").replace("e+", "e")
+
+
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.4g}"
 
 
 def _placed(case: Case) -> SolvedLinkage:

@@ -1,0 +1,193 @@
+"""All variants beside one another, new ones from ranges and from spreadsheets, and as questions for Moodle."""
+
+from __future__ import annotations
+
+import csv
+import re
+from decimal import Decimal
+from pathlib import Path
+from xml.dom import minidom
+
+import openpyxl
+import pytest
+
+from kulman import all_variants, cli, load_task, sheet, solve
+from kulman.plans.boards.exact import SMALL
+
+TASK = "nau-slider-crank"
+ROWS = """\
+Варіант;phi [град];l_OA, мм;l_AB, мм;l_AS2, мм;n_1, об/хв;m_2, кг;m_3, кг;J_S2, кг·м²;F_3, кН
+В1;30;25;125;42;2000;0,8;0,6;0,005;2
+2;45;30;140;46;1800;1,8;1,5;0,01;3,5
+long;60;80;70;20;1800;1;1;0,01;2
+bad;60;20;abc;5;100;1;1;0,01;2
+half;60;20;;5;100;1;1;0,01;2
+2;50;30;140;46;1800;1,8;1,5;0,01;3,5
+"""
+
+
+def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    with pytest.raises(SystemExit) as left:
+        cli.main(["variants", *arguments])
+    out, err = capsys.readouterr()
+    return int(left.value.code or 0), out, err
+
+
+def test_values_are_those_of_every_variant(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "key.xlsx"
+
+    status, _, err = run(capsys, TASK, "--quantities", "V_B,M_bal", "-o", str(file), "--lang", "en")
+
+    assert (status, err) == (0, "")
+    found = openpyxl.load_workbook(file).active
+    assert found is not None
+    head, *rows = found.iter_rows(values_only=True)
+    assert list(head[2:]) == list(load_task(TASK).variants)
+    assert [row[0] for row in rows] == ["V_B", "M_bal"]
+    for row in rows:
+        for variant, value in zip(head[2:], row[2:], strict=True):
+            assert value == pytest.approx(solve(TASK, str(variant))[str(row[0])].value, rel=1e-9)
+
+
+def test_a_variant_without_a_solution_does_not_hide_the_others() -> None:
+    found = all_variants(TASK, quantities=["V_B"], set={"l_AB": "36 mm", "phi": "90 deg"}, lang="en")
+
+    assert set(found.problems) == {"3", "4", "5", "6", "7", "8", "9", "example"}.intersection(found.problems)
+    assert found.problems
+    assert found.keys
+    assert len(found.table().splitlines()) == 2
+
+
+@pytest.mark.parametrize(
+    ("task", "count", "ranges"),
+    [
+        (TASK, 2, {"l_OA": "20..60/5 mm", "phi": "0..345/15"}),
+        ("madi-four-bar", 1, {}),
+        pytest.param(TASK, 40, {"l_OA": "20..90/5 mm", "phi": "0..355/5"}, marks=pytest.mark.soak),
+        pytest.param("madi-four-bar", 12, {"l_AB": "80..300/5 mm", "phi": "0..350/10"}, marks=pytest.mark.soak),
+    ],
+)
+def test_made_variants_are_good_exercises(task: str, count: int, ranges: dict[str, str]) -> None:
+    new = all_variants(task, make=count, ranges=ranges, seed=7).new
+
+    assert new is not None
+    rows = [tuple(row.values.values()) for row in new.task.variants.values()]
+    assert len(set(rows)) == count
+    for variant in new.task.variants:
+        solution = solve(new.task, variant)
+        assert solution.status == "ok"
+        assert solution.warnings == ()
+        assert solution.solved.worst_sine()[1] >= SMALL
+        drawn = sheet(new.task, variant)
+        assert (len(drawn.pages), drawn.warnings) == (1, ())
+        for step in range(0, 360, 20):  # the crank turns round
+            assert solve(new.task, variant, set={"phi": step}, only="position").status != "no-assembly"
+
+
+def test_made_variants_keep_to_ranges_and_steps() -> None:
+    new = all_variants(TASK, make=2, ranges={"l_OA": "20..40/5 мм", "n_1": "600..1400/100"}, set={"m_3": "1 kg"}).new
+
+    assert new is not None
+    for row in re.findall(r"\[\[variant\]\]\n((?:.+\n)+)", new.text):
+        said = dict(re.findall(r'(\w+) = "(\S+)[^"]*"', row))
+        assert Decimal(said["l_OA"]) in range(20, 41, 5)
+        assert Decimal(said["n_1"]) in range(600, 1401, 100)
+        assert said["m_3"] == "1"
+    assert new.text.count("reconstruction") == 1  # the comment at its head stays
+    assert "reconstructed" not in new.text  # what the old variants said of theirs does not
+
+
+def test_a_seed_tells_the_variants() -> None:
+    first, again, other = (all_variants(TASK, make=1, seed=seed).new for seed in (3, 3, 4))
+
+    assert first is not None
+    assert again is not None
+    assert other is not None
+    assert first.text == again.text != other.text
+
+
+def turned(text: str) -> str:
+    rows = [line.split(";") for line in text.splitlines()]
+    return "\n".join(";".join(column) for column in zip(*rows, strict=True)) + "\n"
+
+
+def with_units(text: str) -> str:
+    """Put the units into a row of their own."""
+    head, *rows = text.splitlines()
+    cells = [re.fullmatch(r"(\w+)(?: \[|, )?([^\]]*)\]?", cell) for cell in head.split(";")]
+    units = ["Одиниця", *(found[2] for found in cells[1:] if found)]
+    return "\n".join((";".join(found[1] for found in cells if found), ";".join(units), *rows)) + "\n"
+
+
+@pytest.mark.parametrize("form", [str, turned, with_units, lambda text: turned(with_units(text))])
+def test_a_spreadsheet_becomes_variants(form: type, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, out = tmp_path / "variants.csv", tmp_path / "class.toml"
+    file.write_text("Курсова робота\n\n" + form(ROWS), encoding="utf-8-sig")
+
+    status, _, err = run(capsys, TASK, "--from", str(file), "-o", str(out))
+
+    assert status == 2
+    told = [line.removeprefix(f"{file}: ") for line in err.splitlines()]
+    assert [re.split(r"[:,] ", line)[1] for line in told[:4]] == ["long", "l_AB", "half", "2"]
+    task = load_task(out)
+    assert list(task.variants) == ["В1", "2"]
+    assert task.resolve("2")["l_AB"] == pytest.approx(0.14)
+    assert task.resolve("В1")["F_3"] == pytest.approx(2000.0)
+    assert solve(task, "2")["V_B"].value == pytest.approx(solve(TASK, "1")["V_B"].value)
+
+
+def test_questions_for_moodle_hold_the_right_values(tmp_path: Path) -> None:
+    found = all_variants(TASK, quantities=["V_B", "omega_2"], lang="uk")
+    xml, gift = found.save(tmp_path / "q.xml", tmp_path / "q.gift")
+
+    questions = minidom.parse(str(xml)).getElementsByTagName("question")[1:]
+    asked = re.findall(r"^::(.+?):: (.+) \{#=(\S+?):(\S+) =%50%(\S+?):(\S+)\}$", gift.read_text("utf-8"), re.MULTILINE)
+    assert len(questions) == len(asked) == 2 * len(load_task(TASK).variants)
+    for question, (name, text, value, within, half, wider) in zip(questions, asked, strict=True):
+        variant, quantity = name.split("-", 1)
+        right = solve(TASK, variant)[quantity].value
+        assert right is not None
+        assert float(value) == float(half) == pytest.approx(right, rel=1e-9)
+        assert 0.0 < float(within) < float(wider) == pytest.approx(2.0 * float(within), rel=0.01)
+        texts = [node.firstChild.data for node in question.getElementsByTagName("text")]
+        assert texts[0] == name
+        assert texts[1] == text.replace("\\:", ":")
+        assert [float(value) for value in texts[2:]] == [float(texts[2])] * 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--make", "0"], "1000"),
+        (["--make", "x"], "x"),
+        (["--make", "3", "--range", "l_OA=9"], "25..60/5 mm"),
+        (["--make", "3", "--range", "l_OA=60..20 mm"], "60..20"),
+        (["--make", "3", "--range", "rotation=1..2"], "rotation"),
+        (["--make", "3", "--range", "l_OA=-5..-1 mm"], "l_OA"),
+        (["--make", "3", "--set", "l_OA=300 mm"], "--make 3"),
+        (["--make", "3", "--from", "x.csv"], "--from"),
+        (["--seed", "3"], "--make"),
+        (["-v", "3"], "-v"),
+        (["--quantities", "V_X"], "V_X"),
+        (["--from", "none.csv"], "none.csv"),
+        (["-o", "new.toml"], "--make"),
+    ],
+)
+def test_what_cannot_be_done_is_said_in_a_line(
+    arguments: list[str], said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+
+    status, out, err = run(capsys, TASK, *arguments)
+
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert said in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_table_has_a_decimal_sign_of_its_language(tmp_path: Path) -> None:
+    found = all_variants(TASK, quantities=["V_B"], lang="uk").save(tmp_path / "key.csv")[0]
+
+    rows = list(csv.reader(found.read_text("utf-8-sig").splitlines(), delimiter=";"))
+
+    assert rows[1][:3] == ["V_B", "м/с", "2,16225964"]

@@ -1,0 +1,220 @@
+"""The right values of all variants of a task beside one another, and as questions for Moodle."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...drawing.writers import Files, save_all
+from ...scales.errors import InputError, KulmanError
+from ...scales.names import unknown
+from ...scales.numbers import quote
+from ...scales.packaged import packaged
+from ...scales.units import format_unit
+from ..arguments import names_of
+from ..case import Settings
+from ..marking.cells_out import Cell, table_bytes
+from ..marking.checks import Check, check
+from ..marking.grid import SUFFIXES as CELLS
+from ..marking.keyed import Keyed, keyed
+from ..marking.wording import texts
+from ..tables import aligned
+from ..task import Task
+from .moodle import Asked, gift_bytes, xml_bytes
+from .variants import Advance, NewVariants, import_variants, make_variants
+
+TASK_FILE = ".toml"
+SUFFIXES = (*CELLS, ".xml", ".gift", TASK_FILE)
+
+
+@dataclass(frozen=True, slots=True)
+class Answers:
+    """All variants: the key of each, or why it has none."""
+
+    check: Check
+    keys: Mapping[str, Keyed]
+    problems: Mapping[str, KulmanError]
+    quantities: tuple[str, ...]
+    new: NewVariants | None = None
+
+    @property
+    def left_out(self) -> tuple[KulmanError, ...]:
+        """Why new variants have been left out."""
+        return () if self.new is None else self.new.left_out
+
+    @property
+    def warnings(self) -> tuple[KulmanError, ...]:
+        """What a user should know: what is wrong with new variants, and which have no solution."""
+        remarks = () if self.new is None else self.new.remarks
+        return (*remarks, *self.left_out, *self.problems.values())
+
+    def table(self) -> str:
+        """Return the values as lines of text, a column for each variant."""
+        rows = [tuple(self._text(cell) for cell in row) for row in self._rows()]
+        return aligned(rows, left=(0, 1))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what `kulman variants --json` prints: values in SI by variant."""
+        found = {
+            variant: {name: _si(key, name) for name in self.quantities if name in key.solution.quantities}
+            for variant, key in self.keys.items()
+        }
+        problems = {variant: problem.text(self._language) for variant, problem in self.problems.items()}
+        return {"task": self.check.request.task.id, "variants": found, "problems": problems}
+
+    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
+        """Write a table to .csv or .xlsx, questions for Moodle to .xml or .gift, new variants to a task file, .toml.
+
+        Raises
+        ------
+        InputError
+            A path of another kind, a task file where no variants are new, or a file that cannot be written: then none
+            is.
+        """
+        return save_all(paths, SUFFIXES, self._files)
+
+    def _files(self, path: Path) -> Files:
+        task = self.check.request.task
+        suffix = path.suffix.lower()
+        if suffix == TASK_FILE:
+            if self.new is None:
+                raise InputError("variants-new", file=quote(path))
+            return [(path, self.new.text.encode("utf-8"))]
+        if suffix in CELLS:
+            return [(path, table_bytes(path, list(self._rows()), self._language, task.id, [0], 1))]
+        write = xml_bytes if suffix == ".xml" else gift_bytes
+        return [(path, write(task.id, list(self._questions())))]
+
+    @property
+    def _language(self) -> str:
+        return self.check.request.language
+
+    def _text(self, cell: Cell) -> str:
+        if cell is None:
+            return "–"
+        words = next(iter(self.keys.values())).words
+        return cell if isinstance(cell, str) else words.short(float(cell), 6)
+
+    def _rows(self) -> Iterator[tuple[Cell, ...]]:
+        """Go through the rows: a header, and a quantity each with its unit and a value for every variant."""
+        said = texts(self._language)
+        yield (said["column.name"], said["column.unit"], *self.keys)
+        for name in self.quantities:
+            unit = next(key.asked.unit(name) for key in self.keys.values() if name in key.asked.quantities)
+            values = (_shown(key, name) for key in self.keys.values())
+            yield (name, format_unit(unit, self._language), *values)
+
+    def _questions(self) -> Iterator[Asked]:
+        """Go through the questions, variant by variant; tolerances are those of the marking."""
+        said = packaged(__package__, "texts", self._language)
+        for variant, key in self.keys.items():
+            for name in self.quantities:
+                question, value = key.key.questions.get(name), _shown(key, name)
+                if question is None or value is None:
+                    continue
+                factor = abs(value / size) if (size := _si(key, name)) else 1.0
+                unit = format_unit(key.asked.unit(name), self._language)
+                text = said["question"].format(
+                    title=self.check.request.task.title[self._language], variant=variant, sheet=key.sheet,
+                    symbol=key.symbol(name), unit=unit,
+                )  # fmt: skip
+                yield Asked(f"{variant}-{name}", text, value, key.key.allowed[name] * factor)
+
+
+def _si(key: Keyed, name: str) -> float | None:
+    return key.solution.quantities[name].value
+
+
+def _shown(key: Keyed, name: str) -> float | None:
+    quantity = key.solution.quantities.get(name)
+    return None if quantity is None else quantity.shown(key.words.display).value
+
+
+def all_variants(
+    task: str | os.PathLike[str] | Task,
+    *,
+    make: int | None = None,
+    ranges: Settings | None = None,
+    seed: int | None = None,
+    table: str | os.PathLike[str] | None = None,
+    set: Settings | None = None,
+    only: str | Iterable[str] | None = None,
+    scales: Settings | None = None,
+    quantities: Sequence[str] | None = None,
+    preset: str = "normal",
+    notation: str | None = None,
+    lang: str = "uk",
+    advance: Advance | None = None,
+) -> Answers:
+    """Solve all variants of a task: those that it has, or new ones.
+
+    Parameters
+    ----------
+    make, ranges, seed
+        How many new variants are made, and from what, as for `make_variants`.
+    table : str or PathLike, optional
+        A spreadsheet from which new variants are read, as by `import_variants`.
+    task, set, only, scales, notation, lang
+        As for `solve`.
+    quantities : sequence of str, optional
+        Those wanted; without it all that a form asks for.
+    preset : str
+        What a question lets pass: `cad`, `careful`, `normal`, `lenient`.
+
+    Raises
+    ------
+    InputError
+        As for `solve`, `make_variants`, `import_variants`, or an unknown quantity; or no variant has a solution: then
+        why the first has none.
+    """
+    new = _new(task, make, ranges, seed, table, set, advance)
+    asked = check(
+        task if new is None else new.task,
+        set=set,
+        only=only,
+        scales=scales,
+        preset=preset,
+        notation=notation,
+        lang=lang,
+    )
+    request = asked.request
+    keys: dict[str, Keyed] = {}
+    problems: dict[str, KulmanError] = {}
+    for variant in request.task.variants:
+        try:
+            keys[variant] = keyed(request, variant, {}, asked.rubric)
+        except KulmanError as error:
+            problems[variant] = error
+    if not keys:
+        raise next(iter(problems.values()))
+    known = tuple(dict.fromkeys(name for key in keys.values() for name in key.asked.quantities))
+    forms = (question.name for key in keys.values() for part in key.parts for question in part.asked)
+    wanted = tuple(dict.fromkeys(forms)) if quantities is None else names_of("quantities", tuple(quantities))
+    for name in wanted:
+        if name not in known:
+            raise unknown("quantity-unknown", name, known)
+    return Answers(asked, keys, problems, wanted, new)
+
+
+def _new(
+    task: str | os.PathLike[str] | Task,
+    make: int | None,
+    ranges: Settings | None,
+    seed: int | None,
+    table: str | os.PathLike[str] | None,
+    settings: Settings | None,
+    advance: Advance | None,
+) -> NewVariants | None:
+    """Make new variants, or read them, where either is wanted."""
+    if make is not None and table is not None:
+        raise InputError("variants-both")
+    if make is None and (ranges or seed is not None):
+        raise InputError("variants-range")
+    if table is not None:
+        return import_variants(task, table)
+    if make is None:
+        return None
+    return make_variants(task, make, ranges, set=settings, seed=1 if seed is None else seed, advance=advance)

@@ -1,0 +1,172 @@
+"""New variants made from ranges: round numbers, and only what makes a good exercise."""
+
+from __future__ import annotations
+
+import math
+import random
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+
+from ...scales.errors import InputError, KulmanError
+from ...scales.numbers import quote
+from ..case import Settings, solve_case
+from ..sheets import draw_case
+from ..task import Given, LocatedError, Task
+
+AROUND = 0.2  # a given that all variants have alike is varied by so much to either side, if there is one variant alone
+STEPS = 20  # into how many steps such a range is divided, at most
+TRIES = 50  # sets looked at for each variant that is wanted
+Judgement = tuple[KulmanError | None, KulmanError | None]
+_RANGE = re.compile(r"(?P<low>.+?)\s*\.\.\s*(?P<high>[^/]+?)\s*(?:/\s*(?P<step>.+))?")
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """A given's values: from `low` to `high` in steps, in its own unit; exact decimals."""
+
+    unit: str
+    low: Decimal
+    high: Decimal
+    step: Decimal
+
+    def pick(self, luck: random.Random) -> str:
+        """Return one of the values as it is written."""
+        count = int((self.high - self.low) / self.step) if self.step else 0
+        value = self.low + luck.randint(0, count) * self.step
+        return f"{value.normalize():f} {self.unit}".strip()
+
+
+def ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, Range]:
+    """Return the range of every given: as `asked`, such as `25..60/5 mm`, else what the task's variants span.
+
+    Raises
+    ------
+    InputError
+        No range, or a given that is none of the task's.
+    """
+    found = {name: _spanned(task, name, given) for name, given in task.givens.items() if given.unit is not None}
+    for name, text in asked.items():
+        given = task.givens.get(name)
+        if given is None or given.unit is None:
+            raise LocatedError(name, InputError("range-given", known=", ".join(found)))
+        try:
+            found[name] = _read(given, text, found.get(name))
+        except InputError as error:
+            raise LocatedError(name, error) from error
+    return {name: one for name, one in found.items() if one is not None}
+
+
+def _read(given: Given, text: str, usual: Range | None) -> Range:
+    """Read a range."""
+    assert given.unit is not None
+    parts = _RANGE.fullmatch(text.strip())
+    if parts is None:
+        raise InputError("range-bad", text=quote(text))
+    unit = given.unit
+    low, high = (_decimal(unit.from_si(_number(given, text))) for text in (_with(parts["low"], text), parts["high"]))
+    step = _decimal(unit.from_si(_number(given, _with(parts["step"], text)))) if parts["step"] else None
+    if low > high or (step is not None and step <= 0):
+        raise InputError("range-bad", text=quote(text))
+    if step is None:
+        step = usual.step if usual is not None and 0 < usual.step <= high - low else _round_step(high - low)
+    return Range(unit.name, low, high, step)
+
+
+def _with(part: str, whole: str) -> str:
+    """Return a part of a range with the unit that stands at the end of the whole."""
+    unit = re.search(r"[^\d\s.,/+\-eE][^\d]*$", whole)
+    return part if unit is None or re.search(r"[^\W\d]|°", part) else f"{part} {unit[0]}"
+
+
+def _number(given: Given, text: str) -> float:
+    value = given.read(text)
+    assert isinstance(value, float)
+    return value
+
+
+def _spanned(task: Task, name: str, given: Given) -> Range | None:
+    """Return what a given's values span in the variants of a task; None where no variant states it."""
+    assert given.unit is not None
+    stated = [row.values[name] for row in task.variants.values() if name in row.values]
+    values = sorted({_decimal(given.unit.from_si(value)) for value in stated if isinstance(value, float)})
+    if not values:
+        return None
+    low, high = values[0], values[-1]
+    if len(task.variants) == 1:
+        spread = abs(low) * Decimal(str(AROUND))
+        step = _round_step(2 * spread)
+        low, high = (math.ceil(low / step - spread / step) * step, high + spread) if step else (low, high)
+        return Range(given.unit.name, low, high, step)
+    return Range(given.unit.name, low, high, _common_step([value - low for value in values]))
+
+
+def _decimal(value: float) -> Decimal:
+    return Decimal(f"{value:.12g}")
+
+
+def _common_step(values: Sequence[Decimal]) -> Decimal:
+    """Return the largest step in which all values are whole; 0 for one value."""
+    places = max((max(-int(value.as_tuple().exponent), 0) for value in values), default=0)
+    whole = math.gcd(*(int(value.scaleb(places)) for value in values))
+    return Decimal(whole).scaleb(-places)
+
+
+def _round_step(width: Decimal) -> Decimal:
+    """Return a step of 1, 2 or 5 that divides a width into some twenty."""
+    if width == 0:
+        return Decimal(0)
+    rough = width / STEPS
+    power = Decimal(10) ** rough.adjusted()
+    return next(step * power for step in map(Decimal, (1, 2, 5, 10)) if step * power >= rough)
+
+
+def made(
+    task: Task, ranges: Mapping[str, Range], count: int, seed: int, fixed: Mapping[str, str]
+) -> Iterator[dict[str, str]]:
+    """Go through new variants that differ, each a good exercise; `fixed` are givens that all have alike.
+
+    Each is solved, looked at as its kind looks at exercises, and drawn: its plans must fit one sheet at the scale
+    factors that the task wants.
+
+    Raises
+    ------
+    InputError
+        So few of the sets are good, or there are so few, that the wanted number is not found: what was wrong last.
+    """
+    luck, seen = random.Random(seed), set[tuple[str, ...]]()
+    first = next(iter(task.variants))
+    for number in range(count):
+        reason: KulmanError | None = InputError("variants-few", found=number)
+        for _ in range(TRIES):
+            row = {name: one.pick(luck) for name, one in ranges.items()}
+            if tuple(row.values()) in seen:
+                continue
+            seen.add(tuple(row.values()))
+            row |= fixed
+            reason = next(filter(None, looked_at(task, first, row, through=False)), None)
+            if reason is None:
+                yield row
+                break
+        else:
+            assert reason is not None
+            raise LocatedError(f"--make {count}", reason)
+
+
+def looked_at(task: Task, variant: str, settings: Settings, through: bool = True) -> Judgement:
+    """Return why data have no solution or no sheet, and what makes them a poor exercise; None where nothing does.
+
+    Unless `through`, what makes a poor exercise is not drawn.
+    """
+    try:
+        case = solve_case(task, variant, settings, None, None)
+        remark = next(case.kind.unfit(case), None)
+        if remark is not None and not through:
+            return None, remark
+        drawn = draw_case(case, {})
+    except KulmanError as error:
+        return error, None
+    if remark is None and len(drawn.pages) > 1:
+        remark = InputError("variant-pages", n=len(drawn.pages))
+    return None, remark or next(iter(drawn.warnings), None)
