@@ -14,6 +14,7 @@ from .pens import HEAD_HALF_WIDTH
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
 from .style import Style
 from .text import Box, lay_out
+from .thinning import coarser
 
 WIDE = "circle"  # the role of a circle that goes round other things
 ROUND = 48  # pieces of it, for the letters that keep clear of it
@@ -49,6 +50,7 @@ class Canvas:
     _boxes: list[Box] = field(default_factory=list)
     _spare: dict[str, str] = field(default_factory=dict)
     bounds: Box | None = None  # letters stay inside of it
+    coarse: float = 0.0  # mm by which letters may take a curve of many points for a shorter broken line
 
     def add(self, *shapes: Shape) -> None:
         """Draw shapes."""
@@ -104,7 +106,8 @@ class Canvas:
 
     def _placed(self) -> tuple[list[Request], Labels]:
         """Place the letters; leave out spare ones that cover something, or that stand in the way of others."""
-        obstacles, left = _obstacles(self.shapes, self._boxes, self.style), self._requests
+        shapes = [coarser(shape, self.coarse) for shape in self.shapes] if self.coarse else self.shapes
+        obstacles, left = _obstacles(shapes, self._boxes, self.style), self._requests
         placed = place(left, obstacles, bounds=self.bounds)
         while placed.failed or placed.crossed:
             out = {name for name in placed.failed if name in self._spare} or self._as_well(placed.crossed)

@@ -15,7 +15,7 @@ from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import Box, box
 from ..view import Canvas, View
 from .fan import aside, fan
-from .scene import CamScene, pieces
+from .scene import CamScene, canvas_of, pieces
 
 ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a diagram shows
 LETTER = {TRAVEL: "s", VELOCITY: "ds", ACCELERATION: "d2s"}
@@ -29,7 +29,7 @@ SAME = 1e-6  # mm, of ends of a jump
 
 def diagrams_view(scene: CamScene) -> View:
     """Draw the diagrams under one another, the one that the law gives on top."""
-    canvas, solved = Canvas(scene.style), scene.solved
+    canvas, solved = canvas_of(scene), scene.solved
     drawn = [plan for plan in DIAGRAMS if f"{plan}.0" in solved.values]
     fields: list[Field] = []
     low = 0.0

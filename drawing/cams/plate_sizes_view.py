@@ -11,7 +11,7 @@ from ..shapes import Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension
 from ..view import Canvas, View
 from .diagrams_view import SAME
-from .scene import CamScene, pieces
+from .scene import CamScene, canvas_of, pieces
 from .sizes_view import on_lines
 from .transfer import transfer
 
@@ -25,7 +25,7 @@ def plate_sizes_view(scene: CamScene) -> View:
     solved, words = scene.solved, scene.words
     plate = solved.plate
     assert plate is not None
-    canvas, mu = Canvas(scene.style), scene.scale(PLATE_SIZES).mu
+    canvas, mu = canvas_of(scene), scene.scale(PLATE_SIZES).mu
     outline = _curve(canvas, scene)
     left, right = (end(p.real for p in outline) for end in (min, max))
     top, foot = max(p.imag for p in outline), -plate.sizes.r_0 / mu

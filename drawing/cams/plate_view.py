@@ -12,7 +12,7 @@ from ..view import Canvas, View
 from .hardware import Rod
 from .inversion import centre, circle, corners, heading, numbers, phases, quiet, radius_at, undercut_notes, unit_at
 from .roller_view import NUMBERS, PHASES
-from .scene import CamScene
+from .scene import CamScene, canvas_of
 
 SAME = 1e-4  # part of the greatest velocity within which that of the fall is the same
 ANALOGUE = "|s′|"  # letter of the velocity analogue where there is little room
@@ -22,7 +22,7 @@ THICK = 0.5  # thickness of the plate, in heights of letters
 
 def plate_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the follower is lowest."""
-    solved, canvas, mu = scene.solved, Canvas(scene.style), scene.mu_l
+    solved, canvas, mu = scene.solved, canvas_of(scene), scene.mu_l
     plate = solved.plate
     assert plate is not None
     r_0, stroke, R = plate.sizes.r_0 / mu, solved.motion.h / mu, plate.sizes.R_plate / mu

@@ -10,7 +10,7 @@ from ..diagram import Axis, Field, axes, divisions, numbers
 from ..shapes import Circle, Group, Line, Pen, Polyline
 from ..view import Canvas, View
 from .pressing import courses, permitted, theta
-from .scene import CamScene
+from .scene import CamScene, canvas_of
 
 DEGREE = math.radians(1.0)
 WIDE = {5.0: 160.0, 3.5: 120.0}  # mm of the axis of angles beyond which it is half as long as on the diagrams
@@ -20,7 +20,7 @@ TALL = {5.0: 60.0, 3.5: 45.0}  # mm of the axis of pressure angles, by the heigh
 def pressure_view(scene: CamScene) -> View:
     """Draw theta over phi with the limits dashed over their phases."""
     solved, words = scene.solved, scene.words
-    canvas, limits = Canvas(scene.style), permitted(solved)
+    canvas, limits = canvas_of(scene), permitted(solved)
     curves = [list(zip(phi.tolist(), value.tolist(), strict=True)) for phi, value in courses(solved)]
     every = [y for points in curves for _, y in points] + [limit for _, limit in limits] + [0.0]
     field = _field(scene, min(every), max(every))

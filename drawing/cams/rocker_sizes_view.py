@@ -22,7 +22,7 @@ from ..view import Canvas, View
 from .hatching import Side, hatched
 from .inversion import ratio
 from .pressing import pressed, theta
-from .scene import Array, CamScene, pieces
+from .scene import Array, CamScene, canvas_of, pieces
 from .sizes_view import SHOWN, on_lines
 
 AROUND = 24.0  # mm of the permitted places shown about the chosen one
@@ -32,7 +32,7 @@ LIMIT = 3.0  # length of a limit at the end of an analogue, in heights of letter
 
 def rocker_sizes_view(scene: CamScene) -> View:
     """Draw the rocker about its pivot, and the centre of the cam that is built."""
-    canvas, words, cam = Canvas(scene.style), scene.words, scene.solved.rocker
+    canvas, words, cam = canvas_of(scene), scene.words, scene.solved.rocker
     assert cam is not None
     centre = scene.mm(f"{ROCKER_SIZES}.C")
     _rocker(canvas, scene, cam)

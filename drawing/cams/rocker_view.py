@@ -13,7 +13,7 @@ from .inversion import centre, circle, dwelling, phases, radius_at, ratio, under
 from .pressing import pressed
 from .roller_view import NUMBERS, PHASES
 from .rolling import Contact, curves, normal, roller_radius, sharpest
-from .scene import CamScene
+from .scene import CamScene, canvas_of
 from .sizes_view import SHOWN
 
 ASIDE = 0.45  # rad between the rays of two radii
@@ -22,7 +22,7 @@ OVER = 4.0  # mm of the roller's arcs beyond its extreme places
 
 def rocker_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the rocker is lowest."""
-    solved, canvas, mu = scene.solved, Canvas(scene.style), scene.mu_l
+    solved, canvas, mu = scene.solved, canvas_of(scene), scene.mu_l
     cam = solved.rocker
     assert cam is not None
     sizes, label = cam.sizes, scene.style.label

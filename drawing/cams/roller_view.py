@@ -13,7 +13,7 @@ from .hardware import Rod
 from .inversion import centre, circle, heading, numbers, on_circle, phases, quiet, radius_at, undercut_notes, unit_at
 from .pressing import pressed
 from .rolling import Contact, curves, lettered_sizes, normal, past_normal, roller_radius, sharpest
-from .scene import CamScene
+from .scene import CamScene, canvas_of
 from .sizes_view import SHOWN
 
 OUT = 1.5  # heights of letters from the roller to the dimension of the stroke
@@ -22,7 +22,7 @@ NUMBERS, PHASES = 1.7, 2.8  # heights of letters from the outermost roller to th
 
 def roller_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the follower is lowest."""
-    solved, canvas, mu = scene.solved, Canvas(scene.style), scene.mu_l
+    solved, canvas, mu = scene.solved, canvas_of(scene), scene.mu_l
     roller = solved.roller
     assert roller is not None
     e, s_0, stroke = roller.sizes.e / mu, roller.sizes.s_0 / mu, solved.motion.h / mu

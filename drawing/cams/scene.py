@@ -17,10 +17,12 @@ from ...scales.scale import Scale
 from ..givens import Given
 from ..printed import decimals_for
 from ..style import Style
+from ..view import Canvas
 from ..words import Words
 
 Array = NDArray[np.float64]
 MU_DIGITS = 5  # of a scale factor that follows from a drawing: enough for 0.01 mm
+COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
 FINE = np.radians(0.5)  # between points of a curve
 
 
@@ -87,6 +89,11 @@ class CamScene:
     def value(self, value: float) -> str:
         """Return a value with the usual digits."""
         return self.words.number(value, decimals_for(value))
+
+
+def canvas_of(scene: CamScene) -> Canvas:
+    """Return an empty canvas, on which letters keep clear of curves to a tenth of a millimetre."""
+    return Canvas(scene.style, coarse=COARSE)
 
 
 def pieces(solved: SolvedCam, phase: Phase) -> list[tuple[Array, Array, Array, Array]]:

@@ -10,7 +10,6 @@ from ..compose import arrange, compose, worth_trying
 from ..formats import FORMATS, Format
 from ..packing import Placement
 from ..page import Drawn
-from ..pens import Norm
 from ..rungs import fitted, on_pages
 from ..titleblock import Stamp
 from ..view import View
@@ -33,13 +32,13 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         When a view has no room on a page of the format.
     """
     fitting, largest = Fitting(contents), FORMATS[SIZES[-1]]
-    formats = [sheet] if sheet is not None else worth_trying([v for v, _ in fitting.views(largest, Rungs())])
+    formats = [sheet] if sheet is not None else worth_trying(_views(fitting, largest, Rungs()))
     for candidate in formats:
         last = candidate is formats[-1]
         found = _single(fitting, candidate, last)
         if found is None and last:
             rungs = fitted(fitting, candidate, contents.norm, Rungs())
-            views = [view for view, _ in fitting.views(candidate, rungs)]
+            views = _views(fitting, candidate, rungs)
             found = rungs, views, on_pages(views, candidate, contents.norm)
         if found is not None:
             break
@@ -49,16 +48,28 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
 
 def _single(fitting: Fitting, sheet: Format, last: bool) -> Found | None:
     """Try one page as large as wanted, then with plans and, on the `last` format, diagrams and profiles smaller."""
-    ways = _ways(fitting, last)
-    views = [view for view, _ in fitting.views(sheet, max(ways, key=_steps))]
+    wanted, *smaller = _ways(fitting, last)
+    found = _placed(fitting, sheet, wanted)
+    if found is not None or not smaller or not _may_fit(_views(fitting, sheet, smaller[-1]), sheet):
+        return found
+    tried = (_placed(fitting, sheet, rungs) for rungs in smaller)
+    return next((page for page in tried if page is not None), None)
+
+
+def _placed(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
+    """Try one page at these rungs: in customary zones, in reading order, or wherever there is room."""
+    views = _views(fitting, sheet, rungs)
     if not _may_fit(views, sheet):
         return None
-    for way in ways:
-        views = [view for view, _ in fitting.views(sheet, way)]
-        places = _on_a_page(views, sheet, fitting.contents.norm)
-        if places is not None:
-            return way, views, places
-    return None
+    norm = fitting.contents.norm
+    places = zoned(LAYOUTS, views, sheet, norm)
+    if places is None:
+        places = arrange([view.size for view in views], sheet, norm, 1, any_order=True)
+    return None if places is None else (rungs, views, places)
+
+
+def _views(fitting: Fitting, sheet: Format, rungs: Rungs) -> list[View]:
+    return [view for view, _ in fitting.views(sheet, rungs)]
 
 
 def _ways(fitting: Fitting, last: bool) -> list[Rungs]:
@@ -76,14 +87,6 @@ def _steps(rungs: Rungs) -> tuple[int, int, int]:
 
 def _may_fit(views: list[View], sheet: Format) -> bool:
     return sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height
-
-
-def _on_a_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Place views on one page: in customary zones, in reading order, or wherever there is room."""
-    places = zoned(LAYOUTS, views, sheet, norm)
-    if places is None and _may_fit(views, sheet):
-        places = arrange([view.size for view in views], sheet, norm, 1, any_order=True)
-    return places
 
 
 def _drawn(fitting: Fitting, stamp: Stamp, sheet: Format, found: Found) -> Drawn:

@@ -19,7 +19,7 @@ from ..view import Canvas, View
 from .hatching import hatched
 from .offsets import permitted_offsets
 from .pressing import pressed
-from .scene import CamScene, pieces
+from .scene import CamScene, canvas_of, pieces
 from .transfer import transfer
 
 PAST = 8.0  # mm by which an axis runs past the curve
@@ -31,10 +31,10 @@ LINE = 18.0  # mm by which a limit runs past the place where it touches
 
 def sizes_view(scene: CamScene) -> View:
     """Draw the diagram, with the centre of the cam that is built."""
-    solved, style, words = scene.solved, scene.style, scene.words
+    solved, words = scene.solved, scene.words
     roller = solved.roller
     assert roller is not None
-    canvas = Canvas(style)
+    canvas = canvas_of(scene)
     mu = scene.scale(SIZES).mu
     centre = complex(roller.sizes.e, -roller.sizes.s_0) * (1.0 / mu)
     outline = _curve(canvas, scene)
@@ -46,8 +46,8 @@ def sizes_view(scene: CamScene) -> View:
     _permitted(canvas, planes, mu, centre, low)
     permitted_offsets(canvas, scene, mu)
     _nodes(canvas, scene)
-    _centre(canvas, scene, roller, centre)
-    notes = (*transfer(scene, SIZES), words["said.cam_permitted"])
+    aslant = _centre(canvas, scene, roller, centre)
+    notes = (*transfer(scene, SIZES), f"{words['said.cam_permitted']};  {aslant}")
     return canvas.finish("sizes", (words["heading.cam_sizes"], scene.factor(scene.scale(SIZES))), notes)
 
 
@@ -116,19 +116,35 @@ def _permitted(canvas: Canvas, planes: tuple[HalfPlane, ...], mu: float, centre:
 def _nodes(canvas: Canvas, scene: CamScene) -> None:
     """Mark and number the points that the diagrams give on the section lines; numbers in one place stand together."""
     shared: dict[complex, list[str]] = {}
+    out: dict[complex, complex] = {}
     for i, phase in on_lines(scene):
         at = scene.mm(f"{SIZES}.{i}_{phase}")
         canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"{i}_{phase}"))
         key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
         shared.setdefault(key, []).append(str(i))
-    middle = 0.5j * max(at.imag for at in shared)
+        out[key] = out.get(key, 0j) + _outwards(scene, i, phase)
     for at, numbers in shared.items():
         text = ", ".join(dict.fromkeys(numbers))
-        canvas.label(text, at, prefer=at - middle, clear=0.8, height=scene.style.text)
+        canvas.label(text, at, prefer=out[at] or 1j * at.imag, clear=0.8, height=scene.style.text)
 
 
-def _centre(canvas: Canvas, scene: CamScene, roller: RollerCam, centre: complex) -> None:
-    """Mark the chosen centre, dimension r_0 and e, draw the ray at the greatest pressure, the sense of the cam."""
+def _outwards(scene: CamScene, i: int, phase: str) -> complex:
+    """Return the normal of the curve on a section line, out of its loop; where it turns, the mean of both."""
+    solved, division = scene.solved, scene.solved.layout.division
+    lines = division.rise if phase == RISE else division.fall
+    sides = (1,) if i == lines[0] else (-1,) if i == lines[-1] else (1, -1)
+    found = 0j
+    for side in sides:
+        s, ds, d2s = (float(v) for v in solved.motion.at(float(solved.angles[i]), side))
+        along = complex(solved.cam.sense * d2s, ds)
+        found += (
+            -1j * solved.cam.sense * along / abs(along) if along else 1j * math.copysign(1.0, s - 0.5 * solved.motion.h)
+        )
+    return found
+
+
+def _centre(canvas: Canvas, scene: CamScene, roller: RollerCam, centre: complex) -> str:
+    """Mark the chosen centre, dimension r_0 and e, draw a ray, the sense of the cam; return the ray's angle."""
     solved, words, style = scene.solved, scene.words, scene.style
     r_0 = f"{words.symbol('r_0')} = {scene.length(roller.sizes.r_0)}"
     unit = centre / abs(centre)
@@ -149,9 +165,10 @@ def _centre(canvas: Canvas, scene: CamScene, roller: RollerCam, centre: complex)
     radius, angle = 0.55 * abs(centre), cmath.phase(at - centre)
     canvas.add(Line(centre, centre + 1.12j * radius, Pen.AXIS, role="axis"))
     canvas.add(angle_dimension(centre, radius, math.pi / 2, angle - math.pi / 2, "theta", style))
-    text = f"{words.symbol('theta')}_{{{i}}} = {scene.degrees(math.pi / 2 - angle)}"
+    text = f"{words.symbol('theta')}_{{{i}}}"
     middle = centre + cmath.rect(radius, (angle + math.pi / 2) / 2)
-    canvas.label(text, middle, prefer=at - centre, clear=1.0, height=style.text)
+    canvas.label(text, middle, prefer=middle - centre, clear=1.0, height=style.text)
+    return f"{text} = {scene.degrees(math.pi / 2 - angle)}"
 
 
 def on_lines(scene: CamScene) -> list[tuple[int, str]]:

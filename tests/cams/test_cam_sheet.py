@@ -41,6 +41,26 @@ def test_the_whole_sheet_of_madi_is_one_a1() -> None:
     assert len(MADI.pages) == 1
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [
+        pytest.param({"R_roller": 25}, id="large roller", marks=pytest.mark.soak),
+        pytest.param({"limits": "two-sided"}, id="limits on both sides", marks=pytest.mark.soak),
+        pytest.param({"law": "trapezoid"}, id="high travel", marks=pytest.mark.soak),
+        pytest.param({"fall": "same"}, id="large plate"),
+        pytest.param({"r_0": 60}, id="large cam", marks=pytest.mark.soak),
+        pytest.param({"law": "cosine", "u": 0.5}, id="highest travel", marks=pytest.mark.soak),
+    ],
+)
+def test_small_changes_of_a_cam_stay_on_one_a1(changes: dict[str, object]) -> None:
+    drawn = sheet("madi-cam", set=changes)
+
+    assert (drawn.format, len(drawn.pages)) == ("A1", 1)
+    wanted = solve("madi-cam", set=changes).solved.values["mu_s"]
+    smaller = drawn.scales["diagram_s"].mu > 1.001 * wanted
+    assert any(warning.key == "cam-smaller" for warning in drawn.warnings) == smaller
+
+
 @pytest.mark.soak
 @pytest.mark.parametrize("point", ["C5", "C6", "C7"])
 def test_a_cam_that_turns_clockwise_is_drawn_the_other_way_round(point: str) -> None:
