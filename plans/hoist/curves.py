@@ -7,11 +7,14 @@ zero once at most, and so does the curve between two of its own turnings. No pas
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import chain
 
 from ..laws import TURN
-from .waves import rising_zero
+from .waves import CLOSE, MOST_ROUNDS
+
+Real = Callable[[float], float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,9 +72,8 @@ class Curve:
         begin, slope = 0.0, self.slope(0.0)
         for node in self._nodes(end):
             other = self.slope(node)
-            if (slope < 0.0 < other) or (other < 0.0 < slope):
-                sign = 1.0 if other > 0.0 else -1.0
-                yield float(rising_zero(_Signed(self, sign), begin, node))
+            if slope < 0.0 < other or other < 0.0 < slope:
+                yield zero_between(self.slope, self.bend, begin, node)
             elif other == 0.0 and slope != 0.0:
                 yield node
             begin, slope = node, other
@@ -100,12 +102,10 @@ class Curve:
         if self.w == 0.0:
             return self._falls_straight(end, room)
         begin, value = 0.0, max(self.at(0.0), 0.0)
-        for turning in (*self.turnings(end), end):
+        for turning in chain(self.turnings(end), (end,)):
             other = self.at(turning)
             if other < -room:
-                if value <= 0.0:
-                    return begin
-                return float(rising_zero(_Falling(self), begin, turning))
+                return zero_between(self.at, self.slope, begin, turning) if value > 0.0 else begin
             begin, value = turning, other
         return None
 
@@ -121,22 +121,22 @@ class Curve:
         return min((t for t in roots if 0.0 < t <= end and self.slope(t) < 0.0), default=None)
 
 
-@dataclass(frozen=True, slots=True)
-class _Signed:
-    """The slope of a curve with a sign, and its own slope."""
+def zero_between(function: Real, slope: Real, low: float, high: float) -> float:
+    """Return where a function is zero that has different signs at `low` and `high`, and does not turn between.
 
-    curve: Curve
-    sign: float
-
-    def __call__(self, t: float) -> tuple[float, float]:
-        return self.sign * self.curve.slope(float(t)), self.sign * self.curve.bend(float(t))
-
-
-@dataclass(frozen=True, slots=True)
-class _Falling:
-    """A curve turned over, and its slope."""
-
-    curve: Curve
-
-    def __call__(self, t: float) -> tuple[float, float]:
-        return -self.curve.at(float(t)), -self.curve.slope(float(t))
+    Newton's steps that stay between the two, and every third time the middle.
+    """
+    rises, x = function(high) > 0.0, 0.5 * (low + high)
+    for done in range(MOST_ROUNDS):
+        value = function(x)
+        if value == 0.0:
+            return x
+        low, high = (low, x) if (value > 0.0) == rises else (x, high)
+        rate = slope(x)
+        following = x - value / rate if rate and done % 3 != 2 else low
+        if not low < following < high:
+            following = 0.5 * (low + high)
+        if not low < following < high or abs(following - x) <= CLOSE * abs(x):
+            return following
+        x = following
+    return x

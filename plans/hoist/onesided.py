@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 
 from ...scales.errors import InputError
 from ..laws import TURN
@@ -46,6 +47,10 @@ class Piece:
         """When it ends."""
         return self.begin + self.time
 
+    def force(self, C_12: float, t: float) -> float:
+        """Return the force of a rope of the stiffness C_12 at a time since its begin."""
+        return max(C_12 * self.stretch.at(t), 0.0) if self.rope else 0.0
+
 
 @dataclass(frozen=True, slots=True)
 class OneSided:
@@ -68,7 +73,7 @@ class OneSided:
     def force(self, t: float) -> float:
         """Return the force of the rope at a time of the motion."""
         piece = self._at(t)
-        return self.C_12 * max(piece.stretch.at(t - piece.begin), 0.0) if piece.rope else 0.0
+        return piece.force(self.C_12, t - piece.begin)
 
     def rate(self, t: float) -> float:
         """Return how fast the force of the rope grows."""
@@ -88,13 +93,11 @@ class OneSided:
 
         Of maxima that are alike, as those of a swing that goes on, it is the first one.
         """
-        times = [self.t_1]
+        forces = [(self.t_1, self.force(self.t_1))]
         for piece in self.pieces:
             if (piece.begin >= self.t_1) == lifted:
                 inner = piece.stretch.turnings(piece.time) if piece.rope else ()
-                times += [piece.begin + t for t in (*inner, piece.time)]
-        last = math.nextafter(self.pieces[-1].end, 0.0)
-        forces = [(min(t, last), self.force(min(t, last))) for t in times]
+                forces += [(piece.begin + t, piece.force(self.C_12, t)) for t in chain(inner, (piece.time,))]
         most, least = max(force for _, force in forces), min(force for _, force in forces)
         greatest = min(pair for pair in forces if pair[1] >= most * (1.0 - SAME))
         return greatest, min(pair for pair in forces if pair[1] <= least)
@@ -194,7 +197,8 @@ class Hoisting:
         at_rope = (stretch if state.rope else -stretch).falls_through(end, room)
         at_support = None
         if not math.isinf(self.C_01):
-            at_support = (-height if state.support else height).falls_through(end, room)
+            sooner = end if at_rope is None else at_rope
+            at_support = (-height if state.support else height).falls_through(sooner, room)
         time = min([end, *(t for t in (at_rope, at_support) if t is not None)])
         moved = _State(state.t + time, stretch.at(time), height.at(time), height.slope(time), state.rope, state.support)
         if time == at_rope:
