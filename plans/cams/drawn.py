@@ -14,7 +14,6 @@ from dataclasses import replace
 from ..board import Program, Step
 from ..boards.exact import run
 from .formulas import SHARPEST
-from .integration import UP
 from .solve import SolvedCam
 
 CHORD = "_chord"
@@ -59,9 +58,9 @@ def _renamed(step: Step, names: Mapping[str, str]) -> Step:
 
 
 def _measured(step: Step, at_centre: tuple[str, ...], by_tangents: bool) -> tuple[Step, ...]:
-    """Return a step as it is done on a drawing: s_0 is read there, the curvature is that of the drawn cam."""
+    """Return a step as it is done on a drawing: s_0 goes with r_0 and e, the curvature is that of the drawn cam."""
     if by_tangents and step.name == "s_0":
-        return Step("calc", "_s_0_up", (UP, "_centre"), "component"), Step("calc", "s_0", ("_s_0_up",), "negative")
+        return (replace(step, law="other_leg", operands=("r_0", "e")),)
     if step.name == "rho_min" and at_centre:
         return (replace(step, law=SHARPEST, operands=at_centre),)
     return (step,)

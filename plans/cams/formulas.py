@@ -67,6 +67,13 @@ def _sharpest(stroke: Any, e: Any, s_0: Any, *parts: Any) -> Any:
     return least if np.ndim(least) else float(least)
 
 
+def _other_leg(hypotenuse: Any, leg: Any) -> Any:
+    import numpy as np
+
+    found = np.sqrt(np.maximum((hypotenuse - leg) * (hypotenuse + leg), 0.0))  # the leg may be said to be longer
+    return found if np.ndim(found) else float(found)
+
+
 def _thirds(parts: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
     third = len(parts) // 3
     return parts[:third], parts[third : 2 * third], parts[2 * third :]
@@ -109,6 +116,8 @@ define(
     # the abscissa of the S-ds/dphi diagram points to where the instant centre lies
     turned_with=lambda analogue, sense: analogue * sense,
     negative=lambda value: -value,
+    # s_0^2 = r_0^2 - e^2
+    other_leg=_other_leg,
     # psi_0 = arccos((l^2 + l_OC^2 - r_0^2) / (2 l l_OC)): the angle between the sides a and b
     angle_of_triangle=_angle_of_triangle,
     # rho_min = |v|^3 / (v x v'), v and v' being the derivatives of the roller's centre by the angle of the cam

@@ -11,15 +11,15 @@ from numpy.typing import NDArray
 
 from ..hands.shaky import Paper
 from ..marking.key import Key
-from . import acceleration, forces, inputs, lever, reading, velocity
+from . import acceleration, cam_sizes, cams, forces, inputs, lever, reading, velocity
 from .angles import Turned
-from .rules import Broken, Mistake, Scene, breaks
+from .rules import Broken, Mistake, Scene, breaks, put_together
 from .signatures import Columns, Signature, signature, signatures
 
 __all__ = ["MISTAKES", "Book", "Signature", "book", "broken", "key_of", "signature"]
 
-CHAPTERS = (inputs, reading, velocity, acceleration, forces, lever)
-MISTAKES: dict[str, Mistake] = {id: found for chapter in CHAPTERS for id, found in chapter.MISTAKES.items()}
+CHAPTERS = (inputs, reading, velocity, acceleration, forces, lever, cams, cam_sizes)
+MISTAKES: dict[str, Mistake] = put_together(chapter.MISTAKES for chapter in CHAPTERS)
 
 
 def broken(paper: Paper, values: Mapping[str, Any], ids: Iterable[str] = ()) -> Iterator[Broken]:

@@ -1,11 +1,11 @@
 """Rules that can be broken: each a rewrite of the same construction, found to apply from its steps alone.
 
-The mistakes have numbers, M01 to M82; the other modules here, a chapter each, hold their rules, `book` all of them.
+The mistakes have numbers, M01 to M99; the other modules here, a chapter each, hold their rules, `book` all of them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -114,12 +114,26 @@ class Chapter(dict[str, Mistake]):
         """Enter the function that follows; several may break the rule of one mistake."""
 
         def entered(rule: Rule) -> Rule:
-            before = self.get(id)
-            breaks = rule if before is None else _both(before.breaks, rule)
-            self[id] = Mistake(id, breaks, by_scale or (before is not None and before.by_scale))
+            self.add(Mistake(id, rule, by_scale))
             return rule
 
         return entered
+
+    def add(self, mistake: Mistake) -> None:
+        """Add a mistake, to another of its number if there is one."""
+        before = self.get(mistake.id)
+        if before is not None:
+            mistake = Mistake(mistake.id, _both(before.breaks, mistake.breaks), before.by_scale or mistake.by_scale)
+        self[mistake.id] = mistake
+
+
+def put_together(chapters: Iterable[Chapter]) -> Chapter:
+    """Return the mistakes of all chapters: one that is made on drawings of several kinds has rules in several."""
+    found = Chapter()
+    for chapter in chapters:
+        for mistake in chapter.values():
+            found.add(mistake)
+    return found
 
 
 def _both(first: Rule, second: Rule) -> Rule:
