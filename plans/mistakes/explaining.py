@@ -235,15 +235,30 @@ class _Search:
         return None if made is None else self._candidate((one, made))
 
     def _carried(self, candidate: Candidate) -> Marking:
-        """Return the marking in which the first line that the candidate explains is wrong, and the others are carried.
+        """Return the marking in which the first line that each mistake explains is wrong, and the others are carried.
 
-        That line may miss by so little that it seemed a slip of the hand.
+        The very first one may miss by so little that it seemed a slip of the hand.
         """
         if candidate.misses > 1.0:
             return self.marking  # it fits in part, but not within the tolerances
         first, *others = candidate.explained
-        lines = tuple(_carried(line) if line.name in others else line for line in self.marking.lines)
+        own = (
+            {self._first_of(mistake, candidate) for mistake in candidate.mistakes}
+            if len(candidate.mistakes) > 1
+            else ()
+        )
+        lines = tuple(_carried(x) if x.name in others and x.name not in own else x for x in self.marking.lines)
         return replace(self.marking, lines=lines, first_wrong=first, step=behind(self.marking.key, first))
+
+    def _first_of(self, mistake: Broken, candidate: Candidate) -> str:
+        """Return the first line that a mistake of several would move by itself, of those that they explain."""
+        book = self.book
+        alone = next((s for s in book.signatures if s.broken.place == mistake.place), None)
+        if alone is None:
+            return candidate.explained[0]
+        moved = np.abs(alone.row - book.right) > book.allowed
+        names = [name for name, one in zip(book.key.questions, moved, strict=True) if one]
+        return next((name for name in names if name in candidate.explained), candidate.explained[0])
 
 
 def _carried(line: Line) -> Line:
