@@ -46,6 +46,12 @@ class Solution:
     words: Words
     conditions: Mapping[str, Condition] = field(default_factory=dict)
     drawing: Drawing | None = None
+    plans: tuple[str, ...] = ()
+
+    @property
+    def listed(self) -> dict[str, Quantity]:
+        """The quantities of the plans wanted, as a list shows them."""
+        return {name: self.quantities[name] for name in self.kind.listed(self.solved, self.plans) if name in self}
 
     @property
     def status(self) -> str:
@@ -109,7 +115,7 @@ class Solution:
             "checks": self.checks,
             "scales": {s.symbol: {"value": s.mu, "unit": s.per_mm_unit} for s in self.scales.values()},
             **({} if self.drawing is None else {"hand": self.drawing.head()}),
-            "quantities": {name: self._item(quantity) for name, quantity in self.quantities.items()},
+            "quantities": {name: self._item(quantity) for name, quantity in self.listed.items()},
         }
 
     def _item(self, quantity: Quantity) -> dict[str, Any]:
@@ -134,9 +140,10 @@ class Solution:
     def _tidy(self) -> list[Quantity]:
         """Return the quantities without what is nothing but rounding."""
         largest: dict[str, float] = {}
+        listed = self.listed.values()
         for quantity in self.quantities.values():
             largest[quantity.unit] = max(largest.get(quantity.unit, 0.0), abs(quantity.value or 0.0))
-        return [_without_rounding(quantity, largest[quantity.unit]) for quantity in self.quantities.values()]
+        return [_without_rounding(quantity, largest[quantity.unit]) for quantity in listed]
 
     def _words(self, language: str | None) -> Words:
         return self.words if language is None else self.words.speaking(language)
@@ -254,7 +261,8 @@ def solve(
     used = {scale.symbol: scale for scale in by_plan.values()}
     found = case.kind.conditions(case) if condition else {}
     drawn = None if hand is None else _drawing(case.kind, solved, by_plan, hand)
-    return Solution(case.task, case.variant, solved, items, used, solved.error(), warnings, words, found, drawn)
+    said = solved.error(), warnings, words
+    return Solution(case.task, case.variant, solved, items, used, *said, found, drawn, case.plans)
 
 
 def _on_paper(

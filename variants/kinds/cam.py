@@ -40,6 +40,13 @@ PER_MM, MILLI = 1e-3, 1e3
 AXES = ("diagram_a", "diagram_v", "diagram_s")  # the plans of the diagrams on one axis of angles
 # what is not asked: the stroke, which is given, and what should be nothing
 UNASKED = ("s_max", "s_close", "v_close")
+HEADINGS = {  # of the sections of a list of quantities
+    "diagrams": "heading.cam_diagrams",
+    "chords": "heading.cam_chords",
+    "roller": "heading.cam_roller",
+    "plate": "heading.cam_plate",
+    "profile": "heading.cam_profiles",
+}
 RULES = ("roller_of_radius", "roller_of_curvature", "gamma_rise", "gamma_fall")  # checks that are told when they fail
 
 
@@ -175,6 +182,22 @@ class Cams(Kind[Cam, "SolvedCam"]):
         from ...plans.cams.drawn import stands_for
 
         return stands_for(solved)
+
+    def listed(self, solved: SolvedCam, plans: tuple[str, ...]) -> tuple[str, ...]:
+        """Return what belongs to the plans, section by section."""
+        from ...plans.cams.sections import listed
+
+        return listed(solved.quantities, plans)
+
+    def headings(self, solved: SolvedCam, words: Words) -> dict[str, str]:
+        """Return the headings of diagrams, chords, sizes, profiles."""
+        from ...plans.cams.sections import ROLLER, section_of
+
+        first: dict[str, str] = {}
+        for name in self.listed(solved, self.plans):
+            first.setdefault(section_of(name), name)
+        keys = HEADINGS | ({ROLLER: "heading.cam_rocker"} if solved.rocker is not None else {})
+        return {name: words[keys[section]] for section, name in first.items()}
 
     def asks(self, solved: SolvedCam, question: Question) -> bool:
         """Ask for what is found, not for what is given, nor by how much a drawing does not close."""

@@ -128,6 +128,10 @@ class Kind(ABC, Generic[Subject, Answer]):
         """
         raise InputError("kind-without", task=case.task.id, text="sweep")
 
+    def listed(self, solved: Answer, plans: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the names of the quantities that a list for some plans shows, in its order."""
+        return tuple(solved.quantities)
+
     def headings(self, solved: Answer, words: Words) -> dict[str, str]:
         """Return the headings in a list of quantities, each by the first quantity under it; a short list has none."""
         return {}

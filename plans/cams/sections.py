@@ -1,0 +1,43 @@
+"""In which part of a cam's note a quantity stands, and which parts belong to the plans that are wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from .cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_PART
+
+DIAGRAMS, CHORDS, ROLLER, PLATE, PROFILE = SECTIONS = ("diagrams", "chords", "roller", "plate", "profile")
+PRESSURES = ("gamma_rise_min", "gamma_fall_min")  # also what the plan of pressure angles shows
+NAMES = {
+    CHORDS: ("s_close", "v_close"),
+    ROLLER: (
+        "r_0",
+        "e",
+        "s_0",
+        "e_least",
+        "e_most",
+        "r_0_tangents",
+        "e_tangents",
+        "l_rocker",
+        "l_OC",
+        "psi_0",
+        *PRESSURES,
+    ),
+    PLATE: ("r_0_flat_tangent", "r_0_flat_min", "r_0_flat", "R_plate"),
+    PROFILE: ("R_roller", "rho_min"),
+}
+OF_PLAN = {DIAGRAMS_PART: (DIAGRAMS, CHORDS), SIZES_PART: (ROLLER, PLATE), PROFILE_PART: (PROFILE,), PRESSURE_PART: ()}
+_SECTION = {name: section for section, names in NAMES.items() for name in names}
+
+
+def section_of(name: str) -> str:
+    """Return the section of a quantity: what belongs to nothing else belongs to the diagrams."""
+    return _SECTION.get(name, CHORDS if name.endswith("_chord") else DIAGRAMS)
+
+
+def listed(names: Iterable[str], plans: Iterable[str]) -> tuple[str, ...]:
+    """Return those of the names that belong to the plans wanted, not only to what these need, section by section."""
+    wanted = [*plans]
+    sections = {section for plan in wanted for section in OF_PLAN[plan]}
+    kept = [name for name in names if section_of(name) in sections or (PRESSURE_PART in wanted and name in PRESSURES)]
+    return tuple(sorted(kept, key=lambda name: SECTIONS.index(section_of(name))))
