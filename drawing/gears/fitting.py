@@ -88,17 +88,24 @@ class Fitting:
 
 def figures(contents: Contents, scene: GearScene, width: float) -> Iterator[tuple[str, GearFigure]]:
     """Go through the figures of a sheet, by name, in the order of the work; lines of text are at most `width` long."""
-    made: dict[str, Callable[[], Iterator[tuple[str, GearFigure]]]] = {
-        MESHING_PART: partial(_meshing, scene.apart),
-        GEOMETRY_PART: partial(_geometry, width),
-        SLIDING_PART: _sliding,
-    }
-    for part, figures_of in made.items():
+    made: tuple[tuple[str, Callable[[], Iterator[tuple[str, GearFigure]]]], ...] = (
+        (GEOMETRY_PART, _data),
+        (MESHING_PART, partial(_meshing, scene.apart)),
+        (GEOMETRY_PART, partial(_quality, width)),
+        (SLIDING_PART, _sliding),
+    )
+    for part, figures_of in made:
         if part in contents.plans:
             yield from figures_of()
 
 
 # A view is imported when its plan is wanted.
+
+
+def _data() -> Iterator[tuple[str, GearFigure]]:
+    from .tables import data_table
+
+    yield "data", Figure(data_table)
 
 
 def _meshing(apart: bool) -> Iterator[tuple[str, GearFigure]]:
@@ -113,12 +120,11 @@ def _meshing(apart: bool) -> Iterator[tuple[str, GearFigure]]:
     yield "action", Figure(action_view, ("rolled",))
 
 
-def _geometry(width: float) -> Iterator[tuple[str, GearFigure]]:
+def _quality(width: float) -> Iterator[tuple[str, GearFigure]]:
     from .contour_view import contour_view
-    from .tables import checks_table, data_table
+    from .tables import checks_table
     from .text import auxiliary_block, quality_block, sizes_block
 
-    yield "data", Figure(data_table)
     yield "checks", Figure(checks_table)
     yield "contour", Figure(contour_view)
     for name, block in (("sizes", sizes_block), ("auxiliary", auxiliary_block), ("quality", quality_block)):

@@ -7,6 +7,7 @@ from dataclasses import replace
 from ..page import extent
 from ..view import Canvas, View
 from . import along_circles, circles, teeth
+from .ladders import TOOTH
 from .scene import GearScene
 from .wheels import Wheel
 
@@ -50,7 +51,10 @@ def _finished(canvas: Canvas, scene: GearScene, name: str, detailed: bool) -> Vi
     """Close a view, with what its lines and letters mean where it has details."""
     words = scene.words
     gap = f"{scene.length(scene.size('c') * scene.size('m'))} {words.unit('mm')}"
-    notes = words["said.gear_meshing"].format(gap=gap).split("|") if detailed else ()
+    notes = words["said.gear_meshing"].format(gap=gap).split("|") if detailed else []
+    if detailed and scene.paper("h") < TOOTH:
+        height = words.number(scene.paper("h"), 1)
+        notes.append(words["said.gear_small"].format(height=height, usual=words.short(TOOTH)))
     return canvas.finish(name, (words[f"heading.gear_{name}"], scene.factor(scene.mu_l)), tuple(notes))
 
 

@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+
 from ...scales.choices import SIZES
-from ..compose import arrange, compose, worth_trying
+from ...scales.errors import InputError
+from ..compose import arrange, arrange_rest, compose, worth_trying
 from ..formats import FORMATS, Format
+from ..nesting import names
 from ..packing import Placement
 from ..page import Drawn
 from ..pens import Norm
-from ..rungs import fitted, has_next, lower, on_pages
+from ..rungs import fitted, has_next, lower
 from ..titleblock import Stamp
 from ..view import View
 from ..zones import zoned
 from .fitting import Contents, Fitting, Rungs
-from .zones import LAYOUTS
+from .zones import FIRST_PAGE, LAYOUTS
 
 Found = tuple[Rungs, list[View], list[Placement]]
+Way = Callable[[list[View], Format, Norm], list[Placement] | None]
 BESIDE = ("rolled", "part")  # ladders of what stands beside the meshing
-TRIES = 3  # rungs of these at which one page is tried
+TRIES = 3  # rungs of these at which a page is tried
 
 
 def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn:
@@ -30,31 +36,47 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
     """
     fitting, largest, norm = Fitting(contents), FORMATS[SIZES[-1]], contents.norm
     formats = [sheet] if sheet is not None else worth_trying([v for v, _ in fitting.views(largest, Rungs())])
-    for candidate in formats:
-        last = candidate is formats[-1]
-        rungs = fitted(fitting, candidate, norm, Rungs()) if last else Rungs()
-        found = _single(fitting, candidate, rungs, last)
+    for candidate in formats[:-1]:
+        found = _placed(fitting, candidate, Rungs(), _on_a_page)
         if found is not None:
             break
-    if found is None:
-        views = [view for view, _ in fitting.views(candidate, rungs)]
-        found = rungs, views, on_pages(views, candidate, norm)
+    else:
+        candidate = formats[-1]
+        found = _pages(fitting, candidate)
     rungs, views, places = found
     pages = compose(views, places, candidate, norm, stamp)
-    return Drawn(pages, fitting.scales(candidate, rungs), candidate.name)
+    return Drawn(pages, fitting.scales(candidate, rungs), candidate.name, views=tuple(views))
 
 
-def _single(fitting: Fitting, sheet: Format, rungs: Rungs, smaller: bool) -> Found | None:
-    """Try one page; with what is beside the meshing `smaller` where it must be."""
-    for _ in range(TRIES if smaller else 1):
-        views = [view for view, _ in fitting.views(sheet, rungs)]
-        places = _on_a_page(views, sheet, fitting.contents.norm)
-        if places is not None:
-            return rungs, views, places
-        for ladder in BESIDE:
-            if has_next(fitting, rungs, ladder):
-                rungs = lower(rungs, ladder)
-    return None
+def _pages(fitting: Fitting, sheet: Format) -> Found:
+    """Take one page, with what is beside the meshing smaller where it must be, or several."""
+    norm = fitting.contents.norm
+    first = rungs = fitted(fitting, sheet, norm, Rungs())
+    ways: list[tuple[Rungs, Way]] = []
+    for way in (_on_a_page, _on_the_first_page):
+        rungs = first
+        for _ in range(TRIES):
+            ways.append((rungs, way))
+            for ladder in BESIDE:
+                rungs = lower(rungs, ladder) if has_next(fitting, rungs, ladder) else rungs
+    found = next(filter(None, (_placed(fitting, sheet, rungs, way) for rungs, way in ways)), None)
+    while found is None:  # the first page has less room than the others
+        found = _placed(fitting, sheet, first, _in_order)
+        if found is None and not has_next(fitting, first, "mu_l"):
+            raise InputError("sheet-too-small", format=sheet.name)
+        first = lower(first, "mu_l") if found is None else first
+    return found
+
+
+def _placed(fitting: Fitting, sheet: Format, rungs: Rungs, way: Way) -> Found | None:
+    views = [view for view, _ in fitting.views(sheet, rungs)]
+    places = way(views, sheet, fitting.contents.norm)
+    return None if places is None else (rungs, views, places)
+
+
+def _in_order(views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:
+    """Place views on as many pages as they need."""
+    return arrange([view.size for view in views], sheet, norm, None)
 
 
 def _on_a_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:
@@ -63,3 +85,16 @@ def _on_a_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] 
     if places is None and sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height:
         places = arrange([view.size for view in views], sheet, norm, 1)
     return places
+
+
+def _on_the_first_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:
+    """Place the meshing with what belongs to it in the customary zones, the rest on following pages."""
+    names_there = set(names(FIRST_PAGE))
+    here = [view for view in views if view.name in names_there]
+    rest = [view for view in views if view.name not in names_there]
+    own = zoned(FIRST_PAGE, here, sheet, norm) if here and rest else None
+    others = arrange_rest(rest, sheet, norm) if own is not None else None
+    if own is None or others is None:
+        return None
+    places = iter(own), (replace(place, page=place.page + 1) for place in others)
+    return [next(places[view.name not in names_there]) for view in views]

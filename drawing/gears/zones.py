@@ -5,11 +5,19 @@ from __future__ import annotations
 from ..nesting import column, row
 from ..zones import BLOCK, TURNED
 
+# everything on one page, for sheets without the worked formulas
 LAYOUT = row(
     column(TURNED, "meshing"),
     column(
         row("rolling", "data"),
-        row(column("action", "sliding"), column("points", "checks", BLOCK)),
+        row(column("action", "sliding"), column("points", "checks", "contour", BLOCK)),
+    ),
+)
+# the meshing with what belongs to it, where the rest needs further pages
+FIRST_PAGE = (
+    row(
+        column(TURNED, "meshing"),
+        column(row("rolling", "data"), row(column("action", "contour"), column("checks", BLOCK))),
     ),
 )
 LAYOUTS = (LAYOUT,)

@@ -1,0 +1,101 @@
+"""Points Z1 to Z5 of the examiner's list on sheets of gear pairs that were drawn and read back."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+import shapely
+
+from kulman.tests.support.gear_cases import GearCase, arc_of, crossings
+from kulman.tests.support.gear_points import POINTS
+from kulman.tests.support.overlaps import overlaps
+from kulman.tests.support.readback import Sheet, read
+
+MADI = GearCase()
+PLAIN = (("x_1", 0.0), ("x_2", 0.0))
+CASES = (
+    MADI,
+    *(
+        pytest.param(case, marks=pytest.mark.soak)
+        for case in (
+            GearCase(rotation="cw", lang="en"),
+            GearCase(format="A3", lang="ru"),
+            GearCase(format="A4"),
+            GearCase((("z_1", 60.0), ("z_2", 60.0), *PLAIN)),
+            GearCase((("z_1", 17.0), ("z_2", 45.0), ("x_1", 0.3), ("x_2", -0.3)), rotation="cw"),
+            GearCase((("z_1", 12.0), ("z_2", 60.0), ("x_1", 0.5), ("x_2", 0.2)), "A2", "en"),
+        )
+    ),
+)
+ODD = (  # undercut; pointed; few teeth, with an active line that ends beyond N1
+    GearCase((("z_1", 8.0), ("z_2", 30.0), *PLAIN)),
+    GearCase((("z_1", 10.0), ("z_2", 12.0), ("x_1", 0.8), ("x_2", 0.3)), lang="ru"),
+    GearCase((("z_1", 5.0), ("z_2", 7.0), ("x_1", 0.8), ("x_2", 0.6)), rotation="cw", lang="en"),
+)
+
+
+def faults(case: GearCase, sheet: Sheet, point: str) -> list[str]:
+    return list(POINTS[point](case, sheet))
+
+
+@pytest.mark.parametrize("point", POINTS)
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_sheet_of_a_pair_satisfies_the_points(case: GearCase, point: str) -> None:
+    assert faults(case, case.sheet, point) == []
+
+
+@pytest.mark.parametrize("case", [*CASES, *(pytest.param(case, marks=pytest.mark.soak) for case in ODD)], ids=str)
+def test_letters_of_a_meshing_touch_nothing(case: GearCase) -> None:
+    assert overlaps(case.sheet) == []
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("point", ["Z2", "Z3", "Z4"])
+@pytest.mark.parametrize("case", ODD[1:], ids=str)
+def test_odd_teeth_are_drawn_as_they_are(case: GearCase, point: str) -> None:
+    assert faults(case, case.sheet, point) == []
+
+
+def test_involutes_are_constructed_by_rolling() -> None:
+    """T1_k is on the base circle, T1_k E1_k touches it and is as long as P D1_k, and E1_k lies on the curve."""
+    view = MADI.sheet["rolling"]
+
+    for i in (1, 2):
+        centre, base = arc_of(view, f"d_b{i}")
+        places = {name: r.centre for r in view.rings for role, name in r.path if role == "division"}
+        last = max(int(name.partition("_")[2]) for name in places if re.fullmatch(rf"D{i}_\d+", name))
+        (curve,) = view.inside("curve", f"involute_{i}")
+        line = shapely.LineString([(p.real, p.imag) for p in curve.points])
+        parts = [abs(places[f"D{i}_{k}"] - view.point("P")) for k in range(last + 1)]
+        assert parts == pytest.approx([k * parts[1] for k in range(last + 1)], abs=0.01)
+        for k in range(last + 1):
+            foot, end = places[f"T{i}_{k}"], places[f"E{i}_{k}"]
+            assert abs(foot - centre) == pytest.approx(base, abs=0.01)
+            assert ((end - foot) * (foot - centre).conjugate()).real == pytest.approx(0.0, abs=0.01 * base)
+            assert abs(end - foot) == pytest.approx(k * parts[1], abs=0.01)
+            assert line.distance(shapely.Point(end.real, end.imag)) < 0.01
+        assert len(crossings(curve.points, centre, abs(view.point("P") - centre))) == 1
+
+
+SPOILED = {  # one piece of the file of the sheet changed
+    "Z1": (r'("pivot" data-name="O2">.*?)(<circle[^>]*cy=")(\d)', r"\g<1>\g<2>1\g<3>"),
+    "Z2": (r'("circle" data-name="d_w1">\n<path class="extreme" d="M[\d.]+ [\d.]+A)(\d+)', r"\g<1>2\g<2>"),
+    "Z3": (r'("line-of-action" data-name="N1N2" x1="[\d.]+" y1=")(\d)', r"\g<1>1\g<2>"),
+    "Z4": (r'("profile" data-name="teeth_1"[^>]*points="(?:[\d.]+,[\d.]+ ){300})([\d.]+),', r"\g<1>200,"),
+    "Z5": (r'("active" data-name="A1A2" x1=")(\d)', r"\g<1>1\g<2>"),
+}
+
+
+@pytest.mark.parametrize("point", POINTS)
+def test_the_examiner_sees_a_spoiled_sheet_of_a_pair(point: str) -> None:
+    (page,) = MADI.pages
+    spoiled = re.sub(*SPOILED[point], page, count=1, flags=re.DOTALL)
+    assert spoiled != page
+
+    try:
+        found = faults(MADI, read(spoiled), point)
+    except (AssertionError, ValueError, KeyError) as stumbled:
+        found = [str(stumbled)]
+
+    assert found
