@@ -6,12 +6,15 @@ from cmath import rect
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import pi
-from typing import assert_never
+from typing import TYPE_CHECKING, assert_never
 
 from ..scales.scale import Scale
 from .pens import Norm, Pens, pens_for
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Polyline, Shape, Text, Vector
 from .text import Box, corners
+
+if TYPE_CHECKING:
+    from .view import View
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +39,7 @@ class Page:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A drawn sheet: its pages, the scale factors that they have, by plan, and its format.
+    """A drawn sheet: its pages, the scale factors that they have, by plan, its format, its views in order of the work.
 
     `reduction` is what a millimetre of a drawing is there whose lengths on paper the task has given.
     """
@@ -45,6 +48,7 @@ class Drawn:
     scales: Mapping[str, Scale]
     format: str
     reduction: float = 1.0
+    views: tuple[View, ...] = ()
 
 
 def _reach(shape: Shape) -> tuple[complex, ...]:

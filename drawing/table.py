@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import accumulate, pairwise
 from typing import TypeAlias
 
@@ -38,7 +39,8 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
         for i, end, cell in _cells(row):
             middle = (edges[i] + edges[end]) / 2
             shapes.append(Text(complex(middle, baseline), cell, h, "middle", role="cell"))
-    return _view(name, heading, shapes, (0.0, -height, edges[-1], 0.0), style, role="table")
+    view = _view(name, heading, shapes, (0.0, -height, edges[-1], 0.0), style, role="table")
+    return replace(view, rows=tuple(tuple(row) for row in rows))
 
 
 def _cells(row: Row) -> Iterator[tuple[int, int, str]]:
@@ -77,7 +79,8 @@ def text_block(name: str, heading: str, lines: Sequence[Sequence[str]], style: S
         shapes.append(Text(complex(0.0, y), line, h, role="line"))
         y += layout.bottom - 0.45 * h
         widest = max(widest, layout.width)
-    return _view(name, heading, shapes, (0.0, y, widest, 0.0), style, role="text")
+    view = _view(name, heading, shapes, (0.0, y, widest, 0.0), style, role="text")
+    return replace(view, lines=tuple(tuple(line) for line in lines))
 
 
 def words_of(sentence: str) -> tuple[str, ...]:
@@ -103,4 +106,4 @@ def _view(name: str, heading: str, shapes: list[Shape], box: Box, style: Style, 
     lines, top = heading_shapes((heading,), style.heading, middle, 0.0)
     half = max((lay_out(heading, style.heading).width / 2, (x1 - x0) / 2))
     body = Group(tuple(shapes), role, name)
-    return View(name, (body, *lines), (middle - half - 0.5, y0 - 0.5, middle + half + 0.5, top))
+    return View(name, (body, *lines), (middle - half - 0.5, y0 - 0.5, middle + half + 0.5, top), (heading,))

@@ -22,11 +22,19 @@ ROUND = 48  # pieces of it, for the letters that keep clear of it
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """A finished figure: its shapes and the box that they fill, mm."""
+    """A finished figure: its shapes and the box that they fill, mm.
+
+    What it says is kept beside the shapes: the lines of its `heading` and its `notes`, the `lines` of a text, each in
+    chunks between which it may break, and the `rows` of a table, the first of which is its head.
+    """
 
     name: str
     shapes: tuple[Shape, ...]
     box: Box
+    heading: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    lines: tuple[tuple[str, ...], ...] = ()
+    rows: tuple[tuple[str | None, ...], ...] = ()
 
     @property
     def size(self) -> tuple[float, float]:
@@ -102,7 +110,7 @@ class Canvas:
             lines, y1 = heading_shapes(texts, height, (x0 + x1) / 2, y1)
             self.shapes += lines
         x0, _, x1, _ = extent(self.shapes)
-        return View(name, tuple(self.shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
+        return View(name, tuple(self.shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, tuple(notes))
 
     def _placed(self) -> tuple[list[Request], Labels]:
         """Place the letters; leave out spare ones that cover something, or that stand in the way of others."""

@@ -240,7 +240,7 @@ def _together(
         lines, y1 = heading_shapes(texts, height, (x0 + x1) / 2, y1)
         shapes += lines
     x0, y0, x1, _ = extent(shapes)
-    return View(figure.name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
+    return View(figure.name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes)
 
 
 def _shapes(figure: View, insets: Sequence[View], right: bool) -> Iterator[Shape]:

@@ -82,4 +82,4 @@ def _halved(fitted: Fitted, sheet: Format, norm: Norm) -> list[Placement] | None
 
 def _drawn(fitting: Fitting, stamp: Stamp, sheet: Format, fitted: Fitted, places: list[Placement]) -> Drawn:
     views, scales = fitted
-    return Drawn(compose(views, places, sheet, fitting.contents.norm, stamp), scales, sheet.name)
+    return Drawn(compose(views, places, sheet, fitting.contents.norm, stamp), scales, sheet.name, views=tuple(views))
