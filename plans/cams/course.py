@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..columned import Columned, Ends
 from .cam import PLATE, ROCKER, ROLLER
 from .envelopes import Undercut
 from .motion import TURN, Array, Jump
@@ -21,27 +22,6 @@ from .pressure import pressure_angle
 from .profile import PlateProfile, RollerProfile
 from .rocker import rocker_pressure
 from .solve import SolvedCam
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Columned:
-    """One column: its name, its SI unit, its values."""
-
-    name: str
-    unit: str
-    values: NDArray[Any]
-
-
-@dataclass(frozen=True, slots=True)
-class Ends:
-    """The largest and the smallest value of a column, SI, with the angles of the cam where they are, rad."""
-
-    name: str
-    unit: str
-    most: float
-    most_at: float
-    least: float
-    least_at: float
 
 
 @dataclass(frozen=True, slots=True)

@@ -158,6 +158,9 @@ _define(
     half_of=lambda whole: 0.5 * whole,
     on_paper=lambda value, mu: value / mu,
     ratio_of=lambda part, whole: part / whole,
+    # the pinion's angle from the contact in the pole, and what the wheel makes of a length by its own angle
+    contact_angle=lambda rho, rho_w, r_b: (rho - rho_w) / r_b,
+    at_ratio=lambda rho, u: rho / u,
     # directions on the drawing: the line of action, radii where it touches, the axis and the flanks of a tooth
     angle_of_action=lambda alpha_w, sense: 0.5 * math.pi + sense * (0.5 * math.pi - alpha_w),
     unrolled_part=lambda length, part, whole: length * (part / whole),

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from ..case import Case
     from ..checks.basics import Checker
     from ..checks.names import Names
+    from ..sweeps.asked import Asked
+    from ..sweeps.gear import GearSweep
 
 RULES = {  # checks that are told when they fail
     "undercut": "gear-rule-undercut",
@@ -148,6 +150,12 @@ class Gears(Kind[GearPair, "SolvedGear"]):
             }
             for check in solved.checks
         }
+
+    def sweep(self, case: Case, words: Words, asked: Asked) -> GearSweep:
+        """Look at a pair over the contact of one pair of teeth."""
+        from ..sweeps.gear import gear_sweep
+
+        return gear_sweep(case, words, asked)
 
     def headings(self, solved: SolvedGear, words: Words) -> dict[str, str]:
         """Return the headings of the sections of the note."""

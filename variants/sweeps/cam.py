@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,23 +11,22 @@ import numpy as np
 
 from ...drawing.words import Words
 from ...drawing.writers import Files, save_all
-from ...plans.cams.course import Columned, Ends, columns, cut_at, extremes, lines, sharpest, undercuts
+from ...plans.cams.course import columns, cut_at, extremes, lines, sharpest, undercuts
 from ...plans.cams.motion import TURN
 from ...plans.cams.solve import SolvedCam
+from ...plans.columned import Columned
 from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit, unit
 from ..case import Case
 from ..kinds.cam import cam
-from ..tables import Cell, aligned, csv_bytes, csv_text
+from ..tables import Cell, csv_bytes, csv_text
 from ..task import Task
 from .asked import Asked
 from .data import numbers
+from .sized import DIGITS, column_table, csv_head, degrees, extremes_table, in_degrees_and_millimetres
 
 POSITIONS = 360  # of the files: one a degree
-SHOWN = {"m": "mm", "rad": "deg"}  # lengths and angles of cams, everything else in SI
 TABLED = ("phi", "s", "ds", "d2s", "v", "a", "psi", "theta", "gamma", "theta_rocker", "gamma_rocker")
-DIGITS, PLACES = 6, 9  # of a number in the table; decimals of the degrees of the cam
-NOTHING = 1e-9  # part of the largest value of a column below which one is rounding
 SUFFIXES = (".csv",)
 OK, UNDERCUT = "ok", "undercut"
 
@@ -73,8 +71,8 @@ class CamSweep:
             rows = columns(self.solved, self._angles())
             heads = [str(k) for k in range(self.positions)]
         parts = [
-            _table(rows, heads, words),
-            _extremes(extremes(self.solved), words),
+            column_table([column for column in rows if column.name in TABLED], heads, words),
+            extremes_table(extremes(self.solved), words),
             _profiles(self.case, self.solved, words),
         ]
         return "\n\n".join(part for part in parts if part)
@@ -82,8 +80,8 @@ class CamSweep:
     def csv(self, language: str | None = None) -> str:
         """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
         words, phi = self._words(language), self._angles()
-        shown = [_in_millimetres(column) for column in columns(self.solved, phi)]
-        head = ["k", *(f"{column.name} [{format_unit(column.unit, words.language)}]" for column in shown), "status"]
+        shown = [in_degrees_and_millimetres(column) for column in columns(self.solved, phi)]
+        head = ["k", *csv_head(shown, words), "status"]
         cut = cut_at(self.solved, phi)
         status = [f"{UNDERCUT}: {followers}" if followers else OK for followers in cut]
         rows: list[list[Cell]] = [
@@ -161,55 +159,14 @@ def _joined(solved: SolvedCam, places: list[tuple[float, int]]) -> list[Columned
     return [Columned(b.name, b.unit, np.where(after, b.values, a.values)) for a, b in zip(left, right, strict=True)]
 
 
-def _in_millimetres(column: Columned) -> Columned:
-    shown = SHOWN.get(column.unit)
-    if shown is None:
-        return column
-    to: Callable[[Any], Any] = unit(shown).from_si
-    values = to(column.values)
-    return Columned(column.name, shown, np.round(values, PLACES) if column.name == "phi" else values)
-
-
-def _table(found: list[Columned], heads: list[str], words: Words) -> str:
-    shown = [_in_millimetres(column) for column in found if column.name in TABLED]
-    rows = [["", *(f"{column.name}, {format_unit(column.unit, words.language)}" for column in shown)]]
-    for k, head in enumerate(heads):
-        rows.append([head if k == 0 or heads[k - 1] != head else "", *(_cell(column, k, words) for column in shown)])
-    return aligned(rows, ())
-
-
-def _cell(column: Columned, k: int, words: Words) -> str:
-    size = float(np.max(np.abs(column.values), initial=0.0))
-    value = float(column.values[k])
-    return words.short(0.0 if abs(value) <= NOTHING * size else value, DIGITS)
-
-
-def _extremes(found: list[Ends], words: Words) -> str:
-    rows = [["", words["sweep.most"], "", words["sweep.least"], ""]]
-    for one in found:
-        shown = SHOWN.get(one.unit, one.unit)
-        of = unit(shown)
-        cells = [f"{one.name}, {format_unit(shown, words.language)}"]
-        small = NOTHING * max(abs(one.most), abs(one.least))
-        for value, at in ((one.most, one.most_at), (one.least, one.least_at)):
-            tidy = 0.0 if abs(value) <= small else value
-            cells += [words.short(of.from_si(tidy) + 0.0, DIGITS), f"phi = {_degrees(at, words)}"]
-        rows.append(cells)
-    return aligned(rows, (0, 2, 4))
-
-
 def _profiles(case: Case, solved: SolvedCam, words: Words) -> str:
     """Say where profiles are curved most, and what a user should know of them."""
     millimetre = unit("mm")
     said = []
     for one in sharpest(solved):
         rho = f"{words.short(millimetre.from_si(one.rho), DIGITS)} {format_unit('mm', words.language)}"
-        said.append(words[f"sweep.sharpest.{one.curve}"].format(rho=rho, at=_degrees(one.phi, words)))
+        said.append(words[f"sweep.sharpest.{one.curve}"].format(rho=rho, at=degrees(one.phi, words)))
     return "\n".join((*said, *(warning.text(words.language) for warning in case.warnings)))
-
-
-def _degrees(at: float, words: Words) -> str:
-    return f"{words.short(round(unit('deg').from_si(at), 4), DIGITS)}°"
 
 
 def cam_sweep(case: Case, words: Words, asked: Asked) -> CamSweep:
