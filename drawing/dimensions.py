@@ -29,7 +29,8 @@ def linear(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: st
     if not text:
         return
     height, middle = canvas.style.text, 0.5 * (a + b) + out
-    if abs((b - a).real) < ZERO and abs(b - a) > lay_out(text, height).width + 1.0:  # upright: from below, on its left
+    room = abs(b - a) - 2.0 * canvas.style.arrow  # between the arrowheads
+    if abs((b - a).real) < ZERO and room > lay_out(text, height).width:  # upright: from below, on its left
         canvas.add(Text(middle - ABOVE * height, text, height, "middle", 0.5 * pi))
     else:
         canvas.label(text, (a + out, b + out), prefer=out, clear=0.8, height=height)
