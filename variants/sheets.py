@@ -13,6 +13,7 @@ from ..drawing.formats import Format, format_named
 from ..drawing.page import Drawn, Page
 from ..drawing.pens import Norm
 from ..drawing.titleblock import Stamp
+from ..drawing.view import View
 from ..drawing.words import Words
 from ..drawing.writers import write_pages
 from ..scales.arguments import of_kind
@@ -36,6 +37,7 @@ class Sheet:
     scales: Mapping[str, Scale]
     format: str
     warnings: tuple[InputError, ...] = ()
+    views: tuple[View, ...] = ()
 
     def save(self, *paths: str | os.PathLike[str], tile: str | None = None) -> list[Path]:
         """Write the sheet to each of `paths`; the suffix picks the writer.
@@ -199,7 +201,8 @@ def drawn_on(case: Case, words: Words, paper: Format) -> Drawn:
 def sheet_of(case: Case, drawn: Drawn) -> Sheet:
     """Return the sheet of a case that has been drawn, with what a user should know of it."""
     _, fitted = case.kind.fitted(case.solved, drawn)
-    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, (*case.warnings, *fitted, *_coarser(case, drawn)))
+    warnings = (*case.warnings, *fitted, *_coarser(case, drawn))
+    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, warnings, drawn.views)
 
 
 def _coarser(case: Case, drawn: Drawn) -> Iterator[InputError]:
