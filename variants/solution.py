@@ -110,7 +110,6 @@ class Solution:
             "variant": self.variant,
             "status": self.status,
             **({"note": note} if (note := self.task.note_in(self.words.language)) else {}),
-            **({"note": note} if (note := self.task.note_in(self.words.language)) else {}),
             "warnings": [warning.text(self.words.language) for warning in self.warnings],
             "checks": self.checks,
             "scales": {s.symbol: {"value": s.mu, "unit": s.per_mm_unit} for s in self.scales.values()},
@@ -159,7 +158,7 @@ class Solution:
             for quantity in self._tidy()
         ]
         widths = [max((len(row[i]) for row in rows), default=0) for i in range(7)]
-        lines = []
+        lines: list[str] = []
         headings = self.kind.headings(self.solved, words)
         for name, value, unit, parts, mm, condition, sine in rows:
             if name in headings:
