@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from ...plans.cams.solve import EQUAL, SolvedCam
-from ...scales.choose import Choosers, Fixed
+from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, rounded
 
-MU_L = 0.001  # m/mm, M 1:1, where nothing is said
+MU_L = 0.001  # m/mm, M 1:1
+SMALL = 0.030  # m, the least radius below which a cam is drawn at M 2:1 where nothing is said
 COARSER = (1.0, 2.0, 2.5, 4.0, 5.0, 8.0, 10.0, 20.0, 25.0)  # of a plan with equal scale factors, in the finest one
-LARGEST = 150.0  # mm of the least radius and the stroke on such a plan, where nothing is said
+LARGEST = 150.0  # mm of the least radius and the stroke on a plan, where nothing is said
 DIGITS = 5  # of a scale factor that is chosen, not found
 SYMBOLS = ("mu_l", *EQUAL)  # what may be chosen: the others follow from the drawn amplitude and the pole distances
 
@@ -18,14 +19,22 @@ def ladder(solved: SolvedCam, choosers: Choosers, symbol: str) -> tuple[float, .
 
     A plan that is made of two diagrams is drawn to the scale factor of one of them, or to a multiple of it.
     """
-    across = _across(solved, symbol)
+    across = size_of(solved, symbol)
     if symbol not in EQUAL:
-        return choosers.get(symbol, Fixed(MU_L)).ladder(lambda _: 2.0 * across)
+        return choosers.get(symbol, From(_profiles(solved, across))).ladder(lambda _: 2.0 * across)
     if symbol in choosers:
         return choosers[symbol].ladder(lambda _: across)
     finest = float(solved.values[EQUAL[symbol]]) if EQUAL[symbol] in solved.values else MU_L
     rungs = [rounded(finest * times, DIGITS) for times in COARSER]
     return tuple(mu for mu in rungs if across <= LARGEST * mu) or (rungs[-1],)
+
+
+def _profiles(solved: SolvedCam, across: float) -> float:
+    """Return the scale factor of profiles where nothing is said: M 2:1 of a small cam, else M 1:1 or less, m/mm."""
+    parts = (part for part in (solved.roller, solved.plate, solved.rocker) if part is not None)
+    small = max((part.sizes.r_0 for part in parts), default=SMALL) < SMALL
+    finest = MU_L / 2.0 if small else MU_L
+    return next(mu for mu in From(finest).ladder(lambda _: across) if across <= LARGEST * mu)
 
 
 def first_scales(solved: SolvedCam, choosers: Choosers) -> dict[str, Scale]:
@@ -40,7 +49,7 @@ def scales(solved: SolvedCam, mus: dict[str, float]) -> dict[str, Scale]:
     return {plan: Scale(symbol, float(values[symbol]), "m") for plan, symbol in solved.scale_of_plan.items()}
 
 
-def _across(solved: SolvedCam, symbol: str) -> float:
+def size_of(solved: SolvedCam, symbol: str) -> float:
     """Return the largest size that plans of a scale factor show, m: to the cam's centre from the follower's top."""
     parts = {"mu_s_ds": (solved.roller,), "mu_s_d2s": (solved.plate,)}.get(symbol, (solved.roller, solved.plate))
     sizes = [part.sizes.r_0 + solved.motion.h for part in parts if part is not None]

@@ -7,7 +7,7 @@ import math
 from ...plans.cams.inversion import PLATE_PROFILE
 from ..dimensions import linear
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
-from ..text import lay_out
+from ..text import Box, box, lay_out
 from ..view import Canvas, View
 from .hardware import Rod
 from .inversion import centre, circle, corners, heading, numbers, phases, quiet, radius_at, undercut_notes, unit_at
@@ -17,6 +17,7 @@ from .scene import CamScene, canvas_of
 SAME = 1e-4  # part of the greatest velocity within which that of the fall is the same
 ANALOGUE = "|s′|"  # letter of the velocity analogue where there is little room
 ABOVE = 2.2, 4.6  # heights of letters from the plate to its dimensions
+STEPS = 60  # along a line, to see what it runs through
 THICK = 0.5  # thickness of the plate, in heights of letters
 
 
@@ -96,10 +97,21 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> list[str]:
 def _over(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: str, name: str) -> None:
     """Dimension a level distance on a line moved upwards by `out`, the text on the line."""
     height = canvas.style.text
+    over = Text(0.5 * (ends[0] + ends[1]) + out + 0.5j * height, text, height, "middle", role="label")
     narrow = abs(ends[1] - ends[0]) < lay_out(text, height).width + 1.0
-    linear(canvas, ends, out, text if narrow else "", name)
-    if not narrow:
-        canvas.add(Text(0.5 * (ends[0] + ends[1]) + out + 0.5j * height, text, height, "middle", role="label"))
+    taken = narrow or _crossed(canvas, box(over))
+    linear(canvas, ends, out, text if taken else "", name)
+    if not taken:
+        canvas.add(over)
+
+
+def _crossed(canvas: Canvas, place: Box) -> bool:
+    """Whether the line of a plate or an axis runs through a place."""
+    x0, y0, x1, y1 = place
+    lines = (shape for shape in canvas.shapes if isinstance(shape, Line))
+    ways = ((line.a, line.b - line.a) for line in lines)
+    points = (a + way * (k / STEPS) for a, way in ways for k in range(STEPS + 1))
+    return any(x0 < point.real < x1 and y0 < point.imag < y1 for point in points)
 
 
 def _numbers(scene: CamScene) -> list[str]:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from ...plans.laws import LAWS
+from ..printed import Terms
 from ..table import text_block
 from ..view import View
 from .scene import CamScene
-from .text import Lines, Terms, rules, worked
+from .text import Lines, rules, worked
 
 FIRST = "arccos(({l_rocker}^{{2}} + {l_OC}^{{2}} − {r_0}^{{2}})/(2·{l_rocker}·{l_OC}))"
 

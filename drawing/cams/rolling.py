@@ -16,6 +16,7 @@ from .pressing import theta
 from .scene import CamScene
 
 REACH, BEYOND = 6.5, 4.0  # heights of letters from the roller's centre to the arc of theta; mm of the normal beyond it
+SAME, IN_DWELL = 1e-9, 0.25  # part of a radius; of the lower dwell, at which the radius of its arc is shown
 PARTS = (1.0, 0.85, 1.15, 0.7)  # of the radius of an arc that may be taken instead of it
 
 
@@ -48,17 +49,20 @@ def sharpest(canvas: Canvas, scene: CamScene, profile: RollerProfile) -> None:
     mu, found = scene.mu_l, profile.sharpest
     if not 0.0 < found.value < math.inf:
         return
-    at = [complex(profile.pitch(found.phi, side)) * (1.0 / mu) for side in (1, -1)]
-    kappa = [float(profile.curvature(found.phi, side)) for side in (1, -1)]
+    phi, lower = found.phi, scene.solved.motion.lower
+    if lower.lasts and abs(found.value * float(profile.curvature(lower.end, -1)) - 1.0) < SAME:
+        phi = lower.start + IN_DWELL * lower.length  # an arc is as sharp everywhere
+    kappa = [float(profile.curvature(phi, side)) for side in (1, -1)]
     side = 1 if kappa[0] >= kappa[1] else -1
-    place, normal = at[0], complex(profile.normal(found.phi, side))
+    place, normal = complex(profile.pitch(phi, side)) * (1.0 / mu), complex(profile.normal(phi, side))
     core = place - normal * (found.value / mu)
     canvas.add(Group((Line(core, place, Pen.THIN), Head(place, normal)), "dimension", "rho_min"))
     size = 0.8 * scene.style.arrow / 2
     cross = (Line(core - size * d, core + size * d, Pen.THIN) for d in (1 + 0j, 1j))
     canvas.add(Group(tuple(cross), "point", "curvature"))
     canvas.add(Group((Circle(place, scene.style.node, Pen.MAIN, fill="black"),), "sharpest", "rho_min"))
-    canvas.label(scene.words.symbol("rho_min"), core, prefer=-normal, clear=0.8, height=scene.style.text)
+    anchor = core if phi == found.phi else (core, place)  # about the cam's centre stands enough
+    canvas.label(scene.words.symbol("rho_min"), anchor, prefer=-normal, clear=0.8, height=scene.style.text)
 
 
 def past_normal(contact: Contact, style: Style) -> complex:

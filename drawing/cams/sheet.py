@@ -6,6 +6,7 @@ from itertools import product
 
 from ...plans.cams.solve import EQUAL
 from ...scales.choices import SIZES
+from ...scales.choose import Fixed
 from ..compose import arrange, compose, worth_trying
 from ..formats import FORMATS, Format
 from ..packing import Placement
@@ -16,10 +17,12 @@ from ..view import View
 from ..zones import zoned
 from .fitting import Contents as Contents
 from .fitting import Fitting, Rungs
+from .ladders import size_of
 from .zones import LAYOUTS
 
 # what may be drawn smaller for the sake of one page, and by how many rungs
 GIVING = {"mu_l": 2, "reduction": 2, "mu_s_ds": 2, "mu_s_d2s": 2}
+LEAST = 60.0  # mm of the least radius and the stroke on a plan made of two diagrams
 Found = tuple[Rungs, list[View], list[Placement]]
 
 
@@ -74,15 +77,25 @@ def _views(fitting: Fitting, sheet: Format, rungs: Rungs) -> list[View]:
 
 def _ways(fitting: Fitting, last: bool) -> list[Rungs]:
     """Return rungs to be tried: first what is least missed gives way, what the task asks for at the end."""
-    most = {name: rungs if last or name in EQUAL else 0 for name, rungs in GIVING.items()}
-    ranges = (range(min(rungs, len(fitting.ladders[name]) - 1) + 1) for name, rungs in most.items())
-    ways = (Rungs(**dict(zip(GIVING, steps, strict=True))) for steps in product(*ranges))
-    return sorted(ways, key=_steps)
+    asked = ["mu_l"] * isinstance(fitting.contents.choosers.get("mu_l"), Fixed)
+    most = {name: rungs for name, rungs in GIVING.items() if name not in asked and (last or name in EQUAL)}
+    ranges = (range(_rungs(fitting, name, rungs)) for name, rungs in most.items())
+    ways = (Rungs(**dict(zip(most, steps, strict=True))) for steps in product(*ranges))
+    return sorted(ways, key=_missed)
 
 
-def _steps(rungs: Rungs) -> tuple[int, int, int]:
-    """Return how much is given up, the worst first."""
-    return rungs.mu_l, rungs.reduction, rungs.mu_s_ds + rungs.mu_s_d2s
+def _rungs(fitting: Fitting, name: str, most: int) -> int:
+    """Return how many rungs of a ladder may be tried: no plan made of two diagrams becomes too small to be read."""
+    mus = fitting.ladders[name]
+    if name not in EQUAL:
+        return min(most + 1, len(mus))
+    size = size_of(fitting.contents.solved, name)
+    return max(1, sum(size >= LEAST * mu for mu in mus[: most + 1]))
+
+
+def _missed(rungs: Rungs) -> tuple[int, int]:
+    """Return how much is given up at these rungs; of equal losses that of the diagrams is the least."""
+    return 3 * (rungs.mu_l + rungs.reduction) + rungs.mu_s_ds + rungs.mu_s_d2s, rungs.mu_l
 
 
 def _may_fit(views: list[View], sheet: Format) -> bool:
@@ -92,4 +105,4 @@ def _may_fit(views: list[View], sheet: Format) -> bool:
 def _drawn(fitting: Fitting, stamp: Stamp, sheet: Format, found: Found) -> Drawn:
     rungs, views, places = found
     pages = compose(views, places, sheet, fitting.contents.norm, stamp)
-    return Drawn(pages, fitting.scales(sheet, rungs), sheet.name, fitting.reduction(rungs))
+    return Drawn(pages, fitting.scales(sheet, rungs), sheet.name, fitting.reduction(rungs), tuple(views))

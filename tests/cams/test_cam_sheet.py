@@ -61,6 +61,23 @@ def test_small_changes_of_a_cam_stay_on_one_a1(changes: dict[str, object]) -> No
     assert any(warning.key == "cam-smaller" for warning in drawn.warnings) == smaller
 
 
+@pytest.mark.parametrize(
+    ("changes", "mu", "ratio"),
+    [
+        pytest.param({}, 0.001, "M 1:1", id="of the project"),
+        pytest.param({"law": "cosine"}, 0.0005, "M 2:1", id="least radii below 30 mm", marks=pytest.mark.soak),
+        pytest.param({"h": "40 mm"}, 0.002, "M 1:2", id="more than 150 mm to the top", marks=pytest.mark.soak),
+    ],
+)
+def test_the_profile_of_a_cam_is_enlarged_or_reduced_as_is_customary(
+    changes: dict[str, object], mu: float, ratio: str
+) -> None:
+    drawn = sheet("madi-cam", set=changes, only="profile", lang="en", format="A1")
+
+    assert {drawn.scales[plan].mu for plan in ("profile", "plate_profile")} == {mu}
+    assert sum(ratio in text.string for text in read(drawn.svg()).texts) == 2
+
+
 @pytest.mark.soak
 @pytest.mark.parametrize("point", ["C5", "C6", "C7"])
 def test_a_cam_that_turns_clockwise_is_drawn_the_other_way_round(point: str) -> None:
