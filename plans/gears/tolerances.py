@@ -1,23 +1,41 @@
-"""What a teacher should let pass of angles that are read between two flanks, and of what is calculated from them."""
+"""What a teacher should let pass of what is read between two flanks or off the diagrams of sliding."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 from ..hands.adding import added_up
 from ..hands.hand import Tolerance
 from ..hands.shaky import Paper
 from ..marking.key import rounded
 from .gear import WHEELS
-from .solve import SolvedGear
+from .sliding_plan import SLIDING
+from .solve import PAPER_MM, SolvedGear
 
 ANGULAR = tuple(f"{name}{i}{end}" for name, end in (("phi_alpha", "_drawn"), ("epsilon_alpha_arc", "")) for i in WHEELS)
+# curvatures of both flanks at the ends of the active line
+ENDS = {"A1": ("rho_p1", "rho_a2"), "A2": ("rho_a1", "rho_p2")}
 
 
 def tolerances_of(solved: SolvedGear, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
-    """Return by how much quantities that hang on angles of the drawing may differ, SI.
+    """Return by how much quantities that hang on angles or diagrams of the drawing may differ, SI.
 
     A flank at the start of engagement stands as its mark on the line of action does, and as it is turned: such an angle
-    may miss what all these errors add up to. The usual rule is that of lengths.
+    may miss what all these errors add up to. Sliding at the ends of the active line can be calculated, but is taken
+    from the diagram: it may miss what comes of both ordinates.
     """
     names = [name for name in ANGULAR if name in solved.quantities]
     found = added_up(paper, tolerance, names)
-    return {name: max(found[name], rounded(solved.values[name], tolerance)) for name in names}
+    found = {name: max(found[name], rounded(solved.values[name], tolerance)) for name in names}
+    return found | (dict(_extremes(solved, tolerance)) if SLIDING in solved.scale_of_plan else {})
+
+
+def _extremes(solved: SolvedGear, tolerance: Tolerance) -> Iterator[tuple[str, float]]:
+    """Go through the extremes of sliding: theta = 1 - y / y_own errs by what either segment may miss."""
+    sizes = solved.sizes
+    for end, rhos in ENDS.items():
+        y = [sizes["PW"] / PAPER_MM * sizes[rho] / sizes[f"rho_w{i}"] for i, rho in zip(WHEELS, rhos, strict=True)]
+        for name, own, mate in ((f"theta_12_{end}", *y), (f"theta_21_{end}", *y[::-1])):
+            if own > 0.0:
+                missed = (tolerance.of_segment(mate) + mate / own * tolerance.of_segment(own)) / own
+                yield name, max(missed, rounded(sizes[name], tolerance))
