@@ -108,7 +108,7 @@ def test_bad_data_are_explained(others: dict[str, float], key: str) -> None:
         pytest.param({"x_sum": 0.2, "a_w": 90e-3}, "gear-shifts", id="the same twice"),
         pytest.param({"a_w": 82e-3}, "gear-centre", id="base circles overlap"),
         pytest.param({"x_sum": -0.9}, "gear-no-mesh", id="sum too small"),
-        pytest.param({"a_w": 110e-3, "x_1": 0.2}, "gear-no-tooth", id="far apart"),
+        pytest.param({"a_w": 110e-3, "x_1": 0.2}, "gear-no-tooth-found", id="far apart"),
         pytest.param({"z_1": 8.0, "z_2": 8.0, "x_sum": -0.05}, "gear-no-balance", id="interference in any case"),
     ],
 )
