@@ -119,8 +119,7 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     InputError
         A law that cannot be had with these numbers.
     """
-    if ROCKER in cam.followers:  # the travel of its roller runs along an arc
-        values = {**values, "h": values["psi"] * values["l_rocker"]}
+    values = _with_stroke(cam, values)
     motion = motion_of(cam, values)
     angles, division = motion.division(cam.sections)
     wanted = with_needs(plans, NEEDS)
@@ -149,6 +148,23 @@ def reduced(solved: SolvedCam, part: float) -> SolvedCam:
         return solved
     drawn = {name: solved.givens[name] * part**power for name, power in REDUCED.items()}
     return replace(solved, **_found(solved.program, {**solved.givens, **drawn}))
+
+
+def again(solved: SolvedCam, values: Mapping[str, float]) -> Mapping[str, Any]:
+    """Return what the same construction gives with other numbers; its section lines go with the pieces of the law."""
+    import numpy as np
+
+    cam = solved.cam
+    values = _with_stroke(cam, values)
+    motion = motion_of(cam, values)
+    angles = np.interp(solved.angles, solved.motion.corners, motion.corners)
+    cams = _cams(cam, motion, values) if solved.layout.followers else {}
+    return run(solved.program, {**values, **_givens(cam, motion, angles, solved.layout, cams)}).values
+
+
+def _with_stroke(cam: Cam, values: Mapping[str, float]) -> Mapping[str, float]:
+    """Return the numbers with the stroke of a rocker: the travel of its roller runs along an arc."""
+    return {**values, "h": values["psi"] * values["l_rocker"]} if ROCKER in cam.followers else values
 
 
 def _found(program: Program, givens: Mapping[str, Any]) -> dict[str, Any]:

@@ -157,7 +157,6 @@ def test_solve_prints_json_with_the_scale_factors_and_checks(capsys: pytest.Capt
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        (("solve", TASK, "--condition"), "madi-cam: a task of this kind has no such thing: condition\n"),
         (
             ("solve", TASK, "--only", "velocity"),
             "unknown plan 'velocity'; known are: diagrams, sizes, profile, pressure\n",

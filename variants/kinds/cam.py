@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ...drawing.words import Words
     from ...plans.cams.profile import PlateProfile, RollerProfile
     from ...plans.cams.solve import SolvedCam
+    from ...plans.condition import Condition
     from ...plans.hands.hand import Tolerance
     from ...plans.hands.shaky import Paper
     from ...plans.marking.key import Question
@@ -126,6 +127,12 @@ class Cams(Kind[Cam, "SolvedCam"]):
         from ..sweeps.cam import cam_sweep
 
         return cam_sweep(case, words, asked)
+
+    def conditions(self, case: Case) -> dict[str, Condition]:
+        """Return the condition of every quantity."""
+        from ...plans.cams.conditions import conditions_of
+
+        return conditions_of(cam(case.solved))
 
     def gallery(self, task: Task) -> CamCharts:
         """Return who makes the charts of a cam."""

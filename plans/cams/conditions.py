@@ -1,0 +1,54 @@
+"""The condition of a cam's quantities: how much of an error of the data comes through, how flatly lines meet.
+
+K = sum over the numbers of the task of |x dQ/dx| over Q, or over the size that Q is a part of (of e that is r_0): when
+every number errs by one part in a thousand, Q may miss by K thousandths of that. Much of a cam is found beside the
+board, by closed forms of its law, so that the derivatives are central differences of all of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..boards.exact import run
+from ..condition import Condition
+from ..references import worst_behind
+from .cam import VALUES
+from .solve import SolvedCam, again
+
+STEP = 1e-5  # part of a number; what is left out of a difference is its square
+# numbers that neither the motion nor the smallest sizes depend on
+ON_BOARD = ("l_A1", "H_a", "H_v", "mu_phi", "omega", "R_roller", "rho_flat", "margin")
+# sizes beside which others count, that may be nothing
+BESIDE = {
+    **dict.fromkeys(("e", "e_least", "e_most"), "r_0"),
+    "e_tangents": "r_0_tangents",
+    "s_close": "S_max_chord",
+    "v_close": "V_max_chord",
+}
+
+
+def conditions_of(solved: SolvedCam) -> dict[str, Condition]:
+    """Return the condition of every quantity, given ones among them."""
+    numbers = {name: float(solved.givens[name]) for name in VALUES if solved.givens.get(name)}
+    totals = dict.fromkeys(solved.quantities, 0.0)
+    for name, value in numbers.items():
+        more, less = (_with(solved, numbers, name, value * (1.0 + step)) for step in (STEP, -STEP))
+        for quantity in totals:
+            totals[quantity] += abs(more[quantity] - less[quantity]) * (0.5 / STEP)
+    worst = worst_behind(solved.program, solved.sines)
+    sizes = {name: float(abs(solved.values[BESIDE.get(name, name)])) for name in totals}
+    return {name: Condition(_ratio(total, sizes[name]), worst.get(name, 1.0)) for name, total in totals.items()}
+
+
+def _with(solved: SolvedCam, numbers: Mapping[str, float], name: str, value: float) -> Mapping[str, Any]:
+    """Return the values of a cam of which one number is another one."""
+    if name in ON_BOARD:
+        return run(solved.program, {**solved.givens, name: value}).values
+    return again(solved, {**numbers, name: value})
+
+
+def _ratio(total: float, size: float) -> float | None:
+    if not total < float("inf"):
+        return None
+    return total / size if size else 0.0 if total == 0.0 else None

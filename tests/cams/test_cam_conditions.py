@@ -1,0 +1,83 @@
+"""The condition of a cam's quantities: by hand where they are products of powers, else by solving again."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from kulman import solve
+from kulman.tests.support.cam_students import ROCKER
+
+# of h, phi_rise, u, omega, mu_phi, H_a, H_v, l_A1 the sums of the powers: v_max = 2 h omega / phi_rise
+POWERS = {
+    "s_max": 1.0,
+    # the greatest of rise and fall, which are alike: half of an error of either
+    "ds_max": 2.0,
+    "v_max": 3.0,
+    "A_1": 4.0,  # 4 h / (u phi_rise^2)
+    "a_max": 6.0,
+    "l_A2": 1.0 + 1.5,  # u / (1 - u) of u = 1/3
+    "mu_s": 9.0,
+    "mu_ds": 7.0,
+    "mu_d2s": 5.0,
+    "gamma_rise_min": 1.0,
+    "R_roller": 1.0,
+    "s_close": 0.0,
+}
+STEP = 1e-4
+
+
+def test_products_of_powers_have_the_sum_of_their_powers() -> None:
+    found = solve("madi-cam", condition=True).conditions
+
+    assert {name: found[name].value for name in POWERS} == pytest.approx(POWERS, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "names"),
+    [
+        pytest.param(("h", "phi_rise", "phi_fall", "u", "gamma_rise", "gamma_fall"), ("r_0", "s_0"), id="roller"),
+        pytest.param(("h", "phi_rise", "phi_fall", "u", "rho_flat"), ("r_0_flat",), id="plate"),
+    ],
+)
+def test_sizes_hang_on_the_data_as_they_do_when_solved_again(numbers: tuple[str, ...], names: tuple[str, ...]) -> None:
+    right = solve("madi-cam", condition=True)
+
+    totals = dict.fromkeys(names, 0.0)
+    for name in numbers:
+        unit, given = right.task.givens[name].unit, right.solved.givens[name]
+        assert unit is not None
+        there = [solve("madi-cam", set={name: unit.from_si(given * (1.0 + step))}) for step in (STEP, -STEP)]
+        for quantity in names:
+            more, less = (float(one[quantity].value or 0.0) for one in there)
+            totals[quantity] += abs(more - less) * (0.5 / STEP) / abs(float(right[quantity].value or 0.0))
+
+    for quantity in names:
+        assert right.conditions[quantity].value == pytest.approx(totals[quantity], rel=2e-3)
+
+
+@pytest.mark.soak
+def test_conditions_of_a_rocker_are_those_of_its_triangle() -> None:
+    found = solve(ROCKER, condition=True).conditions
+
+    assert found["l_rocker"].value == pytest.approx(1.0, abs=1e-4)
+    assert all(0.0 < (found[name].value or 0.0) < 20.0 for name in ("r_0", "l_OC", "psi_0", "rho_min"))
+
+
+def test_sines_are_those_of_the_flattest_rays_of_the_chords() -> None:
+    solution = solve("madi-cam", condition=True)
+    steepest = math.hypot(110.0 * 11.0 / 12.0 - 110.0 / 12.0 / 2.0 + 110.0 / 24.0, 30.0)
+
+    sine = solution.conditions["S_max_chord"].sine
+
+    assert sine == min(solution.solved.sines.values())
+    assert sine == pytest.approx(30.0 / steepest, rel=0.1)
+    assert solution.conditions["mu_s"].sine == 1.0
+
+
+def test_conditions_of_a_law_with_jumps_of_the_velocity() -> None:
+    found = solve("madi-cam", set={"law": "uniform"}, condition=True).conditions
+
+    assert found["v_max"].value == pytest.approx(3.0, abs=1e-4)
+    assert found["rho_min"].value == 0.0  # a corner, whatever the data
