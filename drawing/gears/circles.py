@@ -45,6 +45,8 @@ def circles(canvas: Canvas, wheel: Wheel, span: Span, to_end: bool) -> None:
 def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float, beyond: complex) -> None:
     """Write the diameters where the circles end on the free side, under one another, each on a leader.
 
+    Beside the middle of the meshing that is drawn apart they have only their letters.
+
     They also stand `beyond` the end of the mate's tip circle where this comes as high as they are.
     """
     height, side = scene.style.text, -wheel.up.imag  # in which the wheel is from the pole: +1 above, -1 below
@@ -59,7 +61,8 @@ def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float, beyo
         at = complex(out * x, side * max(level, (k + 1) * PITCH * height))  # clear of t-t and its letters
         canvas.add(Line(ends[name], at, Pen.THIN, role="leader", name=name))
         place = at + complex(out, -0.5 * height)
-        canvas.add(Text(place, scene.stated(name), height, anchor, role="diameter", name=name))
+        text = scene.words.symbol(name) if scene.close else scene.stated(name)
+        canvas.add(Text(place, text, height, anchor, role="diameter", name=name))
 
 
 def _apart(levels: Sequence[float], least: float) -> list[float]:

@@ -72,11 +72,23 @@ class Fitting:
         width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
         found = []
         for name, figure in figures(self.contents, scene, width):
-            key = sheet.name, name, tuple(getattr(rungs, ladder) for ladder in figure.ladders), scene.apart
+            rung = tuple(getattr(rungs, ladder) for ladder in figure.ladders)
+            key = sheet.name, name, rung, name == MESHING and scene.apart
             if key not in self._drawn:
                 self._drawn[key] = figure.draw(scene)
             found.append((self._drawn[key], figure))
         return found
+
+    def least(self, sheet: Format) -> Rungs:
+        """Return the first rungs at which the lines that size the views have room, before any view is drawn."""
+        wide, high = room(sheet, self.contents.norm)
+        sizes = self.contents.solved.sizes
+        lines = {"mu_l": (sizes["a_w"], high), "near": (2.0 * sizes["p"], wide), "rolled": (sizes["l_N1N2"], wide)}
+        rungs = {
+            name: next((k for k, mu in enumerate(self.ladders[name]) if length / mu < most), 0)
+            for name, (length, most) in lines.items()
+        }
+        return Rungs(**rungs)
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""

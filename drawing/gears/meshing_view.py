@@ -36,7 +36,7 @@ def meshing_view(scene: GearScene) -> View:
 
 def near_view(overall: GearScene) -> View:
     """Draw the middle of the meshing apart, larger."""
-    scene = replace(overall, mu_l=overall.near)
+    scene = replace(overall, mu_l=overall.near, close=True)
     canvas, pair = Canvas(scene.style), scene.wheels()
     circles.tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
     circles.middle(canvas, pair)

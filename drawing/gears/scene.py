@@ -29,7 +29,7 @@ class GearScene:
 
     `mu_l` is the scale factor of the meshing with both centres, `near` that of its middle, which has a view of its own
     where teeth are too small beside their letters, `rolled` that of the construction of the involutes;
-    m/mm. `part` is how much of their usual size the diagrams of sliding have.
+    m/mm. `part` is how much of their usual size the diagrams of sliding have; `close` is the scene of that middle.
     """
 
     solved: SolvedGear
@@ -40,6 +40,7 @@ class GearScene:
     near: float
     rolled: float
     part: float = 1.0
+    close: bool = False
 
     @property
     def meshing(self) -> Meshing:
@@ -49,7 +50,7 @@ class GearScene:
     @property
     def apart(self) -> bool:
         """Whether the middle of the meshing has a view of its own."""
-        return self.near < self.mu_l and self.paper("h") < TALL * self.style.label
+        return self.paper("h") < TALL * self.style.label
 
     def size(self, name: str) -> float:
         """Return a quantity, SI."""

@@ -18,6 +18,7 @@ from ..titleblock import Stamp
 from ..view import View
 from ..zones import zoned
 from .fitting import Contents, Fitting, Rungs
+from .scene import MESHING
 from .zones import FIRST_PAGE, LAYOUTS
 
 Found = tuple[Rungs, list[View], list[Placement]]
@@ -51,7 +52,7 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
 def _pages(fitting: Fitting, sheet: Format) -> Found:
     """Take one page, with what is beside the meshing smaller where it must be, or several."""
     norm = fitting.contents.norm
-    first = rungs = fitted(fitting, sheet, norm, Rungs())
+    first = rungs = fitted(fitting, sheet, norm, fitting.least(sheet))
     ways: list[tuple[Rungs, Way]] = []
     for way in (_on_a_page, _on_the_first_page):
         rungs = first
@@ -75,8 +76,15 @@ def _placed(fitting: Fitting, sheet: Format, rungs: Rungs, way: Way) -> Found | 
 
 
 def _in_order(views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Place views on as many pages as they need."""
-    return arrange([view.size for view in views], sheet, norm, None)
+    """Place views on as many pages as they need, the data before or after the meshing."""
+    orders = views, sorted(views, key=lambda view: view.name != MESHING)
+    found = []
+    for order in orders:
+        places = arrange([view.size for view in order], sheet, norm, None)
+        if places is not None:
+            by_name = {view.name: place for view, place in zip(order, places, strict=True)}
+            found.append([by_name[view.name] for view in views])
+    return min(found, key=lambda places: max(place.page for place in places), default=None)
 
 
 def _on_a_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:

@@ -71,7 +71,7 @@ def z2_circles(case: GearCase, sheet: Sheet) -> Faults:
                 off = 2.0 * radius - case.sizes[full if name else f"d_{i}"] / mu(view)
                 yield from unless(abs(off) < NEAR, f"{view.name}: {full} is {off} mm too large")
                 yield from unless(abs(centre - about[0]) < NEAR, f"{view.name}: {full} has another centre")
-                number = printed(view, f"d_{{{name}{i}}}")
+                number = printed(sheet["meshing"], f"d_{{{name}{i}}}")
                 yield from unless(abs(number - 2e3 * radius * mu(view)) < 0.00501, f"{full} is printed as {number}")
             (dashes,) = {tuple(s.dashed for s in view.inside("circle", f"d_{name}{i}")) for name in ("w", "", "b")}
             yield from unless(dashes == (True,), f"the circles of wheel {i} cannot be told apart")
