@@ -51,6 +51,29 @@ def arrange(
     return _arranged(sizes, sheet, norm, pages, any_order=any_order)
 
 
+def arrange_closely(sizes: Sequence[Size], sheet: Format, norm: Norm) -> list[Placement] | None:
+    """Place views on pages one after the other: on each those that have room beside the ones before, in any order.
+
+    None if one has no room on a page.
+    """
+    places: dict[int, Placement] = {}
+    page = 0
+    while len(places) < len(sizes):
+        own: list[int] = []
+        found: list[Placement] = []
+        for i in range(len(sizes)):
+            if i in places:
+                continue
+            tried = _arranged([sizes[k] for k in (*own, i)], sheet, norm, 1, not page, any_order=True)
+            if tried is not None:
+                own, found = [*own, i], tried
+        if not own:
+            return None
+        places |= {i: replace(place, page=page) for i, place in zip(own, found, strict=True)}
+        page += 1
+    return [places[i] for i in range(len(sizes))]
+
+
 def arrange_parts(parts: Sequence[Sequence[Size]], sheet: Format, norm: Norm) -> list[Placement] | None:
     """Place views on as many pages as they need, each part on pages of its own where that takes no more of them."""
     together = arrange([size for part in parts for size in part], sheet, norm, None)

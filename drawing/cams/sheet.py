@@ -7,7 +7,7 @@ from itertools import product
 from ...plans.cams.solve import EQUAL
 from ...scales.choices import SIZES
 from ...scales.choose import Fixed
-from ..compose import arrange, compose, worth_trying
+from ..compose import arrange, arrange_closely, compose, worth_trying
 from ..formats import FORMATS, Format
 from ..packing import Placement
 from ..page import Drawn
@@ -41,12 +41,18 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         found = _single(fitting, candidate, last)
         if found is None and last:
             rungs = fitted(fitting, candidate, contents.norm, Rungs())
-            views = _views(fitting, candidate, rungs)
-            found = rungs, views, on_pages(views, candidate, contents.norm)
+            found = _several(fitting, candidate, rungs)
         if found is not None:
             break
     assert found is not None, "on the last format there are as many pages as it takes"
     return _drawn(fitting, stamp, candidate, found)
+
+
+def _several(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found:
+    """Take several pages in reading order, or fewer on which views stand closely."""
+    views, norm = _views(fitting, sheet, rungs), fitting.contents.norm
+    ways = on_pages(views, sheet, norm), arrange_closely([view.size for view in views], sheet, norm)
+    return rungs, views, min(filter(None, ways), key=lambda places: max(place.page for place in places))
 
 
 def _single(fitting: Fitting, sheet: Format, last: bool) -> Found | None:

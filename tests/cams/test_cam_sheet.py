@@ -41,6 +41,14 @@ def test_the_whole_sheet_of_madi_is_one_a1() -> None:
     assert len(MADI.pages) == 1
 
 
+def test_the_whole_sheet_of_madi_takes_three_pages_of_a3() -> None:
+    small = CamCase((), "A3")
+
+    assert len(small.pages) == 3
+    assert sorted(view.name for view in small.sheet.views) == sorted(view.name for view in MADI.sheet.views)
+    assert [fault for page in small.sheet.pages for fault in view_faults(page)] == []
+
+
 @pytest.mark.parametrize(
     "changes",
     [
