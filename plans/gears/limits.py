@@ -56,6 +56,12 @@ def _rack(values: Mapping[str, float]) -> Iterator[tuple[str, InputError]]:
         return
     depth = h_a + c
     widest = 0.25 * math.pi / math.tan(alpha)
-    if not (h_a > 0.0 and c >= 0.0 and h_a < h_l <= h_a + depth + NEAR and depth <= widest + NEAR):
+    holds = {
+        "c": c >= 0.0,
+        "h_a": h_a > 0.0 and depth <= widest + NEAR,
+        "h_l": h_a < h_l <= h_a + depth + NEAR,
+    }
+    wrong = next((name for name, right in holds.items() if not right), "")
+    if wrong:
         said = {"h_a": f"{h_a:.6g}", "h_l": f"{h_l:.6g}", "c": f"{c:.6g}", "most": f"{widest:.4g}"}
-        yield "h_a", InputError("gear-rack", **said)
+        yield wrong, InputError("gear-rack", **said)

@@ -122,7 +122,7 @@ BAD = [
     pytest.param(BOTH, BOTH + "a_w = 92\n", "variant.x_1", "given are: x_1, x_2, a_w", id="too much"),
     pytest.param('"20 deg"', '"40 deg"', "givens.alpha.default", "expected a profile angle of the rack", id="steep"),
     pytest.param("z_1 = 15\n", "z_1 = 15\nalpha = 9\n", "variant.alpha", "alpha = 9°: expected a profile", id="flat"),
-    pytest.param("z_1 = 15\n", "z_1 = 15\nh_l = 3\n", "variant", "no rack has such teeth", id="no such rack"),
+    pytest.param("z_1 = 15\n", "z_1 = 15\nh_l = 3\n", "variant.h_l", "no rack has such teeth", id="no such rack"),
     pytest.param("z_1 = 15\n", "z_1 = 15\nc = -1\n", "variant.c", "must not be negative", id="no clearance"),
     pytest.param(
         "z_1 = 15\n", 'z_1 = 15\nmaterial = "soft"\n', "variant.material", "'soft' is not a choice", id="word"
