@@ -97,10 +97,11 @@ def nearest(values: tuple[float, ...], ours: float) -> float:
 
 
 @lru_cache(maxsize=1024)  # the same answers are held against one candidate after the other
-def readings(answer: Answer, values: tuple[float, ...]) -> tuple[Said, ...]:
+def readings(answer: Answer, values: tuple[float, ...], plain: bool = False) -> tuple[Said, ...]:
     """Return all ways to take an answer whose value is one of `values`.
 
-    Where the sense is free to be assumed, a minus says that it is the other one, and does no harm without it.
+    Where the sense is free to be assumed, a minus says that it is the other one, and does no harm without it. A `plain`
+    number has no sense: without a minus it is positive.
     """
     turned = cmath.rect(1.0, answer.direction) if answer.direction is not None and known(answer.direction) else None
     free, found = FREE.match(answer.name), []
@@ -110,7 +111,8 @@ def readings(answer: Answer, values: tuple[float, ...]) -> tuple[Said, ...]:
         if minus and free:
             found += [Said(size, sign, turned), Said(size, None if sign is None else -sign, _opposite(turned))]
         else:
-            found.append(Said(size, -1 if minus and sign is None else sign, turned))
+            written = -1 if minus else 1 if plain and size else None
+            found.append(Said(size, written if sign is None else sign, turned))
     return tuple(found)
 
 

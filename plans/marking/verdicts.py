@@ -206,9 +206,9 @@ class _Marker:
         key, program = self.key, self.key.paper.program
         for name, answer in self.answers.items():
             values = values_of(answer, self.mus[name])
-            self.ways[name] = readings(answer, values)
+            self.ways[name] = self._readings(name, values)
             near = (nearest(values, abs(key[name])),) if len(values) > 1 else values
-            self.taken[name] = self.ways[name][0] if near == values else readings(answer, near)[0]
+            self.taken[name] = self.ways[name][0] if near == values else self._readings(name, near)[0]
         self.settled = settled(program)
         self.drawn = StudentBoard(program, key.paper.givens, lambda name, value: (self.taken.get(name), True))
         self.board = StudentBoard(program, key.values, self._judge, made=True)
@@ -271,12 +271,16 @@ class _Marker:
             return held._replace(verdict=Verdict.SCALE)
         instead, written = measured(answer, self.mus[name]), answer.value
         if written is not None and instead and not self._agrees(name, written, instead):
-            by_mm = self._held(readings(answer, instead), name, value).verdict
+            by_mm = self._held(self._readings(name, instead), name, value).verdict
             if held.verdict.passed is not by_mm.passed:
                 return held._replace(verdict=Verdict.ARITHMETIC)
         if clear and self._is_scale(name, value):
             return held._replace(verdict=Verdict.SCALE)
         return held
+
+    def _readings(self, name: str, values: tuple[float, ...]) -> tuple[Said, ...]:
+        """Return all ways to take an answer; a number without a unit is no magnitude, and its sign counts."""
+        return readings(self.answers[name], values, self.key.questions[name].unit == "1")
 
     def _agrees(self, name: str, written: float, instead: Iterable[float]) -> bool:
         """Whether the value written is one of those that the millimetres mean."""
@@ -345,7 +349,7 @@ class _Marker:
         sizes = [abs(x) for x in (*self.key.right(name), value, self._follows(name)) if x is not None]
         for x in others:
             if any(abs(abs(x) - size) <= SAME * size for size in sizes):  # else it need not be held against anything
-                held = self._held(readings(self.answers[name], (x,)), name, value)
+                held = self._held(self._readings(name, (x,)), name, value)
                 if held.verdict.passed and abs(abs(x) - abs(held.against)) <= SAME * abs(held.against):
                     return True
         return False
