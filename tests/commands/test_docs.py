@@ -14,12 +14,15 @@ from kulman.cli import commands
 from kulman.drawing.words import notations
 from kulman.plans.cams.cam import FOLLOWERS, LAWS
 from kulman.plans.cams.cam import PLANS as CAM_PLANS
+from kulman.plans.gears.gear import MATERIALS
+from kulman.plans.gears.gear import PLANS as GEAR_PLANS
 from kulman.plans.linkages.chain import PLANS
 from kulman.scales.packaged import packaged
 from kulman.variants import reader
 from kulman.variants.checks import basics as checks
 from kulman.variants.checks import cam as checks_cam
 from kulman.variants.checks import driver as checks_driver
+from kulman.variants.checks import gear as checks_gear
 from kulman.variants.checks import givens as checks_givens
 from kulman.variants.checks import loads as checks_loads
 from kulman.variants.checks import mechanism as checks_mechanism
@@ -38,7 +41,8 @@ EXAMPLES = sorted((DOCS / "examples").glob("*.toml"))
 
 def example_texts() -> list[str]:
     """Return the task files from which the documents quote."""
-    tasks = [*map(bundled_text, (TASK, "scheme-20-press-automaton", "madi-cam")), template("en", "cam")]
+    bundled = (TASK, "scheme-20-press-automaton", "madi-cam", "madi-gear")
+    tasks = [*map(bundled_text, bundled), template("en", "cam")]
     return [*tasks, *(path.read_text(encoding="utf-8") for path in EXAMPLES)]
 
 
@@ -50,7 +54,7 @@ def keys_read(text: str, monkeypatch: pytest.MonkeyPatch) -> set[str]:
         keys.update(fields)
         return checks.record(checker, path, raw, fields)
 
-    own = (checks_mechanism, checks_driver, checks_loads, checks_cam)
+    own = (checks_mechanism, checks_driver, checks_loads, checks_cam, checks_gear)
     modules: tuple[ModuleType, ...] = (reader, checks_givens, *own)
     for module in modules:
         monkeypatch.setattr(module, "record", noting)
@@ -89,8 +93,9 @@ def test_every_example_is_solved(path: Path) -> None:
 def test_the_words_that_a_task_file_may_use_are_named() -> None:
     assert all(f"`{name}`" in TASK_FILE for name in notations())
     assert all(f"`{name}`" in NOTATIONS for name in notations())
-    assert all(f'"{word}"' in TASK_FILE for word in (*PLANS, *CAM_PLANS, *FOLLOWERS, *LAWS))
-    assert all(f"`{name}`" in TASK_FILE for name in checks_cam.NUMBERS)
+    assert all(f'"{word}"' in TASK_FILE for word in (*PLANS, *CAM_PLANS, *GEAR_PLANS, *FOLLOWERS, *LAWS))
+    assert all(f'"{word}"' in TASK_FILE for word in MATERIALS)
+    assert all(f"`{name}`" in TASK_FILE for name in (*checks_cam.NUMBERS, *checks_gear.NUMBERS))
 
 
 def test_every_key_of_a_notation_is_explained() -> None:
