@@ -18,6 +18,7 @@ Places = NDArray[Any]  # complex
 Function = Callable[[Any], Array]
 Edge = int  # number of an edge of the grid
 CHORDS = 14  # rounds, of which ten suffice
+STILL = 1e-12  # part of an edge by which a place may still move when it has been found
 NEWTON = 6  # steps, from places that are crossings of chords
 MISSED = 0.5  # part of a chord by which two may miss each other
 SAME = 1e-9  # places nearer than this are one
@@ -61,7 +62,7 @@ def _zeros(function: Function, first: Places, last: Places) -> Places:
     """
     if not first.size:
         return first
-    old, new = function(first), function(last)
+    edges, old, new = np.abs(last - first), function(first), function(last)
     for _ in range(CHORDS):
         slope = new - old
         part = np.where(slope == 0.0, 0.0, new / np.where(slope == 0.0, 1.0, slope))
@@ -69,7 +70,10 @@ def _zeros(function: Function, first: Places, last: Places) -> Places:
         value = function(middle)
         other = (value >= 0.0) != (new >= 0.0)
         first, old = np.where(other, last, first), np.where(other, new, 0.5 * old)
+        still = np.abs(middle - last) <= STILL * edges
         last, new = middle, value
+        if still.all():
+            break
     return last
 
 
