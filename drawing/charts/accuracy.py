@@ -10,6 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 from ...plans.cams.rivals import BOARD, BOARDS, CLOSED, MIDPOINT, MISSED, SIMPSON, TRAVELS, VELOCITIES
 from ...plans.contest import Contest, Entry
+from ...plans.hoist.finders import BISECTION, BRENT, ILLINOIS, SECANT
+from ...plans.hoist.finders import NEWTON as NEWTON_ROOT
+from ...plans.hoist.rivals import COURSE, FORMULAS, LIFT_OFF, PEAK
+from ...plans.hoist.rivals import MISSED as MISSED_LIFT_OFF
+from ...plans.hoist.steppers import EXPLICIT, RK4, SYMPLECTIC, TRAPEZOID, VERLET
 from ...plans.linkages.accuracy.comparison import (
     CHORDS,
     DIFFERENCES,
@@ -31,7 +36,11 @@ FIELDS = ((24.0, 116.0), (164.0, 116.0), (24.0, 25.0), (164.0, 25.0))  # left an
 SIZE = (126.0, 60.0)
 BAND, PAPER = 14.0, 3.2  # mm above a field with bars of the hand, which has no time; a row of it
 RING = 10.0  # pixels around the middle of a ring that stay free of labels
-ERRORS = {TRAVELS: "chart.error.travel", VELOCITIES: "chart.error.speed"}  # in parts of something else than vectors
+OF_HOIST = (LIFT_OFF, COURSE, PEAK)
+# in parts of something else than vectors
+ERRORS = {TRAVELS: "chart.error.travel", VELOCITIES: "chart.error.speed"}
+ERRORS |= {kind: f"chart.error.{kind}" for kind in OF_HOIST}
+TIMES = dict.fromkeys(OF_HOIST, "chart.time.hoist")  # of something else than a position
 SECTIONED = (CHORDS, BOARD, BOARDS, MIDPOINT, MISSED, SIMPSON)  # methods whose setting is a number of sections
 LARGEST = 3.0  # error beyond which a method means nothing
 
@@ -60,10 +69,26 @@ LOOKS: Mapping[str, Look] = {
     MIDPOINT: Look("D", True, (0, (1, 1.5)), (0, -1), "midpoint"),
     MISSED: Look("s", False, (0, (5, 2)), (0, 1), "missed"),
     SIMPSON: Look("^", False, (0, (3, 1, 1, 1)), (0, -1), "simpson"),
+    FORMULAS: Look("o", True, "-", (1, 0), "hoist-closed"),
+    BISECTION: Look("s", True, (0, (1, 1.5)), (0, 1), BISECTION),
+    NEWTON_ROOT: Look("^", True, (0, (5, 2)), (0, -1), NEWTON_ROOT),
+    SECANT: Look("D", True, (0, (3, 1, 1, 1)), (0, -1), SECANT),
+    ILLINOIS: Look("v", True, (0, (6, 1.5, 1, 1.5)), (0, 1), ILLINOIS),
+    BRENT: Look("P", True, (0, (10, 3)), (0, -1), BRENT),
+    RK4: Look("o", False, "-", (0, -1), RK4),
+    MISSED_LIFT_OFF: Look("x", True, "-", (0, 1), MISSED_LIFT_OFF),
+    VERLET: Look("s", False, (0, (6, 2)), (0, -1), VERLET),
+    TRAPEZOID: Look("^", False, (0, (6, 1.5, 1, 1.5)), (0, 1), TRAPEZOID),
+    SYMPLECTIC: Look("D", False, (0, (1, 1.5)), (0, -1), SYMPLECTIC),
+    EXPLICIT: Look("v", False, (0, (10, 3)), (0, 1), EXPLICIT),
 }
+# steps of all integrators, and tolerances of all ways to a root, are the same
+UNLABELLED = (MISSED_LIFT_OFF, VERLET, SYMPLECTIC, NEWTON_ROOT, SECANT, ILLINOIS, BRENT)
+STEPPED = (RK4, TRAPEZOID, EXPLICIT)  # methods whose setting is a step
+WIDELY = 8  # rows of the key that leave room for more
 
 
-def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: str, turns: bool) -> Figure:
+def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: str, turns: bool | None) -> Figure:
     """Draw a contest.
 
     Parameters
@@ -72,8 +97,8 @@ def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: s
         How and on what it was measured.
     hand : str
         Name of the hand that draws.
-    turns : bool
-        Whether the driver turns: steps are angles then.
+    turns : bool, optional
+        Whether the driver turns: steps are angles then; None where nothing drives.
     """
 
     def draw(figure: Figure) -> None:
@@ -118,7 +143,7 @@ def field(figure: Figure, place: tuple[float, float], contest: Contest, kind: st
     if xs:
         axes.step(xs, ys, where="post", color=BLACK, lw=0.5, zorder=1)
     axes.set_xlabel(words[ERRORS.get(kind, "chart.error")], labelpad=1.0)
-    axes.set_ylabel(words["chart.time"], labelpad=1.0)
+    axes.set_ylabel(words[TIMES.get(kind, "chart.time")], labelpad=1.0)
     return axes
 
 
@@ -159,7 +184,9 @@ def letter(axes: Axes, contest: Contest, kind: str, words: Words) -> None:
         shown = drawable(entries, method)
         for entry in shown:
             points.append((entry.error or 0.0, entry.seconds or 0.0))
-            text = words[named[method]] if method in named else setting(entry)
+            text = words[named[method]] if method in named else words.decimal(setting(entry))
+            if method in UNLABELLED or (method == BISECTION and kind != LIFT_OFF):
+                continue
             if method != DIFFERENCES or _stated(entry, shown):
                 labels.append(Label(*points[-1], text, _side(entry, entries, look), method in named))
     taken = [(x - RING, y - RING, x + RING, y + RING) for x, y in rings.tolist()]
@@ -191,6 +218,8 @@ def setting(entry: Entry) -> str:
     """
     if entry.method in SECTIONED or isinstance(entry.setting, str):
         return str(entry.setting)
+    if entry.method in STEPPED:
+        return f"{entry.setting:g}"
     power = math.log10(entry.setting)
     return f"$10^{{{round(power)}}}$".replace("-", "−") if entry.setting != 1 else "1"
 
@@ -218,7 +247,7 @@ def _hands(axes: Axes, place: tuple[float, float], entries: Sequence[Entry], wor
         band.text(low / 1.6, y, said, fontsize=SMALL, va="center", ha="right")
 
 
-def _key(axes: Axes, words: Words, hand: str, contest: Contest, turns: bool) -> None:
+def _key(axes: Axes, words: Words, hand: str, contest: Contest, turns: bool | None) -> None:
     """Say what markers and numbers mean."""
     axes.set_axis_off()
     axes.set_xlim(0.0, 126.0)
@@ -232,7 +261,7 @@ def _key(axes: Axes, words: Words, hand: str, contest: Contest, turns: bool) -> 
         face = BLACK if look.filled else "white"
         axes.plot(5.0, y, look.marker, ms=4.2, mfc=face, mec=BLACK, mew=0.9)
         axes.text(13.0, y, words[f"chart.key.{text}"], va="center", fontsize=TEXT)
-        y += 6.5
+        y += 6.5 if len(rows) <= WIDELY else 4.9
     axes.plot([0.0, 5.0, 10.0], [y] * 3, color=BLACK, lw=0.5)
     axes.plot(5.0, y, "o", ms=9.5, mfc="none", mec=BLACK, mew=0.7)
     axes.text(13.0, y, words["chart.key.front"], va="center", fontsize=TEXT)

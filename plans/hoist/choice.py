@@ -22,7 +22,7 @@ from .model import model
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 LEAST, MOST = 0.05, 0.5  # of beta: nearer to its end a beam is rigid
-PLACES = 19  # of each beta: steps of 0.025
+PLACES = 46  # of each beta: steps of 0.01
 ROUNDS, FINE = 5, 9  # rounds in which the optimum is closed in on, and places in each
 
 

@@ -37,12 +37,13 @@ TIMES = ("seconds [s]", "at_once", "failed", "front")
 class AccuracyChart:
     """Speed against accuracy: `contest` holds an entry for every method, setting and kind of quantities.
 
-    `turns` tells whether the driver does; `compared` is the key of what errors and times are.
+    `turns` tells whether the driver does, None where places are times; `compared` is the key of what errors and times
+    are.
     """
 
     heading: ClassVar[str] = "chart.accuracy"
     scene: Scene
-    turns: bool
+    turns: bool | None
     contest: Contest
     compared: str = "chart.compared"
 

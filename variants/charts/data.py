@@ -51,18 +51,22 @@ def place_head(cycle: Cycle, words: Words) -> str:
     return f"{driver_name(cycle)}, {format_unit('deg' if cycle.drive.turns else 'mm', words.language)}"
 
 
-def place_value(turns: bool, at: float) -> float:
-    """Return a place of a driver that turns, or slides, in the unit of `place_head`."""
+def place_value(turns: bool | None, at: float) -> float:
+    """Return a place of a driver that turns, or slides, in the unit of `place_head`; None: a time, s."""
+    if turns is None:
+        return at
     return float(round(unit("deg").from_si(at) % 360.0, 9) % 360.0 if turns else at * 1e3)
 
 
-def place_column(turns: bool) -> str:
-    """Return the head of a CSV's column with places of a driver that turns, or slides."""
+def place_column(turns: bool | None) -> str:
+    """Return the head of a CSV's column with places of a driver that turns, or slides; None: of times."""
+    if turns is None:
+        return "t [s]"
     return f"place [{'deg' if turns else 'mm'}]"
 
 
-def place_si(turns: bool, at: float) -> float:
-    """Return a place of a driver for JSON: an angle in [0, 2 pi), or metres."""
+def place_si(turns: bool | None, at: float) -> float:
+    """Return a place of a driver for JSON: an angle in [0, 2 pi), metres, or seconds."""
     return float(at % TURN % TURN) if turns else float(at)  # -1e-17 % TURN is TURN
 
 
