@@ -69,6 +69,7 @@ class Plane:
     high: complex
     cells: int = CELLS
     _traced: dict[str, list[Places]] = field(default_factory=dict, repr=False)
+    _on_grid: dict[str, Array] = field(default_factory=dict, repr=False)
 
     @property
     def chosen(self) -> complex:
@@ -109,7 +110,9 @@ class Plane:
     def curve(self, name: str) -> list[Places]:
         """Return a curve inside the window: its pieces, each a run of places on it."""
         if name not in self._traced:
-            self._traced[name] = traced(self.measure(name), self.low, self.high, self.cells)
+            if not self._on_grid:  # of all curves at once: they share most of what is calculated
+                self._on_grid.update(self.measures(grid(self.low, self.high, self.cells)))
+            self._traced[name] = traced(self.measure(name), self.low, self.high, self.cells, self._on_grid[name])
         return self._traced[name]
 
     def crossings(self, curves: Iterable[str] = BLOCKING) -> list[Crossing]:

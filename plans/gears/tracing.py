@@ -33,13 +33,13 @@ def grid(low: complex, high: complex, cells: int) -> Places:
     return places
 
 
-def traced(function: Function, low: complex, high: complex, cells: int) -> list[Places]:
+def traced(function: Function, low: complex, high: complex, cells: int, known: Array | None = None) -> list[Places]:
     """Return the pieces of the curve in a window, longest first: each a run of places on it, closed if it is a loop.
 
-    Every place is on an edge of the grid, put to the last digits there.
+    Every place is on an edge of the grid, put to the last digits there. `known` are the function's values on the grid.
     """
     places = grid(low, high, cells)
-    values = function(places)
+    values = function(places) if known is None else known
     numbers = np.arange(places.size).reshape(places.shape)
     on_edge: dict[Edge, complex] = {}
     for begin, end, beyond in (
