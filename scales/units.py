@@ -131,6 +131,11 @@ class Unit:
         """The ASCII name, such as `kg*m^2` or `(m/s)/mm`."""
         return _spell(self, {name: name for name in SYMBOLS}, "*", lambda power: f"^{power}")
 
+    @property
+    def behind(self) -> str:
+        """What stands behind a number: the ASCII name, nothing where there is no unit."""
+        return self.name if self.powers else ""
+
     def __str__(self) -> str:
         """Return the ASCII name."""
         return self.name

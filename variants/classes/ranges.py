@@ -71,7 +71,7 @@ def _read(given: Given, text: str, usual: Range | None) -> Range:
         raise InputError("range-bad", text=quote(text))
     if step is None:
         step = usual.step if usual is not None and 0 < usual.step <= high - low else _round_step(high - low)
-    return Range(unit.name, low, high, step)
+    return Range(unit.behind, low, high, step)
 
 
 def _with(part: str, whole: str) -> str:
@@ -98,8 +98,8 @@ def _spanned(task: Task, name: str, given: Given) -> Range | None:
         spread = abs(low) * Decimal(str(AROUND))
         step = _round_step(2 * spread)
         low, high = (math.ceil(low / step - spread / step) * step, high + spread) if step else (low, high)
-        return Range(given.unit.name, low, high, step)
-    return Range(given.unit.name, low, high, _common_step([value - low for value in values]))
+        return Range(given.unit.behind, low, high, step)
+    return Range(given.unit.behind, low, high, _common_step([value - low for value in values]))
 
 
 def _decimal(value: float) -> Decimal:

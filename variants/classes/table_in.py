@@ -17,6 +17,7 @@ from ..task import LocatedError, Task
 
 _WORD = re.compile(r"^\s*(?:варіант|вариант|variant|вар\.?|var\.?|№)\s*(?:№)?\s*", re.IGNORECASE)
 _NUMBER = re.compile(r"[-−+0-9.,\s]+(?:[eE][-+]?\d+)?")
+PLAIN = "1"  # a unit of numbers that have none
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +121,7 @@ def _read(table: _Table, row: int, number: str, units: Mapping[int, str], task: 
     for column, (name, unit) in table.names.items():
         text, unit = table.text(row, column), unit or units.get(column, "")
         if text:
-            said[name] = f"{text} {unit}" if unit and _NUMBER.fullmatch(text) else text
+            said[name] = f"{text} {unit}" if unit not in ("", PLAIN) and _NUMBER.fullmatch(text) else text
             try:
                 said[name] = _plain(task, name, said[name])
             except InputError as error:
@@ -134,4 +135,4 @@ def _plain(task: Task, name: str, text: str) -> str:
     value = given.read(text)
     if given.unit is None or isinstance(value, str):
         return str(value)
-    return f"{given.unit.from_si(value):.12g} {given.unit.name}".strip()
+    return f"{given.unit.from_si(value):.12g} {given.unit.behind}".strip()
