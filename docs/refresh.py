@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
-NAMES = ("accuracy", "cams", "cycle", "marking", "own-mechanism")
+NAMES = ("accuracy", "cams", "cycle", "gears", "marking", "own-mechanism")
 DOCUMENTS = (README, *(ROOT / "docs" / f"{name}.md" for name in NAMES))
 PICTURES = ROOT / "docs" / "pictures"
 CHARTS = {  # by picture: what is charted
@@ -26,6 +26,7 @@ CHARTS = {  # by picture: what is charted
 SHEETS = {  # by picture: what is drawn
     "nau-slider-crank-3": "nau-slider-crank -v 3 --student 'І. Петренко' --group АТ-301 --designation ТММ.РГР.03.01",
     "madi-cam": "madi-cam --lang ru",
+    "madi-gear": "madi-gear --format A1 --lang ru",
 }
 BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
 

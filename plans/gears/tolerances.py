@@ -9,7 +9,6 @@ from ..hands.hand import Tolerance
 from ..hands.shaky import Paper
 from ..marking.key import rounded
 from .gear import WHEELS
-from .sliding_plan import SLIDING
 from .solve import PAPER_MM, SolvedGear
 
 ANGULAR = tuple(f"{name}{i}{end}" for name, end in (("phi_alpha", "_drawn"), ("epsilon_alpha_arc", "")) for i in WHEELS)
@@ -27,7 +26,7 @@ def tolerances_of(solved: SolvedGear, paper: Paper, tolerance: Tolerance) -> dic
     names = [name for name in ANGULAR if name in solved.quantities]
     found = added_up(paper, tolerance, names)
     found = {name: max(found[name], rounded(solved.values[name], tolerance)) for name in names}
-    return found | (dict(_extremes(solved, tolerance)) if SLIDING in solved.scale_of_plan else {})
+    return found | dict(_extremes(solved, tolerance))
 
 
 def _extremes(solved: SolvedGear, tolerance: Tolerance) -> Iterator[tuple[str, float]]:
