@@ -12,21 +12,29 @@ from numpy.typing import NDArray
 
 from ..board import Board, Program, RecordingBoard
 from ..boards.exact import ExactBoard
+from ..columned import Columned
+from ..laws import TURN
 from .model import rope_force
 from .onesided import OneSided, Piece
 
 Array = NDArray[np.float64]
 # what is known over time, and in what; the forces of both phases are one
 UNITS = {"t": "s", "y": "m", "s": "m", "F_01": "N", "F_12": "N", "sigma": "Pa", "w_0": "m", "w_2": "m"}
+EMPTY: Mapping[str, Array] = {}
 BOTH, ROPE, SUPPORT, NEITHER = STATES = ("both", "rope", "support", "neither")  # what bears the load
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Course:
-    """A hoist at times of shape (N,): `columns` by name, SI; `states` what bears."""
+    """A hoist at times of shape (N,): columns in SI, and what bears at each."""
 
-    columns: Mapping[str, Array]
+    columned: tuple[Columned, ...]
     states: tuple[str, ...]
+
+    @property
+    def columns(self) -> dict[str, Array]:
+        """Values of the columns by name."""
+        return {column.name: column.values for column in self.columned}
 
 
 def _phase_1(board: Board) -> None:
@@ -96,21 +104,45 @@ def course(found: Mapping[str, Any], motion: OneSided | None, t: Array) -> Cours
     if motion is None:
         F_01, F_12 = rope_forces(found, t)
         states = tuple(np.where(t < found["t_1"], BOTH, ROPE).tolist())
-        return Course(_columns(found, t, F_01, F_12), states)
+        return _course(found, {"t": t, "F_01": F_01, "F_12": F_12}, states)
     F_12, height = (np.array([of(at) for at in t.tolist()]) for of in (motion.force, motion.height))
     last = len(motion.pieces) - 1
     index = np.minimum(np.searchsorted([piece.end for piece in motion.pieces], t, side="right"), last).tolist()
     states = tuple(_state(motion.pieces[i]) for i in index)
     pressed = np.array([motion.pieces[i].support for i in index])
     F_01 = np.where(pressed, height, 0.0) * (found["C_01"] if np.isfinite(found["C_01"]) else 0.0)
-    return Course({**_columns(found, t, F_01, F_12), "s": height}, states)
+    return _course(found, {"t": t, "F_01": F_01, "F_12": F_12}, states, {"s": height})
 
 
 def _state(piece: Piece) -> str:
     return {(True, True): BOTH, (True, False): ROPE, (False, True): SUPPORT}.get((piece.rope, piece.support), NEITHER)
 
 
-def _columns(found: Mapping[str, float], t: Array, F_01: Any, F_12: Any) -> dict[str, Array]:
-    board = ExactBoard({**found, "t": t, "F_01": F_01, "F_12": F_12})
+def _course(
+    found: Mapping[str, float],
+    known: Mapping[str, Array],
+    states: tuple[str, ...],
+    instead: Mapping[str, Array] = EMPTY,
+) -> Course:
+    """Return the course that follows from times and forces, with columns that are known better."""
+    board = ExactBoard({**found, **known})
     board.follow(_programs()[1])
-    return {name: np.asarray(board.values[name], float) for name in UNITS}
+    values = {**board.values, **instead}
+    return Course(tuple(Columned(name, of, np.asarray(values[name], float)) for name, of in UNITS.items()), states)
+
+
+def end_of(found: Mapping[str, float], motion: OneSided | None) -> float:
+    """Return until when a hoist is looked at: one period after the lift-off, or until its motion repeats itself."""
+    return found["t_1"] + TURN / found["k_1"] if motion is None else motion.pieces[-1].end
+
+
+def marks(found: Mapping[str, float], motion: OneSided | None) -> dict[str, float]:
+    """Return the times of the lift-off and of the greatest and least forces after it, in order, s."""
+    t_1 = found["t_1"]
+    if motion is None:
+        half = 0.5 * TURN / found["k_1"]
+        least = t_1 + found["T_1"] + (half if found["T_1"] < half else -half)
+    else:
+        least = motion.extremes(lifted=True)[1][0]
+    known = {"F_12_max": found["t_F12_max"], "t_1": t_1, "P_12_max": t_1 + found["T_1"], "P_12_min": least}
+    return dict(sorted(known.items(), key=lambda mark: mark[1]))

@@ -13,9 +13,9 @@ import pytest
 from kulman.plans import contest as contests
 from kulman.plans.contest import Contest, Effort
 from kulman.plans.hoist import rivals as races
-from kulman.plans.hoist.course import BOTH, NEITHER, ROPE, SUPPORT, UNITS, course
+from kulman.plans.hoist.course import BOTH, NEITHER, ROPE, SUPPORT, UNITS, course, end_of, marks
 from kulman.plans.hoist.finders import FINDERS, NEWTON
-from kulman.plans.hoist.forces import Forces, forces
+from kulman.plans.hoist.forces import forces
 from kulman.plans.hoist.rivals import COURSE, FORMULAS, LIFT_OFF, PEAK, exact, rivals
 from kulman.plans.hoist.step_limits import StepLimits, step_limits
 from kulman.plans.hoist.steppers import EXPLICIT, ORDERS, RK4, SYMPLECTIC, TRAPEZOID, VERLET
@@ -112,14 +112,10 @@ def test_steps_are_refused_beyond_their_limits() -> None:
     assert np.nanmax(limits().errors[RK4]) < 0.5
 
 
-def end_of(found: Forces) -> float:
-    return found.found["t_1"] + 0.3 if found.motion is None else found.motion.pieces[-1].end
-
-
 @pytest.mark.parametrize("values", [STEADY, STEADY | {"a": 0.3, "slack": 0.01}, PUSHING], ids=["a=0", "a>0", "slack"])
 def test_forces_over_time_move_the_load(values: dict[str, float]) -> None:
     found = forces(values)
-    t = np.linspace(0.0, end_of(found), 4001)
+    t = np.linspace(0.0, end_of(found.found, found.motion), 4001)
 
     moved = course(found.found, found.motion, t)
 
@@ -136,7 +132,7 @@ def test_forces_over_time_move_the_load(values: dict[str, float]) -> None:
 
 def test_states_say_what_bears() -> None:
     found = forces(PUSHING)
-    t = np.linspace(0.0, end_of(found), 2001)
+    t = np.linspace(0.0, end_of(found.found, found.motion), 2001)
 
     moved = course(found.found, found.motion, t)
 
@@ -167,3 +163,17 @@ def test_rigid_support_does_not_bend() -> None:
     assert np.all(moved["w_0"] == 0.0)
     assert np.all(np.isfinite(moved["F_01"]))
     assert moved["F_01"][0] == pytest.approx(-found.found["P_st"], rel=1e-15)
+
+
+@pytest.mark.parametrize("values", [STEADY, STEADY | {"a": 0.3}, PUSHING], ids=["a=0", "a>0", "slack"])
+def test_marks_are_where_forces_are_greatest_and_least(values: dict[str, float]) -> None:
+    found = forces(values)
+    known = marks(found.found, found.motion)
+    end = end_of(found.found, found.motion)
+
+    at = dict(zip(known, course(found.found, found.motion, np.array([*known.values()])).columns["F_12"], strict=True))
+
+    for name in ("F_12_max", "P_12_max", "P_12_min"):
+        assert at[name] == pytest.approx(found.found[name], rel=1e-9, abs=1e-6)
+        assert 0.0 <= known[name] <= end * (1.0 + 1e-12)
+    assert list(known.values()) == sorted(known.values())

@@ -1,4 +1,4 @@
-"""Columns of cams and gears as text: lengths in millimetres, angles in degrees, all else in SI."""
+"""Columns of cams, gears, hoists as text: lengths in mm, angles in degrees, stresses in MPa, all else in SI."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ...plans.columned import Columned, Ends
 from ...scales.units import format_unit, unit
 from ..tables import aligned
 
-SHOWN = {"m": "mm", "rad": "deg"}
+SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}
 DIGITS, PLACES = 6, 9  # of a number in the table; decimals of the degrees of what drives
 DRIVES = "phi"
 NOTHING = 1e-9  # part of the largest value of a column below which one is rounding
