@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ..laws import cross
 from .motion import TURN, Motion
+from .necks import around, necks
 from .places import Places, minima, refined
 
 Array = NDArray[np.float64]
@@ -33,7 +34,6 @@ MEETING = 1e-9  # part of the size within which two branches meet
 WITHIN = 400  # places between the ends of an undercut
 STEPS, HALVINGS, CHORDS = 30, 60, 32
 INSIDE = 1e-12  # part of the size by which a point is inside a position: less is rounding
-COARSE = 4  # places from one that is looked at to the next where the envelope nowhere runs backwards
 ROWS = 256  # points compared with all positions at once
 
 
@@ -278,12 +278,13 @@ def _contained(envelope: Envelope, points: Points, phi: Array) -> NDArray[np.boo
 def undercuts(envelope: Envelope) -> list[Undercut]:
     """Return what the profile does not give of the motion, in order; nothing where no position cuts another's part."""
     parts, corners = backward(envelope), envelope.motion.corners
-    places = Places.between(corners)
-    if not parts and not np.any(_contained(envelope, places.values(envelope.practical)[::COARSE], places.phi)):
+    size = float(np.max(np.abs(envelope.practical(np.linspace(0.0, TURN, WITHIN)))))
+    narrow = necks(envelope, INSIDE * size)
+    if not parts and not narrow:
         return []
     rooms = [AROUND * max(end - begin, LEAST) for begin, end in parts]
     close = [np.linspace(a - room, b + room, CLOSE) for (a, b), room in zip(parts, rooms, strict=True)]
-    traced = _Traced.of(envelope, Places.between(corners, np.ravel(close)))
+    traced = _Traced.of(envelope, Places.between(corners, np.concatenate([*close, *around(narrow)])))
     ring = traced.ring()
     edges = [traced.curve.at(a, -1)[0] for a, _ in ring]
     found = [_undercut(traced.curve, ends, k, edges) for k, ends in enumerate(ring)]

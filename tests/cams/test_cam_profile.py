@@ -261,6 +261,32 @@ def test_a_neck_narrower_than_the_cutter_cuts_the_lobe_off_where_nothing_runs_ba
     assert_left_by_the_cutter(profile)
 
 
+@pytest.mark.parametrize("wider", [1e-9, 1e-6, 1e-3, 0.02])
+def test_a_neck_hardly_narrower_than_the_cutter_is_found(wider: float) -> None:
+    motion = Motion(287.0 * MM, *np.radians((51.34, 26.21, 41.19)), law_of_motion("sine"))
+    path = StraightPath(motion, RollerSizes(math.hypot(5.0, 33.9) * MM, -5.0 * MM, 33.9 * MM))
+    width, ends = neck(RollerProfile(path, 1.0 * MM), math.radians(20.0), math.radians(105.0))
+
+    narrower, (cut,) = (RollerProfile(path, 0.5 * width * (1.0 + w)).undercuts for w in (-1e-9, wider))
+
+    assert narrower == []
+    assert cut.lost > 0.95 * motion.h
+    assert (cut.start, cut.end) == pytest.approx(ends, abs=2.0 * math.sqrt(wider))
+    outline = RollerProfile(path, 0.5 * width * (1.0 + wider)).outline(math.radians(0.1))
+    assert Polygon(np.column_stack((outline.real, outline.imag))).is_valid
+
+
+def neck(profile: RollerProfile, first: float, second: float) -> tuple[float, tuple[float, float]]:
+    """Least distance of the pitch curve's two branches around two angles, and the angles, by ever finer grids."""
+    ends, room = np.array([first, second]), math.radians(15.0)
+    for _ in range(40):
+        a, b = ends[:, np.newaxis] + room * np.linspace(-1.0, 1.0, 41)
+        away = np.abs(np.asarray(profile.pitch(a))[:, np.newaxis] - np.asarray(profile.pitch(b)))
+        i, j = np.unravel_index(int(np.argmin(away)), away.shape)
+        ends, room = np.array([a[i], b[j]]), 0.5 * room
+    return float(away[i, j]), (float(ends[0]), float(ends[1]))
+
+
 def assert_left_by_the_cutter(profile: RollerProfile) -> None:
     """Assert that outline and travel are those of what the cutter leaves round the cam's centre."""
     points, cam = profile.outline(math.radians(0.1)), eroded(profile)
