@@ -174,6 +174,7 @@ def model(values: Mapping[str, Any], wanted: Iterable[str] = (), one_sided: bool
         Infinite where a beam is rigid.
     """
     program = _needed(tuple(wanted), one_sided)
+    values = {name: value if np.ndim(value) else np.float64(value) for name, value in values.items()}  # 1/0 is inf
     givens = {**values, "_rest": 0.0 if one_sided else rest_of_root(values)}
     many = [value for value in givens.values() if np.ndim(value)]
     board = ArrayBoard(givens, np.broadcast(*many).size) if many else ExactBoard(givens)

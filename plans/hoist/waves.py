@@ -19,15 +19,15 @@ import numpy as np
 from ..laws import NAN, TURN
 
 Function = Callable[[Any], tuple[Any, Any]]
-MOST_ROUNDS = 600  # halving alone needs 54 beside one end that is not zero, and every third round halves
-CLOSE = 2.0**-53
+MOST_ROUNDS = 600  # halving alone needs 54 beside one end that is not zero
+CLOSE = 2.0**-52
 
 
 def rising_zero(function: Function, low: Any, high: Any) -> Any:
     """Return the zero of a function that only rises, between `low` and `high`.
 
-    Newton's steps inside the bracket, and every third one halves it: nothing can make it fail. Each element of an array
-    goes its own way, and stays where it has arrived.
+    Newton's steps that stay inside the bracket and are at most half as long as the last but one; else the bracket is
+    halved: nothing can make it fail. Each element of an array goes its own way, and stays where it has arrived.
 
     Parameters
     ----------
@@ -35,20 +35,20 @@ def rising_zero(function: Function, low: Any, high: Any) -> Any:
         Returns value and slope.
     """
     low, high = (np.array(end, float) for end in np.broadcast_arrays(low, high))
-    x = 0.5 * (low + high)
-    arrived = np.isnan(x)
-    for done in range(MOST_ROUNDS):
+    x, step = 0.5 * (low + high), high - low
+    last, arrived = step, np.isnan(x)
+    for _ in range(MOST_ROUNDS):
         value, slope = function(x)
         low, high = np.where(value <= 0.0, x, low), np.where(value >= 0.0, x, high)
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             by_newton = x - value / slope
-        middle = 0.5 * (low + high)
-        between = (by_newton > low) & (by_newton < high) & (done % 3 != 2)
-        following = np.where(between, by_newton, middle)
-        arrived |= (value == 0.0) | (np.abs(following - x) <= CLOSE * np.abs(x)) | (middle <= low) | (middle >= high)
+        quick = (by_newton >= low) & (by_newton <= high) & (2.0 * np.abs(by_newton - x) <= np.abs(last))
+        following = np.where(arrived, x, np.where(quick, by_newton, 0.5 * (low + high)))
+        last, step = step, following - x
+        x = following
+        arrived |= np.abs(step) <= CLOSE * np.abs(x)
         if bool(np.all(arrived)):
             break
-        x = np.where(arrived, x, following)
     return x
 
 

@@ -1,0 +1,104 @@
+"""Limits of a hoist: rigid beams, a rope without mass, no acceleration, no speed, slack; reached without a jump."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from kulman.plans.hoist.forces import forces
+from kulman.tests.support.hoists import VARIANTS
+
+FORCES = ("t_1", "F_12_t1", "F_12_max", "T_1", "P_12_max", "P_12_min", "s_min")
+
+
+def change(values: dict[str, float], limit: dict[str, float]) -> float:
+    """Return by what part the forces differ most."""
+    one, other = forces(values).found, forces(limit).found
+    return max(abs(one[name] - other[name]) / abs(other[name]) for name in FORCES)
+
+
+@pytest.mark.parametrize(
+    ("name", "limit", "steps"),
+    [
+        pytest.param("I_0", math.inf, (1.0, 1e4, 1e8), id="rigid support"),
+        pytest.param("I_2", math.inf, (1.0, 1e4, 1e8), id="rigid bridge"),
+        pytest.param("G_2", 0.0, (1e2, 1e-2, 1e-6), id="rope without mass"),
+        pytest.param("a", 0.0, (1e-1, 1e-4, 1e-7), id="no acceleration"),
+        pytest.param("V_0", 0.0, (1e-2, 1e-5, 1e-8), id="no speed"),
+        pytest.param("slack", 0.0, (1e-2, 1e-5, 1e-8), id="no slack"),
+    ],
+)
+def test_limits_are_approached_without_a_jump(name: str, limit: float, steps: tuple[float, ...]) -> None:
+    values = VARIANTS["V03"]
+
+    changes = [change({**values, name: step}, {**values, name: limit}) for step in steps]
+
+    assert changes[0] > changes[1] > changes[2] > 0.0
+    assert changes[2] < 1e-3 * changes[0]
+
+
+def test_on_a_rigid_support_the_rope_alone_stretches() -> None:
+    values = {**VARIANTS["V05"], "I_0": math.inf}
+
+    found = forces(values).found
+
+    assert math.isinf(found["C_01"])
+    assert math.isinf(found["k"])
+    t = found["t_1"]
+    wound = values["V_0"] * t + 0.5 * values["a"] * t * t
+    assert found["C_12"] * wound == pytest.approx(found["P_st"], rel=1e-13)
+    assert found["F_12_max"] == found["F_12_t1"] == pytest.approx(found["P_st"], rel=1e-13)
+    assert found["w_0_max"] == 0.0
+    rate = found["C_12"] * (values["V_0"] + values["a"] * t) / found["k_1"]
+    swing = math.hypot(found["m"] * values["a"], rate)
+    assert found["P_12_max"] == pytest.approx(found["P_m"] + swing, rel=1e-13)
+
+
+def test_on_rigid_beams_the_article_is_right_when_its_speed_is_that_at_the_lift_off() -> None:
+    values = {**VARIANTS["V03"], "I_0": math.inf, "I_2": math.inf}
+    found = forces(values).found
+
+    lifted = forces({**values, "V_0": values["V_0"] + values["a"] * found["t_1"]}).found
+
+    assert found["C_12"] == found["C_k"]
+    assert lifted["P_12_max_printed"] == pytest.approx(found["P_12_max"], rel=1e-13)
+    assert lifted["T_1_printed"] == pytest.approx(found["T_1"], rel=1e-13)
+
+
+def test_printed_force_has_its_greatest_value_where_its_curve_has() -> None:
+    for values in VARIANTS.values():
+        found = forces(values).found
+        m, a, V, C_12, k_1 = found["m"], values["a"], values["V_0"], found["C_12"], found["k_1"]
+        T = np.linspace(0.0, 2.0 * math.pi / k_1, 100_001)
+
+        P = m * 9.81 + m * a * (1.0 - np.cos(k_1 * T)) + V * math.sqrt(m * C_12) * np.sin(k_1 * T)
+
+        assert found["P_12_max_printed"] == pytest.approx(float(np.max(P)), rel=1e-9)
+        assert found["T_1_printed"] == pytest.approx(float(T[np.argmax(P)]), abs=2e-5 / k_1 * 10.0)
+        assert 0.5 * math.pi <= found["T_1_printed"] * k_1 <= math.pi
+
+
+def test_slack_is_taken_up_before_the_rope_is_taut() -> None:
+    values = {**VARIANTS["V03"], "slack": 0.05}
+    found = forces(values).found
+
+    speed = math.sqrt(0.13**2 + 2.0 * 0.10 * 0.05)
+
+    same = forces({**values, "slack": 0.0, "V_0": speed}).found
+    for name in FORCES:
+        assert found[name] == pytest.approx(same[name], rel=1e-12)
+    printed = math.sqrt(2.0 * 0.10 * (0.05 + found["P_st"] / found["C_12"]))  # the speed that the article takes
+    mean, swing = found["P_m"], math.hypot(found["m"] * 0.10, printed * math.sqrt(found["m"] * found["C_12"]))
+    assert found["P_12_max_printed"] == pytest.approx(mean + swing, rel=1e-13)
+
+
+def test_rope_pulled_from_rest_lifts_off_after_the_exact_time() -> None:
+    values = {**VARIANTS["V06"], "V_0": 0.0}
+    found = forces(values).found
+
+    t, k = found["t_1"], found["k"]
+    lag = 0.40 * (0.5 * t * t - (1.0 - math.cos(k * t)) / k**2)
+
+    assert lag == pytest.approx(found["P_st"] / found["C"], rel=1e-12)
