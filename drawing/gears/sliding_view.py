@@ -10,6 +10,7 @@ from ...scales.scale import Scale, steps
 from ..diagram import Axis, Field, axes, numbers
 from ..dimensions import linear
 from ..shapes import Circle, Group, Line, Pen
+from ..text import lay_out
 from ..view import Canvas, View
 from .marks import along, letter
 from .scene import GearScene
@@ -46,11 +47,12 @@ def sliding_view(scene: GearScene) -> View:
         axes(canvas, field, False, past)
     _sections(canvas, scene, above, below, ordinates)
     _velocities(canvas, scene, above, ordinates)
-    _pole(canvas, scene, above, ordinates)
+    said = _pole(canvas, scene, above, ordinates)
     theta_diagram(canvas, scene, below)
     notes = [words["gear.hatched"], words["gear.cut"].format(theta=words.number(cut_of(scene), 0))]
     if ordinates.reduction < 1.0:
         notes.append(words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / ordinates.reduction)}"))
+    notes += said
     theta = f"{words.symbol('mu_theta')} = {words.short(below.y.scale.mu)} {words.unit('mm')}^{{−1}}"
     heading = words["heading.gear_sliding"], f"{words.scale(above.x.scale)};  {theta}"
     return canvas.finish("sliding", heading, tuple(notes))
@@ -118,10 +120,12 @@ def w_of(scene: GearScene, field: Field, ordinates: Ordinates) -> complex:
     return field.at(scene.size("rho_w1"), ordinates.mm(scene.size("PW")))
 
 
-def _pole(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) -> None:
-    """Mark W over the pole, and dimension PW."""
-    w = w_of(scene, field, ordinates)
-    text = f"{scene.words.symbol('PW')} = {scene.words.short(round(scene.size('PW') * 1e3, 6))}"
-    linear(canvas, (complex(w.real, 0.0), w), 0j, text, "PW")
+def _pole(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) -> list[str]:
+    """Mark W over the pole, and dimension PW; return its text where it has no room along its line."""
+    w, words = w_of(scene, field, ordinates), scene.words
+    text = f"{words.symbol('PW')} = {words.short(round(scene.size('PW') * 1e3, 6))}"
+    fits = w.imag - 2.0 * scene.style.arrow > lay_out(text, scene.style.text).width
+    linear(canvas, (complex(w.real, 0.0), w), 0j, text if fits else "", "PW")
     canvas.add(Group((Circle(w, scene.style.node, Pen.MAIN, fill="white"),), "point", "W"))
     canvas.label("W", w, prefer=1j, clear=1.2, priority=1)
+    return [] if fits else [f"{text} {words.unit('mm')}"]
