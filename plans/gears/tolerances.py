@@ -34,7 +34,8 @@ def _extremes(solved: SolvedGear, tolerance: Tolerance) -> Iterator[tuple[str, f
     sizes = solved.sizes
     for end, rhos in ENDS.items():
         y = [sizes["PW"] / PAPER_MM * sizes[rho] / sizes[f"rho_w{i}"] for i, rho in zip(WHEELS, rhos, strict=True)]
-        for name, own, mate in ((f"theta_12_{end}", *y), (f"theta_21_{end}", *y[::-1])):
+        for i in WHEELS:
+            name, own, mate = f"theta_{i}{3 - i}_{end}", y[i - 1], y[2 - i]
             if own > 0.0:
                 missed = (tolerance.of_segment(mate) + mate / own * tolerance.of_segment(own)) / own
-                yield name, max(missed, rounded(sizes[name], tolerance))
+                yield name, max(float(missed), rounded(sizes[name], tolerance))
