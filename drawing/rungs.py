@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Generic, Protocol, TypeVar
 
+from ..scales.choices import SIZES
 from ..scales.errors import InputError
 from .compose import arrange, room
 from .formats import Format
@@ -47,14 +48,22 @@ def fitted(drawer: Drawer[Rungs], sheet: Format, norm: Norm, rungs: Rungs) -> Ru
     """
     wide, high = room(sheet, norm)
     while True:
-        tight = {f.ladders for v, f in drawer.views(sheet, rungs) if v.size[0] > wide or v.size[1] > high}
+        views = drawer.views(sheet, rungs)
+        tight = {f.ladders: v.size for v, f in views if v.size[0] > wide or v.size[1] > high}
         if not tight:
             return rungs
-        for ladders in tight:
+        for ladders, size in tight.items():
             name = next((ladder for ladder in ladders if has_next(drawer, rungs, ladder)), None)
             if name is None:
-                raise InputError("sheet-too-small", format=sheet.name)
+                raise too_small(sheet, size)
             rungs = lower(rungs, name)
+
+
+def too_small(sheet: Format, size: tuple[float, float]) -> InputError:
+    """Return why a drawing of this size, mm, that cannot be smaller has no room on a format, or on any."""
+    if sheet.name != SIZES[-1]:
+        return InputError("sheet-too-small", format=sheet.name)
+    return InputError("sheet-too-large", wide=f"{size[0]:.0f}", high=f"{size[1]:.0f}")
 
 
 def has_next(drawer: Drawer[Rungs], rungs: Rungs, ladder: str) -> bool:

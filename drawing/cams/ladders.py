@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...plans.cams.solve import EQUAL, SolvedCam
 from ...scales.choose import Choosers, From
-from ...scales.scale import Scale, rounded
+from ...scales.scale import Scale, rounded, steps
 
 MU_L = 0.001  # m/mm, M 1:1
 SMALL = 0.030  # m, the least radius below which a cam is drawn at M 2:1 where nothing is said
@@ -26,7 +26,7 @@ def ladder(solved: SolvedCam, choosers: Choosers, symbol: str) -> tuple[float, .
         return choosers[symbol].ladder(lambda _: across)
     finest = float(solved.values[EQUAL[symbol]]) if EQUAL[symbol] in solved.values else MU_L
     rungs = [rounded(finest * times, DIGITS) for times in COARSER]
-    return tuple(mu for mu in rungs if across <= LARGEST * mu) or (rungs[-1],)
+    return tuple(mu for mu in rungs if across <= LARGEST * mu) or (steps(across / LARGEST)[0],)
 
 
 def _profiles(solved: SolvedCam, across: float) -> float:
@@ -34,7 +34,7 @@ def _profiles(solved: SolvedCam, across: float) -> float:
     parts = (part for part in (solved.roller, solved.plate, solved.rocker) if part is not None)
     small = max((part.sizes.r_0 for part in parts), default=SMALL) < SMALL
     finest = MU_L / 2.0 if small else MU_L
-    return next(mu for mu in From(finest).ladder(lambda _: across) if across <= LARGEST * mu)
+    return max(finest, steps(across / LARGEST)[0])
 
 
 def first_scales(solved: SolvedCam, choosers: Choosers) -> dict[str, Scale]:

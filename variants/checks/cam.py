@@ -35,6 +35,7 @@ from .names import Names
 
 TABLE = "cam"
 WORDS = ("law", "law_fall", "fall", "rotation", "limits")  # keys whose value may be the name of a choice
+SHORTEST = math.radians(0.01)  # of a phase in which a follower moves
 MOST_SECTIONS = 90  # of a phase: finer than a degree nobody divides one
 
 
@@ -195,6 +196,10 @@ def impossible(values: Mapping[str, float]) -> Iterator[InputError]:
     for name, number in NUMBERS.items():
         if name in values and not number.bound.admits(values[name]):
             yield InputError(number.bound.value, text=f"{name} = {_unit(name).from_si(values[name]):.7g}")
+    for name in ("phi_rise", "phi_fall"):
+        if 0.0 < values[name] < SHORTEST:
+            angles = {"angle": f"{math.degrees(values[name]):.4g}", "least": f"{math.degrees(SHORTEST):g}"}
+            yield InputError("cam-phase-short", name=name, **angles)
     turned = sum(values[name] for name in ("phi_rise", "phi_upper", "phi_fall"))
     if turned > 2.0 * math.pi + NEAR:
         yield InputError("cam-phases", angle=f"{math.degrees(turned):.7g}")

@@ -12,6 +12,7 @@ from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.scale import Scale
+from ...scales.units import unit
 from ..checks.cam import impossible, read_cam, words_of
 from ..task import Given, Task
 from .kind import Kind, Verdicts
@@ -47,6 +48,15 @@ HEADINGS = {  # of the sections of a list of quantities
     "roller": "heading.cam_roller",
     "plate": "heading.cam_plate",
     "profile": "heading.cam_profiles",
+}
+# of numbers that hardly any cam has: by SI unit the end of the key of the message, and the unit in it
+UNUSUAL = {
+    "": ("part", ""),
+    "m": ("length", "mm"),
+    "rad": ("angle", "deg"),
+    "rad/mm": ("axis", "deg"),
+    "rad/s": ("speed", "rad/s"),
+    "m/s^2": ("acceleration", "m/s^2"),
 }
 RULES = ("roller_of_radius", "roller_of_curvature", "gamma_rise", "gamma_fall")  # checks that are told when they fail
 
@@ -141,10 +151,11 @@ class Cams(Kind[Cam, "SolvedCam"]):
         return CamCharts()
 
     def warnings(self, solved: SolvedCam) -> tuple[InputError, ...]:
-        """Tell which rules are broken, and where a profile does not give the motion, or cannot."""
+        """Tell what is unusual, which rules are broken, and where a profile does not give the motion, or cannot."""
         found: list[InputError] = []
         if PLATE in solved.cam.followers and solved.motion.velocity_jumps:
             found.append(InputError("cam-no-plate"))
+        found += _unusual(solved)
         for name, check in self.checks(solved, {}).items():
             if name in RULES and not check["ok"]:
                 said = _degrees if check["unit"] == "rad" else _millimetres
@@ -274,6 +285,20 @@ def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlatePro
 
     if solved.draws_profiles:
         yield from ((follower, profile) for _, follower, profile in profiles(solved))
+
+
+def _unusual(solved: SolvedCam) -> Iterator[InputError]:
+    """Go through the numbers that hardly any cam has, each in the unit in which people read it."""
+    from ...plans.cams.usual import unusual
+
+    for one in unusual(solved):
+        key, shown = UNUSUAL[one.unit]
+        size = unit(shown) if shown else None
+        value, least, most = (
+            f"{number if size is None else size.from_si(number):.4g}" for number in (one.value, one.least, one.most)
+        )
+        end = "-most" if one.least == 0.0 else "" if math.isfinite(one.most) else "-least"
+        yield InputError(f"cam-unusual-{key}{end}", name=one.name, value=value, least=least, most=most)
 
 
 def _follows(symbol: str) -> bool:
