@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from .variants import chart as chart
     from .variants import check as check
     from .variants import load_task as load_task
+    from .variants import note as note
     from .variants import sheet as sheet
     from .variants import solve as solve
     from .variants import sweep as sweep
@@ -22,6 +23,7 @@ __all__ = [
     "chart",
     "check",
     "load_task",
+    "note",
     "sheet",
     "solve",
     "sweep",

@@ -215,6 +215,31 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 
 @commands.command(
     epilog=example(
+        "kulman note nau-slider-crank -v 3 -o note.pdf -o note.md --student 'І. Петренко'",
+        "kulman note madi-four-bar --figure velocity -o velocity.svg",
+    )
+)
+@of_task
+@output(".notes", "Where to: .pdf, .md with its figures beside it; of one figure .svg, .png.", required=True)
+@click.option("--figure", metavar="NAME", help="One figure of the note alone: position, velocity, forces_23.")
+@click.option("--student", help="For the title page.")
+@click.option("--group", help="For the title page.")
+@click.option("--teacher", help="For the title page.")
+@click.option("--department", help="For the title page.")
+@click.option("--date", help="For the title page; none is invented.")
+def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str | None, **options: Any) -> None:
+    """Write the explanatory note of TASK: the work step by step, with equations, figures, tables."""
+    from . import variants
+
+    said = {name: value for name, value in options.items() if value is not None}
+    written = variants.note(task, set=settings, lang=lang or "uk", **said)
+    for path in written.save(*files):
+        click.echo(str(path))
+    _warn(written.sheet.warnings)
+
+
+@commands.command(
+    epilog=example(
         "kulman sweep nau-slider-crank -v 3 --only velocity",
         "kulman sweep nau-slider-crank -v 3 --positions 24 -o cycle.csv -o cycle.pdf",
         "kulman sweep nau-slider-crank --points B,S2 --chords B --from '30 deg'",

@@ -7,12 +7,13 @@ if TYPE_CHECKING:
     from .classes.answers import all_variants as all_variants
     from .classes.batch import batch as batch
     from .marking.checks import check as check
+    from .notes import note as note
     from .reader import load_task as load_task
     from .sheets import sheet as sheet
     from .solution import solve as solve
     from .sweeps.sweeps import sweep as sweep
 
-__all__ = ["all_variants", "batch", "chart", "check", "load_task", "sheet", "solve", "sweep"]
+__all__ = ["all_variants", "batch", "chart", "check", "load_task", "note", "sheet", "solve", "sweep"]
 
 _HOMES = {
     "all_variants": "classes.answers",
@@ -20,6 +21,7 @@ _HOMES = {
     "chart": "charts.charts",
     "check": "marking.checks",
     "load_task": "reader",
+    "note": "notes",
     "sheet": "sheets",
     "solve": "solution",
     "sweep": "sweeps.sweeps",

@@ -15,6 +15,7 @@ from ..task import Given, Instead, Task
 
 if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...drawing.formats import Format
+    from ...drawing.notes.blocks import Story
     from ...drawing.page import Drawn
     from ...drawing.pens import Norm
     from ...drawing.titleblock import Stamp
@@ -145,6 +146,12 @@ class Kind(ABC, Generic[Subject, Answer]):
     def fitted(self, solved: Answer, drawn: Drawn) -> tuple[Answer, tuple[InputError, ...]]:
         """Return what has been solved as large as a sheet draws it, and what a user should know of that."""
         return solved, ()
+
+    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
+        """Return what the explanatory note says beside the views of the sheet, drawn with `scales` by plan."""
+        from ...drawing.notes.blocks import Story
+
+        return Story()
 
     # Marking.
 

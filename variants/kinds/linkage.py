@@ -28,6 +28,7 @@ from .kind import Kind, Verdicts
 
 if TYPE_CHECKING:
     from ...drawing.formats import Format
+    from ...drawing.notes.blocks import Story
     from ...drawing.page import Drawn
     from ...drawing.pens import Norm
     from ...drawing.titleblock import Stamp
@@ -188,6 +189,15 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         note = case.task.note_in(words.language)
         contents = Contents(solved, plans, case.choosers, case.givens, words, norm, whole, note=note)
         return draw(contents, stamp, paper)
+
+    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
+        """Tell every plan step by step, its equations before it."""
+        from ...drawing.linkages.scene import Scene
+        from ...drawing.linkages.steps import story
+        from ...drawing.style import STYLES
+
+        solved = _placed(case)
+        return story(Scene(solved, scales, self.lettered(words, solved), STYLES["A4"], case.givens), texts)
 
     def lettered(self, words: Words, solved: SolvedLinkage) -> Words:
         """Return the words with the letters of guides, ends and couples."""

@@ -191,17 +191,20 @@ def _row(scene: Scene, q: Quantity) -> list[str]:
     plan = POSITION if q.name.startswith("l_") else scene.figure_of(q.name)
     if plan not in scene.scales:
         return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, tidy(q, value)), unit]
+    mm, number, shown = printed_segment(scene, q)
+    return [symbol, mm, number, shown, unit]
+
+
+def printed_segment(scene: Scene, q: Quantity) -> tuple[str, str, str]:
+    """Return the segment that shows a quantity, its scale factor and its value, as they are printed."""
+    words, turning = scene.words, q.name.startswith(("omega", "epsilon"))
+    value = rate_of(scene, q.name) if turning else words.display.value(q.value or 0.0, q.unit)
+    plan = POSITION if q.name.startswith("l_") else scene.figure_of(q.name)
     scale, times = scene.scales[plan], enlarged(scene, q.name, plan)
     number = words.factor(Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit))
     mu = 1.0 / number if words.per_unit else number
     places, decimals = segment_decimals(value, mu, ruler_decimals(words))
-    return [
-        symbol,
-        words.number(abs(value) / mu, places),
-        words.short(number),
-        words.number(abs(value), decimals),
-        unit,
-    ]
+    return words.number(abs(value) / mu, places), words.short(number), words.number(abs(value), decimals)
 
 
 def _angle(scene: Scene, q: Quantity) -> str:

@@ -1,0 +1,127 @@
+"""A note as blocks: headings, sentences, numbered steps, equations, figures, tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from ..page import extent
+from ..shapes import Text
+from ..view import View
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """The heading of a section."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Sentences:
+    """A paragraph: sentences, in markup."""
+
+    texts: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Steps:
+    """What is done, step by step, in markup."""
+
+    texts: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Equations:
+    """Equations with their numbers, a line each, in chunks of markup between which a line may break."""
+
+    lines: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table; the first row is its head, a cell that is None belongs to the one on its left."""
+
+    rows: tuple[tuple[str | None, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A figure of the sheet without its heading, which is the caption, in markup, with the lines under it."""
+
+    view: View
+    caption: str
+    under: tuple[str, ...]
+
+
+Block = Heading | Sentences | Steps | Equations | Table | Figure
+
+
+@dataclass(frozen=True, slots=True)
+class TitlePage:
+    """What the first page says; what is empty is left out."""
+
+    title: str
+    task: str
+    variant: str
+    department: str = ""
+    student: str = ""
+    group: str = ""
+    teacher: str = ""
+    date: str = ""
+    identity: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """A note, ready for any writer."""
+
+    title: TitlePage
+    blocks: tuple[Block, ...]
+    language: str
+
+
+@dataclass(frozen=True, slots=True)
+class Story:
+    """What a note says beside the views of the sheet, by their names.
+
+    `equations` stand before the steps of a plan, and in the place of views that are `told` so; `conclusions` are
+    sentences for the end.
+    """
+
+    steps: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    equations: Mapping[str, Sequence[Sequence[str]]] = field(default_factory=dict)
+    told: frozenset[str] = frozenset()
+    conclusions: tuple[str, ...] = ()
+
+
+def blocks_of(views: Iterable[View], story: Story) -> Iterator[Block]:
+    """Go through the blocks of a sheet's views in the order of the work."""
+    for view in views:
+        if view.name in story.told:
+            continue
+        heading = view.heading[0] if view.heading else ""
+        if heading:
+            yield Heading(heading)
+        if view.lines:
+            yield Equations(view.lines)
+        elif view.rows:
+            yield Table(view.rows)
+        else:
+            yield from _plan(view, story)
+            yield Figure(_bare(view), heading, (*view.heading[1:], *view.notes))
+
+
+def _plan(view: View, story: Story) -> Iterator[Block]:
+    equations, steps = story.equations.get(view.name, ()), tuple(story.steps.get(view.name, ()))
+    if equations:
+        yield Equations(tuple(map(tuple, equations)))
+    if steps:
+        yield Steps(steps)
+
+
+def _bare(view: View) -> View:
+    """Return a figure without the lines of its heading."""
+    shapes = tuple(shape for shape in view.shapes if not (isinstance(shape, Text) and shape.role == "heading"))
+    x0, y0, x1, y1 = extent(shapes)
+    return replace(view, shapes=shapes, box=(x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))

@@ -1,0 +1,83 @@
+"""A note as Markdown, with its figures as files beside it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ...scales.packaged import packaged
+from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
+from .markup import Node, Plain, Ruled, parse
+
+_SIGNS = re.compile(r"([\\`*_{}\[\]<>#|~])")
+
+
+def markdown(document: Document, figures: list[str]) -> str:
+    """Return a note as Markdown; `figures` are the names of the figures' files, in order."""
+    said, page = packaged(__package__, "texts", document.language), document.title
+    about = [said["title.variant"].format(variant=page.variant)]
+    about += [
+        f"{said[f'title.{name}']}: {text}" for name in ("student", "group", "teacher") if (text := getattr(page, name))
+    ]
+    about += [text for text in (page.department, page.date, page.identity) if text]
+    head = [f"# {_plain(said['title.note'])}", f"**{_plain(page.title)}**", "  \n".join(map(_plain, about))]
+    names = iter(figures)
+    return "\n\n".join([*head, *(text for block in document.blocks for text in _block(block, said, names))]) + "\n"
+
+
+def _block(block: Block, said: dict[str, str], names: Iterator[str]) -> Iterator[str]:
+    match block:
+        case Heading(text=text):
+            yield f"## {_line(text)}"
+        case Sentences(texts=texts):
+            yield " ".join(map(_line, texts))
+        case Steps(texts=texts):
+            yield "\n".join(f"{number}. {_line(text)}" for number, text in enumerate(texts, 1))
+        case Equations(lines=lines):
+            yield "  \n".join(_line(" ".join(chunks)) for chunks in lines)
+        case Table(rows=rows):
+            head, *body = ([_line(cell or "") for cell in row] for row in rows)
+            ruled = ["|".join(("", *row, "")) for row in (head, ["---"] * len(head), *body)]
+            yield "\n".join(ruled)
+        case Figure(caption=caption, under=under):
+            yield f"![{_alone(caption)}]({next(names)})"
+            yield "  \n".join((f"*{said['figure']}: {_line(caption)}*", *map(_line, under)))
+
+
+def _line(markup: str) -> str:
+    return "".join(map(_node, parse(markup)))
+
+
+def _alone(markup: str) -> str:
+    """Return a line without anything but its characters."""
+
+    def text(node: Node) -> str:
+        match node:
+            case Plain(text=plain):
+                return plain
+            case Ruled(parts=parts):
+                return "".join(map(text, parts))
+            case _:
+                return text(node.base) + "".join(map(text, (*node.above, *node.below)))
+
+    return _plain("".join(map(text, parse(markup))))
+
+
+def _node(node: Node) -> str:
+    if isinstance(node, Plain):
+        return _plain(node.text)
+    if isinstance(node, Ruled):
+        inner = "".join(map(_node, node.parts))
+        return _barred(inner) if node.kind == "bar" else f"<u>{inner}</u>"
+    above, below = ("".join(map(_node, parts)) for parts in (node.above, node.below))
+    return _node(node.base) + (f"<sup>{above}</sup>" if above else "") + (f"<sub>{below}</sub>" if below else "")
+
+
+def _barred(text: str) -> str:
+    """Put a bar over every letter."""
+    return re.sub(r"(\w)", "\\1\u0305", text)
+
+
+def _plain(text: str) -> str:
+    """Return characters that Markdown does not take for signs of its own."""
+    return _SIGNS.sub(r"\\\1", text)

@@ -1,0 +1,173 @@
+"""A note as PDF by typst: the document in its language, the figures as SVG at their true size."""
+
+from __future__ import annotations
+
+import importlib.util
+import io
+import json
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from ...scales.errors import InputError
+from ...scales.packaged import packaged
+from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
+from .figures import figure_page
+from .markup import Node, Plain, Ruled, parse
+
+WIDTH = 180.0  # mm of text on A4: as wide as the widest figure of a sheet on A4
+PREAMBLE = """\
+#set document(title: {title}, date: none)
+#set page(paper: "a4", margin: (left: 20mm, right: 10mm, top: 15mm, bottom: 20mm), numbering: "1", number-align: center)
+#set text(font: ("Libertinus Serif", "DejaVu Sans"), size: 12pt, lang: {lang})
+#set par(justify: true, leading: 0.7em, spacing: 0.8em)
+#set heading(numbering: "1")
+#show heading: set text(size: 13pt)
+#show heading: set block(above: 1.4em, below: 0.8em, sticky: true)
+#set table(stroke: 0.5pt, inset: 4pt)
+#show figure: set block(breakable: false)
+#show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif", "DejaVu Sans"))
+#let equation(body) = block(inset: (left: 8mm), spacing: 0.75em, body)
+"""
+
+
+def pdf_bytes(document: Document) -> bytes:
+    """Return a note as PDF; the same note gives the same bytes.
+
+    Raises
+    ------
+    InputError
+        The extra `note` is not installed.
+    """
+    try:
+        import typst
+    except ImportError:
+        raise InputError("note-extra") from None
+    files: Any = {"main.typ": source(document).encode("utf-8")}
+    files |= {f"{number}.svg": _svg(figure, document) for number, figure in enumerate(_figures(document.blocks))}
+    return bytes(typst.compile(files, font_paths=[_fonts()], ignore_system_fonts=True))
+
+
+def _figures(blocks: Iterable[Block]) -> Iterator[Figure]:
+    return (block for block in blocks if isinstance(block, Figure))
+
+
+def _fonts() -> str:
+    """Return the folder of the font in which figures are lettered."""
+    found = importlib.util.find_spec("matplotlib")
+    assert found is not None
+    assert found.origin is not None
+    return str(Path(found.origin).parent / "mpl-data" / "fonts" / "ttf")
+
+
+def _svg(figure: Figure, document: Document) -> bytes:
+    from ..svg import write_svg
+
+    stream = io.BytesIO()
+    write_svg(figure_page(figure, document.language), stream)
+    return stream.getvalue()
+
+
+def source(document: Document) -> str:
+    """Return a note in the language of typst."""
+    said = packaged(__package__, "texts", document.language)
+    numbers = iter(range(len(document.blocks)))
+    parts = [PREAMBLE.format(title=_quoted(document.title.title), lang=_quoted(document.language)), _title(document)]
+    parts += [_block(block, said, numbers) for block in document.blocks]
+    return "\n".join(parts)
+
+
+def _title(document: Document) -> str:
+    """Return the first page and the contents."""
+    said, page = packaged(__package__, "texts", document.language), document.title
+    rows = [(said[f"title.{name}"], getattr(page, name)) for name in ("student", "group", "teacher")]
+    cells = "".join(f"[{_text(label)}], [{_text(value or '_' * 24)}],\n" for label, value in rows)
+    about = said["title.variant"].format(variant=page.variant)
+    return "\n".join(
+        (
+            "#page(numbering: none)[",
+            f"#align(center)[{_text(page.department)}]",
+            "#v(60mm)",
+            f'#align(center)[#text(size: 16pt, weight: "bold")[{_text(said["title.note"])}]]',
+            f"#align(center)[#text(size: 14pt)[{_text(page.title)}]]",
+            f"#align(center)[{_text(about)}]",
+            "#v(1fr)",
+            f"#align(right)[#grid(columns: 2, align: left, gutter: 4mm,\n{cells})]",
+            "#v(30mm)",
+            f"#align(center)[{_text(page.date)}]",
+            f"#align(center)[#text(size: 9pt)[{_text(page.identity)}]]",
+            "]",
+            f"#outline(title: {_quoted(said['contents'])})",
+            "#pagebreak()",
+        )
+    )
+
+
+def _block(block: Block, said: dict[str, str], numbers: Iterator[int]) -> str:
+    match block:
+        case Heading(text=text):
+            return f"= {_line(text)}"
+        case Sentences(texts=texts):
+            return " ".join(map(_line, texts)) + "\n"
+        case Steps(texts=texts):
+            return "\n".join(f"+ {_line(text)}" for text in texts) + "\n"
+        case Equations(lines=lines):
+            return "\n".join(f"#equation[{_line(' '.join(chunks))}]" for chunks in lines) + "\n"
+        case Table(rows=rows):
+            return _table(rows)
+        case Figure(view=view, caption=caption, under=under):
+            width = view.box[2] - view.box[0]
+            note = "".join(f" #linebreak() {_line(text)}" for text in under)
+            shown = f'image("{next(numbers)}.svg", width: {min(width, WIDTH):.4f}mm)'
+            return (
+                f"#figure({shown}, kind: image, supplement: {_quoted(said['figure'])}, "
+                f"caption: [{_line(caption)}{note}])\n"
+            )
+
+
+def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
+    cells = []
+    for number, row in enumerate(rows):
+        for column, cell in enumerate(row):
+            if cell is None and column:
+                continue
+            span = next((k for k in range(column + 1, len(row)) if row[k] is not None), len(row)) - column
+            text = f"*{_line(cell or '')}*" if number == 0 and cell else _line(cell or "")
+            cells.append(f"table.cell(colspan: {span})[{text}]")
+    return f"#align(center)[#table(columns: {len(rows[0])}, align: center + horizon,\n{', '.join(cells)})]\n"
+
+
+def _line(markup: str) -> str:
+    """Return a line of markup: words as text, symbols with scripts and bars as formulas."""
+    return "".join(_text(node.text) if isinstance(node, Plain) else f"${_formula(node)}$" for node in parse(markup))
+
+
+def _formula(node: Node) -> str:
+    """Return a node within a formula."""
+    if isinstance(node, Plain):
+        return f"italic({_quoted(node.text)})" if len(node.text) == 1 and node.text.isalpha() else _quoted(node.text)
+    if isinstance(node, Ruled):
+        inner = " ".join(map(_formula, node.parts)) or '""'
+        return {"bar": f"overline({inner})", "u": f"underline({inner})", "uu": f"underline(underline({inner}))"}[
+            node.kind
+        ]
+    scripts = "".join(
+        f", {place}: {' '.join(map(_script, parts))}"
+        for place, parts in (("t", node.above), ("b", node.below))
+        if parts
+    )
+    return f"attach({_formula(node.base)}{scripts})"
+
+
+def _script(node: Node) -> str:
+    return _quoted(node.text) if isinstance(node, Plain) else _formula(node)
+
+
+def _text(plain: str) -> str:
+    """Return plain characters as content in which nothing is a sign of the language."""
+    return f"#{_quoted(plain)}" if plain else ""
+
+
+def _quoted(text: str) -> str:
+    """Return a string literal."""
+    return json.dumps("".join(c if c.isprintable() else " " for c in text), ensure_ascii=False)

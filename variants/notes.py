@@ -1,0 +1,129 @@
+"""The explanatory note of one variant: the figures of its sheet with the work told step by step."""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..drawing.notes.blocks import Document, Figure, Heading, Sentences, TitlePage, blocks_of
+from ..drawing.notes.figures import figure_page
+from ..drawing.notes.markdown import markdown
+from ..drawing.notes.typst import pdf_bytes
+from ..drawing.words import Words
+from ..drawing.writers import WRITERS, Files, save_all
+from ..scales.errors import InputError
+from ..scales.names import unknown
+from ..scales.packaged import packaged
+from .case import Case, Settings, solve_case
+from .sheet_id import sheet_id
+from .sheets import Sheet, draw_case
+from .task import Task
+
+TEXTS = "kulman.drawing.notes"
+PAPER = "A4"  # figures drawn for it have room in the note at their true size
+DOCUMENTS = (".pdf", ".md")
+SUFFIXES = (*DOCUMENTS, ".svg", ".png")
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Note:
+    """A note with the sheet whose figures it shows; of `figure` alone it can be saved as a picture."""
+
+    document: Document
+    sheet: Sheet
+    figure: str | None = None
+
+    @property
+    def figures(self) -> dict[str, Figure]:
+        """The figures by the names of their views."""
+        return {block.view.name: block for block in self.document.blocks if isinstance(block, Figure)}
+
+    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
+        """Write the note to each of `paths`, .pdf or .md with its figures beside it; a single figure to .svg or .png.
+
+        Raises
+        ------
+        InputError
+            An unknown suffix, a picture without a figure that is named, the extra `note` is missing, or a file cannot
+            be written: then none is.
+        """
+        return save_all(paths, SUFFIXES, self._files)
+
+    def _files(self, path: Path) -> Files:
+        suffix = path.suffix.lower()
+        if suffix not in DOCUMENTS:
+            return self._picture(path)
+        if self.figure is not None:
+            raise InputError("note-figure-alone", file=str(path), figure=self.figure)
+        if suffix == ".pdf":
+            return [(path, pdf_bytes(self.document))]
+        names = [f"{path.stem}-{name}.svg" for name in self.figures]
+        text = markdown(self.document, names)
+        pictures = zip(names, self.figures.values(), strict=True)
+        return [
+            (path, text.encode("utf-8")),
+            *((path.with_name(name), self._drawn(figure, ".svg")) for name, figure in pictures),
+        ]
+
+    def _picture(self, path: Path) -> Files:
+        if self.figure is None:
+            raise InputError("note-figure-missing", file=str(path), known=", ".join(self.figures))
+        return [(path, self._drawn(self.figures[self.figure], path.suffix.lower()))]
+
+    def _drawn(self, figure: Figure, suffix: str) -> bytes:
+        stream = io.BytesIO()
+        WRITERS[suffix]([figure_page(figure, self.document.language)], stream)
+        return stream.getvalue()
+
+
+def note(
+    task: str | os.PathLike[str] | Task,
+    variant: str | None = None,
+    *,
+    set: Settings | None = None,
+    only: str | Iterable[str] | None = None,
+    scales: Settings | None = None,
+    notation: str | None = None,
+    lang: str = "uk",
+    figure: str | None = None,
+    **block: str,
+) -> Note:
+    """Write the explanatory note of one variant of a task.
+
+    Parameters
+    ----------
+    task, variant, set, only, scales, notation, lang
+        As for `sheet`.
+    figure : str, optional
+        The name of the only figure that is wanted, such as `velocity`.
+    **block : str
+        `student`, `group`, `teacher`, `department`, `date` for the title page.
+
+    Raises
+    ------
+    InputError, PositionError
+        As for `sheet`; or there is no such figure.
+    """
+    case = solve_case(task, variant, set, only, scales)
+    return note_of_case(case, block, notation, lang, figure)
+
+
+def note_of_case(
+    case: Case, block: dict[str, str], notation: str | None = None, lang: str = "uk", figure: str | None = None
+) -> Note:
+    """Write the note of a case that is solved already."""
+    drawn = draw_case(case, {}, PAPER, notation=notation, lang=lang)
+    words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
+    said = packaged(TEXTS, "texts", lang)
+    story = case.kind.story(case, drawn.scales, words, said)
+    identity = sheet_id(case.task, case.variant, case.settings)
+    page = TitlePage(case.task.title[lang], case.task.id, case.variant, identity=identity, **block)
+    about = Sentences((said["note.about"].format(sheet=identity),))
+    end = (Heading(said["note.conclusions"]), Sentences(story.conclusions)) if story.conclusions else ()
+    found = Note(Document(page, (about, *blocks_of(drawn.views, story), *end), lang), drawn, figure)
+    if figure is not None and figure not in found.figures:
+        raise unknown("figure-unknown", figure, found.figures)
+    return found
