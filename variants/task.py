@@ -14,14 +14,17 @@ from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import InputError, KulmanError
 from ..scales.names import unknown
 from ..scales.numbers import quote
-from ..scales.units import Unit, parse
+from ..scales.units import Unit, parse, unit
 
 if TYPE_CHECKING:
     from ..plans.cams.cam import Cam
     from ..plans.gears.gear import GearPair
+    from ..plans.hoist.hoist import Hoist
 
 # In SI; no drawing has links, masses or forces beyond these, and none of their products leaves the range of a float.
 SMALLEST, LARGEST = 1e-12, 1e9
+LARGEST_OF = {unit("Pa").dimension: 1e15}  # what is large in SI already
+ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written
 
 Instead = tuple[tuple[frozenset[str], tuple[str, ...]], ...]  # givens, and those in whose place they stand
 WITH_FORCES = frozenset(("forces", "lever"))  # plans whose units hang together in SI alone
@@ -37,6 +40,8 @@ class Bound(Enum):
     PART = "not-part"
     ACUTE = "not-acute"
     TURN = "not-turn"
+    UP_TO_HALF = "not-half"
+    RIGID = "not-positive-or-inf"  # positive or infinite
 
     def admits(self, value: float) -> bool:
         """Whether a given may have this value, in SI."""
@@ -51,6 +56,8 @@ _ADMITTED: dict[Bound, Callable[[float], bool]] = {
     Bound.PART: lambda value: 0.0 < value < 1.0,
     Bound.ACUTE: lambda value: 0.0 < value < 0.5 * math.pi,
     Bound.TURN: lambda value: 0.0 < value <= 2.0 * math.pi,
+    Bound.UP_TO_HALF: lambda value: 0.0 < value <= 0.5,
+    Bound.RIGID: lambda value: value > 0.0,
 }
 
 
@@ -90,23 +97,32 @@ class Given:
             if value not in self.choices or not isinstance(value, str):
                 raise InputError("choice-unknown", text=quote(value), known=", ".join(self.choices))
             return value
+        if self.bound is Bound.RIGID and _endless(value):
+            return math.inf
         if isinstance(value, str):
             number = parse(value, self.unit, self.unit)
         elif isinstance(value, Real) and not isinstance(value, bool):
             number = _finite(value, self.unit)
         else:
             raise InputError("type-quantity", expected=self.unit.name)
-        if number != 0.0 and not SMALLEST <= abs(number) <= LARGEST:
+        if number != 0.0 and not SMALLEST <= abs(number) <= LARGEST_OF.get(self.unit.dimension, LARGEST):
             raise InputError("number-infinite", text=quote(value))
         if not self.bound.admits(number):
             raise InputError(self.bound.value, text=quote(value))
         return number
 
 
-def _finite(value: Real, unit: Unit) -> float:
-    """Return a number of `unit` in SI."""
+def _endless(value: object) -> bool:
+    """Tell whether what was written is infinite, with a unit or without."""
+    if isinstance(value, str):
+        return value.strip().lower().partition(" ")[0] in ENDLESS
+    return value == math.inf
+
+
+def _finite(value: Real, of: Unit) -> float:
+    """Return a number of a unit in SI."""
     try:
-        number = unit.to_si(float(value))
+        number = of.to_si(float(value))
     except OverflowError:
         number = math.inf
     if math.isnan(number):
@@ -129,8 +145,8 @@ class Variant:
 class Task:
     """A task of a textbook as data.
 
-    `mechanism` is what it is about: a linkage, a cam, a gear pair; `kind` is the table that describes it, and names its
-    kind.
+    `mechanism` is what it is about: a linkage, a cam, a gear pair, a hoist; `kind` is the table that describes it, and
+    names its kind.
     `choices` says which values each word of a choice sets, `constants` holds the literals of the mechanism;
     `file` is what was read, as the user named it, `None` for a bundled task; `display` are the units of results.
     `note` is what a user should know of the data, by language;
@@ -145,7 +161,7 @@ class Task:
     givens: Mapping[str, Given]
     choices: Mapping[str, Mapping[str, Mapping[str, float]]]
     constants: Mapping[str, float]
-    mechanism: Mechanism | Cam | GearPair
+    mechanism: Mechanism | Cam | GearPair | Hoist
     scales: Mapping[str, str]
     variants: Mapping[str, Variant]
     file: str | None = None

@@ -1,6 +1,7 @@
 """Kinds of tasks: one module a kind, with all that a task of that kind needs, loaded when such a task is met.
 
-A task file says of which kind it is by the table in which it describes its subject: `[mechanism]`, `[cam]`, `[gear]`.
+A task file says of which kind it is by the table in which it describes its subject: `[mechanism]`, `[cam]`, `[gear]`,
+`[hoist]`.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .kind import Kind
 
-MODULES = {"mechanism": "linkage", "cam": "cam", "gear": "gear"}  # module of each kind by its table
+MODULES = {"mechanism": "linkage", "cam": "cam", "gear": "gear", "hoist": "hoist"}  # module of each kind by its table
 KINDS = tuple(MODULES.values())
 
 

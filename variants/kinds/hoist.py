@@ -1,0 +1,132 @@
+"""Tasks about hoists: a table `[hoist]` with the sides of the beams that are the nearer ones."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from ...plans.hoist.hoist import PLANS, Hoist
+from ...scales.choose import Choosers
+from ...scales.errors import InputError
+from ...scales.names import unknown
+from ...scales.scale import Scale
+from ..checks.hoist import read_hoist, words_of
+from ..task import Given, Task
+from .kind import Kind, Verdicts
+
+if TYPE_CHECKING:
+    from ...drawing.formats import Format
+    from ...drawing.page import Drawn
+    from ...drawing.pens import Norm
+    from ...drawing.titleblock import Stamp
+    from ...drawing.words import Words
+    from ...plans.hoist.solve import SolvedHoist
+    from ...plans.quantities import Quantity
+    from ..case import Case
+    from ..charts.hoist import HoistCharts
+    from ..checks.basics import Checker
+    from ..checks.names import Names
+    from ..sweeps.asked import Asked
+    from ..sweeps.hoist import HoistSweep
+
+SYMBOLS: tuple[str, ...] = ()  # scale factors that may be chosen
+
+
+class Hoists(Kind[Hoist, "SolvedHoist"]):
+    """Loads that a rope takes off a beam, wound up on another beam."""
+
+    table, plans = "hoist", PLANS
+
+    def words(self, raw: object) -> frozenset[str]:
+        """Return the words of `[hoist]` that may be names of choices."""
+        return words_of(raw)
+
+    def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Hoist | None:
+        """Read `[hoist]`."""
+        return read_hoist(checker, raw, names, givens)
+
+    def fits(self, checker: Checker, subject: Hoist, head: Mapping[str, Any]) -> None:
+        """Check that the scale factors are those that may be chosen."""
+        for name in head.get("scales", {}):
+            if name not in SYMBOLS:
+                checker.fault(("scales", name), unknown("scale-unknown", name, SYMBOLS, task=head.get("id", "")))
+
+    def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
+        """Check that every variant moves its load; if `thorough`, that its forces can be found."""
+        from ...plans.hoist.givens import complete
+
+        for row, variant in enumerate(task.variants):
+            try:
+                complete(task.values(variant))
+                if thorough:
+                    assert isinstance(task.mechanism, Hoist)
+                    self.solve(task.mechanism, task.values(variant), task.words(variant), task.plans)
+            except InputError as error:
+                checker.fault(("variant", row), error)
+
+    def solve(
+        self, subject: Hoist, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
+    ) -> SolvedHoist:
+        """Solve a hoist.
+
+        Raises
+        ------
+        InputError
+            Numbers that no hoist can have.
+        """
+        from ...plans.hoist.solve import solve_hoist  # needs numpy
+
+        return solve_hoist(subject.chosen(words), values, plans)
+
+    def scale_symbols(self, solved: SolvedHoist) -> tuple[str, ...]:
+        """Return the symbols of the scale factors that may be chosen."""
+        return SYMBOLS
+
+    def first_scales(self, solved: SolvedHoist, choosers: Choosers) -> dict[str, Scale]:
+        """Return the scale factors by plan."""
+        return {}
+
+    def warnings(self, solved: SolvedHoist) -> tuple[InputError, ...]:
+        """Tell where the formulas are not valid, and of a rope that is not strong enough."""
+        found = []
+        for check in solved.forces.checks:
+            if not check.ok:
+                said = {"value": f"{check.value:.5g}", "limit": f"{check.limit:.5g}"}
+                found.append(InputError(f"hoist-rule-{check.name.replace('_', '-')}", **said))
+        return tuple(found)
+
+    def checks(self, solved: SolvedHoist, quantities: Mapping[str, Quantity]) -> Verdicts:
+        """Return what formulas and rope are judged by: the compared value and its limit, SI.
+
+        `rope_phase_1` and `rope_phase_2` are the least force of the rope, `support` is the least height of the lifted
+        load, `strength` the safety beside the required one.
+        """
+        return {
+            check.name: {"ok": bool(check.ok), "value": check.value, "limit": check.limit, "unit": check.unit or "1"}
+            for check in solved.forces.checks
+        }
+
+    def sweep(self, case: Case, words: Words, asked: Asked) -> HoistSweep:
+        """Look at a hoist over time."""
+        from ..sweeps.hoist import hoist_sweep
+
+        return hoist_sweep(case, words, asked)
+
+    def gallery(self, task: Task) -> HoistCharts:
+        """Return who makes the charts of a hoist."""
+        from ..charts.hoist import HoistCharts
+
+        return HoistCharts()
+
+    def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
+        """Refuse: a hoist has no sheet yet.
+
+        Raises
+        ------
+        InputError
+            Always.
+        """
+        raise InputError("kind-without", task=case.task.id, text="sheet")
+
+
+KIND = Hoists()
