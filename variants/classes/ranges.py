@@ -167,6 +167,6 @@ def looked_at(task: Task, variant: str, settings: Settings, through: bool = True
         drawn = draw_case(case, {})
     except KulmanError as error:
         return error, None
-    if remark is None and len(drawn.pages) > 1:
+    if remark is None and len(drawn.pages) > case.kind.pages:
         remark = InputError("variant-pages", n=len(drawn.pages))
     return None, remark or next(iter(drawn.warnings), None)

@@ -47,6 +47,7 @@ class Gears(Kind[GearPair, "SolvedGear"]):
     """External pairs of involute spur gears cut by a standard rack."""
 
     table, plans = "gear", PLANS
+    pages = 2  # the meshing at 5:1 fills one
     display = Display(size="mm", angle="deg")
     instead = (
         (frozenset(("x_1", "x_2")), ("x_sum", "a_w")),

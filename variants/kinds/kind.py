@@ -42,6 +42,7 @@ class Kind(ABC, Generic[Subject, Answer]):
     table: ClassVar[str]
     display: ClassVar[Display] = AS_INSIDE  # the units of results where a file says no others
     plans: ClassVar[tuple[str, ...]]
+    pages: ClassVar[int] = 1  # how many a sheet has at most that holds everything well
     instead: ClassVar[Instead] = ()  # which givens of a user stand in the place of others
 
     # Reading a task file. Faults go to the checker.
