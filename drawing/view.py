@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from cmath import rect
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import pi
 from typing import assert_never
 
+from .clearings import first_clear
 from .labels import Labels, Obstacles, Request, place
 from .page import extent
 from .pens import HEAD_HALF_WIDTH
@@ -93,6 +95,19 @@ class Canvas:
         self._markup.append((markup, height))
         if spare:
             self._spare[name] = spare
+
+    def write(self, markup: str, places: Sequence[complex], height: float, gap: float = 0.8) -> bool:
+        """Write a letter about the first of some places that is clear of all that is drawn; tell whether there is one.
+
+        What is drawn afterwards, and other letters, keep clear of it.
+        """
+        layout = lay_out(markup, height)
+        size = layout.width, layout.top - layout.bottom
+        middle = first_clear(places, size, _obstacles(self.shapes, self._boxes, self.style), gap)
+        if middle is None:
+            return False
+        self.add(Text(middle - 0.5j * (layout.top + layout.bottom), markup, height, "middle", role="label"))
+        return True
 
     def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:
         """Place the letters, write the heading lines and smaller notes above, and close the view."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -95,13 +95,19 @@ def _section_lines(canvas: Canvas, scene: CamScene, fields: Sequence[Field], box
     top, bottom, height = fields[0], fields[-1], scene.style.text
     for i, phi in enumerate(scene.solved.angles.tolist()):
         a, b = top.at(phi, top.y.high) + 1.5j, bottom.at(phi, bottom.y.low) - 1.5j
-        gaps = [(y1, y0) for x0, y0, x1, y1 in boxes if x0 < a.real < x1 and b.imag < y0 and y1 < a.imag]
-        ends = [a.imag, *(y for gap in sorted(gaps, reverse=True) for y in gap), b.imag]
-        parts = ((complex(a.real, y), complex(a.real, z)) for y, z in zip(ends[::2], ends[1::2], strict=True))
-        canvas.add(Group(tuple(Line(*part, Pen.THIN) for part in parts), "section", str(i)))
+        canvas.add(Group(tuple(Line(*part, Pen.THIN) for part in broken(a, b, boxes)), "section", str(i)))
     lines = [top.at(phi, 0.0).real for phi in scene.solved.angles.tolist()]
     above, below = top.at(0.0, top.y.high).imag + 2.3, bottom.at(0.0, bottom.y.low).imag - 2.3 - height
     canvas.add(*numbers(lines, above, height)[1:], *numbers(lines, below, height))
+
+
+def broken(a: complex, b: complex, boxes: Sequence[Box]) -> Iterator[tuple[complex, complex]]:
+    """Go through the pieces of an upright line, from its upper end, that lie beside the boxes."""
+    gaps = [(min(y1, a.imag), max(y0, b.imag)) for x0, y0, x1, y1 in boxes if x0 < a.real < x1]
+    ends = [a.imag, *(y for gap in sorted(gaps, reverse=True) for y in gap), b.imag]
+    for start, end in zip(ends[::2], ends[1::2], strict=True):
+        if start > end:
+            yield complex(a.real, start), complex(a.real, end)
 
 
 def _exact(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:

@@ -6,6 +6,8 @@ import cmath
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from ...plans.cams.envelopes import Undercut
 from ...plans.cams.motion import LOWER, TURN, Motion
 from ..printed import decimals_for
@@ -114,8 +116,18 @@ def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: fl
         arrow = -arrow
     canvas.add(turning_arrow(0j, radius, arrow, 0.9, float(sense), "omega"))
     canvas.label(scene.words.symbol("omega"), cmath.rect(radius, arrow), prefer=cmath.rect(1.0, arrow), clear=0.8)
-    side = cmath.rect(1.0, middle + BESIDE * sense)
-    canvas.label("O", max(r, offset) * side, prefer=side, clear=0.8, priority=1)
+
+
+def letter_centre(canvas: Canvas, scene: CamScene, reach: float, turned: float = 0.0, offset: float = 0.0) -> None:
+    """Write the letter of the cam's centre, when all else is drawn: near the shaft, clear of all lines if it can be."""
+    style, sense = scene.style, scene.solved.cam.sense
+    size, middle = max(shaft_radius(reach, style, offset), offset), dwelling(scene.solved.motion, sense) + turned
+    turns = sorted(np.arange(-1.2, 1.21, 0.1), key=lambda turn: abs(turn - BESIDE))
+    far = (size + style.label * part for part in (0.8, 0.95, 1.1, 1.3, 1.6, 2.0))
+    places = [cmath.rect(away, middle + turn * sense) for away in far for turn in turns]
+    if not canvas.write("O", places, style.label):
+        side = cmath.rect(1.0, middle + BESIDE * sense)
+        canvas.label("O", size * side, prefer=side, clear=0.8, priority=1)
 
 
 def circle(radius: float, name: str) -> Group:

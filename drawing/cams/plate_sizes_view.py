@@ -11,6 +11,7 @@ from ..shapes import Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension
 from ..view import Canvas, View
 from .diagrams_view import SAME
+from .fan import small
 from .scene import CamScene, canvas_of, pieces
 from .sizes_view import on_lines
 from .transfer import transfer
@@ -87,7 +88,7 @@ def _nodes(canvas: Canvas, scene: CamScene) -> None:
                 shared[key].append(str(i))
                 canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"{i}_{end}"))
     for at, numbers in shared.items():
-        canvas.label(", ".join(numbers), at, prefer=1j, clear=0.8, height=scene.style.text)
+        canvas.label(", ".join(numbers), at, prefer=1j, clear=0.8, height=small(scene.style.text))
 
 
 def _sizes(canvas: Canvas, scene: CamScene) -> None:

@@ -10,7 +10,19 @@ from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import Box, box, lay_out
 from ..view import Canvas, View
 from .hardware import Rod
-from .inversion import centre, circle, corners, heading, numbers, phases, quiet, radius_at, undercut_notes, unit_at
+from .inversion import (
+    centre,
+    circle,
+    corners,
+    heading,
+    letter_centre,
+    numbers,
+    phases,
+    quiet,
+    radius_at,
+    undercut_notes,
+    unit_at,
+)
 from .roller_view import NUMBERS, PHASES
 from .scene import CamScene, canvas_of
 
@@ -42,6 +54,7 @@ def plate_view(scene: CamScene) -> View:
     _follower(canvas, scene, rod, R)
     left = _sizes(canvas, scene, rod, R)
     notes = "; ".join([*left, *_numbers(scene)]), *undercut_notes(scene, plate.profile.undercuts)
+    letter_centre(canvas, scene, r_0)
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
     return canvas.finish("plate_profile", heading(scene, "heading.cam_plate_profile", PLATE_PROFILE), notes)

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from ...plans.cams.motion import RISE
 from ...scales.scale import Scale, steps
 from ..diagram import Axis, Field, axes, divisions, numbers
-from ..shapes import Circle, Group, Line, Pen, Polyline
+from ..shapes import Circle, Group, Line, Pen, Polyline, Text
+from ..text import Box, box
 from ..view import Canvas, View
+from .diagrams_view import broken
 from .pressing import courses, permitted, theta
 from .scene import CamScene, canvas_of
 
+SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)  # of the line of a limit at which its text may stand
+AROUND = 0.8  # mm around that text
+Place = tuple[float, float]
 DEGREE = math.radians(1.0)
 WIDE = {5.0: 160.0, 3.5: 120.0}  # mm of the axis of angles beyond which it is half as long as on the diagrams
 TALL = {5.0: 60.0, 3.5: 45.0}  # mm of the axis of pressure angles, by the height of letters
@@ -26,13 +32,8 @@ def pressure_view(scene: CamScene) -> View:
     field = _field(scene, min(every), max(every))
     axes(canvas, field, lettered=False)
     canvas.add(Group(tuple(Polyline(tuple(field.at(*p) for p in points)) for points in curves), "curve", "theta"))
-    for name, limit in limits:
-        phase = solved.motion.rise if name == RISE else solved.motion.fall
-        ends = field.at(phase.start, limit), field.at(phase.end, limit)
-        canvas.add(Group((Line(*ends, Pen.DASHED),), "limit", f"{name}{'' if limit > 0 else '-'}"))
-        text = f"[{words.symbol('theta')}] = {scene.degrees(abs(limit))}"
-        canvas.label(text, ends, prefer=complex(0.0, limit), clear=0.8, height=scene.style.text)
-    _sections(canvas, scene, field)
+    boxes = [_limit(canvas, scene, field, curves, at) for at in limits]
+    _sections(canvas, scene, field, [found for found in boxes if found is not None])
     per_mm = f"{words.symbol('mu_theta')} = {scene.degrees(field.y.scale.mu)}/{words.unit('mm')}"
     heading = words["heading.cam_pressure"], f"{per_mm};  {scene.factor(field.x.scale)}"
     return canvas.finish("pressure", heading)
@@ -50,13 +51,35 @@ def _field(scene: CamScene, low: float, high: float) -> Field:
     return Field(0j, across, Axis(words.symbol("theta"), Scale("mu_theta", mu, "rad"), low, high, marks))
 
 
-def _sections(canvas: Canvas, scene: CamScene, field: Field) -> None:
-    """Draw the section lines with their numbers, and mark the curve on them."""
+def _limit(
+    canvas: Canvas, scene: CamScene, field: Field, curves: Sequence[Sequence[Place]], at: tuple[str, float]
+) -> Box | None:
+    """Draw a limit over its phase, and write it on the line; return the box of what stands among section lines."""
+    name, limit = at
+    motion, height = scene.solved.motion, scene.style.text
+    phase = motion.rise if name == RISE else motion.fall
+    ends = field.at(phase.start, limit), field.at(phase.end, limit)
+    canvas.add(Group((Line(*ends, Pen.DASHED),), "limit", f"{name}{'' if limit > 0 else '-'}"))
+    markup = f"[{scene.words.symbol('theta')}] = {scene.degrees(abs(limit))}"
+    points = [field.at(*p) for course in curves for p in course]
+    for share in SHARES if limit < field.y.high else ():  # section lines run through, or their numbers stand below
+        text = Text(ends[0] + share * (ends[1] - ends[0]) + 0.5j * height, markup, height, "middle", role="label")
+        x0, y0, x1, y1 = (side + AROUND * way for side, way in zip(box(text), (-1, -1, 1, 1), strict=True))
+        if not any(x0 < p.real < x1 and y0 < p.imag < y1 for p in points):
+            canvas.add(text)
+            return x0, y0, x1, y1
+    canvas.label(markup, ends, prefer=complex(0.0, limit), clear=0.8, height=height)
+    return None
+
+
+def _sections(canvas: Canvas, scene: CamScene, field: Field, boxes: Sequence[Box]) -> None:
+    """Draw the section lines with their numbers, broken where a text stands, and mark the curve on them."""
     solved, height = scene.solved, scene.style.text
     values = theta(solved, solved.angles)
     lines = [field.at(phi, 0.0).real for phi in solved.angles.tolist()]
     canvas.add(*numbers(lines, field.at(0.0, field.y.low).imag - 2.3 - height, height))
     for i, (phi, value) in enumerate(zip(solved.angles.tolist(), values.tolist(), strict=True)):
         foot = field.at(phi, field.y.low) - 1.5j
-        canvas.add(Line(field.at(phi, field.y.high), foot, Pen.THIN, role="section", name=str(i)))
+        for a, b in broken(field.at(phi, field.y.high), foot, boxes):
+            canvas.add(Line(a, b, Pen.THIN, role="section", name=str(i)))
         canvas.add(Group((Circle(field.at(phi, value), scene.style.node, Pen.THIN, fill="white"),), "node", str(i)))

@@ -10,7 +10,19 @@ from ..shapes import Circle, Group, Line, Pen
 from ..symbols import revolute
 from ..view import Canvas, View
 from .hardware import Rod
-from .inversion import centre, circle, heading, numbers, on_circle, phases, quiet, radius_at, undercut_notes, unit_at
+from .inversion import (
+    centre,
+    circle,
+    heading,
+    letter_centre,
+    numbers,
+    on_circle,
+    phases,
+    quiet,
+    radius_at,
+    undercut_notes,
+    unit_at,
+)
 from .pressing import pressed
 from .rolling import Contact, curves, lettered_sizes, normal, past_normal, roller_radius, sharpest
 from .scene import CamScene, canvas_of
@@ -44,6 +56,7 @@ def roller_view(scene: CamScene) -> View:
     normal(canvas, scene, contact)
     _follower(canvas, scene, rod, R)
     left = _sizes(canvas, scene, rod)
+    letter_centre(canvas, scene, roller.sizes.r_0 / mu, offset=abs(e))
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
     notes = (

@@ -17,7 +17,9 @@ from .scene import CamScene
 
 REACH, BEYOND = 6.5, 4.0  # heights of letters from the roller's centre to the arc of theta; mm of the normal beyond it
 SAME, IN_DWELL = 1e-9, 0.25  # part of a radius; of the lower dwell, at which the radius of its arc is shown
-PARTS = (1.0, 0.85, 1.15, 0.7)  # of the radius of an arc that may be taken instead of it
+PARTS = (1.0, 0.9, 1.1, 0.8, 1.2, 0.7, 1.3)  # of the radius of an arc that may be taken instead of it
+SHARES = (0.5, 0.4, 0.6, 0.3, 0.7)  # of an arc at which its letter may stand
+FLAT = 1e-6  # rad, of an angle that is not shown
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,26 +87,29 @@ def normal(canvas: Canvas, scene: CamScene, contact: Contact) -> None:
         canvas.label(f"{mark}_{{{i}}}", place, prefer=place * 1j, clear=0.8, height=style.text)
     across = up * -1j if cmath.phase(up / out) > 0.0 else up * 1j
     for name, a, b, far in (("theta", out, up, reach), ("gamma", out, across, 0.5 * reach)):
-        sweep = cmath.phase(b / a)
-        if abs(sweep) < 1e-6:
-            continue
-        radius = _clear(canvas, at, (a, b), far)
-        canvas.add(angle_dimension(at, radius, cmath.phase(a), sweep, f"{name}_{i}", style))
-        middle = at + cmath.rect(radius, cmath.phase(a) + sweep / 2)
-        canvas.label(f"{words.symbol(name)}_{{{i}}}", middle, prefer=middle - at, clear=0.8, height=style.text)
+        if abs(cmath.phase(b / a)) > FLAT:
+            _angle(canvas, f"{words.symbol(name)}_{{{i}}}", f"{name}_{i}", at, (a, b), far)
 
 
-def _clear(canvas: Canvas, at: complex, rays: tuple[complex, complex], radius: float) -> float:
-    """Return a radius near the one wanted at which an arc between two rays ends clear of numbers, as does its text."""
+def _angle(canvas: Canvas, letter: str, name: str, at: complex, rays: tuple[complex, complex], far: float) -> None:
+    """Dimension the angle between two rays near a radius at which its letter is clear of all lines."""
+    style, height = canvas.style, canvas.style.text
+    start, sweep = cmath.phase(rays[0]), cmath.phase(rays[1] / rays[0])
+    for radius in (far * part for part in PARTS):
+        beside = (radius + away * height for away in (1.0, -1.0, 1.2, -1.3))
+        places = [at + cmath.rect(away, start + share * sweep) for away in beside for share in SHARES]
+        if _free(canvas, [at + ray * radius for ray in rays]) and canvas.write(letter, places, height):
+            canvas.add(angle_dimension(at, radius, start, sweep, name, style))
+            return
+    middle = at + cmath.rect(far, start + 0.5 * sweep)
+    canvas.add(angle_dimension(at, far, start, sweep, name, style))
+    canvas.label(letter, middle, prefer=middle - at, clear=0.8, height=height)
+
+
+def _free(canvas: Canvas, places: list[complex]) -> bool:
+    """Whether arrowheads in these places are clear of all numbers."""
     numbers = [shape.at for shape in canvas.shapes if isinstance(shape, Text)]
-    room = 1.5 * canvas.style.label
-
-    def nearest(part: float) -> float:
-        middle = rays[0] * cmath.rect(1.0, 0.5 * cmath.phase(rays[1] / rays[0]))
-        places = [*(at + ray * (radius * part) for ray in rays), at + middle * (radius * part + 0.7 * room)]
-        return min((abs(place - number) for place in places for number in numbers), default=room)
-
-    return radius * max(PARTS, key=lambda part: min(nearest(part), room))
+    return all(abs(place - number) > canvas.style.label for place in places for number in numbers)
 
 
 def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> list[str]:

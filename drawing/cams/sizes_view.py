@@ -11,11 +11,12 @@ from ...plans.cams.followers import RollerCam
 from ...plans.cams.half_planes import HalfPlane
 from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.size_plans import SIZES, phase_of
-from ...plans.cams.sizes import wedge
+from ...plans.cams.sizes import BACK, wedge
 from ..dimensions import linear
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension, turning_arrow
 from ..view import Canvas, View
+from .fan import small
 from .hatching import hatched
 from .offsets import permitted_offsets
 from .pressing import pressed
@@ -87,6 +88,8 @@ def _limit(canvas: Canvas, scene: CamScene, plane: HalfPlane, low: float) -> Non
     foot = touch - up * ((touch.imag - low) / up.imag)
     canvas.add(Line(touch + up * LINE, foot, Pen.THIN, role="limit", name=plane.name))
     canvas.add(Group((Circle(touch, scene.style.node, Pen.THIN, fill="black"),), "touch", plane.name))
+    if plane.name.endswith(BACK) and scene.solved.roller and plane.name not in scene.solved.roller.sizes.on:
+        return
     axis = touch - up * (touch.imag / up.imag)
     gamma = math.atan2(up.imag, abs(up.real))
     outwards = math.copysign(1.0, up.real) if up.real else 1.0
@@ -125,7 +128,7 @@ def _nodes(canvas: Canvas, scene: CamScene) -> None:
         out[key] = out.get(key, 0j) + _outwards(scene, i, phase)
     for at, numbers in shared.items():
         text = ", ".join(dict.fromkeys(numbers))
-        canvas.label(text, at, prefer=out[at] or 1j * at.imag, clear=0.8, height=scene.style.text)
+        canvas.label(text, at, prefer=out[at] or 1j * at.imag, clear=0.8, height=small(scene.style.text))
 
 
 def _outwards(scene: CamScene, i: int, phase: str) -> complex:

@@ -1,0 +1,64 @@
+"""Places for letters that are clear of all that is drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+
+from kulman.drawing.clearings import first_clear
+from kulman.drawing.shapes import Circle, Line, Pen, Text
+from kulman.drawing.spots import Obstacles
+from kulman.drawing.style import STYLES
+from kulman.drawing.view import Canvas
+
+SIZE = 6.0, 4.0
+
+
+def apart(place: complex, thing: shapely.Geometry) -> float:
+    box = shapely.box(place.real - 3.0, place.imag - 2.0, place.real + 3.0, place.imag + 2.0)
+    return float(box.distance(thing))
+
+
+@pytest.mark.parametrize("kind", ["segments", "thin", "circles", "boxes"])
+def test_the_first_clear_place_is_clear_and_those_before_are_not(kind: str) -> None:
+    random = np.random.default_rng(7)
+    places = (random.uniform(-30, 30, 200) + 1j * random.uniform(-30, 30, 200)).tolist()
+    ends = random.uniform(-30, 30, (10, 4))
+    lines = [shapely.LineString([(a, b), (c, d)]) for a, b, c, d in ends]
+    drawn = {
+        "segments": (ends[:, ::2] + 1j * ends[:, 1::2], lines),
+        "thin": (ends[:, ::2] + 1j * ends[:, 1::2], lines),
+        "circles": (
+            [(complex(a, b), 5.0) for a, b, *_ in ends],
+            [shapely.Point(a, b).buffer(5.0, 64) for a, b, *_ in ends],
+        ),
+        "boxes": (
+            [(a, b, a + 9.0, b + 7.0) for a, b, *_ in ends],
+            [shapely.box(a, b, a + 9.0, b + 7.0) for a, b, *_ in ends],
+        ),
+    }
+    obstacles, things = drawn[kind]
+    everything = shapely.union_all(things)
+
+    found = first_clear(places, SIZE, Obstacles(**{kind: obstacles}), 1.0)
+
+    assert found is not None
+    first = next(place for place in places if apart(place, everything) > 1.2)
+    assert apart(found, everything) > 0.99
+    assert places.index(found) <= places.index(first)
+
+
+def test_nothing_is_clear_where_a_circle_covers_all() -> None:
+    assert first_clear([0j, 1 + 1j], SIZE, Obstacles(circles=[(0j, 50.0)]), 1.0) is None
+
+
+def test_a_letter_is_written_once_and_keeps_others_away() -> None:
+    canvas = Canvas(STYLES["A3"])
+    canvas.add(Line(-9 + 0j, 9 + 0j, Pen.THIN), Circle(0j, 1.0, Pen.MAIN))
+
+    written = [canvas.write("O", [0j, 4j, 9j, 10 + 10j], 3.5) for _ in range(4)]
+
+    letters = [shape for shape in canvas.shapes if isinstance(shape, Text)]
+    assert written == [True, True, True, False]
+    assert len({letter.at for letter in letters}) == 3
