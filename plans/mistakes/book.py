@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from ..hands.shaky import Paper
 from ..marking.key import Key
-from . import acceleration, cam_sizes, cams, forces, inputs, lever, reading, velocity
+from . import acceleration, cam_sizes, cams, forces, gears, inputs, lever, reading, velocity
 from .angles import Turned
 from .rules import Broken, Mistake, Scene, breaks, put_together
 from .signatures import Columns, Signature, signature, signatures
 
 __all__ = ["MISTAKES", "Book", "Signature", "book", "broken", "key_of", "signature"]
 
-CHAPTERS = (inputs, reading, velocity, acceleration, forces, lever, cams, cam_sizes)
+CHAPTERS = (inputs, reading, velocity, acceleration, forces, lever, cams, cam_sizes, gears)
 MISTAKES: dict[str, Mistake] = put_together(chapter.MISTAKES for chapter in CHAPTERS)
 
 
