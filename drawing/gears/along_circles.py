@@ -14,7 +14,7 @@ from .wheels import Wheel
 
 INSIDE = 1.8  # heights of letters from the root circle to the arc of the pitch
 TAU, PHI = 0.42, 0.7  # parts of the radius at which the angles of pitch and of action are dimensioned
-FREE = 1.25  # lengths of a text that an arc has to have for the text to stand on it
+CLOSE = 6.0  # radius of an arc in heights of letters
 Ends = tuple[complex, complex]
 
 
@@ -68,7 +68,8 @@ def along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str,
     canvas.add(angle_dimension(wheel.centre, radius, start, sweep, name, scene.style))
     out = cmath.rect(1.0, start + 0.5 * sweep)
     middle = wheel.centre + radius * out
-    canvas.label(text, middle, prefer=-out, clear=1.0, height=height)
+    spare = text if radius < CLOSE * scene.style.label else ""  # near the centre there may be no room
+    canvas.label(text, middle, prefer=-out, clear=1.0, height=height, spare=spare)
 
 
 def _nearer(wheel: Wheel, ends: Ends, part: float) -> Ends:

@@ -42,26 +42,26 @@ def circles(canvas: Canvas, wheel: Wheel, span: Span, to_end: bool) -> None:
         canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
 
 
-def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float, beyond: complex) -> None:
+def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float, others: Sequence[complex]) -> None:
     """Write the diameters where the circles end on the free side, under one another, each on a leader.
 
-    Beside the middle of the meshing that is drawn apart they have only their letters.
-
-    They also stand `beyond` the end of the mate's tip circle where this comes as high as they are.
+    They stand beyond the `others`, points of teeth and circles, that come as high as they are. Beside the middle of the
+    meshing that is drawn apart they have only their letters.
     """
     height, side = scene.style.text, -wheel.up.imag  # in which the wheel is from the pole: +1 above, -1 below
     out = wheel.side * side  # to the right, or to the left
     ends = {f"d_{name}{wheel.number}": wheel.on(wheel.radius(name), angle) for name in CIRCLES}
     names = sorted(ends, key=lambda name: side * ends[name].imag)
-    levels = _apart([side * ends[name].imag for name in names], PITCH * height)
-    high = [beyond] if side * beyond.imag > -height else []
-    x = max(out * end.real for end in (*ends.values(), *high)) + SHELF
+    apart = _apart([side * ends[name].imag for name in names], PITCH * height)
+    levels = [max(level, (k + 1) * PITCH * height) for k, level in enumerate(apart)]  # clear of t-t and its letters
+    near = [p for p in others if levels[0] - 2.0 * height < side * p.imag < levels[-1] + height]
+    x = max(out * end.real for end in (*ends.values(), *near)) + SHELF
     anchor: Anchor = "left" if out > 0.0 else "right"
-    for k, (name, level) in enumerate(zip(names, levels, strict=True)):
-        at = complex(out * x, side * max(level, (k + 1) * PITCH * height))  # clear of t-t and its letters
+    for name, level in zip(names, levels, strict=True):
+        at = complex(out * x, side * level)
         canvas.add(Line(ends[name], at, Pen.THIN, role="leader", name=name))
-        place = at + complex(out, -0.5 * height)
         text = scene.words.symbol(name) if scene.close else scene.stated(name)
+        place = at + complex(out, -0.5 * height)
         canvas.add(Text(place, text, height, anchor, role="diameter", name=name))
 
 

@@ -62,9 +62,10 @@ def _circles(canvas: Canvas, scene: GearScene, pair: Pair, to_end: bool) -> tupl
     """Draw the circles with their diameters; return the abscissas between which they lie."""
     spans = [circles.beside_teeth(wheel) for wheel in pair]
     tips = [[wheel.on(wheel.radius("a"), a) for a in span] for wheel, span in zip(pair, spans, strict=True)]
-    for wheel, span, mate in zip(pair, spans, reversed(tips), strict=True):
+    others = [*tips[0], *tips[1], *(point for wheel in pair for point in wheel.outline())]
+    for wheel, span in zip(pair, spans, strict=True):
         circles.circles(canvas, wheel, span, to_end)
-        circles.diameters(canvas, scene, wheel, span[1], mate[0])
+        circles.diameters(canvas, scene, wheel, span[1], others)
     xs = [tip.real for both in tips for tip in both]
     return min(xs), max(xs)
 
