@@ -67,6 +67,14 @@ def _greatest_deflection(force: Any, b: Any, l: Any, I: Any, E: Any) -> Any:
     return FAR * force * b * square * np.sqrt(square) / (l * E * I)
 
 
+def _deflection_of_unit(x: Any, b: Any, l: Any, I: Any, E: Any) -> Any:
+    """Return how far a force of 1 N at b bends a simple beam at x, both from one end; the far part is its mirror."""
+    near = x <= b
+    place, load = np.where(near, x, l - x), np.where(near, b, l - b)
+    rest = l - load
+    return rest * place * ((l - rest) * (l + rest) - place * place) / (6.0 * E * I * l)
+
+
 define(
     # (4) m = (G_1 + G_2 / 3) / g
     reduced_mass=lambda G_1, G_2, g: (G_1 + G_2 / 3.0) / g,
@@ -132,6 +140,10 @@ define(
     # w = P b (l^2 - b^2)^(3/2) / (9 sqrt(3) l E I) at ((l^2 - b^2) / 3)^(1/2) from the far end
     greatest_deflection=_greatest_deflection,
     place_of_deflection=lambda b, l: np.sqrt((l - b) * (l + b) / 3.0),
+    # w = P (l - b) x (l^2 - (l - b)^2 - x^2) / (6 E I l) before the load
+    deflection_of_unit=_deflection_of_unit,
+    # the time of one swing
+    period=lambda k: TURN / k,
     # w = P b^2 (l - b)^2 / (3 E I l) under the load
     deflection=lambda force, stiffness: force / stiffness,
 )

@@ -8,15 +8,38 @@ from typing import Any
 
 import numpy as np
 
+from ..board import Program
 from ..boards.exact import run
-from ..quantities import Quantity, quantities
+from ..quantities import Quantity, quantities, shown_on
 from ..solved import Solved
-from .forces import Forces, forces, motion_givens
+from .beam_plans import BENT, SCHEME
+from .construction import Layout, construct, layout_of
+from .diagram_plan import FORCES, UP
+from .forces import Forces, forces
 from .givens import complete
 from .hoist import PLANS, Hoist
-from .model import model_program
-from .refining import rest_of_root
+from .model import CIRCLE, HORIZONTAL
+from .paper import MM, board_givens
+from .paper import UNITS as SCALED
+from .root_plans import EXTREMES, LIFT_OFF
 
+# the scale factor in which each plan shows values; on the diagrams that of the axis of ordinates
+SCALES = {
+    SCHEME: "mu_l",
+    FORCES: "mu_F",
+    LIFT_OFF: "mu_y",
+    EXTREMES: "mu_v",
+    CIRCLE: "mu_F_circle",
+    **dict.fromkeys(BENT.values(), "mu_w"),
+}
+ON_PAPER = (FORCES, LIFT_OFF, EXTREMES, *BENT.values())  # plans that are drawn in millimetres of paper
+# the plan that shows a quantity as a segment, the first of them that is drawn
+SHOWN_ON = {
+    **dict.fromkeys(("L", "l_0", "l_2", "b_0", "b_2"), (SCHEME,)),
+    **dict.fromkeys(("P_st", "F_12_t1", "F_12_max", "P_12_max", "P_12_min"), (FORCES, CIRCLE)),
+    **dict.fromkeys(("R", "D_0", "D_1", "P_m"), (CIRCLE,)),
+    **{f"{name}_{i}{end}": (plan,) for i, plan in BENT.items() for name, end in (("w", ""), ("w", "_max"))},
+}
 UNITS = {
     "m": "kg",
     "alpha": "1",
@@ -47,6 +70,16 @@ class SolvedHoist(Solved):
 
     hoist: Hoist
     forces: Forces
+    layout: Layout
+
+    @property
+    def edges(self) -> tuple[str, ...]:
+        """The directions of axes, beams and rope."""
+        return HORIZONTAL, UP
+
+    def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
+        """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""
+        return {plan: MM if plan in ON_PAPER else mu for plan, mu in mus.items()}
 
 
 def solve_hoist(hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = PLANS) -> SolvedHoist:
@@ -59,7 +92,7 @@ def solve_hoist(hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = 
     values : mapping of str to float
         Its numbers in SI, as `givens.complete` takes them.
     plans : iterable of str
-        Plans wanted, of `hoist.PLANS`: the numbers need none of them.
+        Plans wanted, of `hoist.PLANS`: the numbers, with the circle, need none of them.
 
     Raises
     ------
@@ -67,26 +100,48 @@ def solve_hoist(hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = 
         Numbers that no hoist can have, or a motion of too many pieces.
     """
     found = forces(values)
-    givens = complete(values)
-    program = model_program(found.motion is not None)
-    begin = givens | ({"_rest": rest_of_root(givens)} if found.motion is None else motion_givens(found.motion))
+    layout = layout_of(hoist, found)
+    program = construct(layout, plans)
+    given = complete(values) | board_givens(found, layout)
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        board = run(program, begin)
+        board = run(program, {name: np.float64(value) for name, value in given.items()})  # where 1/0 is inf
+    drawn = {*program.plans}
     return SolvedHoist(
         program=program,
         values=board.values,
-        quantities=_stated(quantities(program, board.values, {}, unit_of)),
+        quantities=_scales(given, drawn) | _scalars(quantities(program, board.values, {}, unit_of)),
         sines=board.sines,
         status=board.status,
         trouble=board.trouble,
-        shown_on={},
-        scale_of_plan={},
-        givens=begin,
+        shown_on=_shown_on(program, drawn),
+        scale_of_plan={plan: SCALES[plan] for plan in program.plans if plan in SCALES},
+        givens=given,
         hoist=hoist,
         forces=found,
+        layout=layout,
     )
 
 
-def _stated(found: Mapping[str, Quantity]) -> dict[str, Quantity]:
+def _scalars(found: Mapping[str, Quantity]) -> dict[str, Quantity]:
     """Return the quantities without marks of plans."""
     return {name: quantity for name, quantity in found.items() if quantity.kind == "scalar"}
+
+
+def _scales(given: Mapping[str, Any], drawn: set[str]) -> dict[str, Quantity]:
+    """Return the scale factors of the diagrams that are drawn: they are found, and so are results."""
+    of_plan = {"mu_t": FORCES, "mu_t1": LIFT_OFF, "mu_x": "", **{SCALES[plan]: plan for plan in ON_PAPER}}
+    names = (name for name in SCALED if name in given and (of_plan[name] in drawn or _bends(name, drawn)))
+    return {name: Quantity(name, float(given[name]) * MM, f"{_bracketed(SCALED[name])}/mm") for name in names}
+
+
+def _bends(name: str, drawn: set[str]) -> bool:
+    return name in ("mu_x", "mu_w") and not drawn.isdisjoint(BENT.values())
+
+
+def _bracketed(unit: str) -> str:
+    return f"({unit})" if "/" in unit else unit
+
+
+def _shown_on(program: Program, drawn: set[str]) -> dict[str, str]:
+    shown = {name: next((plan for plan in plans if plan in drawn), "") for name, plans in SHOWN_ON.items()}
+    return shown_on(program) | {name: plan for name, plan in shown.items() if plan}

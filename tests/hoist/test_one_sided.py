@@ -46,7 +46,8 @@ def assert_follows(solved: Forces) -> None:
     assert motion is not None
     other = stepped(found, motion.pieces[-1].end)
     assert other["slack"] == 1.0
-    assert found["t_1"] == pytest.approx(other["t_1"], rel=1e-6)
+    assert found["t_1"] == pytest.approx(other["t_1"], rel=1e-4)  # it may leave slowly: then heights are compared
+    assert abs(motion.height(other["t_1"])) < 1e-6 * found["P_st"] * (1.0 / found["C_01"] + 1.0 / found["C_12"])
     rate = found["C_12"] * (found["V_t"] + found["a"] * found["t_1"] + found["V_t"])  # for the last step before t_1
     step = 2.0 * math.pi / found["k"] / PARTS
     assert found["F_12_max"] == pytest.approx(other["F_12_max"], rel=1e-5, abs=2.0 * rate * step)

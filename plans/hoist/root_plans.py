@@ -1,0 +1,76 @@
+"""The equations (11) and (12) solved by drawing: where two curves cross, joined from section line to section line.
+
+On `lift_off` points `Y0` .. lie on the parabola y - m g / C, `O0` .. on the sinusoid osc; `X` is where their chords
+cross, and its abscissa is the time of the lift-off as it is drawn. On `extremes` points `W0` .. lie on the sinusoid
+V cos k t + (a/k) sin k t, the straight line -(C_01/C_12) (V + a t) runs from `L0` to `L1`; `X1` .. are their crossings,
+at which the force of the rope is greatest and least in turn. Abscissas have the scale factor mu_t1, ordinates mu_y and
+mu_v; where the load swings too often before the lift-off only the last swings are drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ..board import Board
+from .diagram_plan import line, part, point
+from .model import HORIZONTAL
+
+LIFT_OFF, EXTREMES = "lift_off", "extremes"
+
+
+def lift_off_plan(board: Board, sections: int, crossed: int) -> None:
+    """Draw parabola and sinusoid of (11); they cross in the section after the line `crossed`."""
+    for i in range(sections + 1):
+        time = f"_t_{i}_{LIFT_OFF}"
+        board.calc(f"{time}_seen", "product", "_section", part(i, 1))
+        board.calc(time, "later", "_begin", f"{time}_seen")
+        abscissa = line(board, LIFT_OFF, f"f{i}", f"{time}_seen", "mu_t1")
+        board.calc(f"_y_{i}", "wound", "V_t", "a", time)
+        board.calc(f"_parabola{i}", "excess", f"_y_{i}", "_height")
+        board.calc(f"_sinusoid{i}", "oscillation", "V_t", "a", "k", time)
+        point(board, LIFT_OFF, f"Y{i}", abscissa, f"_parabola{i}", "mu_y")
+        point(board, LIFT_OFF, f"O{i}", abscissa, f"_sinusoid{i}", "mu_y")
+    for curve in "YO":
+        chord(board, LIFT_OFF, curve, crossed)
+    board.meet(f"{LIFT_OFF}.X", *_on(LIFT_OFF, "Y", crossed), *_on(LIFT_OFF, "O", crossed))
+    read_time(board, "t_1_drawn", LIFT_OFF, "X")
+
+
+def extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
+    """Draw sinusoid and straight line of (12), which cross in the sections after the lines `crossed`."""
+    for i in range(sections + 1):
+        time = f"_t_{i}_{LIFT_OFF}"
+        abscissa = line(board, EXTREMES, f"f{i}", f"{time}_seen", "mu_t1")
+        board.calc(f"_wave{i}", "oscillation_rate", "V_t", "a", "k", time)
+        point(board, EXTREMES, f"W{i}", abscissa, f"_wave{i}", "mu_v")
+    for k, i in enumerate((0, sections)):
+        board.calc(f"_winding{k}", "winding_speed", "V_t", "a", f"_t_{i}_{LIFT_OFF}")
+        board.calc(f"_share{k}", "product", "_ratio", f"_winding{k}")
+        board.calc(f"_line{k}", "opposite", f"_share{k}")
+        point(board, EXTREMES, f"L{k}", f"_abscissa_{EXTREMES}_f{i}", f"_line{k}", "mu_v")
+    chord(board, EXTREMES, "L", 0)
+    for n, i in enumerate(crossed, 1):
+        chord(board, EXTREMES, "W", i)
+        board.meet(f"{EXTREMES}.X{n}", *_on(EXTREMES, "W", i), *_on(EXTREMES, "L", 0))
+        board.calc(f"t_2_{n}", "given", f"_t_2_{n}_exact")
+        read_time(board, f"t_2_{n}_drawn", EXTREMES, f"X{n}")
+
+
+def chord(board: Board, plan: str, curve: str, i: int) -> None:
+    """Join the points of a curve on the section line `i` and the next one."""
+    ends = f"{plan}.{curve}{i}", f"{plan}.{curve}{i + 1}"
+    board.measure(f"_{plan}_{curve}{i}_length", *ends)
+    board.direction(f"_{plan}_{curve}{i}", *ends, f"_{plan}_{curve}{i}_length")
+
+
+def _on(plan: str, curve: str, i: int) -> tuple[str, str]:
+    """Return a point of a chord, and its direction."""
+    return f"{plan}.{curve}{i}", f"_{plan}_{curve}{i}"
+
+
+def read_time(board: Board, name: str, plan: str, mark: str) -> None:
+    """Read the abscissa of a mark as a time, beginning with that of the first section line."""
+    board.read(f"_{name}_segment", f"{plan}.f0", f"{plan}.{mark}")
+    board.calc(f"_{name}_length", "component", f"_{name}_segment", HORIZONTAL)
+    board.calc(f"_{name}_seen", "product", f"_{name}_length", "mu_t1")
+    board.calc(name, "later", "_begin", f"_{name}_seen")
