@@ -10,6 +10,7 @@ from typing import Any
 from ..laws import define, dot
 
 MM = 1e3  # millimetres in a metre of paper
+ARC = "arc_length"  # the law of the stroke of a rocker
 SHARPEST = "sharpest"  # the law of the least radius of curvature
 
 
@@ -87,6 +88,8 @@ def _outermost(side: Any, *places: Any) -> Any:
 
 
 define(
+    # h = psi l: the travel of a rocker's roller runs along an arc
+    arc_length=lambda angle, radius: angle * radius,
     # A_2 = A_1 * u / (1 - u): both lobes have the same area
     second_amplitude=lambda amplitude, u: amplitude * u / (1.0 - u),
     # x = phi / mu_phi
@@ -116,8 +119,9 @@ define(
     # the abscissa of the S-ds/dphi diagram points to where the instant centre lies
     turned_with=lambda analogue, sense: analogue * sense,
     negative=lambda value: -value,
-    # s_0^2 = r_0^2 - e^2
+    # s_0^2 = r_0^2 - e^2, the radius of the upper dwell
     other_leg=_other_leg,
+    hypotenuse=lambda leg, other: (leg * leg + other * other) ** 0.5,
     # psi_0 = arccos((l^2 + l_OC^2 - r_0^2) / (2 l l_OC)): the angle between the sides a and b
     angle_of_triangle=_angle_of_triangle,
     # rho_min = |v|^3 / (v x v'), v and v' being the derivatives of the roller's centre by the angle of the cam

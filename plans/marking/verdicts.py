@@ -236,6 +236,8 @@ class _Marker:
         verdict, way, found, against = held
         if verdict is Verdict.CARRIED:
             follows = against
+        if name in self.key.also and follows == self.key[name]:
+            follows = right  # the other right value follows from nothing that has been said
         said = way.taken(follows if follows == follows else right)
         about = found.about if verdict.faulty else ""
         answer = self.answers[name]

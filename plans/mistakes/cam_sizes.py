@@ -154,9 +154,12 @@ def roller_added(scene: Scene) -> Iterator[Change]:
 @mistake("M99")
 def curvature_of_a_dwell(scene: Scene) -> Iterator[Change]:
     """The curvature is measured on an arc about the cam's centre: that of a dwell, and not where it is sharpest."""
-    if {"rho_min", "r_0"} <= scene.steps.keys() and scene.is_given("h"):
-        yield instead(scene.steps["rho_min"], "upper", operands=("r_0", "h"), law="enlarged")
+    if {"rho_min", "r_0"} <= scene.steps.keys():
         yield instead(scene.steps["rho_min"], "lower", operands=("r_0",), law="given")
+    if {"rho_min", "e", "s_0"} <= scene.steps.keys():
+        highest = Step("calc", "_highest", ("s_0", "h"), "enlarged")
+        far = Step("calc", "rho_min", ("e", "_highest"), "hypotenuse")
+        yield Change("rho_min", {"rho_min": (highest, far)}, {}, "upper")
 
 
 @mistake("M13")

@@ -64,3 +64,29 @@ def test_printed_radius_under_the_plate_is_an_amplitude_on_paper() -> None:
 
     assert sizes.r_0_min == pytest.approx(28.60 * MM, rel=1e-3)  # printed 55 mm, as many as A_2 has on paper
     assert sizes.R_plate == pytest.approx(25.8 * MM, rel=0.005)
+
+
+def test_printed_scale_factors_follow_from_the_drawn_travel() -> None:
+    per_mm, pole, omega = math.radians(1.0), 30.0, 200.0
+    mu_s, mu_ds, mu_d2s = 0.168, 0.321, 0.613  # 10^-3 m/mm
+
+    assert mu_ds == pytest.approx(mu_s / (per_mm * pole), rel=1e-3)
+    assert mu_d2s == pytest.approx(mu_ds / (per_mm * pole), rel=1e-3)
+    assert omega * mu_ds == pytest.approx(64.2, rel=1e-3)
+    assert omega**2 * mu_d2s == pytest.approx(24520.0, rel=1e-3)
+    assert math.degrees(math.atan(mu_s / mu_ds)) == pytest.approx(27.6, abs=0.05)
+    assert math.degrees(math.atan(mu_ds / mu_d2s)) == pytest.approx(27.6, abs=0.05)
+    assert 13.0 / mu_s == pytest.approx(77.4, abs=0.05)  # mm of the highest ordinate
+    assert 20.8 / mu_ds == pytest.approx(64.8, abs=0.05)
+    assert [45.696 / mu_s, 7.728 / mu_s] == pytest.approx([272.0, 46.0], abs=0.05)
+
+
+def test_printed_mistakes_are_of_the_size_that_the_document_tells() -> None:
+    motion, mu = madi_motion(), 0.613
+    s = float(motion.at(math.radians(36.0))[0]) / MM  # where the second amplitude begins
+    upper = math.hypot(7.728, math.sqrt(45.696**2 - 7.728**2) + 13.0)
+
+    assert s == pytest.approx(4.33, abs=0.005)
+    assert 55.0 - s / mu == pytest.approx(47.9, abs=0.05)
+    assert (55.0 - s / mu) * mu == pytest.approx(29.4, abs=0.05)
+    assert upper == pytest.approx(58.6, abs=0.05)
