@@ -299,9 +299,9 @@ def test_every_mistake_concerns_a_bundled_task_or_a_crank_that_speeds_up() -> No
         mus |= {plan: 1.0 + i for i, plan in enumerate(p for p in solved.program.plans if p.startswith("forces"))}
         found |= {b.mistake for b in broken(Paper(solved.program, solved.givens, mus), solved.values)}
 
-    for task in (MADI, ROCKER):
-        cam = keyed_cam((), task).key
-        found |= {b.mistake for b in broken(cam.paper, cam.values)}
+    for task in (MADI, ROCKER, "madi-gear"):
+        subject = keyed_cam((), task).key  # a pair of gears is made ready for marking like a cam
+        found |= {b.mistake for b in broken(subject.paper, subject.values)}
 
     assert set(MISTAKES) - found == {"M32", "M46"}  # a bent link, a crank that speeds up
 
