@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..board import Program, RecordingBoard, with_needs
-from . import formulas as formulas  # its laws of calculation
 from .cam import DIAGRAMS_PART, PLANS, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART
 from .division import Division
+from .formulas import ARC
 from .integration import ACCELERATION, diagrams
 from .inversion import plate_profile, positions, roller_profile
 from .rocker_plans import rocker_profile, rocker_sizes
@@ -24,7 +24,7 @@ class Layout:
 
     `given` is the diagram that the law gives; `fastest` the section line of the greatest velocity; `limits` names the
     limits of the pressure angle, `corner` the two whose tangents meet at a cam's centre; `ranged` tells that r_0 is
-    given, and between which offsets the cam may be.
+    given, and between which offsets the cam may be; `rocks` that the travel runs along the arc of a rocker.
     """
 
     division: Division
@@ -34,6 +34,7 @@ class Layout:
     limits: tuple[str, ...] = ()
     corner: tuple[str, ...] = ()
     ranged: bool = False
+    rocks: bool = False
 
 
 def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
@@ -42,6 +43,8 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
     division, given = layout.division, layout.given
     if DIAGRAMS_PART in wanted:
         diagrams(board, division.sections, given)
+        if layout.rocks:
+            board.calc("h", ARC, "psi", "l_rocker")
         exact_factors(board, given)
         chord_factors(board, division, layout.fastest, given)
     if SIZES_PART in wanted:

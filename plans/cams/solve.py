@@ -8,11 +8,13 @@ from typing import Any
 
 from ..board import Program, with_needs
 from ..boards.exact import run
+from ..laws import LAWS
 from ..quantities import Quantity, quantities, shown_on
 from ..solved import Solved
 from .cam import PLANS, PLATE, ROCKER, ROLLER, SIZES_PART, Cam
 from .construction import NEEDS, Layout, construct
 from .division import Division
+from .formulas import ARC
 from .followers import PlateCam, RockerCam, RollerCam, limits_of, plate_cam, rocker_cam, roller_cam
 from .givens import diagram_givens, profile_givens
 from .integration import ACCELERATION, DIAGRAMS, RIGHT, TRAVEL, UP, VELOCITY
@@ -119,8 +121,7 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     InputError
         A law that cannot be had with these numbers.
     """
-    values = _with_stroke(cam, values)
-    motion = motion_of(cam, values)
+    motion = _motion(cam, values)
     angles, division = motion.division(cam.sections)
     wanted = with_needs(plans, NEEDS)
     cams = _cams(cam, motion, values) if SIZES_PART in wanted else {}
@@ -155,16 +156,17 @@ def again(solved: SolvedCam, values: Mapping[str, float]) -> Mapping[str, Any]:
     import numpy as np
 
     cam = solved.cam
-    values = _with_stroke(cam, values)
-    motion = motion_of(cam, values)
+    motion = _motion(cam, values)
     angles = np.interp(solved.angles, solved.motion.corners, motion.corners)
     cams = _cams(cam, motion, values) if solved.layout.followers else {}
     return run(solved.program, {**values, **_givens(cam, motion, angles, solved.layout, cams)}).values
 
 
-def _with_stroke(cam: Cam, values: Mapping[str, float]) -> Mapping[str, float]:
-    """Return the numbers with the stroke of a rocker: the travel of its roller runs along an arc."""
-    return {**values, "h": values["psi"] * values["l_rocker"]} if ROCKER in cam.followers else values
+def _motion(cam: Cam, values: Mapping[str, float]) -> Motion:
+    """Return the motion of the follower; the stroke of a rocker is that of its roller."""
+    if ROCKER in cam.followers:
+        values = {**values, "h": LAWS[ARC](values["psi"], values["l_rocker"])}
+    return motion_of(cam, values)
 
 
 def _found(program: Program, givens: Mapping[str, Any]) -> dict[str, Any]:
@@ -191,6 +193,7 @@ def _layout(cam: Cam, motion: Motion, angles: Array, division: Division, cams: M
         limits=limits_of(cam),
         corner=roller.by_tangents.on if roller else (),
         ranged=roller is not None and roller.offsets is not None,
+        rocks=ROCKER in cam.followers,
     )
 
 

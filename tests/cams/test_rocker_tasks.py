@@ -148,7 +148,7 @@ def test_the_form_asks_for_the_sizes_and_marks_right_answers(folder: Path, capsy
     assert {"r_0", "l_OC", "rho_min", "gamma_rise_min"} <= set(asked)
     for row in rows:
         if row and row[0] in ("r_0", "l_OC", "rho_min"):
-            row[head.index("value")] = repr(found[row[0]]["value"])
+            row[head.index("value")] = repr(found[row[0]]["value"] * 1e3)  # the form asks for millimetres
         if row and row[0] == "variant":
             row[1] = "1"
     with (folder / "answers.csv").open("w", encoding="utf-8", newline="") as file:
@@ -221,3 +221,13 @@ def test_a_rocker_that_nothing_permits_is_a_fault_of_its_variant(
     assert said in out
     assert run(capsys, "solve", "mine.toml", "-v", "2")[0] == 2
     assert solved(capsys)["status"] == "ok"
+
+
+def test_the_stroke_of_a_rocker_is_calculated_on_the_board() -> None:
+    solved = kulman.solve(EXAMPLE).solved
+    steps = {step.name: step for step in solved.program}
+
+    assert (steps["h"].verb, steps["h"].law, steps["h"].operands) == ("calc", "arc_length", ("psi", "l_rocker"))
+    assert "h" not in solved.givens
+    assert solved.values["h"] == pytest.approx(solved.givens["psi"] * solved.givens["l_rocker"], rel=1e-15)
+    assert kulman.solve(EXAMPLE, only="diagrams")["mu_s"].value == kulman.solve(EXAMPLE)["mu_s"].value
