@@ -14,8 +14,8 @@ from ..solved import Solved
 from .cam import PLANS, PLATE, ROCKER, ROLLER, SIZES_PART, Cam
 from .construction import NEEDS, Layout, construct
 from .division import Division
-from .formulas import ARC
 from .followers import PlateCam, RockerCam, RollerCam, limits_of, plate_cam, rocker_cam, roller_cam
+from .formulas import ARC
 from .givens import diagram_givens, profile_givens
 from .integration import ACCELERATION, DIAGRAMS, RIGHT, TRAVEL, UP, VELOCITY
 from .inversion import PLATE_PROFILE, PROFILE
