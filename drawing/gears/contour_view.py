@@ -16,7 +16,7 @@ from .scene import GearScene
 
 SIDE = {5.0: 150.0, 3.5: 80.0}  # mm of the longer side of the window, by the height of letters
 FINE = 0.05  # mm by which a chord may miss its curve: places between are left out
-APART = 9.0  # mm at least between divisions
+APART = 4.2  # heights of numbers at least between divisions
 REACH = 4.0  # mm of a curve to both sides of the place where its name stands
 PAST = 1.6  # heights of letters by which arrows run past the window
 EACH = 0.7  # of the longer side of the window: a curve has a number for each such part of it
@@ -62,7 +62,7 @@ def _field(scene: GearScene, plane: Plane) -> Field:
             scale,
             low,
             high,
-            {v: words.short(v) for v in (*divisions(high, low, mu, APART), 0.0)},
+            {v: words.short(v) for v in (*divisions(high, low, mu, APART * scene.style.text), 0.0)},
         )
         for i, (low, high) in enumerate(ends, start=1)
     )
