@@ -115,7 +115,7 @@ def _places(axes: Axes, found: Choice, words: Words) -> None:
 def _curves(axes: Axes, found: Choice, S: float, words: Words) -> None:
     """Draw the force over the place of the drum, for some places of the load; stresses stand on the right."""
     axes.set_title(
-        words["chart.hoist.spectrum"].replace("F_max", "$F_{max}$"), loc="left", fontsize=TEXT + 0.5, pad=5.0
+        words["chart.hoist.spectrum"].replace("F_max", "$F_{max}$"), loc="left", fontsize=TEXT + 0.5, pad=9.0
     )
     grid = found.spectrum
     labels, points = [], []
