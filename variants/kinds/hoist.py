@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from ..sweeps.asked import Asked
     from ..sweeps.hoist import HoistSweep
 
-SYMBOLS: tuple[str, ...] = ()  # scale factors that may be chosen
+SYMBOLS = ("mu_l", "mu_F_circle")  # scale factors that may be chosen; those of the diagrams are found
 
 
 class Hoists(Kind[Hoist, "SolvedHoist"]):
@@ -83,8 +83,10 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         return SYMBOLS
 
     def first_scales(self, solved: SolvedHoist, choosers: Choosers) -> dict[str, Scale]:
-        """Return the scale factors by plan."""
-        return {}
+        """Return the scale factors by plan: those of the diagrams are known before."""
+        from ...drawing.hoist.ladders import scales_of
+
+        return scales_of(solved, choosers)
 
     def warnings(self, solved: SolvedHoist) -> tuple[InputError, ...]:
         """Tell where the formulas are not valid, and of a rope that is not strong enough."""
