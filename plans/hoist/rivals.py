@@ -31,6 +31,7 @@ FORMULAS, MISSED = "hoist-closed", "rk4-missed"
 TOLERANCES = (1e-2, 1e-4, 1e-8, 1e-15)
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # k h, rad
 TINY = (0.005, 0.002, 0.001)  # beside these for the method of the least order
+MOST_AT_ONCE = 100_000  # hoists; a million would fill a gigabyte
 PLACES = 200  # times at which closed forms are compared
 CORRECTIONS = 4  # of the exact root: from 1e-8 on two are enough
 COMPARED = ("V_t", "m", "g", "P_st", "C_01", "C_12", "C", "k", "k_1", "t_1", "P_m", "D_0", "D_1")
@@ -80,7 +81,7 @@ class _Race:
 
     def closed(self) -> Iterator[Entry]:
         """Go through closed forms of so many hoists at once."""
-        for size in self.effort.batches:
+        for size in (size for size in self.effort.batches if size <= MOST_AT_ONCE):
             many = {name: np.full(size, value) if size > 1 else value for name, value in self.values.items()}
             t_1 = timed(partial(model, many, ("t_1",)), self.clock) / size
             whole = timed(partial(model, many, AFTER), self.clock) / size
