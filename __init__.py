@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from .variants import batch as batch
     from .variants import chart as chart
     from .variants import check as check
+    from .variants import handout as handout
     from .variants import load_task as load_task
     from .variants import note as note
     from .variants import sheet as sheet
@@ -22,6 +23,7 @@ __all__ = [
     "batch",
     "chart",
     "check",
+    "handout",
     "load_task",
     "note",
     "sheet",

@@ -24,11 +24,13 @@ from .variants.options import (
     count_if_given,
     example,
     given,
-    of_block,
     of_check,
+    of_norm,
     of_task,
     output,
     pairs,
+    tiled,
+    titled,
 )
 from .variants.usage import Group, usage_error
 
@@ -198,9 +200,10 @@ def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, 
 )
 @of_task
 @output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
-@click.option("--tile", type=Word("A4", "A3"), help="Cut a PDF into pages of this format for a small printer.")
-@click.option("--student", help="For the title block.")
-@of_block
+@click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything.")
+@of_norm
+@tiled
+@titled("student", *BLOCK)
 def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
     """Draw the sheet of TASK (an id, or a TOML file) to scale."""
     from . import variants
@@ -222,11 +225,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 @of_task
 @output(".notes", "Where to: .pdf, .md with its figures beside it; of one figure .svg, .png.", required=True)
 @click.option("--figure", metavar="NAME", help="One figure of the note alone: position, velocity, forces_23.")
-@click.option("--student", help="For the title page.")
-@click.option("--group", help="For the title page.")
-@click.option("--teacher", help="For the title page.")
-@click.option("--department", help="For the title page.")
-@click.option("--date", help="For the title page; none is invented.")
+@titled("student", "group", "teacher", "department", "date")
 def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str | None, **options: Any) -> None:
     """Write the explanatory note of TASK: the work step by step, with equations, figures, tables."""
     from . import variants
@@ -236,6 +235,37 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
     for path in written.save(*files):
         click.echo(str(path))
     _warn(written.sheet.warnings)
+
+
+@commands.command(
+    epilog=example(
+        "kulman handout nau-slider-crank -v 3 -o blank.pdf",
+        "kulman handout nau-slider-crank -v 3 --steps 3 --format A3 -o begun.pdf",
+        "kulman handout nau-slider-crank -v 3 --key -o key.pdf",
+        "kulman handout nau-slider-crank -v 3 --over velocity -o transparency.pdf",
+    )
+)
+@of_task
+@output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
+@click.option(
+    "--steps", metavar="K", default="0", show_default=True, callback=count, help="So many steps of each plan."
+)
+@click.option("--key", is_flag=True, help="The whole work, at the same places.")
+@click.option("--over", metavar="PLAN", help="One plan alone, for a transparency to lay over a student's drawing.")
+@click.option("--format", type=Word(*SIZES), default="A4", show_default=True, help="The paper that is printed on.")
+@of_norm
+@tiled
+@titled("student", *BLOCK)
+def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
+    """Draw a handout of TASK: givens, scales and poles, no answers; with rulers that prove the print."""
+    from . import variants
+
+    said = {name: options.pop(name) for name in (*BLOCK, "student")}
+    block = {name: text for name, text in said.items() if text is not None}
+    drawn = variants.handout(task, set=settings, block=block, **{**options, "lang": options["lang"] or "uk"})
+    for path in drawn.save(*files, tile=tile):
+        click.echo(str(path))
+    _warn(drawn.warnings)
 
 
 @commands.command(
@@ -443,7 +473,9 @@ def _print_class(
     callback=count,
     help="How many last digits of the record book give the variant, where the roster has none.",
 )
-@of_block
+@click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything.")
+@of_norm
+@titled(*BLOCK)
 @click.option("--jobs", metavar="N", default="0", callback=count, help="Processes; as many as cores when left out.")
 def batch(task: str, settings: dict[str, str], kinds: tuple[str, ...], **options: Any) -> int:
     """Draw the sheets of TASK for a class, with a list of the files and the key for the teacher.

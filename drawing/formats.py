@@ -16,11 +16,13 @@ TURNED = (70.0, 14.0)  # the additional block with the designation turned round 
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """A trimmed sheet of `width` x `height` mm."""
+    """A trimmed sheet of `width` x `height` mm; its frame may keep farther from the edges than the norm wants."""
 
     name: str
     width: float
     height: float
+    margin: float = 0.0
+    foot: float = 0.0
 
     @property
     def letters(self) -> str:
@@ -61,8 +63,9 @@ def format_named(name: str) -> Format:
 
 def drawing_area(sheet: Format, norm: Norm = "gost") -> Box:
     """Return the box inside the frame: 20 mm for binding, the rest after GOST 2.301 or ISO 5457."""
-    margin = 10.0 if norm == "iso" else 5.0
-    return 20.0, margin, sheet.width - margin, sheet.height - margin
+    margin = max(10.0 if norm == "iso" else 5.0, sheet.margin)
+    left = 20.0 - max(sheet.margin - 5.0, 0.0)  # a title block is as wide as the frame of an A4
+    return left, max(margin, sheet.foot), sheet.width - margin, sheet.height - margin
 
 
 def block_box(sheet: Format, norm: Norm = "gost", first: bool = True) -> Box:

@@ -15,6 +15,7 @@ from .text import Box
 from .titleblock import Stamp, form_1, form_2a, words
 
 T, t = Pen.MAIN, Pen.THIN
+UNDER = 3.7  # mm from the frame down to the words under it
 
 
 def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm = "gost", first: bool = True) -> tuple[Shape, ...]:
@@ -54,15 +55,17 @@ def _at_corner(parts: Iterable[Shape], name: str, x0: float, y0: float) -> Group
 def _below(sheet: Format, stamp: Stamp) -> Group:
     """Return the words under the frame: who copied it, and the format."""
     caption = words(stamp.language)
-    right = drawing_area(sheet)[2]
-    copied = Text(complex(right - 120, 1.3), caption["copied"], 2.5, role="stamp", name="copied")
-    size = Text(complex(right - 50, 1.3), caption["format"].format(sheet.letters), 2.5, role="stamp", name="format")
+    _, foot, right, _ = drawing_area(sheet)
+    y = foot - UNDER
+    copied = Text(complex(right - 120, y), caption["copied"], 2.5, role="stamp", name="copied")
+    size = Text(complex(right - 50, y), caption["format"].format(sheet.letters), 2.5, role="stamp", name="format")
     return Group((copied, size), "margin")
 
 
 def _identity(sheet: Format, stamp: Stamp) -> Group:
     """Return the id of the sheet under the frame, at its left end, to be copied into a form of answers."""
-    at = complex(drawing_area(sheet)[0] + 2.0, 1.3)
+    left, foot, *_ = drawing_area(sheet)
+    at = complex(left + 2.0, foot - UNDER)
     text = words(stamp.language)["identity"].format(stamp.identity)
     return Group((Text(at, text, 2.5, role="stamp", name="identity"),), "margin", "identity")
 

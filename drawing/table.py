@@ -36,14 +36,14 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
         shapes += (Line(complex(x, levels[j]), complex(x, levels[k]), pen) for j, k in _ruled(rows, i))
     for j, (row, (top, bottom)) in enumerate(zip(rows, spans, strict=True)):
         baseline = (levels[j] + levels[j + 1] - top - bottom) / 2
-        for i, end, cell in _cells(row):
+        for i, end, cell in cells(row):
             middle = (edges[i] + edges[end]) / 2
             shapes.append(Text(complex(middle, baseline), cell, h, "middle", role="cell"))
     view = _view(name, heading, shapes, (0.0, -height, edges[-1], 0.0), style, role="table")
     return replace(view, rows=tuple(tuple(row) for row in rows))
 
 
-def _cells(row: Row) -> Iterator[tuple[int, int, str]]:
+def cells(row: Row) -> Iterator[tuple[int, int, str]]:
     """Go through the cells of a row with text: the columns where they begin and before which they end."""
     for i, cell in enumerate(row):
         if cell:
@@ -52,7 +52,7 @@ def _cells(row: Row) -> Iterator[tuple[int, int, str]]:
 
 def _alone(row: Row, column: int) -> str:
     """Return the text of a cell that fills one column."""
-    return next((cell for i, end, cell in _cells(row) if i == column and end == i + 1), "")
+    return next((cell for i, end, cell in cells(row) if i == column and end == i + 1), "")
 
 
 def _ruled(rows: Sequence[Row], edge: int) -> list[tuple[int, int]]:

@@ -6,6 +6,7 @@ if TYPE_CHECKING:
     from .charts.charts import chart as chart
     from .classes.answers import all_variants as all_variants
     from .classes.batch import batch as batch
+    from .handouts import handout as handout
     from .marking.checks import check as check
     from .notes import note as note
     from .reader import load_task as load_task
@@ -13,13 +14,14 @@ if TYPE_CHECKING:
     from .solution import solve as solve
     from .sweeps.sweeps import sweep as sweep
 
-__all__ = ["all_variants", "batch", "chart", "check", "load_task", "note", "sheet", "solve", "sweep"]
+__all__ = ["all_variants", "batch", "chart", "check", "handout", "load_task", "note", "sheet", "solve", "sweep"]
 
 _HOMES = {
     "all_variants": "classes.answers",
     "batch": "classes.batch",
     "chart": "charts.charts",
     "check": "marking.checks",
+    "handout": "handouts",
     "load_task": "reader",
     "note": "notes",
     "sheet": "sheets",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ..scales.choices import HANDS, SIZES
+from ..scales.choices import HANDS
 from ..scales.errors import LANGUAGES, InputError
 from ..scales.numbers import quote
 
@@ -132,19 +132,28 @@ def count_if_given(ctx: click.Context, param: click.Parameter, value: str | None
     return None if value is None else count(ctx, param, value)
 
 
-def of_block(command: Command) -> Command:
-    """Add what the sheets of a class have in common."""
-    options = (
-        click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything."),
-        click.option(
-            "--norm", type=Word("gost", "iso"), default="gost", show_default=True, help="Frame and title block."
-        ),
-        *(click.option(f"--{name}", help="For the title block.") for name in BLOCK[:-1]),
-        click.option("--date", help="For the title block; none is invented."),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
+def of_norm(command: Command) -> Command:
+    """Add by which norm frame and title block are drawn."""
+    said = "Frame and title block."
+    return click.option("--norm", type=Word("gost", "iso"), default="gost", show_default=True, help=said)(command)
+
+
+def tiled(command: Command) -> Command:
+    """Add on what small paper a PDF is spread."""
+    said = "Cut a PDF into pages of this format for a small printer."
+    return click.option("--tile", type=Word("A4", "A3"), help=said)(command)
+
+
+def titled(*names: str) -> Callable[[Command], Command]:
+    """Return what adds `names`, which a title block or a title page says."""
+
+    def add(command: Command) -> Command:
+        for name in reversed(names):
+            none = "; none is invented" if name == "date" else ""
+            command = click.option(f"--{name}", help=f"For the title block{none}.")(command)
+        return command
+
+    return add
 
 
 def moodle_out(ctx: click.Context, param: click.Parameter, value: str | None) -> Path | None:

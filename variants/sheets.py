@@ -137,7 +137,7 @@ def sheet(
 def draw_case(
     case: Case,
     block: Mapping[str, str],
-    format: str | None = None,
+    format: str | Format | None = None,
     norm: Norm = "gost",
     notation: str | None = None,
     lang: str = "uk",
@@ -156,7 +156,7 @@ def draw_case(
     InputError, PositionError
         As for `sheet`.
     """
-    paper = None if format is None else format_named(format)
+    paper = format_named(format) if isinstance(format, str) else format
     if norm not in get_args(Norm):
         raise unknown("norm-unknown", norm, get_args(Norm))
     words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)

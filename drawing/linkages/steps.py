@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from ...plans.board import POSITION, Step
+from ...scales.packaged import packaged
+from .. import notes
 from ..notes.blocks import Story
 from ..printed import POINT, value_text
 from .calculations.equations import is_given, size_of
@@ -16,6 +18,7 @@ from .calculations.vector_equations import ends_of, line_of
 from .reading import Reading, read
 from .scene import Scene
 
+SET = ("pole", "place")  # verbs that set a drawing up
 LETTERED = (POSITION, *KINEMATICS, "lever")  # plans whose marks have letters
 
 
@@ -51,16 +54,15 @@ def _conclusions(scene: Scene, texts: Mapping[str, str]) -> Iterator[str]:
 
 
 def told(scene: Scene, texts: Mapping[str, str]) -> dict[str, list[str]]:
-    """Return the steps of every plan that is drawn, in words, by the name of its view.
+    """Return the steps of every plan that is drawn, in words, by the name of its view."""
+    teller = Teller.of(scene, texts)
+    return {plan: [text for _, text in teller.told(plan)] for plan in drawn_plans(scene)}
 
-    Parameters
-    ----------
-    texts : mapping of str to str
-        The sentences, by `step.` and the verb.
-    """
-    teller = Teller(scene, read(scene.solved.program), texts)
+
+def drawn_plans(scene: Scene) -> list[str]:
+    """Return the plans that are drawn and whose marks have letters."""
     plans = (plan for plan in scene.solved.program.plans if plan in scene.scales)
-    return {plan: list(teller.plan(plan)) for plan in plans if plan in LETTERED or plan.startswith("forces_")}
+    return [plan for plan in plans if plan in LETTERED or plan.startswith("forces_")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,12 +73,18 @@ class Teller:
     reading: Reading
     texts: Mapping[str, str]
 
-    def plan(self, plan: str) -> Iterator[str]:
-        """Go through the sentences of a plan."""
+    @classmethod
+    def of(cls, scene: Scene, texts: Mapping[str, str] | None = None) -> Teller:
+        """Return who tells the steps of a linkage; the words of the scene's language where no `texts` are said."""
+        said = packaged(notes.__name__, "texts", scene.words.language) if texts is None else texts
+        return cls(scene, read(scene.solved.program), said)
+
+    def told(self, plan: str) -> Iterator[tuple[Step, str]]:
+        """Go through the steps of a plan that are told, each with its sentence."""
         for step in self.scene.solved.program:
             own = step.plan == plan and not step.name.startswith("_")
             if own and step.verb in TOLD and not (plan == "lever" and step.verb != "pole" and step.verb != "normal"):
-                yield from TOLD[step.verb](self, step)
+                yield from ((step, text) for text in TOLD[step.verb](self, step))
 
     def say(self, key: str, **parts: str) -> str:
         """Return a sentence."""

@@ -15,6 +15,7 @@ from ..task import Given, Instead, Task
 
 if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...drawing.formats import Format
+    from ...drawing.handouts.begun import Shown
     from ...drawing.notes.blocks import Story
     from ...drawing.page import Drawn
     from ...drawing.pens import Norm
@@ -153,6 +154,10 @@ class Kind(ABC, Generic[Subject, Answer]):
         from ...drawing.notes.blocks import Story
 
         return Story()
+
+    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
+        """Return what is drawn of every view when the first steps of its plan have been done; nothing of others."""
+        return {}
 
     # Marking.
 

@@ -28,6 +28,8 @@ from .kind import Kind, Verdicts
 
 if TYPE_CHECKING:
     from ...drawing.formats import Format
+    from ...drawing.handouts.begun import Shown
+    from ...drawing.linkages.scene import Scene
     from ...drawing.notes.blocks import Story
     from ...drawing.page import Drawn
     from ...drawing.pens import Norm
@@ -192,12 +194,22 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
         """Tell every plan step by step, its equations before it."""
-        from ...drawing.linkages.scene import Scene
         from ...drawing.linkages.steps import story
+
+        return story(self._scene(case, scales, words), texts)
+
+    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
+        """Return what the first steps of every plan draw."""
+        from ...drawing.linkages.begun import begun
+
+        return begun(self._scene(case, scales, words), steps)
+
+    def _scene(self, case: Case, scales: Mapping[str, Scale], words: Words) -> Scene:
+        from ...drawing.linkages.scene import Scene
         from ...drawing.style import STYLES
 
         solved = _placed(case)
-        return story(Scene(solved, scales, self.lettered(words, solved), STYLES["A4"], case.givens), texts)
+        return Scene(solved, scales, self.lettered(words, solved), STYLES["A4"], case.givens)
 
     def lettered(self, words: Words, solved: SolvedLinkage) -> Words:
         """Return the words with the letters of guides, ends and couples."""

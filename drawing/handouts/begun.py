@@ -1,0 +1,81 @@
+"""What is left of a sheet's views when only the beginning of the work is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+from ..page import Page
+from ..shapes import Arrow, Group, Polyline, Shape, Text, Vector
+from ..shapes import Line as LineShape
+from ..table import cells
+from ..view import View
+
+ALWAYS = ("axis", "pivot", "frame")  # roles of what the task gives, not the work
+GIVEN = ("givens", "data", "choices", "note", "structure")  # views that say what the task is
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """What is drawn of a view: names of points, links, construction lines and quantities, and the letters."""
+
+    names: frozenset[str]
+    letters: frozenset[str]
+
+
+def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str, Shown]) -> list[Page]:
+    """Return pages on which views show no more than is `shown` of them; tables keep their heads and first columns."""
+    by_name = {view.name: view for view in views}
+    return [replace(page, shapes=tuple(_page_shape(shape, by_name, shown) for shape in page.shapes)) for page in pages]
+
+
+def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Shown]) -> Shape:
+    view = views.get(shape.name) if isinstance(shape, Group) and shape.role == "view" else None
+    if view is None or not isinstance(shape, Group) or view.name in GIVEN:
+        return shape
+    if view.rows:
+        return replace(shape, shapes=tuple(_table(part, view) for part in shape.shapes))
+    if view.lines:
+        return replace(shape, shapes=tuple(part for part in shape.shapes if _is_heading(part)))
+    kept = shown.get(view.name, Shown(frozenset(), frozenset()))
+    return replace(shape, shapes=tuple(part for part in shape.shapes if _is_shown(part, kept)))
+
+
+def _is_heading(shape: Shape) -> bool:
+    return isinstance(shape, Text) and shape.role == "heading"
+
+
+def _table(shape: Shape, view: View) -> Shape:
+    """Leave out what a table answers: all cells but the head, the first column and the last one."""
+    if not isinstance(shape, Group) or shape.role != "table":
+        return shape
+    places = [(row, column, end) for row, line in enumerate(view.rows) for column, end, _ in cells(line)]
+    texts = iter(places)
+    kept = []
+    for part in shape.shapes:
+        if isinstance(part, Text):
+            row, column, end = next(texts)
+            if row and column and end < len(view.rows[0]):
+                continue
+        kept.append(part)
+    return replace(shape, shapes=tuple(kept))
+
+
+def _is_shown(shape: Shape, shown: Shown) -> bool:
+    match shape:
+        case Text(role="heading"):
+            return True
+        case Text(markup=markup):
+            return markup in shown.letters
+        case Vector(quantity=quantity):
+            return quantity in shown.names
+        case Arrow():
+            return False
+        case Group(role=role, name=name):
+            own = f"link:{name}" if role == "guide" else f"{role}:{name}"
+            return role in ALWAYS or own in shown.names or name in shown.names
+        case LineShape(name=name, pen=pen) | Polyline(name=name, pen=pen):
+            return name in shown.names or (not name and pen.name == "AXIS")
+        case _:
+            name = getattr(shape, "name", "")
+            return bool(name) and name in shown.names

@@ -1,0 +1,40 @@
+"""Marks that prove a print: rulers of 100 mm in the margins, with a word on how to print."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..formats import Format
+from ..page import Page
+from ..shapes import Group, Line, Pen, Shape, Text
+
+MARGIN, FOOT = 8.0, 14.0  # mm of the frame from the edges of the paper: most printers reach no farther than 5
+LENGTH, TICK, LONG = 100, 1.5, 3.0  # of a ruler and its marks, mm
+LETTERS = 2.5
+SAID = {"uk": "друк 100 %", "ru": "печать 100 %", "en": "print at 100 %"}
+
+
+def printable(sheet: Format) -> Format:
+    """Return a format whose frame keeps clear of where printers do not reach."""
+    return replace(sheet, margin=MARGIN, foot=FOOT)
+
+
+def marked(page: Page) -> Page:
+    """Return a page with a ruler under the frame and one beside it."""
+    x, y = 24.0, 6.0
+    across = _ruler(complex(x, y), 1 + 0j)
+    up = _ruler(complex(12.0, 60.0), 1j)
+    text = Text(complex(x + LENGTH + 4.0, y), SAID[page.language], LETTERS, role="stamp", name="print")
+    return replace(
+        page, shapes=(*page.shapes, Group((*across, text), "ruler", "across"), Group(tuple(up), "ruler", "up"))
+    )
+
+
+def _ruler(start: complex, along: complex) -> list[Shape]:
+    """Return a ruler with a mark at every 5 mm, longer ones at every 10."""
+    beside = along * 1j
+    shapes: list[Shape] = [Line(start, start + LENGTH * along, Pen.THIN, role="ruler")]
+    for mm in range(0, LENGTH + 1, 5):
+        at = start + mm * along
+        shapes.append(Line(at, at + beside * (TICK if mm % 10 else LONG), Pen.THIN, role="ruler"))
+    return shapes

@@ -1,0 +1,75 @@
+"""Handouts of one variant: the blank sheet, the same with the first steps done, the key, a plan to lay over."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from ..drawing.formats import format_named
+from ..drawing.handouts.begun import begun_pages
+from ..drawing.handouts.over import over_page
+from ..drawing.handouts.print_marks import marked, printable
+from ..drawing.pens import Norm
+from ..drawing.words import Words
+from ..scales.arguments import of_kind
+from ..scales.errors import InputError
+from ..scales.names import unknown
+from .case import Settings, solve_case
+from .sheets import Sheet, draw_case
+from .task import Task
+
+PAPER = "A4"
+
+
+def handout(
+    task: str | os.PathLike[str] | Task,
+    variant: str | None = None,
+    *,
+    steps: int = 0,
+    key: bool = False,
+    over: str | None = None,
+    set: Settings | None = None,
+    only: str | Iterable[str] | None = None,
+    scales: Settings | None = None,
+    format: str = PAPER,
+    norm: Norm = "gost",
+    notation: str | None = None,
+    lang: str = "uk",
+    block: Mapping[str, str] | None = None,
+) -> Sheet:
+    """Draw a handout: the sheet of a variant with its answers left out, at the same places and scales as the key.
+
+    Parameters
+    ----------
+    task, variant, set, only, scales, format, norm, notation, lang
+        As for `sheet`.
+    steps : int
+        How many steps of every plan are done, as the note numbers them; poles, pivots, guides are always there.
+    key : bool
+        Draw the whole work, to be laid on the blank.
+    over : str, optional
+        The view that is drawn alone on its page, to be printed on a transparency and laid over a student's plan.
+    block : mapping of str to str, optional
+        What the title block says, as for `sheet`.
+
+    Raises
+    ------
+    InputError, PositionError
+        As for `sheet`; a number of steps below zero; no such view.
+    """
+    of_kind("steps", steps, (int,), "int")
+    if steps < 0:
+        raise InputError("handout-steps", text=str(steps))
+    case = solve_case(task, variant, set, only, scales)
+    drawn = draw_case(case, block or {}, printable(format_named(format)), norm, notation, lang)
+    if over is not None:
+        figures = {view.name: view for view in drawn.views if not (view.rows or view.lines)}
+        if over not in figures:
+            raise unknown("figure-unknown", over, figures)
+        return replace(drawn, pages=(marked(over_page(figures[over], drawn.pages[0])),))
+    if key:
+        return replace(drawn, pages=tuple(map(marked, drawn.pages)))
+    words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
+    shown = case.kind.begun(case, drawn.scales, words, steps)
+    return replace(drawn, pages=tuple(map(marked, begun_pages(drawn.pages, drawn.views, shown))))
