@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from ...scales.errors import PositionError
+from ..case import Case
 from ..task import Task
 
 
@@ -21,6 +22,23 @@ class Asked:
     start: str | float | None
     end: str | float | None
     chords: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class OfCase:
+    """What is swept: a variant of a task."""
+
+    case: Case
+
+    @property
+    def task(self) -> Task:
+        """The task."""
+        return self.case.task
+
+    @property
+    def variant(self) -> str:
+        """The variant."""
+        return self.case.variant
 
 
 class Swept(Protocol):

@@ -20,8 +20,7 @@ from ...scales.units import format_unit, unit
 from ..case import Case
 from ..kinds.cam import cam
 from ..tables import Cell, csv_bytes, csv_text
-from ..task import Task
-from .asked import Asked
+from .asked import Asked, OfCase
 from .data import numbers
 from .sized import DIGITS, column_table, csv_head, degrees, extremes_table, in_degrees_and_millimetres
 
@@ -32,23 +31,12 @@ OK, UNDERCUT = "ok", "undercut"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class CamSweep:
+class CamSweep(OfCase):
     """A cam over its turn; `positions` divide it evenly, None for the section lines in the table, degrees in files."""
 
-    case: Case
     solved: SolvedCam
     words: Words
     positions: int | None
-
-    @property
-    def task(self) -> Task:
-        """The task."""
-        return self.case.task
-
-    @property
-    def variant(self) -> str:
-        """The variant."""
-        return self.case.variant
 
     @property
     def status(self) -> str:

@@ -18,8 +18,7 @@ from ...scales.units import format_unit, unit
 from ..case import Case
 from ..kinds.gear import gear
 from ..tables import Cell, csv_bytes, csv_text
-from ..task import Task
-from .asked import Asked
+from .asked import Asked, OfCase
 from .data import numbers
 from .sized import DIGITS, column_table, csv_head, extremes_table, in_degrees_and_millimetres
 
@@ -29,27 +28,16 @@ OK = "ok"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class GearSweep:
+class GearSweep(OfCase):
     """A pair over the contact of one pair of teeth.
 
     `positions` divide the active line evenly, its ends among them; None for the marks of the meshing in the table, and
     every hundredth in files.
     """
 
-    case: Case
     solved: SolvedGear
     words: Words
     positions: int | None
-
-    @property
-    def task(self) -> Task:
-        """The task."""
-        return self.case.task
-
-    @property
-    def variant(self) -> str:
-        """The variant."""
-        return self.case.variant
 
     @property
     def status(self) -> str:

@@ -19,8 +19,7 @@ from ...plans.hoist.forces import Forces, forces
 from ...scales.errors import InputError, PositionError
 from ..case import Case
 from ..tables import Cell, csv_bytes, csv_text
-from ..task import Task
-from .asked import Asked
+from .asked import Asked, OfCase
 from .data import numbers
 from .sized import column_table, csv_head, in_degrees_and_millimetres
 
@@ -30,10 +29,9 @@ OK = "ok"
 
 
 @dataclass(frozen=True, repr=False)
-class HoistSweep:
+class HoistSweep(OfCase):
     """A hoist over time, until one period after the lift-off; `positions` times, None for as many as are usual."""
 
-    case: Case
     words: Words
     positions: int | None
 
@@ -41,16 +39,6 @@ class HoistSweep:
     def solved(self) -> Forces:
         """The forces, and the motion where the formulas are not valid."""
         return forces(self.case.solved.givens)
-
-    @property
-    def task(self) -> Task:
-        """The task."""
-        return self.case.task
-
-    @property
-    def variant(self) -> str:
-        """The variant."""
-        return self.case.variant
 
     @property
     def status(self) -> str:

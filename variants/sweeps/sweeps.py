@@ -27,7 +27,7 @@ from ..kinds.linkage import mechanism_of
 from ..sheets import Sheet
 from ..tables import csv_bytes
 from ..task import LocatedError, Task
-from .asked import Asked, Swept
+from .asked import Asked, OfCase, Swept
 from .columns import letters
 from .data import as_json
 from .sheet import cycle_sheet
@@ -37,7 +37,7 @@ SECTIONS = POSITIONS = 12
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Sweep:
+class Sweep(OfCase):
     """The whole cycle of one variant of a task.
 
     `cycle` holds positions, values and statuses as arrays in SI; `chosen` are the points and links that were asked for;
@@ -45,21 +45,10 @@ class Sweep:
     plans and by chords.
     """
 
-    case: Case
     cycle: Cycle
     chosen: tuple[str, ...]
     words: Words
     compared: str | None = None
-
-    @property
-    def task(self) -> Task:
-        """The task."""
-        return self.case.task
-
-    @property
-    def variant(self) -> str:
-        """The variant."""
-        return self.case.variant
 
     @property
     def status(self) -> str:
