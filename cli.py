@@ -322,7 +322,7 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     metavar="CHART,...",
     multiple=True,
     callback=given,
-    help="Of accuracy, stability, depth, of a cam sections, accuracy, stability; else all three.",
+    help="Of accuracy, stability, depth, of a cam sections, accuracy, stability, of gears scale; else all.",
 )
 @click.option("--quantities", metavar="NAME,...", multiple=True, callback=given, help="Only these: V_B,a_B,M_bal.")
 @click.option(

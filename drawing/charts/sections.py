@@ -63,7 +63,7 @@ def _chords(axes: Axes, found: Convergence, names: Sequence[str], words: Words) 
             )
             points += list(zip(n.tolist(), error.tolist(), strict=True))
             labels.append(Label(float(n[-1]), float(error[-1]), SYMBOLS[name], must=True, size=TEXT))
-    _logarithmic(axes, found.sections[NODES], words)
+    logarithmic(axes, found.sections[NODES], words)
     axes.set_xlim(right=axes.get_xlim()[1] * 1.25)
     axes.set_ylabel(words["chart.sections_error"], labelpad=1.0)
     axes.set_xlabel(words["chart.sections_axis"], labelpad=1.0)
@@ -119,7 +119,7 @@ def _hands(axes: Axes, found: Convergence, name: str, words: Words, last: bool) 
     counts, chords = _visible(found.sections[NODES], found.errors[NODES, name])
     inside = counts <= n.max() * 1.01
     axes.plot(counts[inside], chords[inside], color=GREY, lw=2.0, zorder=1)
-    _logarithmic(axes, found.drawn, words)
+    logarithmic(axes, found.drawn, words)
     low, high = axes.get_ylim()
     axes.set_ylim(max(low, high * 1e-3), high * 1.6)
     axes.set_xlim(right=axes.get_xlim()[1] * 1.9)
@@ -128,13 +128,14 @@ def _hands(axes: Axes, found: Convergence, name: str, words: Words, last: bool) 
     put(axes, labels, points)
 
 
-def _logarithmic(axes: Axes, counts: tuple[int, ...], words: Words) -> None:
+def logarithmic(axes: Axes, counts: Sequence[float], words: Words) -> None:
+    """Give axes logarithmic scales, with these numbers along the abscissa."""
     from matplotlib.ticker import NullLocator
 
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_xticks(counts, [str(n) for n in counts])
+    axes.set_xticks(counts, [words.short(n) for n in counts])
     axes.yaxis.set_minor_locator(NullLocator())
     decimals(axes.yaxis, words)
     axes.grid(True)

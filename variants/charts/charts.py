@@ -127,7 +127,8 @@ def chart(
     task, variant, set, only, scales, notation, lang
         As for `solve`.
     chart : str or iterable of str, optional
-        Of a linkage `accuracy`, `stability`, `depth`, of a cam `sections`, `accuracy`, `stability`; all when left out.
+        Of a linkage `accuracy`, `stability`, `depth`, of a cam `sections`, `accuracy`, `stability`, of gears
+        `scale`; all when left out.
     positions : int, optional
         Positions of the cycle of a linkage that are looked at: 36 for `accuracy`, else 360 when left out.
     quantities : str or iterable of str, optional

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
+    from ..charts.gear import GearCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
     from ..sweeps.asked import Asked
@@ -151,6 +152,12 @@ class Gears(Kind[GearPair, "SolvedGear"]):
             }
             for check in solved.checks
         }
+
+    def gallery(self, task: Task) -> GearCharts:
+        """Return who makes the chart of a pair."""
+        from ..charts.gear import GearCharts
+
+        return GearCharts()
 
     def sweep(self, case: Case, words: Words, asked: Asked) -> GearSweep:
         """Look at a pair over the contact of one pair of teeth."""
