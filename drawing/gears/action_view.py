@@ -9,6 +9,7 @@ from itertools import pairwise
 from ..dimensions import linear
 from ..printed import Input, calculation
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
+from ..text import lay_out
 from ..view import Canvas, View
 from .scene import GearScene
 
@@ -26,7 +27,9 @@ def action_view(overall: GearScene) -> View:
     _line(canvas, scene)
     _dimensions(canvas, scene)
     heading = scene.words["heading.gear_action"], scene.factor(scene.mu_l)
-    return canvas.finish("action", heading, (*ratios(scene), scene.words["said.gear_zones"], *_lacking(scene)))
+    return canvas.finish(
+        "action", heading, (*ratios(scene), *scene.words["said.gear_zones"].split("|"), *_lacking(scene))
+    )
 
 
 def _lacking(scene: GearScene) -> tuple[str, ...]:
@@ -78,7 +81,8 @@ def _zones(canvas: Canvas, scene: GearScene) -> None:
         a, b, top = low / mu, high / mu, LEVEL * label * count
         corners = complex(a, 0.0), complex(a, top), complex(b, top), complex(b, 0.0)
         canvas.add(Group((Polyline(corners, Pen.THIN),), "zone", f"{k + 1}_{count}"))
-        middle = complex(0.5 * (a + b), top - 0.5 * LEVEL * label - 0.5 * label)
+        narrow = b - a < lay_out(str(count), label).width + 2.0
+        middle = complex(0.5 * (a + b), top + 0.4 * label if narrow else top - 0.5 * (LEVEL + 1.0) * label)
         canvas.add(Text(middle, str(count), label, "middle", role="zone", name=str(k + 1)))
 
 

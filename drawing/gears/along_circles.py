@@ -13,7 +13,7 @@ from .scene import GearScene
 from .wheels import Wheel
 
 INSIDE = 1.8  # heights of letters from the root circle to the arc of the pitch
-TAU, PHI = 0.42, 0.7  # parts of the radius at which the angles of pitch and of action are dimensioned
+TAU, PHI = 0.48, 0.76  # parts of the root's radius at which the angles of pitch and of action are dimensioned
 CLOSE = 6.0  # radius of an arc in heights of letters
 Ends = tuple[complex, complex]
 
@@ -34,10 +34,10 @@ def pitch(canvas: Canvas, scene: GearScene, wheel: Wheel, to_centre: bool) -> No
     foot = 0.0 if to_centre else (low - 0.4 * scene.style.label) / radius
     for end in ends:
         canvas.add(Line(end, wheel.centre + foot * (end - wheel.centre), Pen.THIN, role="extension", name=f"p_{i}"))
-    along(canvas, scene, wheel, _nearer(wheel, ends, low / radius), f"p_{i}", scene.stated("p"))
+    along(canvas, scene, wheel, _on(wheel, ends, low), f"p_{i}", scene.stated("p"))
     if to_centre:
         name = f"tau_{i}"
-        along(canvas, scene, wheel, _nearer(wheel, ends, TAU), name, scene.angle(name))
+        along(canvas, scene, wheel, _on(wheel, ends, TAU * wheel.radius("f")), name, scene.angle(name))
 
 
 def action(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
@@ -48,7 +48,7 @@ def action(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
         for end in ends:
             canvas.add(Line(end, wheel.centre, Pen.THIN, role="ray", name=f"phi_alpha{i}"))
         name = f"phi_alpha{i}"
-        along(canvas, scene, wheel, _nearer(wheel, ends, PHI), name, scene.angle(name))
+        along(canvas, scene, wheel, _on(wheel, ends, PHI * wheel.radius("f")), name, scene.angle(name))
 
 
 def gaps(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
@@ -72,7 +72,7 @@ def along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str,
     canvas.label(text, middle, prefer=-out, clear=1.0, height=height, spare=spare)
 
 
-def _nearer(wheel: Wheel, ends: Ends, part: float) -> Ends:
-    """Return points on the rays from the centre to the ends, at a part of their distance."""
-    a, b = (wheel.centre + part * (end - wheel.centre) for end in ends)
+def _on(wheel: Wheel, ends: Ends, radius: float) -> Ends:
+    """Return the points of a circle about the centre that lie on the rays to the ends."""
+    a, b = (wheel.centre + (end - wheel.centre) * (radius / abs(end - wheel.centre)) for end in ends)
     return a, b

@@ -18,6 +18,7 @@ PENS = {"a": Pen.THIN, "w": Pen.EXTREME, "": Pen.AXIS, "b": Pen.DASHED, "f": Pen
 PAST = 8.0  # mm of a line beyond what it goes to
 PITCH = 1.9  # heights of letters between diameters written under one another
 SHELF = 5.0  # mm from the longest arc to the diameters
+SAME = 0.02  # mm between circles that are one line
 WIDEST = 0.9 * math.pi  # half the angle of circles at most
 TURNING = 3.2  # radius of the arrows of omega, in heights of letters
 
@@ -38,7 +39,8 @@ def circles(canvas: Canvas, wheel: Wheel, span: Span, to_end: bool) -> None:
         low, high = span
         if to_end and name == "b":
             low = -wheel.side * max(abs(low), wheel.sizes["alpha_w"] + PAST / wheel.radius("b"))
-        arc = Arc(wheel.centre, wheel.radius(name), cmath.phase(wheel.up) + low, high - low, PENS[name])
+        same = abs(wheel.radius(name) - wheel.radius("")) < SAME
+        arc = Arc(wheel.centre, wheel.radius(name), cmath.phase(wheel.up) + low, high - low, PENS["" if same else name])
         canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
 
 

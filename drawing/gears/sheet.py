@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ..compose import arrange, arrange_rest, compose, worth_trying
 from ..formats import FORMATS, Format
-from ..nesting import names
+from ..nesting import Nest, names
 from ..packing import Placement
 from ..page import Drawn
 from ..pens import Norm
@@ -19,7 +20,7 @@ from ..view import View
 from ..zones import zoned
 from .fitting import Contents, Fitting, Rungs
 from .scene import MESHING
-from .zones import FIRST_PAGE, LAYOUTS
+from .zones import FIRST_PAGES, LAYOUTS
 
 Found = tuple[Rungs, list[View], list[Placement]]
 Way = Callable[[list[View], Format, Norm], list[Placement] | None]
@@ -54,7 +55,7 @@ def _pages(fitting: Fitting, sheet: Format) -> Found:
     norm = fitting.contents.norm
     first = rungs = fitted(fitting, sheet, norm, fitting.least(sheet))
     ways: list[tuple[Rungs, Way]] = []
-    for way in (_on_a_page, _on_the_first_page):
+    for way in (_on_a_page, *(partial(_on_the_first_page, layout) for layout in FIRST_PAGES)):
         rungs = first
         for _ in range(TRIES):
             ways.append((rungs, way))
@@ -95,12 +96,12 @@ def _on_a_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] 
     return places
 
 
-def _on_the_first_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Place the meshing with what belongs to it in the customary zones, the rest on following pages."""
-    names_there = set(names(FIRST_PAGE))
+def _on_the_first_page(layout: Nest, views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:
+    """Place what a layout names in its zones, the rest on following pages."""
+    names_there = set(names((layout,)))
     here = [view for view in views if view.name in names_there]
     rest = [view for view in views if view.name not in names_there]
-    own = zoned(FIRST_PAGE, here, sheet, norm) if here and rest else None
+    own = zoned((layout,), here, sheet, norm) if here and rest else None
     others = arrange_rest(rest, sheet, norm) if own is not None else None
     if own is None or others is None:
         return None

@@ -13,8 +13,13 @@ LAYOUT = row(
         row(column("action", "sliding"), column("points", "checks", "contour", BLOCK)),
     ),
 )
-# the meshing with what belongs to it, where the rest needs further pages
-FIRST_PAGE = (
+# what is drawn, where the calculations need a further page; where it has no room, the meshing with what belongs to it
+FIRST_PAGES = (
+    row(
+        column(TURNED, "meshing"),
+        column("rolling", "action", "sliding"),
+        column("data", "contour", "points", BLOCK),
+    ),
     row(
         column(TURNED, "meshing"),
         column(row("rolling", "data"), row(column("action", "contour"), column("checks", BLOCK))),
