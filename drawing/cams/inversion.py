@@ -23,7 +23,7 @@ SHARES = (0.5, 0.7, 0.3, 0.8, 0.2)  # of the arc of a phase at which its text ma
 LOST = 3  # significant digits of a travel that is lost
 SIDEWAYS = 0.3  # sine of the angle below the horizontal from which on the support is there
 BESIDE = 0.15  # rad between the middle of the lower dwell and the letter of the centre
-RADIUS, ARROW = 0.35, 1.0  # rad from that middle towards the rod to the radius dimensioned, and to the arrow of omega
+RADIUS, ARROW = 0.35, 1.2  # rad from that middle towards the rod to the radius dimensioned, and to the arrow of omega
 SMALLEST = 7.0  # least radius of a cam, in heights of letters, that has room for letters inside
 
 
@@ -192,7 +192,8 @@ def undercut_notes(scene: CamScene, cuts: Sequence[Undercut], rocks: bool = Fals
         unit = "°" if rocks else f" {words.unit('mm')}"
         text = f"{words.number(lost, decimals_for(lost, LOST))}{unit}"
         ends = {"start": scene.degrees(cut.start), "end": scene.degrees(cut.end)}
-        found.append(words["said.cam_undercut"].format(**ends, lost=text, corner=_corner(cuts, k)))
+        warning, where = words["said.cam_undercut"].format(**ends, lost=text, corner=_corner(cuts, k)).split("|")
+        found += [warning, where] if not k else [where]
     return tuple(found)
 
 

@@ -10,6 +10,7 @@ from ...plans.cams.profile import RollerProfile
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from ..style import Style
 from ..symbols import angle_dimension
+from ..text import box
 from ..view import Canvas
 from .inversion import corners, unit_at
 from .pressing import theta
@@ -17,7 +18,19 @@ from .scene import CamScene
 
 REACH, BEYOND = 6.5, 4.0  # heights of letters from the roller's centre to the arc of theta; mm of the normal beyond it
 SAME, IN_DWELL = 1e-9, 0.25  # part of a radius; of the lower dwell, at which the radius of its arc is shown
-PARTS = (1.0, 0.9, 1.1, 0.8, 1.2, 0.7, 1.3)  # of the radius of an arc that may be taken instead of it
+PARTS = (
+    1.0,
+    0.9,
+    1.1,
+    0.8,
+    1.2,
+    0.7,
+    1.3,
+    0.6,
+    1.4,
+    0.5,
+    1.5,
+)  # of the radius of an arc that may be taken instead of it
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7)  # of an arc at which its letter may stand
 FLAT = 1e-6  # rad, of an angle that is not shown
 
@@ -95,12 +108,15 @@ def _angle(canvas: Canvas, letter: str, name: str, at: complex, rays: tuple[comp
     """Dimension the angle between two rays near a radius at which its letter is clear of all lines."""
     style, height = canvas.style, canvas.style.text
     start, sweep = cmath.phase(rays[0]), cmath.phase(rays[1] / rays[0])
-    for radius in (far * part for part in PARTS):
+    free = [far * part for part in PARTS if _free(canvas, [at + ray * (far * part) for ray in rays])]
+    for radius in free:
         beside = (radius + away * height for away in (1.0, -1.0, 1.2, -1.3))
         places = [at + cmath.rect(away, start + share * sweep) for away in beside for share in SHARES]
-        if _free(canvas, [at + ray * radius for ray in rays]) and canvas.write(letter, places, height):
-            canvas.add(angle_dimension(at, radius, start, sweep, name, style))
+        canvas.add(angle_dimension(at, radius, start, sweep, name, style))
+        if canvas.write(letter, places, height):
             return
+        canvas.shapes.pop()
+    far = next(iter(free), far)
     middle = at + cmath.rect(far, start + 0.5 * sweep)
     canvas.add(angle_dimension(at, far, start, sweep, name, style))
     canvas.label(letter, middle, prefer=middle - at, clear=0.8, height=height)
@@ -108,8 +124,11 @@ def _angle(canvas: Canvas, letter: str, name: str, at: complex, rays: tuple[comp
 
 def _free(canvas: Canvas, places: list[complex]) -> bool:
     """Whether arrowheads in these places are clear of all numbers."""
-    numbers = [shape.at for shape in canvas.shapes if isinstance(shape, Text)]
-    return all(abs(place - number) > canvas.style.label for place in places for number in numbers)
+    reach = canvas.style.arrow
+    for x0, y0, x1, y1 in (box(shape) for shape in canvas.shapes if isinstance(shape, Text)):
+        if any(x0 - reach < p.real < x1 + reach and y0 - reach < p.imag < y1 + reach for p in places):
+            return False
+    return True
 
 
 def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> list[str]:

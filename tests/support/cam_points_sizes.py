@@ -50,8 +50,8 @@ def c5_sizes(case: CamCase, sheet: Sheet) -> Faults:
         side = 1.0 if abs(min(beyond)) > abs(max(beyond)) else -1.0
         nearest = max(side * b for b in beyond)
         yield from unless(abs(nearest) < NEAR, f"the limit of the {name} passes its branch by {nearest}")
-        inside = side * cross(along, at - foot) * (1.0 if at.imag < foot.imag else -1.0)
-        yield from unless(abs(cross(along, at - foot)) < NEAR or inside > 0, f"the limit of the {name} forbids O")
+        beyond_it = side * cross(along, at - foot)  # on the other side than the branch
+        yield from unless(beyond_it > -NEAR, f"the limit of the {name} forbids O")
     for name, value in (("r_0", roller.sizes.r_0), ("e", abs(roller.sizes.e))):
         if value < 1e-9:
             continue  # a central follower
