@@ -19,7 +19,7 @@ from .theta_diagram import cut_of, place, theta_diagram, theta_field, widest
 REDUCTIONS = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02, 0.01)  # of the ordinates of velocities
 TALLEST = {5.0: 130.0, 3.5: 75.0}  # mm of the highest ordinate, by the height of letters
 LONGEST = {5.0: 250.0, 3.5: 140.0}  # mm of the line of action
-BETWEEN = 5.0  # heights of letters between the diagrams
+BETWEEN = 4.4  # heights of letters between the diagrams
 SIDES = {1: 1.0, 2: -1.0}  # of the pole, on which a wheel's profile is the faster one
 PAST = 1.6  # heights of letters by which axes run past their ends
 
@@ -49,10 +49,10 @@ def sliding_view(scene: GearScene) -> View:
     _velocities(canvas, scene, above, ordinates)
     said = _pole(canvas, scene, above, ordinates)
     theta_diagram(canvas, scene, below)
-    notes = [words["gear.hatched"], words["gear.cut"].format(theta=words.number(cut_of(scene), 0))]
+    cut = words["gear.cut"].format(theta=words.number(cut_of(scene), 0))
     if ordinates.reduction < 1.0:
-        notes.append(words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / ordinates.reduction)}"))
-    notes += said
+        said.insert(0, words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / ordinates.reduction)}"))
+    notes = [f"{words['gear.hatched']}; {cut}", *filter(None, ["; ".join(said)])]
     theta = f"{words.symbol('mu_theta')} = {words.short(below.y.scale.mu)} {words.unit('mm')}^{{−1}}"
     heading = words["heading.gear_sliding"], f"{words.scale(above.x.scale)};  {theta}"
     return canvas.finish("sliding", heading, tuple(notes))
