@@ -55,7 +55,8 @@ def _pages(fitting: Fitting, sheet: Format) -> Found:
     norm = fitting.contents.norm
     first = rungs = fitted(fitting, sheet, norm, fitting.least(sheet))
     ways: list[tuple[Rungs, Way]] = []
-    for way in (_on_a_page, *(partial(_on_the_first_page, layout) for layout in FIRST_PAGES)):
+    first_pages: list[Way] = [partial(_on_the_first_page, layout) for layout in FIRST_PAGES]
+    for way in (_on_a_page, *first_pages):
         rungs = first
         for _ in range(TRIES):
             ways.append((rungs, way))
