@@ -109,7 +109,10 @@ class OneSided:
         for piece in self.pieces:
             if piece.begin >= self.t_1:
                 turnings = [t for t in piece.height.turnings(piece.time) if piece.height.bend(t) > 0.0]
-                heights += [piece.height.at(t) for t in turnings]
+                lowest = [piece.height.at(t) for t in turnings]
+                heights += [
+                    height for height in lowest if abs(height) > ROUNDING * piece.height.swing
+                ]  # not t_1 itself
         return min(heights)
 
     @property

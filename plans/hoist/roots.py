@@ -16,6 +16,8 @@ from ..laws import NAN, TURN
 from .series import cosine_rest, sine_rest
 from .waves import Wave, rising_zero
 
+STANDING = 1e-9  # part of the speeds that is none
+
 
 def time_to_wind(V: Any, a: Any, length: Any) -> Any:
     """Return the time in which V t + a t^2/2 becomes a length; zero where that is not positive."""
@@ -104,6 +106,8 @@ def lowest_after(speed: Any, a: Any, k_1: Any, D_0: Any, D_1: Any, m: Any) -> An
         V + a t_1 of the rope's upper end at the lift-off.
     """
     part = 1.0 / (m * k_1)
-    wave = Wave(part * np.sqrt(D_0 * D_0 + D_1 * D_1), np.arctan2(D_0, -D_1), speed, a / k_1)
+    swing, psi = part * np.sqrt(D_0 * D_0 + D_1 * D_1), np.arctan2(D_0, -D_1)
+    wave = Wave(swing, psi, speed, a / k_1)
+    sinking = Wave(swing, psi, speed + STANDING * (swing + speed), a / k_1)  # at the lift-off it may stand
     n = wave.first
-    return np.where(wave.last >= n, wave.rising(n), TURN) / k_1
+    return np.where(sinking.last >= n, wave.rising(n), TURN) / k_1

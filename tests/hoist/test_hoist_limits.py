@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from kulman.plans.hoist.forces import forces
-from kulman.tests.support.hoists import VARIANTS
+from kulman.plans.hoist.model import model
+from kulman.tests.support.hoists import SEED, VARIANTS, random_hoists
 
 FORCES = ("t_1", "F_12_t1", "F_12_max", "T_1", "P_12_max", "P_12_min", "s_min")
 
@@ -54,6 +55,15 @@ def test_on_a_rigid_support_the_rope_alone_stretches() -> None:
     rate = found["C_12"] * (values["V_0"] + values["a"] * t) / found["k_1"]
     swing = math.hypot(found["m"] * values["a"], rate)
     assert found["P_12_max"] == pytest.approx(found["P_m"] + swing, rel=1e-13)
+
+
+def test_load_that_stands_when_it_is_lifted_off_does_not_come_back() -> None:
+    hoists = random_hoists(np.random.default_rng(SEED), 200)
+    hoists["I_0"][:] = math.inf  # the load leaves a rigid support without a speed
+
+    found = model(hoists)
+
+    assert np.all(found["s_min"] > 1e-3 * found["P_st"] / found["C_12"])
 
 
 def test_on_rigid_beams_the_article_is_right_when_its_speed_is_that_at_the_lift_off() -> None:

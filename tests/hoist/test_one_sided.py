@@ -109,6 +109,17 @@ def test_motion_of_a_valid_hoist_is_that_of_the_formulas() -> None:
             assert value == pytest.approx(found[name], rel=1e-11), name
 
 
+def test_no_load_comes_back_to_a_rigid_support() -> None:
+    hoists, slack = random_hoists(np.random.default_rng(SEED + 2), 60), 0
+    hoists["V_0"] *= 8.0  # so that the rope goes slack
+    for i in range(60):
+        solved = forces({**{name: float(column[i]) for name, column in hoists.items()}, "I_0": math.inf})
+        if solved.motion is not None:
+            slack += len(solved.motion.slack)
+            assert solved.motion.lowest > 0.0
+    assert slack > 10
+
+
 def test_energy_that_the_winding_gives_is_kept() -> None:
     solved = forces(PUSHES)
     motion, found = solved.motion, solved.found
