@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import product
 
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
@@ -25,7 +26,7 @@ from .zones import FIRST_PAGES, LAYOUTS
 Found = tuple[Rungs, list[View], list[Placement]]
 Way = Callable[[list[View], Format, Norm], list[Placement] | None]
 BESIDE = ("rolled", "part")  # ladders of what stands beside the meshing
-TRIES = 3  # rungs of these at which a page is tried
+SMALLER = sorted(product(range(3), repeat=len(BESIDE)), key=sum)  # rungs further at which a page is tried
 
 
 def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn:
@@ -53,22 +54,25 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
 def _pages(fitting: Fitting, sheet: Format) -> Found:
     """Take one page, with what is beside the meshing smaller where it must be, or several."""
     norm = fitting.contents.norm
-    first = rungs = fitted(fitting, sheet, norm, fitting.least(sheet))
-    ways: list[tuple[Rungs, Way]] = []
+    first = fitted(fitting, sheet, norm, fitting.least(sheet))
     first_pages: list[Way] = [partial(_on_the_first_page, layout) for layout in FIRST_PAGES]
-    for way in (_on_a_page, *first_pages):
-        rungs = first
-        for _ in range(TRIES):
-            ways.append((rungs, way))
-            for ladder in BESIDE:
-                rungs = lower(rungs, ladder) if has_next(fitting, rungs, ladder) else rungs
-    found = next(filter(None, (_placed(fitting, sheet, rungs, way) for rungs, way in ways)), None)
+    ways = [(steps, way) for way in (_on_a_page, *first_pages) for steps in SMALLER]
+    tried = (_placed(fitting, sheet, _stepped(fitting, first, steps), way) for steps, way in ways)
+    found = next(filter(None, tried), None)
     while found is None:  # the first page has less room than the others
         found = _placed(fitting, sheet, first, _in_order)
         if found is None and not has_next(fitting, first, "mu_l"):
             raise InputError("sheet-too-small", format=sheet.name)
         first = lower(first, "mu_l") if found is None else first
     return found
+
+
+def _stepped(fitting: Fitting, rungs: Rungs, steps: Sequence[int]) -> Rungs:
+    """Return rungs so many steps further down the ladders of what stands beside the meshing."""
+    for ladder, count in zip(BESIDE, steps, strict=True):
+        for _ in range(count):
+            rungs = lower(rungs, ladder) if has_next(fitting, rungs, ladder) else rungs
+    return rungs
 
 
 def _placed(fitting: Fitting, sheet: Format, rungs: Rungs, way: Way) -> Found | None:
