@@ -70,6 +70,11 @@ class SolvedGear(Solved):
         """The directions along which a drafting machine draws: tangent in the pole, line of centres, axes."""
         return TANGENT, CENTRES, RIGHT, UP
 
+    @property
+    def on_paper(self) -> tuple[str, ...]:
+        """The diagrams of sliding, which are drawn in millimetres of paper."""
+        return tuple(plan for plan in DIAGRAMS if plan in self.scale_of_plan)
+
     def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
         """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""
         return {plan: PAPER_MM if plan in DIAGRAMS else mu for plan, mu in mus.items()}
