@@ -108,6 +108,8 @@ def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser
             if name in solved.quantities:
                 raise InputError("scale-follows", symbol=name, known=", ".join(known))
             raise unknown("scale-unknown", name, known, task=task.id)
+        if not name.startswith("mu_") and not kind_of(task.kind).segments:
+            raise InputError("scale-no-segments", text=quote(name), known=", ".join(known))
         try:
             symbol = name if name.startswith("mu_") else segment_symbol(name)
             chosen = chooser(symbol, str(text) if symbol == name else f"{name}={text}", firm=True)

@@ -24,6 +24,7 @@ from .rocker import (
 from .size_plans import OUTWARDS, phase_of, side_of
 from .sizes import (
     BACK,
+    RIGHT_ANGLE,
     Limits,
     NoOffset,
     Offsets,
@@ -65,7 +66,7 @@ class RollerCam:
             found[f"_inclination_{limit}"] = gamma if side > 0 else math.pi - gamma
         for phase in (RISE, FALL):
             least = least_transmission(motion, sizes, phase, cam.sense, cam.two_sided)
-            found[f"_gamma_{phase}_least"] = least.value
+            found[f"_gamma_{phase}_least"] = min(least.value, RIGHT_ANGLE)  # more: pressed to the other side alone
         return found
 
 
@@ -105,7 +106,7 @@ class RockerCam:
             found[f"_limit_angle{i}"] = float(psi[i]) - way * cam.sense * gamma
         for phase in (self.rocker.motion.rise, self.rocker.motion.fall):
             least = least_rocker_transmission(self.rocker, self.sizes, phase, cam.two_sided)
-            found[f"_gamma_{phase.name}_least"] = least.value
+            found[f"_gamma_{phase.name}_least"] = min(least.value, RIGHT_ANGLE)
         return found
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from kulman import cli, sheet, solve
+from kulman.scales.errors import InputError
 from kulman.tests.support.printed_numbers import lines_of
 from kulman.tests.support.readback import read
 from kulman.variants import load_task
@@ -133,3 +134,40 @@ def test_the_scale_factor_of_angles_stays_in_radians() -> None:
     view = read(sheet(TASK, only="diagrams", lang="en").svg())["diagrams"]
 
     assert any("0.017453 rad/mm" in text.string for text in view.texts)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (("--set", "u_fall=0"), "u_fall: '0': must be greater than 0 and less than 1"),
+        (("--set", "law_fall=sine"), "task madi-cam does not state law_fall, which a task of this kind may have: "),
+        (("--set", "psi=20"), "task madi-cam does not state psi, which a task of this kind may have: "),
+        (("--set", "Rroller=8"), "madi-cam has no given 'Rroller'; did you mean 'R_roller'?"),
+        (("--scale", "OA=80"), "'OA': no segment chooses a scale factor here; expected one of: mu_l, mu_s_ds, mu_s_d2s"),
+        (("--scale", "mu_x=3"), "task madi-cam has no scale factor 'mu_x'; did you mean 'mu_l'?"),
+    ],
+)
+def test_what_cannot_be_set_is_explained(
+    arguments: tuple[str, str], line: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
+
+    out, err = run(capsys, "solve", TASK, *arguments)
+
+    assert out == ""
+    assert err.startswith(line)
+    assert err.count("\n") == 1
+
+
+def test_the_fall_may_have_another_part() -> None:
+    assert solve(TASK, set={"u_fall": 0.6})["mu_s"].value == solve(TASK)["mu_s"].value
+    assert solve(TASK, set={"u_fall": 0.6})["r_0"].value != solve(TASK)["r_0"].value
+
+
+def test_a_scale_factor_that_has_no_room_is_named() -> None:
+    with pytest.raises(InputError, match=r"^mu_l = 0\.0001 m/mm: the plan has no room on A1; take a coarser scale"):
+        sheet(TASK, scales={"mu_l": 0.0001}, only="profile")
+
+
+def test_a_follower_that_is_pressed_to_one_side_alone_has_no_more_than_a_right_angle() -> None:
+    assert solve(TASK, set={"e": 100})["gamma_rise_min"].value == pytest.approx(math.pi / 2)

@@ -13,7 +13,7 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.scale import Scale
 from ...scales.units import unit
-from ..checks.cam import impossible, read_cam, words_of
+from ..checks.cam import NUMBERS, WORDS, impossible, read_cam, words_of
 from ..task import Given, Task
 from .kind import Kind, Verdicts
 
@@ -66,6 +66,8 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     table, plans = "cam", PLANS
     display = Display(size="mm", angle="deg")
+    names = frozenset((*NUMBERS, *WORDS))
+    segments = False
 
     def words(self, raw: object) -> frozenset[str]:
         """Return the words of `[cam]` that may be names of choices."""

@@ -44,6 +44,8 @@ class Kind(ABC, Generic[Subject, Answer]):
     display: ClassVar[Display] = AS_INSIDE  # the units of results where a file says no others
     plans: ClassVar[tuple[str, ...]]
     pages: ClassVar[int] = 1  # how many a sheet has at most that holds everything well
+    names: ClassVar[frozenset[str]] = frozenset()  # of what such a task may state; none where every task has its own
+    segments: ClassVar[bool] = True  # whether a segment may choose a scale factor
     instead: ClassVar[Instead] = ()  # which givens of a user stand in the place of others
 
     # Reading a task file. Faults go to the checker.
