@@ -143,7 +143,10 @@ def test_the_scale_factor_of_angles_stays_in_radians() -> None:
         (("--set", "law_fall=sine"), "task madi-cam does not state law_fall, which a task of this kind may have: "),
         (("--set", "psi=20"), "task madi-cam does not state psi, which a task of this kind may have: "),
         (("--set", "Rroller=8"), "madi-cam has no given 'Rroller'; did you mean 'R_roller'?"),
-        (("--scale", "OA=80"), "'OA': no segment chooses a scale factor here; expected one of: mu_l, mu_s_ds, mu_s_d2s"),
+        (
+            ("--scale", "OA=80"),
+            "'OA': no segment chooses a scale factor here; expected one of: mu_l, mu_s_ds, mu_s_d2s",
+        ),
         (("--scale", "mu_x=3"), "task madi-cam has no scale factor 'mu_x'; did you mean 'mu_l'?"),
     ],
 )
