@@ -12,7 +12,7 @@ from ...plans.cams.rivals import BOARD, BOARDS, CLOSED, MIDPOINT, MISSED, SIMPSO
 from ...plans.contest import Contest, Entry
 from ...plans.hoist.finders import BISECTION, BRENT, ILLINOIS, SECANT
 from ...plans.hoist.finders import NEWTON as NEWTON_ROOT
-from ...plans.hoist.rivals import COURSE, FORMULAS, LIFT_OFF, PEAK
+from ...plans.hoist.rivals import COURSE, DRAWN, FORMULAS, LIFT_OFF, PEAK
 from ...plans.hoist.rivals import MISSED as MISSED_LIFT_OFF
 from ...plans.hoist.steppers import EXPLICIT, RK4, SYMPLECTIC, TRAPEZOID, VERLET
 from ...plans.linkages.accuracy.comparison import (
@@ -41,7 +41,7 @@ OF_HOIST = (LIFT_OFF, COURSE, PEAK)
 ERRORS = {TRAVELS: "chart.error.travel", VELOCITIES: "chart.error.speed"}
 ERRORS |= {kind: f"chart.error.{kind}" for kind in OF_HOIST}
 TIMES = dict.fromkeys(OF_HOIST, "chart.time.hoist")  # of something else than a position
-SECTIONED = (CHORDS, BOARD, BOARDS, MIDPOINT, MISSED, SIMPSON)  # methods whose setting is a number of sections
+SECTIONED = (CHORDS, BOARD, BOARDS, MIDPOINT, MISSED, SIMPSON, DRAWN)  # methods whose setting is a number of sections
 LARGEST = 3.0  # error beyond which a method means nothing
 
 
@@ -75,6 +75,7 @@ LOOKS: Mapping[str, Look] = {
     SECANT: Look("D", True, (0, (3, 1, 1, 1)), (0, -1), SECANT),
     ILLINOIS: Look("v", True, (0, (6, 1.5, 1, 1.5)), (0, 1), ILLINOIS),
     BRENT: Look("P", True, (0, (10, 3)), (0, -1), BRENT),
+    DRAWN: Look("+", True, (0, (3, 1, 1, 1)), (0, -1), DRAWN),
     RK4: Look("o", False, "-", (0, -1), RK4),
     MISSED_LIFT_OFF: Look("x", True, "-", (0, 1), MISSED_LIFT_OFF),
     VERLET: Look("s", False, (0, (6, 2)), (0, -1), VERLET),

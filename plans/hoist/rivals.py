@@ -27,7 +27,7 @@ from .steppers import EXPLICIT, RK4, STEPPERS
 Array = NDArray[np.float64]
 LIFT_OFF, COURSE, PEAK = "lift_off", "course", "peak"
 KINDS = (Kind(LIFT_OFF, ("t_1",)), Kind(COURSE, ("F_12", "P_12")), Kind(PEAK, ("F_max",)))
-FORMULAS, MISSED = "hoist-closed", "rk4-missed"
+FORMULAS, MISSED, DRAWN, HAND = "hoist-closed", "rk4-missed", "hoist-drawn", "hand"
 TOLERANCES = (1e-2, 1e-4, 1e-8, 1e-15)
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # k h, rad
 TINY = (0.005, 0.002, 0.001)  # beside these for the method of the least order

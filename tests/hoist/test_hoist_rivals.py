@@ -12,11 +12,15 @@ import pytest
 
 from kulman.plans import contest as contests
 from kulman.plans.contest import Contest, Effort
+from kulman.plans.hands.hand import preset
 from kulman.plans.hoist import rivals as races
 from kulman.plans.hoist.course import BOTH, NEITHER, ROPE, SUPPORT, UNITS, course, end_of, marks
+from kulman.plans.hoist.drawn import by_board, by_hand
 from kulman.plans.hoist.finders import FINDERS, NEWTON
 from kulman.plans.hoist.forces import forces
+from kulman.plans.hoist.hoist import Hoist
 from kulman.plans.hoist.rivals import COURSE, FORMULAS, LIFT_OFF, PEAK, exact, rivals
+from kulman.plans.hoist.solve import SolvedHoist, solve_hoist
 from kulman.plans.hoist.step_limits import StepLimits, step_limits
 from kulman.plans.hoist.steppers import EXPLICIT, ORDERS, RK4, SYMPLECTIC, TRAPEZOID, VERLET
 
@@ -177,3 +181,27 @@ def test_marks_are_where_forces_are_greatest_and_least(values: dict[str, float])
         assert at[name] == pytest.approx(found.found[name], rel=1e-9, abs=1e-6)
         assert 0.0 <= known[name] <= end * (1.0 + 1e-12)
     assert list(known.values()) == sorted(known.values())
+
+
+@cache
+def drawn() -> SolvedHoist:
+    return solve_hoist(Hoist(), STEADY)
+
+
+def test_crossing_of_drawn_curves_errs_as_the_square_of_a_section() -> None:
+    found = {entry.setting: entry.error for entry in by_board(drawn(), time.process_time)}
+
+    assert np.log2(found[40] / found[160]) / 2.0 == pytest.approx(2.0, abs=0.1)  # type: ignore[operator]
+
+
+def test_a_hand_that_errs_less_keeps_less() -> None:
+    mus = dict.fromkeys(drawn().scale_of_plan, 400.0)
+
+    kept = {
+        name: {entry.kind: entry.error for entry in by_hand(drawn(), mus, preset(name).hand)}
+        for name in ("careful", "normal")
+    }
+
+    assert set(kept["normal"]) == {LIFT_OFF, PEAK, COURSE}
+    for kind, error in kept["normal"].items():
+        assert 0.0 < kept["careful"][kind] < error < 0.1  # type: ignore[operator]

@@ -5,18 +5,21 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import ClassVar
 
 from ...plans.contest import FULL, Effort
-from ...plans.hoist.checks import valid
+from ...plans.hands.hand import preset
 from ...plans.hoist.choice import choose
 from ...plans.hoist.depth import depth
+from ...plans.hoist.drawn import by_board, by_hand
 from ...plans.hoist.givens import complete
-from ...plans.hoist.model import model
 from ...plans.hoist.rivals import rivals
 from ...plans.hoist.root_race import root_race
+from ...plans.hoist.solve import SolvedHoist
 from ...plans.hoist.step_limits import step_limits
 from ...scales.errors import InputError
+from ..kinds.hoist import hoist
 from .accuracy import AccuracyChart
 from .data import Scene
 from .gallery import Asked, Chart
@@ -32,7 +35,7 @@ class HoistCharts:
     """Makes the charts of one hoist."""
 
     charts: ClassVar[tuple[str, ...]] = (ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE)
-    used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {"tolerance": (DEPTH,)}
+    used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {"tolerance": (DEPTH,), "hand": (ACCURACY,)}
 
     def make(self, name: str, scene: Scene, asked: Asked) -> Chart:
         """Make one of the charts.
@@ -42,12 +45,13 @@ class HoistCharts:
         InputError
             A support that is rigid has no phase 1 to integrate; formulas that are not valid have no rivals.
         """
-        return hoist_chart(name, scene, scene.case.solved.givens, asked.tolerance)
+        return hoist_chart(name, scene, asked.tolerance)
 
 
-def hoist_chart(name: str, scene: Scene, values: Mapping[str, float], tolerance: float, effort: Effort = FULL) -> Chart:
-    """Make a chart of the hoist with these givens, SI; the tolerance of a simpler model is in per cent."""
-    givens = complete(values)
+def hoist_chart(name: str, scene: Scene, tolerance: float, effort: Effort = FULL) -> Chart:
+    """Make a chart of a hoist; the tolerance of a simpler model is in per cent."""
+    solved = hoist(scene.case.solved)
+    givens = complete(solved.givens)
     if name == DEPTH:
         return HoistDepthChart(scene, depth(givens, 0.01 * tolerance))
     if name == CHOICE:
@@ -56,8 +60,18 @@ def hoist_chart(name: str, scene: Scene, values: Mapping[str, float], tolerance:
         raise InputError("chart-hoist-rigid")
     if name == ROOTS:
         return HoistRootsChart(scene, root_race(givens))
-    if not valid(model(givens)):
+    if solved.forces.motion is not None:
         raise InputError("chart-hoist-one-sided")
     if name == STABILITY:
         return HoistStepsChart(scene, step_limits(givens))
-    return AccuracyChart(scene, None, rivals(givens, time.process_time, effort), "chart.hoist_compared")
+    return _accuracy(scene, solved, givens, effort)
+
+
+def _accuracy(scene: Scene, solved: SolvedHoist, givens: Mapping[str, float], effort: Effort) -> AccuracyChart:
+    """Let all methods compete, a board and a hand that draw among them."""
+    found = rivals(givens, time.process_time, effort)
+    case = scene.case
+    mus = {plan: scale.mu for plan, scale in case.kind.first_scales(solved, case.choosers).items()}
+    drawn = (*by_board(solved, time.process_time), *by_hand(solved, mus, preset(scene.hand).hand))
+    whole = replace(found, entries=(*found.entries, *drawn))
+    return AccuracyChart(scene, None, whole, "chart.hoist_compared")

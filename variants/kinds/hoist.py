@@ -132,3 +132,11 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
 
 KIND = Hoists()
+
+
+def hoist(solved: Any) -> SolvedHoist:
+    """Return what has been solved as the hoist that it is."""
+    from ...plans.hoist.solve import SolvedHoist
+
+    assert isinstance(solved, SolvedHoist)
+    return solved

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +14,10 @@ from numpy.typing import NDArray
 from ...drawing.words import Words
 from ...drawing.writers import Files, save_all
 from ...plans.hoist.course import Course, course, end_of, marks
-from ...plans.hoist.forces import Forces, forces
+from ...plans.hoist.forces import Forces
 from ...scales.errors import InputError, PositionError
 from ..case import Case
+from ..kinds.hoist import hoist
 from ..tables import Cell, csv_bytes, csv_text
 from .asked import Asked, OfCase
 from .data import numbers
@@ -28,17 +28,17 @@ SUFFIXES = (".csv",)
 OK = "ok"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, slots=True, repr=False)
 class HoistSweep(OfCase):
     """A hoist over time, until one period after the lift-off; `positions` times, None for as many as are usual."""
 
     words: Words
     positions: int | None
 
-    @cached_property
+    @property
     def solved(self) -> Forces:
         """The forces, and the motion where the formulas are not valid."""
-        return forces(self.case.solved.givens)
+        return hoist(self.case.solved).forces
 
     @property
     def status(self) -> str:
