@@ -27,6 +27,8 @@ Found = tuple[Rungs, list[View], list[Placement]]
 Way = Callable[[list[View], Format, Norm], list[Placement] | None]
 BESIDE = ("rolled", "part")  # ladders of what stands beside the meshing
 SMALLER = sorted(product(range(3), repeat=len(BESIDE)), key=sum)  # rungs further at which a page is tried
+LEAST = 0.25  # part of the area that what stands beside the meshing keeps at the last of these
+FULL = 0.75  # part of a format that views may cover
 
 
 def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn:
@@ -56,7 +58,8 @@ def _pages(fitting: Fitting, sheet: Format) -> Found:
     norm = fitting.contents.norm
     first = fitted(fitting, sheet, norm, fitting.least(sheet))
     first_pages: list[Way] = [partial(_on_the_first_page, layout) for layout in FIRST_PAGES]
-    ways = [(steps, way) for way in (_on_a_page, *first_pages) for steps in SMALLER]
+    one: list[Way] = [_on_a_page] if _may_fit(fitting, sheet, first) else []
+    ways = [(steps, way) for way in (*one, *first_pages) for steps in SMALLER]
     tried = (_placed(fitting, sheet, _stepped(fitting, first, steps), way) for steps, way in ways)
     found = next(filter(None, tried), None)
     while found is None:  # the first page has less room than the others
@@ -65,6 +68,14 @@ def _pages(fitting: Fitting, sheet: Format) -> Found:
             raise InputError("sheet-too-small", format=sheet.name)
         first = lower(first, "mu_l") if found is None else first
     return found
+
+
+def _may_fit(fitting: Fitting, sheet: Format, rungs: Rungs) -> bool:
+    """Whether one page may hold everything at any of the rungs that are tried, by the areas of the views."""
+    area = 0.0
+    for view, figure in fitting.views(sheet, rungs):
+        area += view.size[0] * view.size[1] * (LEAST if {*figure.ladders} & {*BESIDE} else 1.0)
+    return area < FULL * sheet.width * sheet.height
 
 
 def _stepped(fitting: Fitting, rungs: Rungs, steps: Sequence[int]) -> Rungs:

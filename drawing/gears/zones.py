@@ -17,8 +17,7 @@ LAYOUT = row(
 FIRST_PAGES = (
     row(
         column(TURNED, "meshing"),
-        column("rolling", "action", "sliding"),
-        column("data", "contour", "points", BLOCK),
+        column(row("rolling", "data"), row(column("action", "checks", "points"), column("sliding", BLOCK))),
     ),
     row(
         column(TURNED, "meshing"),
