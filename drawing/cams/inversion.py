@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...plans.cams.envelopes import Undercut
-from ...plans.cams.motion import LOWER, TURN, Motion
+from ...plans.cams.motion import LOWER, Motion
 from ..printed import decimals_for
 from ..shapes import Circle, Group, Head, Line, Pen, Text
 from ..symbols import angle_dimension, turning_arrow
@@ -171,9 +171,15 @@ def quiet(motion: Motion, sense: int) -> float:
 
 
 def dwelling(motion: Motion, sense: int) -> float:
-    """Return the direction in the middle of the lower dwell, or of the rise where there is none."""
-    low, high = (motion.lower.start, TURN) if motion.lower.lasts else (0.0, motion.rise.end)
+    """Return the direction in the middle of the longer dwell, or of the rise where there is none."""
+    longer = motion.lower if rests(motion) or not motion.upper.lasts else motion.upper
+    low, high = (longer.start, longer.end) if longer.lasts else (0.0, motion.rise.end)
     return cmath.phase(unit_at(0.5 * (low + high), sense))
+
+
+def rests(motion: Motion) -> bool:
+    """Whether the lower dwell is the longer one: then there is room beside the follower in its lowest position."""
+    return motion.lower.lasts and motion.lower.length >= motion.upper.length
 
 
 def corners(canvas: Canvas, scene: CamScene, cuts: Sequence[Undercut]) -> None:

@@ -113,7 +113,7 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
     left = [radius_at(canvas, scene, "r_0", sizes.r_0, quiet, ((sizes.r_0 - R) / mu, sizes.r_0 / mu))]
     far = sizes.l_OC / mu
     left += [radius_at(canvas, scene, "l_OC", sizes.l_OC, quiet + ASIDE * solved.cam.sense, (far, far))]
-    roller_radius(canvas, scene, scene.mm(f"{PROFILE}.B{division.last}"), division.last, R)
+    roller_radius(canvas, scene, [scene.mm(f"{PROFILE}.B{i}") for i in division.lines], R)
     top = division.top
     pivot = scene.mm(f"{PROFILE}.A{top}")
     swing, low = cam.rocker.motion.h, -solved.cam.sense * float(solved.angles[top])

@@ -20,6 +20,7 @@ from .inversion import (
     phases,
     quiet,
     radius_at,
+    rests,
     undercut_notes,
     unit_at,
 )
@@ -103,9 +104,15 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
     level = rod.top + 6.0
     ends = complex(0.0, rod.top), complex(rod.x, rod.top)
     linear(canvas, ends, 1j * (level - rod.top), f"{words.symbol('e')} = {scene.length(abs(roller.sizes.e))}", "e")
-    last = solved.layout.division.last
-    roller_radius(canvas, scene, scene.mm(f"{PROFILE}.B{last}"), last, roller.profile.R)
-    low = complex(rod.x, rod.low)  # the stroke on the side of the lower dwell, where there is room
-    out = -sense * max(roller.profile.R / mu + OUT * scene.style.text, OUT * scene.style.label)
-    linear(canvas, (low, low + 1j * rod.stroke), out, words.symbol("h"), "h")
+    division = solved.layout.division
+    roller_radius(canvas, scene, [scene.mm(f"{PROFILE}.B{i}") for i in division.lines], roller.profile.R)
+    if rests(solved.motion):
+        low = complex(rod.x, rod.low)
+        out = complex(-sense * max(roller.profile.R / mu + OUT * scene.style.text, OUT * scene.style.label))
+        ends = low, low + 1j * rod.stroke
+    else:
+        up = unit_at(float(solved.angles[division.top]), sense)
+        out = up * (-1j * sense) * (0.5 * roller.profile.R / mu)
+        ends = on_circle(rod.x, r_0 / mu, up), scene.mm(f"{PROFILE}.B{division.top}")
+    linear(canvas, ends, out, words.symbol("h"), "h")
     return [left] if left else []

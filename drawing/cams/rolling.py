@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...plans.cams.profile import RollerProfile
@@ -12,7 +13,7 @@ from ..style import Style
 from ..symbols import angle_dimension
 from ..text import box
 from ..view import Canvas
-from .inversion import corners, unit_at
+from .inversion import corners, rests, unit_at
 from .pressing import theta
 from .scene import CamScene
 
@@ -32,6 +33,7 @@ PARTS = (
     1.5,
 )  # of the radius of an arc that may be taken instead of it
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7)  # of an arc at which its letter may stand
+ASIDE = 0.5  # rad between a position and the radius dimensioned in it
 FLAT = 1e-6  # rad, of an angle that is not shown
 
 
@@ -142,9 +144,12 @@ def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> list[s
     return [*said, *sizes]
 
 
-def roller_radius(canvas: Canvas, scene: CamScene, at: complex, line: int, R: float) -> None:
-    """Dimension the radius of the roller R, m, about its centre `at` in one position."""
+def roller_radius(canvas: Canvas, scene: CamScene, places: Sequence[complex], R: float) -> None:
+    """Dimension the radius of the roller R, m, about its centre, one of the `places`, on the side of a dwell."""
     solved, words = scene.solved, scene.words
-    rim = at + unit_at(float(solved.angles[line]) + 0.5, solved.cam.sense) * (R / scene.mu_l)
+    division, rest = solved.layout.division, rests(solved.motion)
+    line = division.last if rest else division.leave
+    at, aside = places[line], ASIDE if rest else -ASIDE
+    rim = at + unit_at(float(solved.angles[line]) + aside, solved.cam.sense) * (R / scene.mu_l)
     canvas.add(Group((Line(at, rim, Pen.THIN), Head(rim, rim - at)), "dimension", "R_roller"))
     canvas.label(words.symbol("R_roller"), rim, prefer=rim - at, clear=1.0, height=scene.style.text)
