@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import random
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from kulman import solve
+from kulman import check, solve
 from kulman.plans.boards.exact import run
 from kulman.plans.cams.cam import LAWS
 from kulman.plans.hands.hand import PRESETS, preset
@@ -17,6 +18,7 @@ from kulman.plans.marking.answers import Answer
 from kulman.plans.marking.verdicts import Line, Verdict, mark
 from kulman.tests.support.cam_students import ROCKER, Settings, asked, asked_key, keyed_cam, random_cams
 from kulman.tests.support.marking_cases import HAND, students
+from kulman.variants.shelf import bundled_text
 
 SEED = 1868
 CHORDS = ("S_max_chord", "V_max_chord", "s_close", "v_close", "mu_s", "mu_d2s", "ds_max", "v_max", "r_0", "e", "s_0")
@@ -105,6 +107,44 @@ def test_sizes_by_chords_are_drawn_by_the_hand_that_draws_what_they_stand_for() 
 
     for exact, chords in (("mu_s", "mu_s_chord"), ("r_0", "r_0_tangents"), ("r_0_flat_min", "r_0_flat_tangent")):
         assert drawing.expected[exact] is drawing.expected[chords]
+
+
+ROLLER_ONLY, PLATE_ONLY = ("rho_flat", "margin"), ("gamma_rise", "gamma_fall", "R_roller", "r_0", "e", "limits")
+
+
+@pytest.mark.parametrize(
+    ("follower", "unused", "only"),
+    [("roller", ROLLER_ONLY, "sizes"), ("plate", PLATE_ONLY, None), ("roller", ROLLER_ONLY, "diagrams")],
+)
+def test_a_cam_for_one_follower_or_a_part_of_it_is_marked(
+    follower: str, unused: tuple[str, ...], only: str | None, tmp_path: Path
+) -> None:
+    lines = bundled_text("madi-cam").replace('["roller", "plate"]', f'["{follower}"]').splitlines()
+    (tmp_path / "own.toml").write_text(
+        "\n".join(line for line in lines if line.partition(" =")[0] not in unused), encoding="utf-8"
+    )
+
+    asked_now = check(tmp_path / "own.toml", only=only, lang="en")
+    solution = solve(tmp_path / "own.toml", only=only)
+    form = asked_now.write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
+    names = [name for line in form.splitlines() if (name := line.partition(",")[0]) in solution]
+    values = (solution[name].shown(solution.words.display).value for name in names)
+    rows = [f"{name},{value}" for name, value in zip(names, values, strict=True)]
+    (tmp_path / "answers.csv").write_text("\n".join(("quantity,value", *rows)), encoding="utf-8")
+    (answers,) = asked_now.read(str(tmp_path / "answers.csv"))
+
+    assert "mu_s" in names
+    assert ("r_0" in names, "r_0_flat" in names) == (only == "sizes", follower == "plate")
+    assert asked_now.mark(answers).marked.mark == 100.0
+
+
+@pytest.mark.parametrize("given", ["r_0", "e"])
+def test_a_cam_whose_sizes_are_given_is_not_drawn_by_tangents(given: str) -> None:
+    of = keyed_cam(((given, "60 mm" if given == "r_0" else "5 mm"),))
+
+    assert given not in asked(of)
+    assert {"r_0_tangents", "e_tangents", "s_0"} <= asked(of)
+    assert of.key["s_0"] == of.solution["s_0"].value
 
 
 def test_an_ordinate_on_paper_has_no_scale_factor() -> None:
