@@ -9,7 +9,7 @@ import shapely
 
 from kulman.tests.support.gear_cases import GearCase, arc_of, crossings
 from kulman.tests.support.gear_points import POINTS
-from kulman.tests.support.overlaps import overlaps
+from kulman.tests.support.overlaps import overlaps, view_faults
 from kulman.tests.support.readback import Sheet, read
 
 MADI = GearCase()
@@ -48,6 +48,31 @@ def test_sheet_of_a_pair_satisfies_the_points(case: GearCase, point: str) -> Non
 @pytest.mark.parametrize("case", [*CASES, *(pytest.param(case, marks=pytest.mark.soak) for case in ODD)], ids=str)
 def test_letters_of_a_meshing_touch_nothing(case: GearCase) -> None:
     assert overlaps(case.sheet) == []
+
+
+WHOLE = GearCase(only=None)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        WHOLE,
+        *(
+            pytest.param(GearCase(format=paper, lang=lang, only=None), marks=pytest.mark.soak)
+            for paper, lang in (("A1", "ru"), ("A2", "en"), ("A3", "uk"), ("A3-portrait", "en"), ("A4", "ru"))
+        ),
+    ],
+    ids=str,
+)
+def test_views_of_a_whole_sheet_stand_apart(case: GearCase) -> None:
+    assert [fault for page in case.sheet.pages for fault in view_faults(page)] == []
+    assert overlaps(case.sheet) == []
+
+
+def test_all_that_is_drawn_of_madi_is_on_one_a1() -> None:
+    drawn = {"meshing", "rolling", "action", "sliding", "data", "checks", "points"}
+
+    assert {view.name for view in WHOLE.sheet.pages[0].views} >= drawn
 
 
 @pytest.mark.soak
