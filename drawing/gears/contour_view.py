@@ -14,7 +14,7 @@ from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from ..view import Canvas, View
 from .scene import GearScene
 
-SIDE = {5.0: 150.0, 3.5: 80.0}  # mm of the longer side of the window, by the height of letters
+SIDE = {5.0: 200.0, 3.5: 80.0}  # mm of the longer side of the window, by the height of letters
 FINE = 0.05  # mm by which a chord may miss its curve: places between are left out
 APART = 4.2  # heights of numbers at least between divisions
 REACH = 4.0  # mm of a curve to both sides of the place where its name stands
