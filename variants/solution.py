@@ -139,10 +139,16 @@ class Solution:
     def _tidy(self) -> list[Quantity]:
         """Return the quantities without what is nothing but rounding."""
         largest: dict[str, float] = {}
-        listed = self.listed.values()
         for quantity in self.quantities.values():
             largest[quantity.unit] = max(largest.get(quantity.unit, 0.0), abs(quantity.value or 0.0))
-        return [_without_rounding(quantity, largest[quantity.unit]) for quantity in listed]
+        listed = (self._named(name) for name in self.kind.listed(self.solved, self.plans))
+        return [_without_rounding(q, largest.get(q.unit, 0.0)) for q in listed if q is not None]
+
+    def _named(self, name: str) -> Quantity | None:
+        """Return a quantity, or a scale factor as one; None for what is undefined here."""
+        scale = self.scales.get(name)
+        chosen = None if scale is None else Quantity(name, scale.mu, scale.per_mm_unit)
+        return self.quantities.get(name, chosen)
 
     def _words(self, language: str | None) -> Words:
         return self.words if language is None else self.words.speaking(language)

@@ -11,6 +11,7 @@ PRESSURES = ("gamma_rise_min", "gamma_fall_min")  # also what the plan of pressu
 NAMES = {
     CHORDS: ("s_close", "v_close"),
     ROLLER: (
+        "mu_s_ds",
         "r_0",
         "e",
         "s_0",
@@ -23,15 +24,15 @@ NAMES = {
         "psi_0",
         *PRESSURES,
     ),
-    PLATE: ("r_0_flat_tangent", "r_0_flat_min", "r_0_flat", "R_plate"),
-    PROFILE: ("R_roller", "rho_min"),
+    PLATE: ("mu_s_d2s", "r_0_flat_tangent", "r_0_flat_min", "r_0_flat", "R_plate"),
+    PROFILE: ("mu_l", "R_roller", "rho_min"),
 }
 OF_PLAN = {DIAGRAMS_PART: (DIAGRAMS, CHORDS), SIZES_PART: (ROLLER, PLATE), PROFILE_PART: (PROFILE,), PRESSURE_PART: ()}
 _SECTION = {name: section for section, names in NAMES.items() for name in names}
 
 
 def section_of(name: str) -> str:
-    """Return the section of a quantity: what belongs to nothing else belongs to the diagrams."""
+    """Return the section of a quantity or a scale factor: what belongs to nothing else belongs to the diagrams."""
     return _SECTION.get(name, CHORDS if name.endswith("_chord") else DIAGRAMS)
 
 

@@ -53,3 +53,13 @@ def test_the_list_has_headings(task: str, heads: int, lang: str) -> None:
 
 def test_what_is_left_out_of_a_list_is_still_solved() -> None:
     assert solve("madi-cam", only="pressure")["r_0"].value == pytest.approx(0.04525818, rel=1e-6)
+
+
+def test_the_list_has_the_chosen_scale_factors_beside_their_segments() -> None:
+    found = solve("madi-cam", scales={"mu_s_ds": 0.0004}, lang="en")
+    rows = {row[0]: row[1:] for row in map(str.split, found.table().splitlines()) if row}
+
+    assert rows["mu_s_ds"] == ["0.0004", "m/mm"]
+    assert (rows["mu_l"], rows["mu_s_d2s"][1]) == (["0.001", "m/mm"], "m/mm")
+    assert float(rows["r_0"][2]) == pytest.approx(float(rows["r_0"][0]) / 0.4, abs=0.01)
+    assert not {"mu_s_ds", "mu_l"} & {*found.to_json()["quantities"]}  # there they stand under `scales`

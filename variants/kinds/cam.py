@@ -204,10 +204,11 @@ class Cams(Kind[Cam, "SolvedCam"]):
         return stands_for(solved)
 
     def listed(self, solved: SolvedCam, plans: tuple[str, ...]) -> tuple[str, ...]:
-        """Return what belongs to the plans, section by section."""
+        """Return what belongs to the plans, section by section, the chosen scale factors among it."""
         from ...plans.cams.sections import listed
 
-        return listed(solved.quantities, plans)
+        chosen = (symbol for symbol in SYMBOLS if symbol in solved.scale_of_plan.values())
+        return listed((*chosen, *solved.quantities), plans)
 
     def headings(self, solved: SolvedCam, words: Words) -> dict[str, str]:
         """Return the headings of diagrams, chords, sizes, profiles."""

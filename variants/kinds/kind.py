@@ -134,7 +134,7 @@ class Kind(ABC, Generic[Subject, Answer]):
         raise InputError("kind-without", task=case.task.id, text="sweep")
 
     def listed(self, solved: Answer, plans: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the names of the quantities that a list for some plans shows, in its order."""
+        """Return the names of the quantities and scale factors that a list for some plans shows, in its order."""
         return tuple(solved.quantities)
 
     def headings(self, solved: Answer, words: Words) -> dict[str, str]:
