@@ -19,6 +19,7 @@ from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension, fixed_pivot, turning_arrow
 from ..text import Box
 from ..view import Canvas, View
+from .fan import small
 from .hatching import Side, hatched
 from .inversion import ratio
 from .pressing import pressed, theta
@@ -59,11 +60,14 @@ def _rocker(canvas: Canvas, scene: CamScene, cam: RockerCam) -> None:
         for phi, *_ in pieces(solved, phase):
             ends += _ends(cam, phi, l)
         canvas.add(Group((Polyline(tuple(ends), Pen.MAIN),), "curve", phase.name))
-    for i in solved.layout.division.lines:
+    division, shown = solved.layout.division, pressed(scene, SHOWN)
+    for i in division.lines:
         at, end = (scene.mm(f"{ROCKER_SIZES}.{letter}{i}") for letter in "BD")
-        far = max(at, end, key=abs)
+        # from the pivot only the rocker itself, its highest position, and the one that is lettered
+        whole = i in (0, division.top, shown)
+        near, far = (0j if whole else min(at, end, key=abs)), max(at, end, key=abs)
         pen = Pen.MAIN if i == 0 else Pen.THIN
-        canvas.add(Group((Line(0j, at if i == 0 else far, pen),), "position", str(i)))
+        canvas.add(Group((Line(near, at if i == 0 else far, pen),), "position", str(i)))
     canvas.add(fixed_pivot(0j, "C", style))
     canvas.label("C", 0j, prefer=-1 + 1j, clear=style.pair + 1.0)
 
@@ -176,7 +180,8 @@ def _nodes(canvas: Canvas, scene: CamScene) -> None:
     canvas.label(f"B_{{{named}}}", scene.mm(f"{ROCKER_SIZES}.B{named}"), prefer=1 + 0j, height=scene.style.text)
     for at, numbers in shared.items():
         text = f"D_{{{named}}}" if numbers == [named] else ", ".join(dict.fromkeys(numbers))
-        canvas.label(text, at, prefer=at - middle, clear=0.8, height=scene.style.text)
+        height = scene.style.text if numbers == [named] else small(scene.style.text)
+        canvas.label(text, at, prefer=at - middle, clear=0.8, height=height)
 
 
 def _sizes(canvas: Canvas, scene: CamScene, cam: RockerCam, centre: complex) -> None:
