@@ -459,11 +459,11 @@ def _print_class(
 @click.option(
     "--as",
     "kinds",
-    type=Word("svg", "pdf", "png"),
+    type=Word("svg", "pdf", "png", "note", "handout"),
     multiple=True,
-    default=("svg", "pdf"),
+    default=("svg", "pdf", "note"),
     show_default=True,
-    help="Which files each student gets. Repeatable.",
+    help="What each student gets: the sheet, the explanatory note, a blank handout. Repeatable.",
 )
 @click.option(
     "--digits",
@@ -478,7 +478,7 @@ def _print_class(
 @titled(*BLOCK)
 @click.option("--jobs", metavar="N", default="0", callback=count, help="Processes; as many as cores when left out.")
 def batch(task: str, settings: dict[str, str], kinds: tuple[str, ...], **options: Any) -> int:
-    """Draw the sheets of TASK for a class, with a list of the files and the key for the teacher.
+    """Draw the sheets of TASK for a class and write their notes, with a list of the files and the key for the teacher.
 
     A run that was stopped goes on where it was; one with a longer roster draws the new sheets alone. A row that is
     wrong costs no other student anything.
@@ -491,7 +491,7 @@ def batch(task: str, settings: dict[str, str], kinds: tuple[str, ...], **options
 
         click.echo(str(write_roster(task, form, language)))
     if options["roster"] is not None and options["folder"] is not None:
-        return _draw_class(task, set=settings, lang=language, suffixes=[f".{kind}" for kind in kinds], **options)
+        return _draw_class(task, set=settings, lang=language, kinds=kinds, **options)
     if form is None:
         raise InputError("batch-nothing")
     return 0

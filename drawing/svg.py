@@ -22,18 +22,20 @@ _CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 0xFFFE, 0xFFFF), "
 _ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"}) | _CONTROLS
 
 
-def write_svg(page: Page, stream: BinaryIO) -> None:
+def write_svg(page: Page, stream: BinaryIO, with_font: bool = True) -> None:
     """Write one page as SVG in UTF-8; the same page gives the same bytes.
+
+    Without its font the file is for a reader that has it.
 
     Raises
     ------
     ValueError
         A coordinate is not a finite number.
     """
-    stream.write(svg_text(page).encode("utf-8", "replace"))
+    stream.write(svg_text(page, with_font).encode("utf-8", "replace"))
 
 
-def svg_text(page: Page) -> str:
+def svg_text(page: Page, with_font: bool = True) -> str:
     """Return one page as the text of an SVG file."""
     writer = _Writer(page.height, page.pens)
     for shape in page.shapes:
@@ -45,7 +47,8 @@ def svg_text(page: Page) -> str:
         f'viewBox="0 0 {width} {height}" xml:lang="{_quoted(page.language)}" font-family="{FAMILY}, sans-serif">\n'
         f"<title>{_quoted(page.title)}</title>\n"
     )
-    return head + _style("".join(sorted(writer.characters))) + "\n".join([*writer.parts, "</svg>\n"])
+    characters = "".join(sorted(writer.characters)) if with_font else ""
+    return head + _style(characters) + "\n".join([*writer.parts, "</svg>\n"])
 
 
 def _style(characters: str) -> str:

@@ -15,7 +15,7 @@ from ..drawing.words import Words
 from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.names import unknown
-from .case import Settings, solve_case
+from .case import Case, Settings, solve_case
 from .sheets import Sheet, draw_case
 from .task import Task
 
@@ -62,14 +62,28 @@ def handout(
     if steps < 0:
         raise InputError("handout-steps", text=str(steps))
     case = solve_case(task, variant, set, only, scales)
+    if over is None and not key:
+        return begun_of_case(case, block or {}, steps, format, norm, notation, lang)
     drawn = draw_case(case, block or {}, printable(format_named(format)), norm, notation, lang)
     if over is not None:
         figures = {view.name: view for view in drawn.views if not (view.rows or view.lines)}
         if over not in figures:
             raise unknown("figure-unknown", over, figures)
         return replace(drawn, pages=(marked(over_page(figures[over], drawn.pages[0])),))
-    if key:
-        return replace(drawn, pages=tuple(map(marked, drawn.pages)))
+    return replace(drawn, pages=tuple(map(marked, drawn.pages)))
+
+
+def begun_of_case(
+    case: Case,
+    block: Mapping[str, str],
+    steps: int = 0,
+    format: str = PAPER,
+    norm: Norm = "gost",
+    notation: str | None = None,
+    lang: str = "uk",
+) -> Sheet:
+    """Draw the handout of a case with so many steps done."""
+    drawn = draw_case(case, block, printable(format_named(format)), norm, notation, lang)
     words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
     shown = case.kind.begun(case, drawn.scales, words, steps)
     return replace(drawn, pages=tuple(map(marked, begun_pages(drawn.pages, drawn.views, shown))))

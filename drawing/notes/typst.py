@@ -6,6 +6,7 @@ import importlib.util
 import io
 import json
 from collections.abc import Iterable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -45,26 +46,30 @@ def pdf_bytes(document: Document) -> bytes:
         raise InputError("note-extra") from None
     files: Any = {"main.typ": source(document).encode("utf-8")}
     files |= {f"{number}.svg": _svg(figure, document) for number, figure in enumerate(_figures(document.blocks))}
-    return bytes(typst.compile(files, font_paths=[_fonts()], ignore_system_fonts=True))
+    return bytes(typst.compile(files, font_paths=_fonts()))
 
 
 def _figures(blocks: Iterable[Block]) -> Iterator[Figure]:
     return (block for block in blocks if isinstance(block, Figure))
 
 
-def _fonts() -> str:
-    """Return the folder of the font in which figures are lettered."""
+@cache
+def _fonts() -> Any:
+    """Return the fonts of notes: those of typst, and that in which figures are lettered; none of the system."""
+    import typst
+
     found = importlib.util.find_spec("matplotlib")
     assert found is not None
     assert found.origin is not None
-    return str(Path(found.origin).parent / "mpl-data" / "fonts" / "ttf")
+    folder = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf"
+    return typst.Fonts(include_system_fonts=False, include_embedded_fonts=True, font_paths=[str(folder)])
 
 
 def _svg(figure: Figure, document: Document) -> bytes:
     from ..svg import write_svg
 
     stream = io.BytesIO()
-    write_svg(figure_page(figure, document.language), stream)
+    write_svg(figure_page(figure, document.language), stream, with_font=False)
     return stream.getvalue()
 
 

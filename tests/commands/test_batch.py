@@ -63,6 +63,7 @@ def test_every_student_gets_a_sheet_and_who_does_not_is_named(
 
     status, printed, err = run(
         capsys, "batch", TASK, "--roster", str(file), "--out", str(out), "--lang", "en", "--teacher", "O. Lys",
+        "--as", "svg", "--as", "pdf",
     )  # fmt: skip
 
     assert status == 2
@@ -83,11 +84,21 @@ def test_every_student_gets_a_sheet_and_who_does_not_is_named(
     assert keys[2]["V_B [m/s]"] == ""
 
 
+def test_a_student_gets_a_note_and_a_handout(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+
+    done = batch(TASK, roster(tmp_path, "Iryna;MM-21;3;"), out, kinds=["note", "handout"], only="structure", jobs=1)
+
+    assert done.problems == []
+    assert set(files(out)) == {"001-Iryna-3-note.pdf", "001-Iryna-3-handout.pdf", "key.csv", "manifest.csv"}
+    assert all(data.startswith(b"%PDF") for name, data in files(out).items() if name.endswith(".pdf"))
+
+
 def test_the_key_is_marked_right(tmp_path: Path) -> None:
     file = roster(tmp_path, "A;;3;", "B;;5;45 deg", "C;;7;")
     for lang in ("en", "uk"):
         out = tmp_path / lang
-        batch(TASK, file, out, suffixes=[".svg"], lang=lang, jobs=1)
+        batch(TASK, file, out, kinds=["svg"], lang=lang, jobs=1)
         asked = check(TASK, roster=file, lang=lang)
 
         marks = [asked.mark(answers).marked.mark for answers in asked.read(str(out / "key.csv"))]
@@ -99,7 +110,7 @@ def test_only_what_is_missing_or_has_changed_is_made_again(tmp_path: Path, made:
     out = tmp_path / "out"
 
     def run_again(*rows: str) -> None:
-        batch(TASK, roster(tmp_path, *rows), out, only="structure", suffixes=[".svg"], jobs=1)
+        batch(TASK, roster(tmp_path, *rows), out, only="structure", kinds=["svg"], jobs=1)
 
     run_again("A;;1;", "B;;2;", "C;;3;")
     assert made == [1, 2, 3]
@@ -122,10 +133,10 @@ def test_only_what_is_missing_or_has_changed_is_made_again(tmp_path: Path, made:
 
 def test_a_file_that_somebody_has_changed_is_not_removed(tmp_path: Path) -> None:
     out = tmp_path / "out"
-    batch(TASK, roster(tmp_path, "A;;1;", "B;;2;"), out, suffixes=[".svg"], jobs=1)
+    batch(TASK, roster(tmp_path, "A;;1;", "B;;2;"), out, kinds=["svg"], jobs=1)
     (out / "002-B-2.svg").write_bytes(b"with remarks")
 
-    batch(TASK, roster(tmp_path, "A;;1;"), out, suffixes=[".svg"], jobs=1)
+    batch(TASK, roster(tmp_path, "A;;1;"), out, kinds=["svg"], jobs=1)
 
     assert (out / "002-B-2.svg").read_bytes() == b"with remarks"
 
@@ -134,7 +145,7 @@ def test_processes_give_the_same_bytes(tmp_path: Path) -> None:
     file = roster(tmp_path, *(f"S{number};;{number % 10};" for number in range(18)))
 
     for jobs in (1, 2):
-        batch(TASK, file, tmp_path / str(jobs), only="structure", suffixes=[".svg"], jobs=jobs)
+        batch(TASK, file, tmp_path / str(jobs), only="structure", kinds=["svg"], jobs=jobs)
 
     assert files(tmp_path / "1") == files(tmp_path / "2")
 
@@ -152,7 +163,7 @@ def test_who_kills_the_process_is_named_and_the_others_are_done(
     monkeypatch.setattr(Making, "make", poisoned)
     file = roster(tmp_path, *(f"S{number};;{number % 10};" for number in range(1, 19)))
 
-    done = batch(TASK, file, tmp_path / "out", only="structure", suffixes=[".svg"], jobs=2, lang="en")
+    done = batch(TASK, file, tmp_path / "out", only="structure", kinds=["svg"], jobs=2, lang="en")
 
     assert len(done.problems) == 1
     assert "class.csv: 8" in done.problems[0]
@@ -171,6 +182,7 @@ main(sys.argv[2:])
 def test_a_full_disk_leaves_nothing_half_written(tmp_path: Path) -> None:
     file, out = roster(tmp_path, "A;;1;", "B;;2;"), tmp_path / "out"
     arguments = ["batch", TASK, "--roster", str(file), "--out", str(out), "--only", "structure", "--jobs", "1"]
+    arguments += ["--as", "svg", "--as", "pdf"]
 
     full = subprocess.run(
         [sys.executable, "-c", LIMITED, "9000", *arguments], capture_output=True, text=True, check=False
@@ -198,11 +210,11 @@ def test_a_killed_run_is_gone_on_with(tmp_path: Path, made: list[int]) -> None:
 
     _killed_after(arguments, lambda: len(list(out.glob("0*.svg"))) >= 8)
     before = len(list(out.glob("0*.svg")))
-    batch(TASK, file, out, suffixes=[".svg"], lang="en", jobs=1)
+    batch(TASK, file, out, kinds=["svg"], lang="en", jobs=1)
 
     assert 8 <= before <= 12
     assert set(made).isdisjoint(range(1, 8))  # a piece of eight is noted as it is written
-    batch(TASK, file, tmp_path / "whole", suffixes=[".svg"], lang="en", jobs=1)
+    batch(TASK, file, tmp_path / "whole", kinds=["svg"], lang="en", jobs=1)
     assert files(out) == files(tmp_path / "whole")
 
 
@@ -222,7 +234,7 @@ def test_hostile_names_escape_nowhere(tmp_path: Path) -> None:
         writer = csv.writer(stream, delimiter=";")
         writer.writerows([("student", "group", "variant"), *((name, name[:5], "1") for name in HOSTILE)])
 
-    done = batch(TASK, file, out, only="structure", suffixes=[".svg"], lang="en", jobs=1)
+    done = batch(TASK, file, out, only="structure", kinds=["svg"], lang="en", jobs=1)
 
     assert len(done.students) >= 49  # a name of nothing but blanks is no student
     assert len(done.problems) <= 7

@@ -26,7 +26,7 @@ from ..marking.grid import SUFFIXES
 from ..marking.roster import read_roster
 from ..reader import load_task
 from ..task import Task
-from .making import Made, Making, Student
+from .making import KINDS, NOTE, Made, Making, Student
 from .tables import key_rows, manifest_rows, roster_rows
 
 JOURNAL = ".kulman-batch.jsonl"
@@ -87,7 +87,7 @@ def batch(
     roster: str | os.PathLike[str],
     folder: str | os.PathLike[str],
     *,
-    suffixes: Sequence[str] = (".svg", ".pdf"),
+    kinds: Sequence[str] = ("svg", "pdf", NOTE),
     digits: int = 1,
     set: Settings | None = None,
     only: str | Iterable[str] | None = None,
@@ -113,8 +113,8 @@ def batch(
         A .csv or .xlsx with a student in each row: name, group, variant or record book, givens of one's own.
     folder : str or PathLike
         Where the files go; it is made where it is missing.
-    suffixes : sequence of str
-        Which files each student gets: `.svg`, `.pdf`, `.png`.
+    kinds : sequence of str
+        What each student gets: the sheet as `svg`, `pdf`, `png`, the explanatory `note`, a blank `handout`.
     digits : int
         How many last digits of the record book give the variant, where the roster has none.
     block : mapping of str to str, optional
@@ -132,7 +132,7 @@ def batch(
     found = task if isinstance(task, Task) else load_task(task)
     plans = None if only is None else plans_wanted(only, found.plans, kind_of(found.kind).plans)
     making = Making(
-        found, _known(suffixes), by_name("set", set), plans, by_name("scales", scales), format, norm, notation, lang,
+        found, _known(kinds), by_name("set", set), plans, by_name("scales", scales), format, norm, notation, lang,
         dict(block or {}), digits,
     )  # fmt: skip
     _refuse_early(making)
@@ -159,11 +159,11 @@ def write_roster(task: str | os.PathLike[str] | Task, file: str | os.PathLike[st
     return save_all((file,), SUFFIXES, lambda path: [(path, table_bytes(path, rows, lang, found.id, [0], 1))])[0]
 
 
-def _known(suffixes: Sequence[str]) -> tuple[str, ...]:
-    for suffix in suffixes:
-        if suffix not in WRITERS:
-            raise unknown("batch-suffix", suffix, WRITERS)
-    return tuple(dict.fromkeys(suffixes))
+def _known(kinds: Sequence[str]) -> tuple[str, ...]:
+    for kind in kinds:
+        if kind not in KINDS:
+            raise unknown("batch-kind", kind, KINDS)
+    return tuple(dict.fromkeys(kinds))
 
 
 def _refuse_early(making: Making) -> None:

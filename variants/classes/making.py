@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from ... import __version__
+from ...drawing.notes.typst import pdf_bytes
 from ...drawing.pens import Norm
 from ...drawing.writers import page_files, slug
 from ...plans.quantities import measured
@@ -21,6 +22,9 @@ from ..sheet_id import sheet_id
 from ..sheets import Sheet, draw_case
 from ..shelf import bundled_text
 from ..task import Task
+
+NOTE, HANDOUT = "note", "handout"
+KINDS = ("svg", "pdf", "png", NOTE, HANDOUT)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +52,7 @@ class Making:
     """What is made for every student of a class, and how; the values of a row go before `settings`."""
 
     task: Task
-    suffixes: tuple[str, ...]
+    kinds: tuple[str, ...]
     settings: Mapping[str, str | float] = field(default_factory=dict)
     only: tuple[str, ...] | None = None
     scales: Mapping[str, str | float] = field(default_factory=dict)
@@ -66,7 +70,7 @@ class Making:
     def digest(self) -> str:
         """Return what tells this making from any that would make other files."""
         text = Path(self.task.file).read_text(encoding="utf-8") if self.task.file else bundled_text(self.task.id)
-        how = (self.suffixes, self.settings, self.only, self.scales, self.format, self.norm, self.notation)
+        how = (self.kinds, self.settings, self.only, self.scales, self.format, self.norm, self.notation)
         return digest_of(repr((__version__, text, how, self.language, self.block, self.digits)))
 
     def make(self, student: Student) -> Made:
@@ -82,10 +86,8 @@ class Making:
         who = student.entry.who
         block = {**self.block, "student": who.student, "group": who.group or self.block.get("group", "")}
         drawn = draw_case(case, block, self.format, self.norm, self.notation, self.language)
-        stem = Path(f"{student.number:03d}-{slug(f'{who.student} {case.variant}')}")
-        files = {
-            path.name: data for end in self.suffixes for path, data in page_files(drawn.pages, stem.with_suffix(end))
-        }
+        stem = f"{student.number:03d}-{slug(f'{who.student} {case.variant}')}"
+        files = {name: data for kind in self.kinds for name, data in self._files(case, block, drawn, kind, stem)}
         notes = tuple(warning.text(self.language) for warning in drawn.warnings)
         return Made(
             case.variant,
@@ -94,6 +96,27 @@ class Making:
             _key(case, drawn, self.language),
             notes,
         )
+
+    def _files(
+        self, case: Case, block: dict[str, str], drawn: Sheet, kind: str, stem: str
+    ) -> Iterator[tuple[str, bytes]]:
+        """Go through the files of one kind: their names and what they hold."""
+        if kind == NOTE:
+            from ..notes import note_of_case
+
+            page = {name: text for name, text in block.items() if name != "designation"}
+            document = note_of_case(case, page, self.notation, self.language).document
+            yield f"{stem}-note.pdf", pdf_bytes(document)
+            return
+        if kind == HANDOUT:
+            from ..handouts import begun_of_case
+
+            drawn, stem, kind = (
+                begun_of_case(case, block, lang=self.language, notation=self.notation),
+                f"{stem}-handout",
+                "pdf",
+            )
+        yield from ((path.name, data) for path, data in page_files(drawn.pages, Path(f"{stem}.{kind}")))
 
     def _case(self, entry: Entry) -> Case:
         """Solve the variant of a row with its data.

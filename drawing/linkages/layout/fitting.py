@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ....plans.linkages.cycles.cycle import Cycle
 
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
+SURELY = 0.85  # part of the excess of a view that certainly comes from what is drawn to scale
 FORCES_ONLY = 3
 # mm below which no plan is made smaller for want of room, by format, and how many times that by kind of plan
 LEAST = {"A1": 60.0, "A2": 60.0, "A3": 45.0, "A4": 40.0}
@@ -122,9 +123,19 @@ class Fitting:
             if not too_large:
                 return ([view for view, _ in built], scales), rungs
             for symbol, view in too_large.items():
-                rungs[symbol] += 1
+                excess = max(view.size[0] / width, view.size[1] / height)
+                rungs[symbol] = self._next(symbol, rungs[symbol], excess)
                 if rungs[symbol] >= len(self.ladders[symbol]):
                     raise self._does_not_fit(sheet, symbol, view.size)
+
+    def _next(self, symbol: str, rung: int, excess: float) -> int:
+        """Return the next rung worth drawing for a view that is `excess` times as large as its room.
+
+        Letters keep their size, so that a view shrinks by less than its scale factor grows; even if they find better
+        places, so far off no rung fits.
+        """
+        ladder, wanted = self.ladders[symbol], self.mu(symbol, rung) * excess * SURELY
+        return next((k for k in range(rung + 1, len(ladder)) if ladder[k] >= wanted), rung + 1)
 
     def rungs(self, sheet: Format, step: int) -> dict[str, int]:
         """Return the first rung of every ladder at which the marks alone have room."""
