@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
+from ...plans.gears.sliding_plan import SLIDING, THETA
 from ...plans.gears.solve import SolvedGear
 from ...scales.scale import Scale
 from ..compose import room
@@ -16,7 +17,7 @@ from ..rungs import Figure
 from ..style import STYLES
 from ..view import View
 from ..words import Words
-from .ladders import mu_ladder, near_ladder, rolled_ladder, scales_of
+from .ladders import mu_ladder, near_ladder, rolled_ladder
 from .letters import lettered
 from .scene import MESHING, GearScene
 
@@ -92,10 +93,16 @@ class Fitting:
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
-        scales = scales_of(self.contents.solved, self.contents.choosers)
-        if MESHING in scales:
-            scales[MESHING] = Scale("mu_l", self.scene(sheet, rungs).mu_l, "m")
-        return scales
+        from .sliding_view import rho_scale
+        from .theta_diagram import theta_scale
+
+        scene = self.scene(sheet, rungs)
+        made: dict[str, Callable[[GearScene], Scale]] = {
+            MESHING: lambda scene: Scale("mu_l", scene.mu_l, "m"),
+            SLIDING: rho_scale,
+            THETA: theta_scale,
+        }
+        return {plan: made[plan](scene) for plan in self.contents.solved.scale_of_plan}
 
 
 def figures(contents: Contents, scene: GearScene, width: float) -> Iterator[tuple[str, GearFigure]]:

@@ -42,15 +42,19 @@ def cut_of(scene: GearScene) -> float:
     return -min(max(math.ceil(-ROOM * lowest), CUTS[0]), CUTS[1])
 
 
+def theta_scale(scene: GearScene) -> Scale:
+    """Return the scale factor of specific sliding, the given one or a coarser one of its series."""
+    wanted = float(scene.solved.values["mu_theta"]) * 1e-3  # a millimetre, not a metre of paper
+    least = (1.0 - cut_of(scene)) / (TALL[scene.style.label] * scene.part)
+    mu = next(step for step in steps(min(wanted, least)) if step >= least and step >= wanted * (1.0 - 1e-9))
+    return Scale("mu_theta", mu, "1")
+
+
 def theta_field(scene: GearScene, above: Field, apart: float) -> Field:
     """Return the axes of specific sliding under those of the velocities."""
-    words, low = scene.words, cut_of(scene)
-    wanted = float(scene.solved.values["mu_theta"]) * 1e-3  # a millimetre, not a metre of paper
-    least = (1.0 - low) / (TALL[scene.style.label] * scene.part)
-    mu = next(step for step in steps(min(wanted, least)) if step >= least and step >= wanted * (1.0 - 1e-9))
-    marks = {value: words.short(value) for value in divisions(1.0, low, mu, 9.0)}
-    scale = Scale("mu_theta", mu, "1")
-    origin = above.origin - 1j * (apart + 1.0 / mu)
+    words, low, scale = scene.words, cut_of(scene), theta_scale(scene)
+    marks = {value: words.short(value) for value in divisions(1.0, low, scale.mu, 9.0)}
+    origin = above.origin - 1j * (apart + 1.0 / scale.mu)
     return Field(origin, replace(above.x, letter=""), Axis(words.symbol("theta"), scale, low, 1.0, marks))
 
 

@@ -7,7 +7,7 @@ import re
 import pytest
 import shapely
 
-from kulman.tests.support.gear_cases import GearCase, arc_of, crossings
+from kulman.tests.support.gear_cases import GearCase, arc_of, crossings, mu
 from kulman.tests.support.gear_points import POINTS
 from kulman.tests.support.overlaps import overlaps, view_faults
 from kulman.tests.support.readback import Sheet, read
@@ -67,6 +67,15 @@ WHOLE = GearCase(only=None)
 def test_views_of_a_whole_sheet_stand_apart(case: GearCase) -> None:
     assert [fault for page in case.sheet.pages for fault in view_faults(page)] == []
     assert overlaps(case.sheet) == []
+
+
+def test_a_sheet_has_the_scale_factors_that_it_prints() -> None:
+    scales = {name: scale.mu for name, scale in WHOLE.drawn.scales.items()}
+
+    assert scales["meshing"] == mu(WHOLE.sheet["meshing"])
+    (heading,) = (t.string for t in WHOLE.sheet["sliding"].of("heading") if "μ" in t.string)
+    printed = [float(number.replace(",", ".")) for number in re.findall(r" = (\d+,\d+)", heading)]
+    assert printed == [scales["sliding"], scales["theta"]]
 
 
 def test_all_that_is_drawn_of_madi_is_on_one_a1() -> None:

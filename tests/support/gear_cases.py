@@ -14,6 +14,7 @@ import numpy as np
 from kulman import sheet
 from kulman.tests.support.gears import madi, second_route
 from kulman.tests.support.readback import Sheet, Stroke, Text, View, read
+from kulman.variants.sheets import Sheet as Drawing
 
 NEAR, STEEP = 0.01, 0.01  # mm, degrees
 Faults = Iterator[str]
@@ -36,10 +37,13 @@ class GearCase:
         return f"{self.format}-{self.lang}-{self.rotation}-{changed}"
 
     @cached_property
-    def pages(self) -> tuple[str, ...]:
+    def drawn(self) -> Drawing:
         changes = {**{name: repr(value) for name, value in self.changes}, "rotation": self.rotation}
-        drawn = sheet("madi-gear", set=changes, only=self.only, format=self.format, lang=self.lang)
-        return tuple(drawn.svg(number) for number in range(1, len(drawn.pages) + 1))
+        return sheet("madi-gear", set=changes, only=self.only, format=self.format, lang=self.lang)
+
+    @cached_property
+    def pages(self) -> tuple[str, ...]:
+        return tuple(self.drawn.svg(number) for number in range(1, len(self.drawn.pages) + 1))
 
     @cached_property
     def sheet(self) -> Sheet:
