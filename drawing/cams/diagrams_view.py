@@ -103,7 +103,8 @@ def _section_lines(canvas: Canvas, scene: CamScene, fields: Sequence[Field], box
 
 def broken(a: complex, b: complex, boxes: Sequence[Box]) -> Iterator[tuple[complex, complex]]:
     """Go through the pieces of an upright line, from its upper end, that lie beside the boxes."""
-    gaps = [(min(y1, a.imag), max(y0, b.imag)) for x0, y0, x1, y1 in boxes if x0 < a.real < x1]
+    through = (box for box in boxes if box[0] < a.real < box[2] and b.imag < box[3] and box[1] < a.imag)
+    gaps = [(min(y1, a.imag), max(y0, b.imag)) for _, y0, _, y1 in through]
     ends = [a.imag, *(y for gap in sorted(gaps, reverse=True) for y in gap), b.imag]
     for start, end in zip(ends[::2], ends[1::2], strict=True):
         if start > end:

@@ -42,6 +42,10 @@ def c1_three_diagrams(case: CamCase, sheet: Sheet) -> Faults:
         yield from unless(abs(xs[-1] - first.at(phi, 0).real) < 0.02, f"section line {i} is not at its angle")
         through = max(p.imag for p in places) > first.origin.imag and min(p.imag for p in places) < last.origin.imag
         yield from unless(through, f"section line {i} does not run through all diagrams")
+    upright = [s for i in solved.layout.division.lines for s in view.inside("section", str(i))]
+    lines = shapely.MultiLineString([[(p.real, p.imag) for p in s.points] for s in upright])
+    crossed = [t.string for t in view.texts if shapely.box(*t.box).intersects(lines) and not t.turned]
+    yield from unless(not crossed, f"section lines run through {crossed}")
     for phase in solved.motion.phases[:3]:
         if phase.length > 0.0:
             length = measured(view, f"phi_{phase.name}")
