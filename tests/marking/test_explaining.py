@@ -335,6 +335,19 @@ def test_two_mistakes_together_are_found(first: str, second: str) -> None:
     assert len(candidates[0].mistakes) == 2
 
 
+@pytest.mark.parametrize(("first", "second"), [("M30", "M57"), ("M39", "M69")])
+def test_each_of_two_mistakes_counts_once(first: str, second: str) -> None:
+    both = twice_broken(mistakes(EXAMPLE), first, second)
+    answers = [answer(name, both.values[name]) for name in key(EXAMPLE).questions]
+
+    explanation = explain(mistakes(EXAMPLE), mark(key(EXAMPLE), answers))
+
+    assert {first, second} <= explanation.candidates[0].ids
+    faulty = [line.name for line in explanation.marking.lines if line.verdict.faulty]
+    assert len(faulty) == 2
+    assert faulty[0] == explanation.marking.first_wrong
+
+
 ODD = [0.0, -0.0, 1e300, -1e300, 1e-300, 5e-324, math.inf, -math.inf, math.nan, 1.0, -1.0, 1e5, -3.0]
 
 
