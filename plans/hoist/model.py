@@ -139,8 +139,8 @@ def motion_given(name: str) -> str:
     return f"_{name.lstrip('_')}_motion"
 
 
-TWO_SIDED = (reduced, lifting_off, extremes, circle, suspended, lifted, printed, strength)
-ONE_SIDED = (reduced, moved, circle, moved_on, printed, strength)
+TWO_SIDED = (reduced, lifting_off, extremes, circle, suspended, lifted, strength, printed)
+ONE_SIDED = (reduced, moved, circle, moved_on, strength, printed)
 
 
 @cache

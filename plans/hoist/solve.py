@@ -22,6 +22,7 @@ from .model import CIRCLE, HORIZONTAL
 from .paper import MM, board_givens
 from .paper import UNITS as SCALED
 from .root_plans import EXTREMES, LIFT_OFF
+from .sections import place_of
 
 # the scale factor in which each plan shows values; on the diagrams that of the axis of ordinates
 SCALES = {
@@ -109,7 +110,7 @@ def solve_hoist(hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = 
     return SolvedHoist(
         program=program,
         values=board.values,
-        quantities=_scales(given, drawn) | _scalars(quantities(program, board.values, {}, unit_of)),
+        quantities=_in_sections(_scales(given, drawn) | _scalars(quantities(program, board.values, {}, unit_of))),
         sines=board.sines,
         status=board.status,
         trouble=board.trouble,
@@ -125,6 +126,11 @@ def solve_hoist(hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = 
 def _scalars(found: Mapping[str, Quantity]) -> dict[str, Quantity]:
     """Return the quantities without marks of plans."""
     return {name: quantity for name, quantity in found.items() if quantity.kind == "scalar"}
+
+
+def _in_sections(results: Mapping[str, Quantity]) -> dict[str, Quantity]:
+    """Return the quantities section by section, in each in the order of construction."""
+    return {name: results[name] for name in sorted(results, key=place_of)}
 
 
 def _scales(given: Mapping[str, Any], drawn: set[str]) -> dict[str, Quantity]:

@@ -73,7 +73,7 @@ def test_every_language_has_the_same_texts_with_the_same_placeholders(kind: str)
         assert len({tuple(placeholders(texts[language][key])) for language in LANGUAGES}) == 1, key
 
 
-@pytest.mark.parametrize("kind", ["cams.", "gears."])
+@pytest.mark.parametrize("kind", ["cams.", "gears.", "hoist."])
 def test_every_language_has_letters_for_the_same_quantities(kind: str) -> None:
     letters = tables(kind)
 
@@ -128,5 +128,5 @@ def test_every_table_of_words_is_read() -> None:
     names = {path.name for path in files(PACKAGE).joinpath("texts").iterdir()}
 
     assert names == {
-        f"{kind}{language}.toml" for kind in ("", "titleblock.", "cams.", "gears.") for language in LANGUAGES
+        f"{kind}{language}.toml" for kind in ("", "titleblock.", "cams.", "gears.", "hoist.") for language in LANGUAGES
     }

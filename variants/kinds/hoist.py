@@ -20,7 +20,10 @@ if TYPE_CHECKING:
     from ...drawing.pens import Norm
     from ...drawing.titleblock import Stamp
     from ...drawing.words import Words
+    from ...plans.hands.hand import Tolerance
+    from ...plans.hands.shaky import Paper
     from ...plans.hoist.solve import SolvedHoist
+    from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
     from ..charts.hoist import HoistCharts
@@ -29,6 +32,8 @@ if TYPE_CHECKING:
     from ..sweeps.asked import Asked
     from ..sweeps.hoist import HoistSweep
 
+DRAWN = "_drawn"  # what the name of a quantity ends with that is drawn
+UNASKED = ("s_min", "t_P12_max")
 SYMBOLS = ("mu_l", "mu_F_circle")  # scale factors that may be chosen; those of the diagrams are found
 
 
@@ -119,6 +124,41 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         from ..charts.hoist import HoistCharts
 
         return HoistCharts()
+
+    def headings(self, solved: SolvedHoist, words: Words) -> dict[str, str]:
+        """Return the headings of the sections of the note."""
+        from ...plans.hoist.sections import section_of
+
+        first: dict[str, str] = {}
+        for name in solved.quantities:
+            first.setdefault(section_of(name), name)
+        return {name: words[f"heading.hoist_{section}"] for section, name in first.items()}
+
+    def asks(self, solved: SolvedHoist, question: Question) -> bool:
+        """Ask for what is calculated rather than for what a drawing gives in its place, and for no check."""
+        return not question.name.endswith(DRAWN) and question.name not in UNASKED
+
+    def limits(self, drawn: SolvedHoist, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
+        """Let pass of the times that solve equations what is read off their drawings."""
+        from ...plans.hoist.tolerances import tolerances_of
+
+        return tolerances_of(drawn, tolerance)
+
+    def section(self, solved: SolvedHoist, question: Question, current: str) -> str:
+        """Return the section of a question: that of the note."""
+        from ...plans.hoist.sections import section_of
+
+        return section_of(question.name)
+
+    def plan_heading(self, solved: SolvedHoist, plan: str, words: Words) -> str:
+        """Return the heading of a section, or of a plan, as the sheet has it."""
+        return words[f"heading.hoist_{plan}"]
+
+    def lettered(self, words: Words, solved: SolvedHoist) -> Words:
+        """Return the words with the letters of a hoist's quantities."""
+        from ...drawing.hoist.letters import lettered
+
+        return lettered(words, len(solved.layout.roots.times) if solved.layout.roots else 0)
 
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Refuse: a hoist has no sheet yet.
