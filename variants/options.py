@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ..scales.choices import HANDS
+from ..scales.choices import HANDS, SIZES
 from ..scales.errors import LANGUAGES, InputError
 from ..scales.numbers import quote
 
@@ -183,6 +183,7 @@ def of_check(command: Command) -> Command:
         click.option(
             "--verdict-only", "own", is_flag=True, help="For the student: right or wrong, and no right numbers."
         ),
+        click.option("--format", type=Word(*SIZES), help="Mark what is drawn on the sheet of this format."),
         click.option("--rubric", metavar="FILE", help="Weights, worths, tolerances: a small TOML file."),
         click.option(
             "--roster", metavar="FILE", help="Students with their variants, record books, own data: .csv or .xlsx."

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from kulman import sheet, solve
+from kulman import check, sheet, solve
 from kulman.plans.cams.solve import EQUAL, SCALES
 from kulman.scales.errors import InputError
 from kulman.tests.support.cam_cases import MU_D2S, MU_DS, MU_S, MU_S_D2S, MU_S_DS, CamCase, measured, printed_scales
+from kulman.variants.marking.report_json import to_json
 from kulman.variants.solution import Solution
 
 TASK = "madi-cam"
@@ -89,3 +92,17 @@ def test_a_plan_of_two_diagrams_may_have_a_chosen_scale_factor(symbol: str) -> N
 def test_a_scale_factor_that_follows_from_the_drawing_cannot_be_chosen() -> None:
     with pytest.raises(InputError, match=r"mu_s follows from the lengths on paper .*; chosen may be: mu_l, mu_s_ds"):
         solve(TASK, scales={"mu_s": 0.0002})
+
+
+def test_what_is_drawn_on_a_small_sheet_is_marked_by_it(tmp_path: Path, small: Solution) -> None:
+    answers = tmp_path / "answers.csv"
+    answers.write_text(f"quantity,value\nS_max_chord,40.2\nmu_s,{small['mu_s'].value!r}\n", encoding="utf-8")
+
+    def verdicts(format: str | None) -> list[str]:
+        asked = check(TASK, "17", lang="en", format=format)
+        (found,) = asked.read(str(answers))
+        lines = to_json(asked.mark(found), asked.rubric)["lines"]
+        return [line["verdict"] for line in lines if line["quantity"] in ("S_max_chord", "mu_s")]
+
+    assert verdicts(None) == ["wrong", "carried"]
+    assert verdicts("A3") == ["right", "right"]

@@ -126,6 +126,7 @@ def check(
     own: bool = False,
     notation: str | None = None,
     lang: str | None = None,
+    format: str | None = None,
 ) -> Check:
     """Make ready to mark the answers to a task.
 
@@ -143,6 +144,8 @@ def check(
         How many last digits of the record book give the variant, where the roster has none.
     own : bool
         Make reports for students, in which no right number stands.
+    format : str, optional
+        `A4`, `A3`, `A2`, `A1`: on what is drawn; the scale factors, and what is measured, are those of its sheet.
 
     Raises
     ------
@@ -160,7 +163,8 @@ def check(
     of_kind("digits", digits, (int,), "int")
     plans = None if only is None else plans_wanted(only, found.plans, kind_of(found.kind).plans)
     language = "en" if lang is None else lang
-    request = Request(found, variant or "", by_name("set", set), plans, by_name("scales", scales), notation, language)
+    said = by_name("set", set), plans, by_name("scales", scales), notation, language, format
+    request = Request(found, variant or "", *said)
     asked = asked_of(request.solution(variant or next(iter(found.variants)), {}))
     if plans is not None:
         whole = asked_of(replace(request, only=None).solution(variant or next(iter(found.variants)), {}))

@@ -46,7 +46,7 @@ class Job:
         task = request.task
         text = Path(task.file).read_text(encoding="utf-8") if task.file else bundled_text(task.id)
         parts = (__version__, text, request.variant, request.settings, request.only, request.scales, request.notation)
-        own = (request.language, check.rubric, check.digits, check.own, tuple(REPORTS))
+        own = (request.language, request.format, check.rubric, check.digits, check.own, tuple(REPORTS))
         return digest_of(repr((parts, own)))
 
 

@@ -34,6 +34,7 @@ class Request:
     scales: Mapping[str, str | float] = field(default_factory=dict)
     notation: str | None = None
     language: str = "uk"
+    format: str | None = None  # of the paper on which is drawn
 
     def solution(self, variant: str, settings: Settings) -> Solution:
         """Solve a variant with a student's own data.
@@ -53,6 +54,7 @@ class Request:
             scales=self.scales,
             notation=self.notation,
             lang=self.language,
+            format=self.format,
         )
         if solved.reason is not None:
             raise solved.reason
@@ -108,9 +110,7 @@ def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> A
     """Return what can be answered in a task; the quantities of `names` alone where they are given."""
     made = frozenset(solution.drawn_by_students.program.names if names is None else names)
     quantities = {
-        name: q
-        for name, q in solution.quantities.items()
-        if name in made and q.kind != "point" and q.unit != PER_CENT
+        name: q for name, q in solution.quantities.items() if name in made and q.kind != "point" and q.unit != PER_CENT
     }
     scales = {s.symbol: s.unit for s in solution.scales.values() if s.symbol not in solution}  # chosen, not found
     return Asked(quantities, scales, solution.words.display)
