@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 
 import pytest
@@ -12,6 +13,7 @@ from kulman.tests.support.gear_tables import number, rows
 from kulman.tests.support.overlaps import overlaps
 from kulman.tests.support.readback import Sheet, read
 
+SEED = 1532
 PARTS = "geometry,sliding"
 MADI = GearCase(only=PARTS)
 CASES = (
@@ -42,6 +44,20 @@ def test_sheet_of_a_pair_satisfies_the_points(case: GearCase, point: str) -> Non
 @pytest.mark.parametrize("case", CASES, ids=str)
 def test_letters_of_sliding_and_tables_touch_nothing(case: GearCase) -> None:
     assert overlaps(case.sheet) == []
+
+
+@pytest.mark.soak
+def test_sheets_of_random_pairs_satisfy_the_points() -> None:
+    choose, judged = random.Random(SEED), 0
+    while judged < 8:
+        teeth = {"z_1": float(choose.randint(8, 40)), "z_2": float(choose.randint(10, 90))}
+        shifts = {"x_1": round(choose.uniform(-0.1, 0.9), 2), "x_2": round(choose.uniform(-0.3, 0.9), 2)}
+        formats, languages = choose.choice(("A1", "A3", "A4")), choose.choice(("uk", "ru", "en"))
+        case = GearCase((*teeth.items(), *shifts.items()), formats, languages, choose.choice(("ccw", "cw")), PARTS)
+        if min(case.sizes[name] for name in ("rho_p1", "rho_p2", "g_alpha")) > 0.0:  # without interference
+            judged += 1
+            assert {point: faults(case, case.sheet, point) for point in SLIDING_POINTS} == {"Z6": [], "Z7": []}, case
+            assert overlaps(case.sheet) == [], case
 
 
 def test_a_broken_limit_is_told_in_the_table_of_checks() -> None:
