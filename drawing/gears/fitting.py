@@ -141,11 +141,13 @@ def _meshing(apart: bool) -> Iterator[tuple[str, GearFigure]]:
 
 def _quality(width: float) -> Iterator[tuple[str, GearFigure]]:
     from .contour_view import contour_view
+    from .rack_view import rack_view
     from .tables import checks_table
     from .text import auxiliary_block, quality_block, sizes_block
 
     yield "checks", Figure(checks_table)
     yield "contour", Figure(contour_view)
+    yield "rack", Figure(rack_view, ("near",))
     for name, block in (("sizes", sizes_block), ("auxiliary", auxiliary_block), ("quality", quality_block)):
         yield f"equations_{name}", Figure(partial(block, width=width))
 

@@ -7,10 +7,10 @@ import re
 import pytest
 import shapely
 
-from kulman.tests.support.gear_cases import GearCase, arc_of, crossings, mu
+from kulman.tests.support.gear_cases import GearCase, arc_of, crossings, mu, outline
 from kulman.tests.support.gear_points import POINTS
 from kulman.tests.support.overlaps import overlaps, view_faults
-from kulman.tests.support.readback import Sheet, read
+from kulman.tests.support.readback import Sheet, polygon, read
 
 MADI = GearCase()
 PLAIN = (("x_1", 0.0), ("x_2", 0.0))
@@ -110,6 +110,35 @@ def test_involutes_are_constructed_by_rolling() -> None:
             assert abs(end - foot) == pytest.approx(k * parts[1], abs=0.01)
             assert line.distance(shapely.Point(end.real, end.imag)) < 0.01
         assert len(crossings(curve.points, centre, abs(view.point("P") - centre))) == 1
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        WHOLE,
+        pytest.param(GearCase((("z_1", 8.0), ("z_2", 30.0), *PLAIN), only="geometry"), marks=pytest.mark.soak),
+        pytest.param(GearCase((("h_a", 0.8), ("h_l", 1.6)), "A4", "en", only="geometry"), marks=pytest.mark.soak),
+    ],
+    ids=str,
+)
+def test_the_rack_touches_the_pinion_that_it_cuts(case: GearCase) -> None:
+    """Both profiles touch without overlap, the middle line is x m above the pitch line, B beyond N undercuts."""
+    view = case.sheet["rack"]
+    pole = view.point("P")
+    centre, radius = arc_of(view, "d_1")
+    wheel = polygon((*outline(view, "pinion"), centre))
+    points = outline(view, "rack")
+    high = max(p.imag for p in points) + 10.0
+    rack = polygon((*points, complex(points[-1].real, high), complex(points[0].real, high)))
+    pitch, middle = (view.lines("rack-line", name)[0].points[0].imag for name in ("pitch", "middle"))
+
+    assert wheel.intersection(rack).area < 0.01
+    assert wheel.distance(rack) < 0.01
+    assert abs(pole - centre) == pytest.approx(radius, abs=0.01)
+    assert pitch == pytest.approx(pole.imag, abs=0.01)
+    assert (middle - pitch) * mu(view) == pytest.approx(case.given["x_1"] * case.given["m"], abs=0.01 * mu(view))
+    undercut = abs(view.point("B") - pole) > abs(view.point("N") - pole)
+    assert undercut == (case.given["x_1"] < case.sizes["x_min1"])
 
 
 SPOILED = {  # one piece of the file of the sheet changed
