@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import pytest
 
 from kulman import solve
 from kulman.tests.support.cam_students import ROCKER
+from kulman.variants.solution import Solution
 
 # of h, phi_rise, u, omega, mu_phi, H_a, H_v, l_A1 the sums of the powers: v_max = 2 h omega / phi_rise
 POWERS = {
@@ -28,8 +30,13 @@ POWERS = {
 STEP = 1e-4
 
 
+@cache
+def madi() -> Solution:
+    return solve("madi-cam", condition=True)
+
+
 def test_products_of_powers_have_the_sum_of_their_powers() -> None:
-    found = solve("madi-cam", condition=True).conditions
+    found = madi().conditions
 
     assert {name: found[name].value for name in POWERS} == pytest.approx(POWERS, abs=1e-4)
 
@@ -38,11 +45,11 @@ def test_products_of_powers_have_the_sum_of_their_powers() -> None:
     ("numbers", "names"),
     [
         pytest.param(("h", "phi_rise", "phi_fall", "u", "gamma_rise", "gamma_fall"), ("r_0", "s_0"), id="roller"),
-        pytest.param(("h", "phi_rise", "phi_fall", "u", "rho_flat"), ("r_0_flat",), id="plate"),
+        pytest.param(("h", "phi_rise", "phi_fall", "u", "rho_flat"), ("r_0_flat",), id="plate", marks=pytest.mark.soak),
     ],
 )
 def test_sizes_hang_on_the_data_as_they_do_when_solved_again(numbers: tuple[str, ...], names: tuple[str, ...]) -> None:
-    right = solve("madi-cam", condition=True)
+    right = madi()
 
     totals = dict.fromkeys(names, 0.0)
     for name in numbers:
@@ -66,7 +73,7 @@ def test_conditions_of_a_rocker_are_those_of_its_triangle() -> None:
 
 
 def test_sines_are_those_of_the_flattest_rays_of_the_chords() -> None:
-    solution = solve("madi-cam", condition=True)
+    solution = madi()
     steepest = math.hypot(110.0 * 11.0 / 12.0 - 110.0 / 12.0 / 2.0 + 110.0 / 24.0, 30.0)
 
     sine = solution.conditions["S_max_chord"].sine

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
+from functools import cache
 from typing import Any
 
 import pytest
 
 from kulman import check, solve
 from kulman.plans.marking.verdicts import Verdict
+from kulman.tests.support.cam_students import ROCKER
+from kulman.variants.marking.checks import Check
 from kulman.variants.solution import Solution
 
 TASK = "madi-cam"
-ROCKER = Path(__file__).resolve().parents[2] / "docs" / "examples" / "rocker-cam.toml"
 PRINTED = {
     "mu_s": Verdict.RIGHT,
     "mu_a": Verdict.RIGHT,
@@ -27,13 +28,18 @@ PRINTED = {
 }
 
 
+@cache
+def marker(task: str = TASK) -> Check:
+    return check(task, lang="en")
+
+
 @pytest.fixture(scope="module")
 def solution() -> Solution:
     return solve(TASK)
 
 
 def test_printed_answers_are_right_but_for_two_that_are_no_sizes_of_a_cam() -> None:
-    asked = check(TASK, lang="en")
+    asked = marker()
 
     (answers,) = asked.read("printed")
     marked = asked.mark(answers).marked
@@ -45,7 +51,7 @@ def test_printed_answers_are_right_but_for_two_that_are_no_sizes_of_a_cam() -> N
 
 
 def test_form_asks_for_each_size_once_by_its_plain_name(tmp_path: Any) -> None:
-    text = check(TASK, lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
+    text = marker().write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
 
     asked = {line.split(",")[0] for line in text.splitlines()}
     assert {"mu_s", "mu_ds", "mu_d2s", "mu_v", "mu_a", "nu", "r_0", "e", "s_0"} <= asked
@@ -55,7 +61,7 @@ def test_form_asks_for_each_size_once_by_its_plain_name(tmp_path: Any) -> None:
 
 
 def test_form_asks_for_the_first_angle_of_a_rocker_and_for_no_given(tmp_path: Any) -> None:
-    text = check(ROCKER, lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
+    text = marker(ROCKER).write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
 
     asked = {line.split(",")[0] for line in text.splitlines()}
     assert {"psi_0", "r_0", "l_OC", "rho_min"} <= asked
@@ -63,7 +69,7 @@ def test_form_asks_for_the_first_angle_of_a_rocker_and_for_no_given(tmp_path: An
 
 
 def test_form_of_a_rocker_is_headed_by_its_own_plans(tmp_path: Any) -> None:
-    text = check(ROCKER, lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
+    text = marker(ROCKER).write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
 
     for heading in ("Positions of the rocker, place of the cam's centre", "Cam with a rocker"):
         assert f'{heading}"' in text or heading in text.splitlines()
@@ -71,7 +77,7 @@ def test_form_of_a_rocker_is_headed_by_its_own_plans(tmp_path: Any) -> None:
 
 
 def test_right_answers_get_the_full_mark(tmp_path: Any, solution: Solution) -> None:
-    asked = check(TASK, lang="en")
+    asked = marker()
     form = asked.write_form(tmp_path / "form.csv")
     lines = form.read_text(encoding="utf-8-sig").splitlines()
     filled = []
@@ -94,7 +100,7 @@ def test_right_answers_get_the_full_mark(tmp_path: Any, solution: Solution) -> N
 def test_a_value_in_another_unit_is_told_from_a_wrong_one(
     name: str, times: float, tmp_path: Any, solution: Solution
 ) -> None:
-    asked = check(TASK, lang="en")
+    asked = marker()
     written = solution[name].shown(solution.words.display)
     file = tmp_path / "class.csv"
     file.write_text(f"student,{name}\nA,{times * (written.value or 0.0):.6g}\n", encoding="utf-8")
