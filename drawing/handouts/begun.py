@@ -17,10 +17,17 @@ GIVEN = ("givens", "data", "choices", "note", "structure")  # views that say wha
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """What is drawn of a view: names of points, links, construction lines and quantities, and the letters."""
+    """What is drawn of a view: names of points, links, construction lines and quantities, and the letters.
+
+    `notes` are the lines under its heading, which may hold results. A table keeps its first `columns`, and the `rows`
+    with these first cells; without any said, its last column, that of units.
+    """
 
     names: frozenset[str]
     letters: frozenset[str]
+    notes: bool = True
+    rows: frozenset[str] | None = None
+    columns: int = 1
 
 
 def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str, Shown]) -> list[Page]:
@@ -31,22 +38,28 @@ def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str
 
 def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Shown]) -> Shape:
     view = views.get(shape.name) if isinstance(shape, Group) and shape.role == "view" else None
-    if view is None or not isinstance(shape, Group) or view.name in GIVEN:
+    if view is None or not isinstance(shape, Group) or (view.name in GIVEN and view.name not in shown):
         return shape
+    kept = shown.get(view.name, Shown(frozenset(), frozenset()))
     if view.rows:
-        return replace(shape, shapes=tuple(_table(part, view) for part in shape.shapes))
+        return replace(shape, shapes=tuple(_table(part, view, kept) for part in shape.shapes))
     if view.lines:
         return replace(shape, shapes=tuple(part for part in shape.shapes if _is_heading(part)))
-    kept = shown.get(view.name, Shown(frozenset(), frozenset()))
-    return replace(shape, shapes=tuple(part for part in shape.shapes if _is_shown(part, kept)))
+    hidden = frozenset(() if kept.notes else view.notes)
+    parts = (part for part in shape.shapes if not (_is_heading(part) and _markup(part) in hidden))
+    return replace(shape, shapes=tuple(part for part in parts if _is_shown(part, kept)))
 
 
 def _is_heading(shape: Shape) -> bool:
     return isinstance(shape, Text) and shape.role == "heading"
 
 
-def _table(shape: Shape, view: View) -> Shape:
-    """Leave out what a table answers: all cells but the head, the first column and the last one."""
+def _markup(shape: Shape) -> str:
+    return shape.markup if isinstance(shape, Text) else ""
+
+
+def _table(shape: Shape, view: View, shown: Shown) -> Shape:
+    """Leave out what a table answers: all cells but the head, the first column and that of units, or whole rows."""
     if not isinstance(shape, Group) or shape.role != "table":
         return shape
     places = [(row, column, end) for row, line in enumerate(view.rows) for column, end, _ in cells(line)]
@@ -55,7 +68,8 @@ def _table(shape: Shape, view: View) -> Shape:
     for part in shape.shapes:
         if isinstance(part, Text):
             row, column, end = next(texts)
-            if row and column and end < len(view.rows[0]):
+            given = end == len(view.rows[0]) if shown.rows is None else view.rows[row][0] in shown.rows
+            if row and column >= shown.columns and not given:
                 continue
         kept.append(part)
     return replace(shape, shapes=tuple(kept))

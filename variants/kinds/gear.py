@@ -18,6 +18,7 @@ from .kind import Kind, Verdicts
 
 if TYPE_CHECKING:
     from ...drawing.formats import Format
+    from ...drawing.handouts.begun import Shown
     from ...drawing.page import Drawn
     from ...drawing.pens import Norm
     from ...drawing.titleblock import Stamp
@@ -195,6 +196,16 @@ class Gears(Kind[GearPair, "SolvedGear"]):
     def plan_heading(self, solved: SolvedGear, plan: str, words: Words) -> str:
         """Return the heading of a section, or of a plan, as the sheet has it."""
         return words[f"heading.gear_{plan}"]
+
+    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
+        """Return what the first steps of the drawing draw."""
+        from ...drawing.gears.begun import begun
+        from ...drawing.gears.scene import GearScene
+        from ...drawing.style import STYLES
+
+        solved = gear(case.solved)
+        said = self.lettered(words, solved)
+        return begun(GearScene(solved, said, STYLES["A4"], case.givens, 1.0, 1.0, 1.0), steps)
 
     def limits(self, drawn: SolvedGear, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let pass of angles what the errors of the marks they hang on add up to."""

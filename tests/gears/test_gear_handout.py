@@ -1,0 +1,70 @@
+"""Handouts of gears: the blank tells nothing that is to be found, and every stage draws something."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import pairwise
+
+import pytest
+
+from kulman import handout, solve
+from kulman.drawing.gears.begun import STAGES
+from kulman.drawing.handouts.begun import begun_pages
+from kulman.drawing.page import Page
+from kulman.drawing.shapes import Group, Shape, Text
+from kulman.variants.case import solve_case
+from kulman.variants.sheets import Sheet, draw_case
+
+TASK = "madi-gear"
+
+
+def parts(shapes: Iterable[Shape]) -> Iterator[Shape]:
+    for shape in shapes:
+        yield shape
+        if isinstance(shape, Group):
+            yield from parts(shape.shapes)
+
+
+def texts(sheet: Sheet) -> list[str]:
+    return [
+        text.markup
+        for page in sheet.pages
+        for view in page.shapes
+        if isinstance(view, Group) and view.role == "view"
+        for text in parts(view.shapes)
+        if isinstance(text, Text)
+    ]
+
+
+@pytest.mark.parametrize(
+    "only",
+    ["sliding", "geometry", pytest.param(None, marks=pytest.mark.soak)],
+)
+def test_a_blank_tells_what_is_given_and_no_result(only: str | None) -> None:
+    said = texts(handout(TASK, only=only, lang="en"))
+
+    results = solve(TASK, only=only)
+    assert only == "sliding" or {"5", "20", "0.85", "0.2", "15"} <= set(said)
+    for name in ("a_w", "d_a1", "d_w2", "s_1", "h", "p_b", "rho_p1"):
+        number = f"{(results[name].value or 0.0) * 1e3:.2f}"
+        assert not any(number in text for text in said), name
+    assert not any("1.20" in text or "26.65" in text or "−3.07" in text or "satisfied" in text for text in said)
+
+
+@pytest.mark.parametrize("only", ["sliding", pytest.param("meshing", marks=pytest.mark.soak)])
+def test_every_stage_draws_something_more(only: str) -> None:
+    case = solve_case(TASK, None, None, only, None)
+    drawn = draw_case(case, {}, lang="en")
+    views = [view.name for view in drawn.views if view.name in STAGES]
+    most = max(len(STAGES[name]) for name in views)
+
+    def count(pages: Iterable[Page]) -> int:
+        return sum(1 for page in pages for _ in parts(page.shapes))
+
+    counts = []
+    for steps in range(most):
+        shown = case.kind.begun(case, drawn.scales, case.words("en"), steps)
+        counts.append(count(begun_pages(drawn.pages, drawn.views, shown)))
+
+    assert all(a < b for a, b in pairwise(counts))
+    assert counts[-1] < count(drawn.pages)
