@@ -9,6 +9,8 @@ from ...scales.scale import Scale, rounded, steps
 MU_L = 0.001  # m/mm, M 1:1
 SMALL = 0.030  # m, the least radius below which a cam is drawn at M 2:1 where nothing is said
 COARSER = (1.0, 2.0, 2.5, 4.0, 5.0, 8.0, 10.0, 20.0, 25.0)  # of a plan with equal scale factors, in the finest one
+FINER = (0.5, 0.4, 0.25, 0.2, 0.1)  # the same of one that would be too small
+LEAST = 60.0  # mm of the least radius and the stroke on such a plan, where there is room
 LARGEST = 150.0  # mm of the least radius and the stroke on a plan, where nothing is said
 DIGITS = 5  # of a scale factor that is chosen, not found
 SYMBOLS = ("mu_l", *EQUAL)  # what may be chosen: the others follow from the drawn amplitude and the pole distances
@@ -26,6 +28,9 @@ def ladder(solved: SolvedCam, choosers: Choosers, symbol: str) -> tuple[float, .
         return choosers[symbol].ladder(lambda _: across)
     finest = float(solved.values[EQUAL[symbol]]) if EQUAL[symbol] in solved.values else MU_L
     rungs = [rounded(finest * times, DIGITS) for times in COARSER]
+    if across < LEAST * finest:  # of diagrams that are drawn smaller
+        finer = (rounded(finest * times, DIGITS) for times in FINER)
+        rungs.insert(0, next((mu for mu in finer if across >= LEAST * mu), rungs[0]))
     return tuple(mu for mu in rungs if across <= LARGEST * mu) or (steps(across / LARGEST)[0],)
 
 

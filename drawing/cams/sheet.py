@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 
 from ...plans.cams.solve import EQUAL
 from ...scales.choices import SIZES
 from ...scales.choose import Fixed
-from ..compose import arrange, arrange_closely, compose, worth_trying
+from ..compose import arrange, arrange_closely, compose, room, worth_trying
 from ..formats import FORMATS, Format
 from ..packing import Placement
 from ..page import Drawn
@@ -17,12 +18,11 @@ from ..view import View
 from ..zones import zoned
 from .fitting import Contents as Contents
 from .fitting import Fitting, Rungs
-from .ladders import size_of
+from .ladders import LEAST, size_of
 from .zones import LAYOUTS
 
 # what may be drawn smaller for the sake of one page, and by how many rungs
 GIVING = {"mu_l": 2, "reduction": 2, "mu_s_ds": 2, "mu_s_d2s": 2}
-LEAST = 60.0  # mm of the least radius and the stroke on a plan made of two diagrams
 Found = tuple[Rungs, list[View], list[Placement]]
 
 
@@ -40,12 +40,25 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         last = candidate is formats[-1]
         found = _single(fitting, candidate, last)
         if found is None and last:
-            rungs = fitted(fitting, candidate, contents.norm, Rungs())
+            rungs = _restored(fitting, candidate, fitted(fitting, candidate, contents.norm, Rungs()))
             found = _several(fitting, candidate, rungs)
         if found is not None:
             break
     assert found is not None, "on the last format there are as many pages as it takes"
     return _drawn(fitting, stamp, candidate, found)
+
+
+def _restored(fitting: Fitting, sheet: Format, rungs: Rungs) -> Rungs:
+    """Return rungs at which plans made of two diagrams are as large as a page has room for, now diagrams are small."""
+    wide, high = room(sheet, fitting.contents.norm)
+    for name in EQUAL:
+        for rung in range(getattr(rungs, name)):
+            larger = replace(rungs, **{name: rung})
+            sizes = [view.size for view, figure in fitting.views(sheet, larger) if name in figure.ladders]
+            if all(own[0] <= wide and own[1] <= high for own in sizes):
+                rungs = larger
+                break
+    return rungs
 
 
 def _several(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found:
