@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
@@ -11,6 +12,7 @@ from ..shapes import Line as LineShape
 from ..table import cells
 from ..view import View
 
+NUMBER = re.compile(r"[−-]?\d+(?:[.,]\d+)?(?: |$)")  # what a cell of units does not begin with
 ALWAYS = ("axis", "pivot", "frame")  # roles of what the task gives, not the work
 GIVEN = ("givens", "data", "choices", "note", "structure")  # views that say what the task is
 
@@ -20,7 +22,7 @@ class Shown:
     """What is drawn of a view: names of points, links, construction lines and quantities, and the letters.
 
     `notes` are the lines under its heading, which may hold results. A table keeps its first `columns`, and the `rows`
-    with these first cells; without any said, its last column, that of units.
+    with these first cells; without any said, its last column where that is one of units.
     """
 
     names: frozenset[str]
@@ -28,6 +30,9 @@ class Shown:
     notes: bool = True
     rows: frozenset[str] | None = None
     columns: int = 1
+
+
+NOTHING = Shown(frozenset(), frozenset(), notes=False)
 
 
 def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str, Shown]) -> list[Page]:
@@ -40,7 +45,7 @@ def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Sho
     view = views.get(shape.name) if isinstance(shape, Group) and shape.role == "view" else None
     if view is None or not isinstance(shape, Group) or (view.name in GIVEN and view.name not in shown):
         return shape
-    kept = shown.get(view.name, Shown(frozenset(), frozenset()))
+    kept = shown.get(view.name, NOTHING)
     if view.rows:
         return replace(shape, shapes=tuple(_table(part, view, kept) for part in shape.shapes))
     if view.lines:
@@ -64,11 +69,12 @@ def _table(shape: Shape, view: View, shown: Shown) -> Shape:
         return shape
     places = [(row, column, end) for row, line in enumerate(view.rows) for column, end, _ in cells(line)]
     texts = iter(places)
+    last = -1 if any(NUMBER.match(row[-1] or "") for row in view.rows[1:]) else len(view.rows[0])
     kept = []
     for part in shape.shapes:
         if isinstance(part, Text):
             row, column, end = next(texts)
-            given = end == len(view.rows[0]) if shown.rows is None else view.rows[row][0] in shown.rows
+            given = end == last if shown.rows is None else view.rows[row][0] in shown.rows
             if row and column >= shown.columns and not given:
                 continue
         kept.append(part)
