@@ -31,7 +31,7 @@ GIVEN = {
     "margin": (0.0, 0.05),
 }
 # what follows is looked at where all that is given is usual
-FOUND = {"r_0": (2e-3, 1.0), "r_0_flat": (2e-3, 1.0), "rho_min": (5e-4, math.inf), "a_max": (0.0, 1e5)}
+FOUND = {"r_0": (2e-3, 1.0), "r_0_flat": (2e-3, 1.0), "a_max": (0.0, 1e5)}
 UNITS = {"phi_rise": "rad", "phi_fall": "rad", "psi": "rad", "gamma_rise": "rad", "gamma_fall": "rad", "omega": "rad/s"}
 PLAIN = ("u", "u_fall")
 

@@ -174,3 +174,11 @@ def test_a_scale_factor_that_has_no_room_is_named() -> None:
 
 def test_a_follower_that_is_pressed_to_one_side_alone_has_no_more_than_a_right_angle() -> None:
     assert solve(TASK, set={"e": 100})["gamma_rise_min"].value == pytest.approx(math.pi / 2)
+
+
+def test_a_task_whose_source_prints_no_answers_says_so(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
+
+    assert run(capsys, "check", ROCKER, "printed") == ("", "the source of rocker-cam prints no answers\n")

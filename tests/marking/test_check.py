@@ -301,7 +301,7 @@ def test_printed_answers_are_marked(capsys: pytest.CaptureFixture[str], task: st
         ((TASK, "printed", "-v", "99"), "'99'"),
         ((TASK, "printed", "-o", "x.docx"), "unknown kind of file"),
         ((TASK, "printed", "--preset", "best"), "cad, careful, normal, lenient"),
-        (("scheme-01-compressor", "printed"), "ends in one of: .csv, .xlsx"),
+        (("scheme-01-compressor", "printed"), "the source of scheme-01-compressor prints no answers"),
         ((TASK, "."), "no files with answers"),
     ],
 )

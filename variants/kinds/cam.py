@@ -300,7 +300,7 @@ def _unusual(solved: SolvedCam) -> Iterator[InputError]:
         value, least, most = (
             f"{number if size is None else size.from_si(number):.4g}" for number in (one.value, one.least, one.most)
         )
-        end = "-most" if one.least == 0.0 else "" if math.isfinite(one.most) else "-least"
+        end = "-most" if one.least == 0.0 else ""
         yield InputError(f"cam-unusual-{key}{end}", name=one.name, value=value, least=least, most=most)
 
 

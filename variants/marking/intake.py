@@ -30,8 +30,8 @@ def found_files(names: Sequence[str], task: str = "") -> list[str]:
     found: list[str] = []
     for name in names:
         path = Path(name)
-        if name == PRINTED and not path.exists() and (own := _printed(task)):
-            inside = [own]
+        if name == PRINTED and not path.exists():
+            inside = [_printed(task)]
         elif path.is_dir():
             inside = sorted(str(file) for file in path.iterdir() if _is_answers(file))
         elif not path.exists() and glob.has_magic(name):
@@ -44,10 +44,21 @@ def found_files(names: Sequence[str], task: str = "") -> list[str]:
     return list(dict.fromkeys(found))
 
 
-def _printed(task: str) -> str | None:
-    """Return the file of the answers that the source of a task prints."""
-    file = Path(str(files(__package__) / "printed" / f"{task}.csv"))
-    return str(file) if file.is_file() else None
+def _printed(task: str) -> str:
+    """Return the file of the answers that the source of a task prints.
+
+    Raises
+    ------
+    InputError
+        It prints none.
+    """
+    if not (file := _file_of(task)).is_file():
+        raise InputError("answers-none-printed", task=task)
+    return str(file)
+
+
+def _file_of(task: str) -> Path:
+    return Path(str(files(__package__) / "printed" / f"{task}.csv"))
 
 
 def _is_answers(path: Path) -> bool:
@@ -72,7 +83,7 @@ def read_all(names: Sequence[str], task: str, asked: Asked, warn: Callable[[Kulm
             warn(error)
             found.append(Answers(file, Who(), {}, {}, {}, unread=error))
             continue
-        found += map(_of_source, read) if file == _printed(task) else read
+        found += map(_of_source, read) if file == str(_file_of(task)) else read
     return found
 
 
