@@ -169,12 +169,35 @@ def test_what_honest_drawings_give_is_let_pass() -> None:
         assert expected.failed <= 0.06, name
 
 
-def test_what_a_pair_has_not_is_refused_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(InputError) as refused:
-        solve(TASK, condition=True)
-    assert refused.value.text("en") == "madi-gear: a task of this kind has no such thing: condition"
+def test_conditions_tell_how_quantities_hang_on_the_data() -> None:
+    found = solve(TASK, condition=True)
+    known = {name: condition.value for name, condition in found.conditions.items()}
 
+    assert set(known) == set(found)
+    assert known["a"] == pytest.approx(1.0, rel=1e-8)  # m alone, for whole numbers do not err
+    assert known["d_b1"] == pytest.approx(1.0 + 20.0 * math.tan(math.radians(20.0)) * math.pi / 180.0, rel=1e-8)
+    assert known["tau_1"] == known["u"] == 0.0
+    assert known["mu_theta"] == pytest.approx(1.0)
+    assert known["theta_12_01"] is None
+    assert known["rho_l1"] > 10.0 > known["rho_l2"]  # nearly undercut
+    assert found.conditions["g_alpha_drawn"].sine == pytest.approx(math.sin(found["alpha_a1"].value or 0.0), rel=1e-12)
+    # by the givens of a task, one after the other
+    total = 0.0
+    for name, value in (
+        ("m", 5.0),
+        ("x_1", 0.2),
+        ("x_2", 0.85),
+        ("alpha", 20.0),
+        ("h_a", 1.0),
+        ("h_l", 2.0),
+        ("c", 0.25),
+    ):
+        more, less = (solve(TASK, set={name: value * (1.0 + step)})["g_alpha"].value for step in (1e-4, -1e-4))
+        total += abs((more or 0.0) - (less or 0.0)) / 2e-4
+    assert known["g_alpha"] == pytest.approx(total / (found["g_alpha"].value or 1.0), rel=1e-5)
+
+
+def test_scale_factors_that_a_pair_has_not_are_refused() -> None:
     for symbol in ("mu_V", "mu_rho"):
         with pytest.raises(InputError):
             solve(TASK, scales={symbol: "0.05"})
-    assert capsys.readouterr().out == ""

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ...drawing.pens import Norm
     from ...drawing.titleblock import Stamp
     from ...drawing.words import Words
+    from ...plans.condition import Condition
     from ...plans.gears.solve import SolvedGear
     from ...plans.hands.hand import Tolerance
     from ...plans.hands.shaky import Paper
@@ -121,6 +122,12 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         from ...drawing.gears.ladders import scales_of
 
         return scales_of(solved, choosers)
+
+    def conditions(self, case: Case) -> dict[str, Condition]:
+        """Return the condition of every quantity."""
+        from ...plans.gears.conditions import conditions_of
+
+        return conditions_of(gear(case.solved))
 
     def warnings(self, solved: SolvedGear) -> tuple[InputError, ...]:
         """Tell which limits are not kept, and of teeth that are pointed."""
