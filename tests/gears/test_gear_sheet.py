@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 import pytest
 import shapely
 
+from kulman.drawing.gears.ladders import mu_ladder, near_ladder, rolled_ladder
+from kulman.plans.gears.gear import GearPair
+from kulman.plans.gears.solve import solve_gear
 from kulman.tests.support.gear_cases import GearCase, arc_of, crossings, mu, outline
 from kulman.tests.support.gear_points import POINTS
 from kulman.tests.support.overlaps import overlaps, view_faults
@@ -110,6 +114,17 @@ def test_involutes_are_constructed_by_rolling() -> None:
             assert abs(end - foot) == pytest.approx(k * parts[1], abs=0.01)
             assert line.distance(shapely.Point(end.real, end.imag)) < 0.01
         assert len(crossings(curve.points, centre, abs(view.point("P") - centre))) == 1
+
+
+@pytest.mark.parametrize("m", [0.2e-3, 1e-3, 3e-3, 5e-3, 20e-3])
+def test_meshings_are_drawn_to_scales_of_the_standard(m: float) -> None:
+    enlargements = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0, 100.0, 200.0)  # GOST 2.302; from 100:1 on by hundreds
+    solved = solve_gear(GearPair(), {"m": m, "z_1": 15.0, "z_2": 20.0, "x_1": 0.2, "x_2": 0.85})
+
+    for ladder in (mu_ladder(solved, {}), near_ladder(solved), rolled_ladder(solved)):
+        ratios = [1e-3 / mu for mu in ladder if mu < 0.9e-3]
+        assert all(any(math.isclose(ratio, known) for known in enlargements) for ratio in ratios)
+    assert solved.sizes["h"] / near_ladder(solved)[0] >= 50.0
 
 
 @pytest.mark.parametrize(
