@@ -16,7 +16,7 @@ from kulman.tests.support.gear_points import POINTS
 from kulman.tests.support.overlaps import overlaps, view_faults
 from kulman.tests.support.readback import Sheet, polygon, read
 
-MADI = GearCase()
+MADI = GearCase(only=None)
 PLAIN = (("x_1", 0.0), ("x_2", 0.0))
 CASES = (
     MADI,
@@ -54,13 +54,10 @@ def test_letters_of_a_meshing_touch_nothing(case: GearCase) -> None:
     assert overlaps(case.sheet) == []
 
 
-WHOLE = GearCase(only=None)
-
-
 @pytest.mark.parametrize(
     "case",
     [
-        WHOLE,
+        MADI,
         *(
             pytest.param(GearCase(format=paper, lang=lang, only=None), marks=pytest.mark.soak)
             for paper, lang in (("A1", "ru"), ("A2", "en"), ("A3", "uk"), ("A3-portrait", "en"), ("A4", "ru"))
@@ -74,10 +71,10 @@ def test_views_of_a_whole_sheet_stand_apart(case: GearCase) -> None:
 
 
 def test_a_sheet_has_the_scale_factors_that_it_prints() -> None:
-    scales = {name: scale.mu for name, scale in WHOLE.drawn.scales.items()}
+    scales = {name: scale.mu for name, scale in MADI.drawn.scales.items()}
 
-    assert scales["meshing"] == mu(WHOLE.sheet["meshing"])
-    (heading,) = (t.string for t in WHOLE.sheet["sliding"].of("heading") if "μ" in t.string)
+    assert scales["meshing"] == mu(MADI.sheet["meshing"])
+    (heading,) = (t.string for t in MADI.sheet["sliding"].of("heading") if "μ" in t.string)
     printed = [float(number.replace(",", ".")) for number in re.findall(r" = (\d+,\d+)", heading)]
     assert printed == [scales["sliding"], scales["theta"]]
 
@@ -85,7 +82,7 @@ def test_a_sheet_has_the_scale_factors_that_it_prints() -> None:
 def test_all_that_is_drawn_of_madi_is_on_one_a1() -> None:
     drawn = {"meshing", "rolling", "action", "sliding", "data", "checks", "points"}
 
-    assert {view.name for view in WHOLE.sheet.pages[0].views} >= drawn
+    assert {view.name for view in MADI.sheet.pages[0].views} >= drawn
 
 
 @pytest.mark.soak
@@ -130,7 +127,7 @@ def test_meshings_are_drawn_to_scales_of_the_standard(m: float) -> None:
 @pytest.mark.parametrize(
     "case",
     [
-        WHOLE,
+        MADI,
         pytest.param(GearCase((("z_1", 8.0), ("z_2", 30.0), *PLAIN), only="geometry"), marks=pytest.mark.soak),
         pytest.param(GearCase((("h_a", 0.8), ("h_l", 1.6)), "A4", "en", only="geometry"), marks=pytest.mark.soak),
     ],
@@ -167,7 +164,7 @@ SPOILED = {  # one piece of the file of the sheet changed
 
 @pytest.mark.parametrize("point", POINTS)
 def test_the_examiner_sees_a_spoiled_sheet_of_a_pair(point: str) -> None:
-    (page,) = MADI.pages
+    page = MADI.pages[0]
     spoiled = re.sub(*SPOILED[point], page, count=1, flags=re.DOTALL)
     assert spoiled != page
 
