@@ -60,7 +60,7 @@ def test_every_bundled_task_is_of_the_kind_that_its_file_says() -> None:
 
 def test_a_file_without_any_table_lacks_the_first_one() -> None:
     assert (table_in(("givens", "cam")), table_in(("givens",))) == ("cam", "mechanism")
-    _, faults = read_text(TEXT[: TEXT.index("[cam]")] + TEXT[TEXT.index("[scales]") :], "t.toml")
+    _, faults = read_text(TEXT[: TEXT.index("[cam]")] + TEXT[TEXT.index("[[variant]]") :], "t.toml")
     assert "the key 'mechanism' is missing" in {fault.cause.text() for fault in faults}
 
 
@@ -164,7 +164,7 @@ def test_a_choice_may_set_numbers() -> None:
         ('rotation = "rotation"', 'rotation = "left"', "cam.rotation", "'left' is not a choice"),
         ("[cam]\n", "[cam]\nsections = 6\n", "cam.sections", "12 to 90 sections"),
         ("[cam]\n", "[cam]\ncentre = 6\n", "cam.centre", "unknown key 'centre'"),
-        ('mu_l = "0.001 m/mm"', 'mu_V = "0.001 (m/s)/mm"', "scales", "no scale factor 'mu_V'"),
+        ("[cam]\n", '[scales]\nmu_V = "0.001 (m/s)/mm"\n[cam]\n', "scales", "no scale factor 'mu_V'"),
         ('"pressure"]', '"velocity"]', "plans", "unknown plan 'velocity'"),
     ],
 )
