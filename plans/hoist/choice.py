@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +23,9 @@ from .model import model
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 LEAST, MOST = 0.05, 0.5  # of beta: nearer to its end a beam is rigid
-PLACES = 46  # of each beta: steps of 0.01
-ROUNDS, FINE = 5, 9  # rounds in which the optimum is closed in on, and places in each
+PLACES, FEWER = 46, 16  # of each beta: steps of 0.01, or of 0.03 where many motions have to be followed
+MANY = 100  # places at which the formulas are not valid, and the motion takes a thousand times as long
+ROUNDS, FINE, LESS = 5, 9, 5  # rounds in which the optimum is closed in on, and places in each
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,15 +99,30 @@ def spectrum(values: Mapping[str, float], beta_0: Array, beta_2: Array) -> Spect
     values : mapping of str to float
         The complete givens, SI; their own places do not count.
     """
-    first, second = (one.ravel() for one in np.meshgrid(beta_0, beta_2, indexing="ij"))
-    givens = {**values, "beta_0": first, "beta_2": second}
-    formulas = valid(model(givens, VALIDITY))
-    F_max = forces_of_many(givens, ("F_max",))["F_max"]
+    formulas = _formulas(values, beta_0, beta_2)
+    F_max = forces_of_many(_placed(values, beta_0, beta_2), ("F_max",))["F_max"]
     shape = len(beta_0), len(beta_2)
     F_max = F_max.reshape(shape)
     sigma_max = F_max * (1.0 / values["S"])
     safety = values["sigma"] / sigma_max
     return Spectrum(beta_0, beta_2, F_max, sigma_max, safety, formulas.reshape(shape), safety >= values["K"])
+
+
+def _placed(values: Mapping[str, float], beta_0: Array, beta_2: Array) -> dict[str, Any]:
+    """Return the givens of the hoists at all pairs of places."""
+    first, second = (one.ravel() for one in np.meshgrid(beta_0, beta_2, indexing="ij"))
+    return {**values, "beta_0": first, "beta_2": second}
+
+
+def _formulas(values: Mapping[str, float], beta_0: Array, beta_2: Array) -> Flags:
+    """Return at which pairs of places the formulas are valid."""
+    found: Flags = valid(model(_placed(values, beta_0, beta_2), VALIDITY))
+    return found
+
+
+def _grid(places: int) -> Array:
+    found: Array = LEAST + (MOST - LEAST) * (np.arange(places) / (places - 1))
+    return found
 
 
 def choose(values: Mapping[str, float], places: int = PLACES) -> Choice:
@@ -116,12 +133,14 @@ def choose(values: Mapping[str, float], places: int = PLACES) -> Choice:
     values : mapping of str to float
         The complete givens, SI, `beta_0` and `beta_2` among them.
     places : int
-        Of each beam, from `LEAST` to `MOST`.
+        Of each beam, from `LEAST` to `MOST`; fewer where the formulas are not valid at many.
     """
-    grid = LEAST + (MOST - LEAST) * (np.arange(places) / (places - 1))
+    grid, fine = _grid(places), FINE
+    if np.sum(~_formulas(values, grid, grid)) > MANY:
+        grid, fine = _grid(min(places, FEWER)), LESS
     found = spectrum(values, grid, grid)
     given = _trial(spectrum(values, np.array([values["beta_0"]]), np.array([values["beta_2"]])), 0, 0)
-    return Choice(found, given, _best(values, found), _loop(found, given, values["K"]), values["K"])
+    return Choice(found, given, _best(values, found, fine), _loop(found, given, values["K"]), values["K"])
 
 
 def _trial(found: Spectrum, i: int, j: int) -> Trial:
@@ -140,18 +159,18 @@ def _loop(found: Spectrum, given: Trial, K: float) -> tuple[Trial, ...]:
     return tuple(trials)
 
 
-def _best(values: Mapping[str, float], found: Spectrum) -> Trial:
+def _best(values: Mapping[str, float], found: Spectrum, count: int) -> Trial:
     """Return the places of the least force: those of the grid, then of finer and finer grids around them."""
     width = float(found.beta_0[1] - found.beta_0[0])
     best = _trial(found, *map(int, np.unravel_index(found.F_max.argmin(), found.F_max.shape)))
     for _ in range(ROUNDS):
-        fine = spectrum(values, _around(best.beta_0, width), _around(best.beta_2, width))
+        fine = spectrum(values, _around(best.beta_0, width, count), _around(best.beta_2, width, count))
         nearer = _trial(fine, *map(int, np.unravel_index(fine.F_max.argmin(), fine.F_max.shape)))
         best = nearer if nearer.F_max < best.F_max else best
-        width *= 3.0 / (FINE - 1)
+        width *= 3.0 / (count - 1)
     return best
 
 
-def _around(middle: float, width: float) -> Array:
-    found: Array = np.clip(middle + width * np.linspace(-1.0, 1.0, FINE), LEAST, MOST)
+def _around(middle: float, width: float, count: int) -> Array:
+    found: Array = np.clip(middle + width * np.linspace(-1.0, 1.0, count), LEAST, MOST)
     return found

@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from .checks import valid
+from .forces import forces
 from .model import model
 from .rope import Heavy, rope_of
 
@@ -66,7 +68,8 @@ class HoistDepth:
     simpler : tuple of Simplification
         In the order of `SIMPLER`, the article's formula last.
     ropes : tuple of Heavy
-        Ropes of more and more masses; empty where the rope weighs nothing.
+        Ropes of more and more masses; empty where the rope weighs nothing, the support is rigid or formulas are not
+        valid.
     ratio : float
         G_2 / G_1 of this hoist.
     one_mass : tuple of OneMass
@@ -122,16 +125,17 @@ def depth(
     tolerance : float
         In parts: an error of the greatest force that does not count.
     """
-    found = model(values)
+    whole = forces(values)
+    found = whole.found
     full = {name: found[name] for name in COMPARED}
-    simpler = [Simplification(key, _changes(full, model({**values, **other}))) for key, other in SIMPLER.items()]
+    simpler = [Simplification(k, _changes(full, forces({**values, **other}).found)) for k, other in SIMPLER.items()]
     printed = dict.fromkeys(COMPARED, math.nan)
     printed |= dict.fromkeys(("P_12_max", "F_max"), found["P_12_max_printed"])
     simpler.append(Simplification(PRINTED, _changes(full, printed)))
-    yields = math.isfinite(found["C_01"])
-    ropes = tuple(rope_of(found, n) for n in masses) if yields and values["G_2"] > 0.0 else ()
-    lighter = tuple(_at_ratio(values, ratio) for ratio in ratios) if yields else ()
-    return HoistDepth(full, tuple(simpler), ropes, values["G_2"] / values["G_1"], lighter, tolerance)
+    swings = math.isfinite(found["C_01"]) and whole.motion is None
+    ropes = tuple(rope_of(found, n) for n in masses) if swings and values["G_2"] > 0.0 else ()
+    lighter = [_at_ratio(values, ratio) for ratio in ratios] if swings else []
+    return HoistDepth(full, tuple(simpler), ropes, values["G_2"] / values["G_1"], _known(lighter), tolerance)
 
 
 def _changes(full: Mapping[str, float], other: Mapping[str, Any]) -> dict[str, float | None]:
@@ -139,10 +143,14 @@ def _changes(full: Mapping[str, float], other: Mapping[str, Any]) -> dict[str, f
     return {name: change if math.isfinite(change) else None for name, change in changes.items()}
 
 
-def _at_ratio(values: Mapping[str, float], ratio: float) -> OneMass:
-    """Compare one mass with many for the same load on a rope of other weight."""
+def _at_ratio(values: Mapping[str, float], ratio: float) -> OneMass | None:
+    """Compare one mass with many for the same load on a rope of other weight; None where no formula is valid."""
     found = model({**values, "G_2": ratio * values["G_1"]})
-    return _beside(found, rope_of(found, MANY), ratio)
+    return _beside(found, rope_of(found, MANY), ratio) if valid(found) else None
+
+
+def _known(found: Iterable[OneMass | None]) -> tuple[OneMass, ...]:
+    return tuple(one for one in found if one is not None)
 
 
 def _beside(found: Mapping[str, float], rope: Heavy, ratio: float) -> OneMass:

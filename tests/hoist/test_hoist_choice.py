@@ -95,3 +95,14 @@ def test_where_the_rope_would_push_the_force_is_that_of_a_one_sided_rope() -> No
     assert not found.formulas[0, 0]
     assert found.F_max[0, 0] == pytest.approx(one_sided_by_steps(soft), rel=2e-3)
     assert found.F_max[0, 0] != pytest.approx(model(soft)["F_max"], rel=1e-2)
+
+
+def test_where_many_motions_have_to_be_followed_fewer_places_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kulman.plans.hoist.choice.FEWER", 4)
+    monkeypatch.setattr("kulman.plans.hoist.choice.ROUNDS", 1)
+
+    found = choose(OFF_MIDDLE | {"V_0": 5.0}, 46).spectrum
+
+    assert found.F_max.shape == (4, 4)
+    assert not found.formulas.any()
+    assert np.isfinite(found.F_max).all()

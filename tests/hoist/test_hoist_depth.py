@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.hoist.depth import PRINTED, SIMPLER, HoistDepth, depth
+from kulman.plans.hoist.forces import forces
 from kulman.plans.hoist.model import model
 from kulman.plans.hoist.rope import Heavy, rope_of, rope_row
 
@@ -132,3 +133,13 @@ def test_one_mass_is_enough_for_light_ropes_only() -> None:
 def test_rigid_support_and_weightless_rope_have_no_ropes_of_masses() -> None:
     assert depth(LONG | {"I_0": math.inf}, 0.01, (1,), (1e-2,)).here is None
     assert depth(LONG | {"G_2": 0.0}, 0.01, (1,), (1e-2,)).ropes == ()
+
+
+def test_formulas_that_do_not_hold_are_not_compared() -> None:
+    values = LONG | {"V_0": 8.0}
+
+    found = depth(values, 0.01, (1,), (1e-2,))
+
+    assert forces(values).motion is not None
+    assert found.full["F_max"] == forces(values).found["F_max"]
+    assert found.ropes == found.one_mass == ()

@@ -58,10 +58,10 @@ def hoist_chart(name: str, scene: Scene, tolerance: float, effort: Effort = FULL
         return HoistChoiceChart(scene, choose(givens), givens["S"])
     if math.isinf(givens["I_0"]):
         raise InputError("chart-hoist-rigid")
-    if name == ROOTS:
-        return HoistRootsChart(scene, root_race(givens))
     if solved.forces.motion is not None:
         raise InputError("chart-hoist-one-sided")
+    if name == ROOTS:
+        return HoistRootsChart(scene, root_race(givens))
     if name == STABILITY:
         return HoistStepsChart(scene, step_limits(givens))
     return _accuracy(scene, solved, givens, effort)
