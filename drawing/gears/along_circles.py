@@ -34,10 +34,10 @@ def pitch(canvas: Canvas, scene: GearScene, wheel: Wheel, to_centre: bool) -> No
     foot = 0.0 if to_centre else (low - 0.4 * scene.style.label) / radius
     for end in ends:
         canvas.add(Line(end, wheel.centre + foot * (end - wheel.centre), Pen.THIN, role="extension", name=f"p_{i}"))
-    along(canvas, scene, wheel, _on(wheel, ends, low), f"p_{i}", scene.stated("p"))
+    along(canvas, scene, wheel, _on(wheel, ends, low), f"p_{i}")
     if to_centre:
         name = f"tau_{i}"
-        along(canvas, scene, wheel, _on(wheel, ends, TAU * wheel.radius("f")), name, scene.angle(name))
+        along(canvas, scene, wheel, _on(wheel, ends, TAU * wheel.radius("f")), name)
 
 
 def action(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
@@ -48,7 +48,7 @@ def action(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
         for end in ends:
             canvas.add(Line(end, wheel.centre, Pen.THIN, role="ray", name=f"phi_alpha{i}"))
         name = f"phi_alpha{i}"
-        along(canvas, scene, wheel, _on(wheel, ends, PHI * wheel.radius("f")), name, scene.angle(name))
+        along(canvas, scene, wheel, _on(wheel, ends, PHI * wheel.radius("f")), name)
 
 
 def gaps(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
@@ -60,9 +60,9 @@ def gaps(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
         canvas.label(text, 0.5 * (ends[0] + ends[1]), prefer=complex(wheel.side, 0.0), clear=2.0, height=height)
 
 
-def along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str, text: str = "") -> None:
-    """Dimension an arc about the wheel's centre between two points of it; the text stands on it where it has room."""
-    text, height = text or scene.stated(name), scene.style.text
+def along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str) -> None:
+    """Dimension an arc about the wheel's centre between two points of it."""
+    text, height = _text(scene, name), scene.style.text
     arms = [end - wheel.centre for end in ends]
     radius, start, sweep = abs(arms[0]), cmath.phase(arms[0]), cmath.phase(arms[1] / arms[0])
     canvas.add(angle_dimension(wheel.centre, radius, start, sweep, name, scene.style))
@@ -70,6 +70,13 @@ def along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str,
     middle = wheel.centre + radius * out
     spare = text if radius < CLOSE * scene.style.label else ""  # near the centre there may be no room
     canvas.label(text, middle, prefer=-out, clear=1.0, height=height, spare=spare)
+
+
+def _text(scene: GearScene, name: str) -> str:
+    """Return what a dimension says; the pitch of both wheels is one."""
+    if name.startswith(("tau_", "phi_")):
+        return scene.angle(name)
+    return scene.stated("p" if name.startswith("p_") else name)
 
 
 def _on(wheel: Wheel, ends: Ends, radius: float) -> Ends:
