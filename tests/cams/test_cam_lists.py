@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -16,8 +17,9 @@ TASKS = ("madi-cam", str(Path(__file__).parents[2] / "docs" / "examples" / "rock
 GIVEN = {"mu_phi", "H_a", "H_v", "R_roller", "l_rocker"}
 
 
-def names(task: str, *plans: str) -> set[str]:
-    return {*solve(task, only=plans).to_json()["quantities"]}
+@cache
+def names(task: str, *plans: str) -> frozenset[str]:
+    return frozenset(solve(task, only=plans).to_json()["quantities"])
 
 
 @pytest.mark.parametrize("task", TASKS, ids=["roller", "rocker"])

@@ -167,7 +167,7 @@ def check(
     request = Request(found, variant or "", *said)
     asked = asked_of(request.solution(variant or next(iter(found.variants)), {}))
     if plans is not None:
-        whole = asked_of(replace(request, only=None).solution(variant or next(iter(found.variants)), {}))
+        whole = asked_of(replace(request, only=None, format=None).solution(variant or next(iter(found.variants)), {}))
         asked = replace(asked, others=frozenset(whole.names).difference(asked.names))
     marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked)
     students = None if roster is None else read_roster(os.fspath(roster), found)
