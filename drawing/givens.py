@@ -32,7 +32,8 @@ def choice(words: Words, name: str, value: str) -> tuple[str, str]:
 def _number(words: Words, value: float) -> str:
     """Return a number as short as it is: a third as a fraction."""
     simple = Fraction(value).limit_denominator(DENOMINATOR)
-    if len(text := words.short(value)) > LONG and abs(value - simple) < ROUNDING * abs(value):
+    whole = simple.denominator == 1
+    if len(text := words.short(value)) > LONG and not whole and abs(value - simple) < ROUNDING * abs(value):
         return f"{simple.numerator}/{simple.denominator}"
     return text
 

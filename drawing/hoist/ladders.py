@@ -10,7 +10,7 @@ from ...plans.hoist.solve import SCALES, SolvedHoist
 from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, steps
 
-SPAN, DIAMETER = 160.0, 80.0  # mm of paper that the longer beam and the circle may take
+SPAN, DIAMETER = 160.0, 110.0  # mm of paper that the longer beam and the circle may take
 
 
 def scheme_ladder(solved: SolvedHoist, choosers: Choosers) -> tuple[float, ...]:

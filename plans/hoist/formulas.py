@@ -133,6 +133,9 @@ define(
     article_speed=lambda V_0, a, slack, weight, C_12: np.where(
         slack > 0.0, np.sqrt(2.0 * a * (slack + weight / C_12)), V_0
     ),
+    article_force=lambda m, g, a, V, C_12, k_1, T: (
+        m * g + m * a * (1.0 - np.cos(k_1 * T)) + V * np.sqrt(m * C_12) * np.sin(k_1 * T)
+    ),
     article_maximum=lambda m, g, a, V, C_12: m * g + m * a + np.sqrt((m * a) * (m * a) + V * V * m * C_12),
     article_time=lambda V, k_1, a: np.arctan2(V * k_1, -a) / k_1,
     # sigma = F / S, safety = [sigma] / sigma

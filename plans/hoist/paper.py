@@ -19,7 +19,8 @@ from .forces import Forces, motion_givens
 from .refining import rest_of_root
 
 MM = 1e-3  # metres of paper in a millimetre: the diagrams are drawn in these
-TIMES, ORDINATES, SPAN, BEND = 180.0, 120.0, 160.0, 40.0  # mm of paper that axes may take
+TIMES, ORDINATES, SPAN, BEND = 180.0, 120.0, 160.0, 40.0  # mm of paper that axes should take
+WIDEST = 2.0  # ratio of neighbours in the series of scale factors
 TALLEST = 1.05  # of the greatest force, the axis of forces
 SWINGS = 1.1  # of T_1, the axis of times beyond the lift-off
 # units of the scale factors of diagrams
@@ -79,7 +80,12 @@ def scale_factors(found: Mapping[str, float], layout: Layout, end: float) -> dic
     if layout.bent:
         wanted["mu_x"] = max(found[f"l_{i}"] for i in BENT) / SPAN
         wanted["mu_w"] = max(found[f"w_{i}_max"] for i in layout.bent) / BEND
-    return {name: steps(mu)[0] for name, mu in wanted.items()}
+    return {name: _nearest(mu) for name, mu in wanted.items()}
+
+
+def _nearest(mu: float) -> float:
+    """Return the scale factor of the customary series that is nearest to one, by their ratio."""
+    return min(steps(mu / WIDEST), key=lambda step: abs(math.log(step / mu)))
 
 
 def _of_roots(found: Mapping[str, float], roots: Roots) -> dict[str, float]:

@@ -161,14 +161,12 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         return lettered(words, len(solved.layout.roots.times) if solved.layout.roots else 0)
 
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
-        """Refuse: a hoist has no sheet yet.
+        """Draw the sheet of a hoist."""
+        from ...drawing.hoist.fitting import Contents
+        from ...drawing.hoist.sheet import draw
 
-        Raises
-        ------
-        InputError
-            Always.
-        """
-        raise InputError("kind-without", task=case.task.id, text="sheet")
+        contents = Contents(hoist(case.solved), case.plans, case.choosers, case.givens, words, norm)
+        return draw(contents, stamp, paper)
 
 
 KIND = Hoists()

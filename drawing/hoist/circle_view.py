@@ -1,0 +1,49 @@
+"""The circle of phase 2: abscissas are the force of the rope, ordinates its rate by k_1, both to one scale."""
+
+from __future__ import annotations
+
+from cmath import phase
+from math import pi
+
+from ...plans.hoist.model import CIRCLE
+from ..shapes import Arc, Group, Head, Line, Pen
+from ..symbols import angle_dimension
+from ..view import View
+from .scene import HoistScene, canvas_of
+
+PAST = 14.0  # mm by which the axis runs past the circle
+ANGLE = 0.3  # part of the radius at which the angle is dimensioned
+
+
+def circle_view(scene: HoistScene) -> View:
+    """Draw the circle with its start, its diameter and the angle run through."""
+    canvas, words = canvas_of(scene), scene.words
+    centre, start = (scene.mm(f"{CIRCLE}.{mark}") for mark in ("C", "1"))
+    start -= centre
+    radius = abs(start)
+    left, right, top = complex(-radius - PAST), complex(radius + PAST), complex(0.0, radius + PAST)
+    for a, b in ((left, right), (-top, top)):
+        canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
+    canvas.label(f"{words.symbol('P_12')}, {words.unit('N')}", right, prefer=-1j, clear=1.2)
+    canvas.label(f"P′_{{12}}/k_{{1}}, {words.unit('N')}", top, prefer=1.0 + 0j, clear=1.2)
+    canvas.add(
+        Group(tuple(Arc(0j, radius, k * pi, pi, Pen.MAIN) for k in range(2)), "circle", "R"),
+        Line(0j, start, Pen.MAIN, role="radius", name="R"),
+    )
+    run = phase(start) % (2.0 * pi)
+    canvas.add(angle_dimension(0j, max(ANGLE * radius, 8.0), run, -run, "phi_1", scene.style))
+    middle = max(ANGLE * radius, 8.0) * complex(*_unit(0.5 * run))
+    canvas.label(scene.stated("phi_1", unit="rad"), middle, prefer=middle, clear=1.0, height=scene.style.text)
+    canvas.label(scene.stated("R"), (0j, start), clear=1.0, height=scene.style.text)
+    marks = {"P_m": 0j, "F_12_t1": start, "P_12_max": complex(radius), "P_12_min": complex(-radius)}
+    for name, at in marks.items():
+        canvas.add(scene.node(at, name, filled=True))
+        value = scene.size("P_m") - scene.size("R") if name == "P_12_min" else scene.size(name)
+        canvas.label(scene.stated(name, value), at, prefer=(at or -1j) - 0.6j, clear=1.2, height=scene.style.text)
+    return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")))
+
+
+def _unit(angle: float) -> tuple[float, float]:
+    from math import cos, sin
+
+    return cos(angle), sin(angle)

@@ -1,0 +1,121 @@
+"""The views of a hoist's sheet for a format, in the order of the work, at scale factors that have room."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PART, SCHEME_PART
+from ...plans.hoist.solve import SCALES, SolvedHoist
+from ...scales.scale import Scale
+from ..contents import SheetContents
+from ..formats import Format
+from ..rungs import Figure
+from ..style import STYLES
+from ..table import text_block
+from ..view import View
+from ..words import Words
+from .ladders import circle_ladder, scheme_ladder
+from .letters import lettered
+from .scene import HoistScene
+
+TEXT_WIDTH = 120.0
+HoistFigure = Figure[HoistScene]
+
+
+@dataclass(frozen=True, slots=True)
+class Contents(SheetContents[SolvedHoist]):
+    """What the sheet of a hoist shows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rungs:
+    """How small things are drawn: the scheme, the circle; each a rung."""
+
+    mu_l: int = 0
+    mu_F_circle: int = 0
+
+
+@dataclass(slots=True)
+class Fitting:
+    """Draws the figures of `contents` for any format, each only once."""
+
+    contents: Contents
+    ladders: Mapping[str, tuple[float, ...]] = field(init=False)
+    _words: Words = field(init=False)
+    _drawn: dict[tuple[str, str, tuple[int, ...]], View] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Find the ladders."""
+        contents, roots = self.contents, self.contents.solved.layout.roots
+        self._words = lettered(contents.words, len(roots.times) if roots else 0)
+        self.ladders = {
+            "mu_l": scheme_ladder(contents.solved, contents.choosers),
+            "mu_F_circle": circle_ladder(contents.solved, contents.choosers),
+        }
+
+    def scene(self, sheet: Format, rungs: Rungs) -> HoistScene:
+        """Return the scene of a sheet on a format."""
+        contents = self.contents
+        mus = {name: ladder[getattr(rungs, name)] for name, ladder in self.ladders.items()}
+        return HoistScene(contents.solved, self._words, STYLES[sheet.letters], contents.givens, mus)
+
+    def views(self, sheet: Format, rungs: Rungs) -> list[tuple[View, HoistFigure]]:
+        """Return the views of a sheet in the order of the work."""
+        scene, found = self.scene(sheet, rungs), []
+        for name, figure in figures(self.contents):
+            key = sheet.name, name, tuple(getattr(rungs, ladder) for ladder in figure.ladders)
+            if key not in self._drawn:
+                self._drawn[key] = figure.draw(scene)
+            found.append((self._drawn[key], figure))
+        return found
+
+    def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
+        """Return the scale factors of the plans as they are drawn."""
+        scene = self.scene(sheet, rungs)
+        return {plan: scene.scale(SCALES[plan]) for plan in self.contents.solved.scale_of_plan}
+
+
+def figures(contents: Contents) -> Iterator[tuple[str, HoistFigure]]:
+    """Go through the figures of a sheet, by name, in the order of the work."""
+    from .flow_view import flow_view
+    from .model_view import model_view
+    from .tables import checks_table, data_table, results_table, scales_table
+
+    layout, plans = contents.solved.layout, contents.plans
+    yield "givens", Figure(data_table)
+    if SCHEME_PART in plans:
+        from .scheme_view import scheme_view
+
+        yield "scheme", Figure(scheme_view, ("mu_l",))
+        yield "model", Figure(model_view)
+    yield "results", Figure(results_table)
+    if FORCES_PART in plans:
+        from .forces_view import forces_view
+
+        yield "forces", Figure(forces_view)
+    if ROOTS_PART in plans and layout.roots is not None:
+        from .roots_view import extremes_view, lift_off_view
+
+        yield "lift_off", Figure(lift_off_view)
+        if layout.roots.waves:
+            yield "extremes", Figure(extremes_view)
+    if CIRCLE_PART in plans:
+        from .circle_view import circle_view
+
+        yield "circle", Figure(circle_view, ("mu_F_circle",))
+    if BEAMS_PART in plans and layout.bent:
+        from .beams_view import beams_view
+
+        yield "beams", Figure(beams_view)
+    yield "strength", Figure(strength_block)
+    yield "checks", Figure(checks_table)
+    yield "flow", Figure(flow_view)
+    yield "scales", Figure(scales_table)
+
+
+def strength_block(scene: HoistScene) -> View:
+    """Return the check of strength."""
+    from .tables import strength_lines
+
+    return text_block("strength", scene.words["heading.hoist_safety"], strength_lines(scene), scene.style, TEXT_WIDTH)

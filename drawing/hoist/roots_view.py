@@ -1,0 +1,102 @@
+"""The equations (11) and (12) solved by drawing: curves that cross, and the times read at their crossings."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...plans.hoist.construction import Roots
+from ...plans.hoist.root_plans import EXTREMES, LIFT_OFF
+from ...plans.laws import LAWS
+from ..diagram import Axis, Field, axes, curve, divisions
+from ..shapes import Line, Pen
+from ..view import Canvas, View
+from .scene import POINTS, HoistScene, canvas_of
+
+
+def _roots(scene: HoistScene) -> Roots:
+    roots = scene.solved.layout.roots
+    assert roots is not None
+    return roots
+
+
+def _times(scene: HoistScene) -> Any:
+    roots = _roots(scene)
+    return np.linspace(0.0, roots.sections * roots.section, POINTS)
+
+
+def _field(scene: HoistScene, letter: str, symbol: str, ends: tuple[float, float]) -> Field:
+    """Return the axes of a diagram; times count from where it begins."""
+    words, roots, time, scale = scene.words, _roots(scene), scene.scale("mu_t1"), scene.scale(symbol)
+    end = roots.sections * roots.section
+    across = {
+        t - roots.begin: words.short(round(t, 9))
+        for t in divisions(roots.begin + end, roots.begin, time.mu, 16.0)
+        if t >= roots.begin
+    }
+    up = {y: words.short(round(y, 9)) for y in divisions(max(ends[1], 0.0), min(ends[0], 0.0), scale.mu, 12.0)}
+    x = Axis(f"t, {words.unit('s')}", time, 0.0, end, across)
+    return Field(0j, x, Axis(letter, scale, min(ends[0], 0.0), max(ends[1], 0.0), up))
+
+
+def lift_off_view(scene: HoistScene) -> View:
+    """Draw the crossing of parabola and sinusoid."""
+    canvas, words, found, roots = canvas_of(scene), scene.words, scene.solved.forces.found, _roots(scene)
+    t = _times(scene)
+    V, a, k = found["V_t"], found["a"], found["k"]
+    with np.errstate(invalid="ignore"):
+        wave = np.asarray(LAWS["oscillation"](V, a, k, roots.begin + t)) + 0.0 * t
+    parabola = np.asarray(LAWS["wound"](V, a, roots.begin + t)) - found["P_st"] / found["C"]
+    low, high = float(min(parabola.min(), wave.min())), float(max(parabola.max(), wave.max()))
+    field = _field(scene, f"y, {words.unit('m')}", "mu_y", (low, high))
+    axes(canvas, field)
+    for name, ordinates in (("parabola", parabola), ("sinusoid", wave)):
+        curve(canvas, field, zip(t.tolist(), ordinates.tolist(), strict=True), name)
+    for letter in "YO":
+        canvas.add(*(_node(scene, LIFT_OFF, f"{letter}{i}") for i in range(roots.sections + 1)))
+    at = POINTS // 4
+    canvas.label("y − mg/C", field.at(float(t[at]), float(parabola[at])), prefer=-1j, clear=1.5)
+    canvas.label("osc", field.at(float(t[at]), float(wave[at])), prefer=1j, clear=1.5)
+    _crossing(canvas, scene, LIFT_OFF, "X", "t_1_drawn")
+    heading = (words["heading.hoist_lift_off"], scene.factors("mu_y", "mu_t1"))
+    return canvas.finish("lift_off", heading, (scene.stated("t_1", unit="s"),))
+
+
+def extremes_view(scene: HoistScene) -> View:
+    """Draw the crossings of sinusoid and straight line."""
+    canvas, words, found, roots = canvas_of(scene), scene.words, scene.solved.forces.found, _roots(scene)
+    t = _times(scene)
+    V, a, k = found["V_t"], found["a"], found["k"]
+    wave = np.asarray(LAWS["oscillation_rate"](V, a, k, roots.begin + t))
+    ends = [scene.mm(f"{EXTREMES}.L{i}") for i in range(2)]
+    mu = scene.scale("mu_v").mu
+    levels = [end.imag * mu for end in ends]
+    field = _field(scene, words.unit("m/s"), "mu_v", (min(*levels, float(wave.min())), float(wave.max())))
+    axes(canvas, field)
+    curve(canvas, field, zip(t.tolist(), wave.tolist(), strict=True), "sinusoid")
+    canvas.add(Line(ends[0], ends[1], Pen.MAIN, role="curve", name="line"))
+    canvas.add(*(_node(scene, EXTREMES, f"W{i}") for i in range(roots.sections + 1)))
+    at = POINTS // 6
+    canvas.label("V cos kt + (a/k) sin kt", field.at(float(t[at]), float(wave[at])), prefer=1j, clear=1.5)
+    name = f"−({words.symbol('C_01')}/{words.symbol('C_12')})(V + at)"
+    canvas.label(name, (ends[0], ends[1]), prefer=-1j, clear=1.5)
+    for n in range(1, len(roots.times) + 1):
+        _crossing(canvas, scene, EXTREMES, f"X{n}", f"t_2_{n}_drawn")
+    notes = [scene.stated(f"t_2_{n}", time, "s") for n, time in enumerate(roots.times, 1)]
+    said = ("; ".join(notes),) if notes else (words["hoist.no_extremes"],)
+    return canvas.finish("extremes", (words["heading.hoist_extremes"], scene.factors("mu_v", "mu_t1")), said)
+
+
+def _node(scene: HoistScene, plan: str, mark: str) -> Any:
+    return scene.node(scene.mm(f"{plan}.{mark}"), mark)
+
+
+def _crossing(canvas: Canvas, scene: HoistScene, plan: str, mark: str, name: str) -> None:
+    """Mark a crossing, and carry it down to the axis of times."""
+    at = scene.mm(f"{plan}.{mark}")
+    quantity = scene.solved.quantities[name]
+    if abs(at.imag) > 0.01:
+        canvas.add(Line(at, complex(at.real, 0.0), Pen.DASHED, role="projection", name=name))
+    canvas.add(scene.node(at, mark, filled=True))
+    canvas.label(scene.stated(name, quantity.value or 0.0, "s"), at, prefer=1.0 - 1j, clear=1.2)

@@ -1,0 +1,70 @@
+"""What every view of a hoist needs: the hoist solved, scale factors as they are drawn, words, sizes of the format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ...plans.hoist.paper import MM
+from ...plans.hoist.paper import UNITS as SCALED
+from ...plans.hoist.solve import ON_PAPER, SCALES, SolvedHoist
+from ...scales.scale import Scale
+from ..givens import Given
+from ..printed import decimals_for
+from ..shapes import Circle, Group, Pen
+from ..style import Style
+from ..view import Canvas
+from ..words import Words
+
+COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
+POINTS = 300  # of a curve
+DIGITS = 4
+BIG = 1e5  # N/m, Pa from which on a value has a power of ten
+
+
+@dataclass(frozen=True, slots=True)
+class HoistScene:
+    """A solved hoist on a certain format, in certain words; `mus` are the chosen scale factors, SI per mm."""
+
+    solved: SolvedHoist
+    words: Words
+    style: Style
+    givens: Mapping[str, Given]
+    mus: Mapping[str, float]
+
+    def size(self, name: str) -> float:
+        """Return a quantity or a given, SI."""
+        return float(self.solved.forces.found[name])
+
+    def scale(self, symbol: str) -> Scale:
+        """Return a scale factor as it is drawn."""
+        if symbol in SCALED:
+            return Scale(symbol, float(self.solved.values[symbol]) * MM, SCALED[symbol])
+        return Scale(symbol, self.mus[symbol], "m" if symbol == "mu_l" else "N")
+
+    def mm(self, mark: str) -> complex:
+        """Return a mark in mm from the origin of its plan."""
+        plan = mark.rpartition(".")[0]
+        return self.solved.point(mark) * (1.0 / (MM if plan in ON_PAPER else self.mus[SCALES[plan]]))
+
+    def value(self, value: float) -> str:
+        """Return a value with the usual digits."""
+        return self.words.number(value, decimals_for(value, DIGITS))
+
+    def stated(self, name: str, value: float | None = None, unit: str = "N") -> str:
+        """Return a quantity with its symbol and unit."""
+        number = self.value(self.size(name) if value is None else value)
+        return f"{self.words.symbol(name)} = {number} {self.words.unit(unit)}"
+
+    def factors(self, *symbols: str) -> str:
+        """Return scale factors in one line."""
+        return ";  ".join(self.words.scale(self.scale(symbol)) for symbol in symbols)
+
+    def node(self, at: complex, name: str, filled: bool = False) -> Group:
+        """Return the mark of a point of a diagram."""
+        return Group((Circle(at, self.style.node, Pen.THIN, fill="black" if filled else "white"),), "node", name)
+
+
+def canvas_of(scene: HoistScene) -> Canvas:
+    """Return an empty canvas, on which letters keep clear of curves to a tenth of a millimetre."""
+    return Canvas(scene.style, coarse=COARSE)

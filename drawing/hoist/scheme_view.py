@@ -1,0 +1,65 @@
+"""The scheme of the hoist to scale: support beam with the load, bridge beam with the drum, the rope between them."""
+
+from __future__ import annotations
+
+from ...plans.hoist.beam_plans import SCHEME
+from ..dimensions import linear
+from ..shapes import Circle, Group, Line, Pen, Polyline
+from ..symbols import fixed_pivot, hatching
+from ..view import Canvas, View
+from .scene import HoistScene, canvas_of
+
+LOAD = 0.45  # of the rope's length, the height of the load at most
+BOX = 12.0  # mm, the load's height at most
+DRUM = 3.0  # mm, radius
+
+
+def scheme_view(scene: HoistScene) -> View:
+    """Draw the scheme with its dimensions."""
+    canvas, words, style = canvas_of(scene), scene.words, scene.style
+    at = {mark: scene.mm(f"{SCHEME}.{mark}") for mark in ("O1", "O2", "A0", "A2", "B1", "B2")}
+    rope = abs(at["A2"] - at["A0"])
+    tall = min(BOX, LOAD * rope)
+    corners = tuple(at["A0"] + complex(x * 0.8 * tall, y * tall) for x, y in ((-1, 0), (1, 0), (1, 1), (-1, 1)))
+    canvas.add(Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "link", "1"))
+    canvas.add(Line(at["A0"] + 1j * tall, at["A2"], Pen.MAIN, role="rope", name="L"))
+    canvas.add(Group((Circle(at["A2"], DRUM, Pen.MAIN, fill="white"),), "drum", "A2"))
+    for left, right, number in (("O1", "O2", "0"), ("B1", "B2", "2")):
+        canvas.add(Group((Line(at[left], at[right]),), "link", number))
+        canvas.add(fixed_pivot(at[left], left, style), rolling_support(at[right], right, scene))
+    for mark, letter in (("A0", "A_{0}"), ("A2", "A_{2}")):
+        canvas.label(letter, at[mark], prefer=(1.0 + 1j) if mark == "A2" else (1.0 - 1j), clear=DRUM)
+    canvas.label(f"{words.symbol('G_1')}", at["A0"] + complex(0.8 * tall, 0.5 * tall), prefer=1.0 + 0j, clear=1.0)
+    _dimensions(canvas, scene, at)
+    ratio = words.short(round(scene.mus["mu_l"] * 1e3, 6))
+    heading = (
+        words["heading.hoist_scheme"],
+        f"{words['said.cam_drawn'].format(ratio=f'1:{ratio}')};  {scene.factors('mu_l')}",
+    )
+    return canvas.finish("scheme", heading)
+
+
+def _dimensions(canvas: Canvas, scene: HoistScene, at: dict[str, complex]) -> None:
+    """Dimension spans, the places of load and drum from the nearer ends, and the rope."""
+    layout, drop = scene.solved.layout, -1j * (scene.style.pivot[1] + 2.0 * scene.style.pair + 8.0)
+    step = -1j * 3.2 * scene.style.text
+    for i, ends, mark in ((0, ("O1", "O2"), "A0"), (2, ("B1", "B2"), "A2")):
+        near = ends[0] if layout.near[i // 2] == "left" else ends[1]
+        pair = tuple(sorted((at[near], at[mark]), key=lambda p: p.real))
+        linear(canvas, (pair[0], pair[1]), drop, scene.stated(f"b_{i}", unit="m"), f"b_{i}")
+        linear(canvas, (at[ends[0]], at[ends[1]]), drop + step, scene.stated(f"l_{i}", unit="m"), f"l_{i}")
+    far = max(at["O2"].real, at["B2"].real) + scene.style.pivot[2]
+    linear(canvas, (at["A0"], at["A2"]), complex(far - at["A0"].real), scene.stated("L", unit="m"), "L")
+
+
+def rolling_support(at: complex, name: str, scene: HoistScene) -> Group:
+    """Return a support that can roll: circle, triangle, rollers on a hatched line."""
+    width, height, base = scene.style.pivot
+    pivot = fixed_pivot(at, name, scene.style)
+    foot = at - 1j * (height + scene.style.pair)
+    radius = 0.14 * height
+    below = foot - 2j * radius
+    rollers = tuple(Circle(foot + complex(x * 0.3 * width, -radius), radius, Pen.THIN) for x in (-1, 0, 1))
+    ends = below - 0.5 * base, below + 0.5 * base
+    kept = tuple(shape for shape in pivot.shapes if not (isinstance(shape, Line) and shape.role == "hatch"))
+    return Group((*kept, *rollers, Line(*ends), *hatching(*ends, -1j, scene.style)), "pivot", name)

@@ -1,0 +1,37 @@
+"""The sheet of a hoist: the smallest format of which one sheet holds everything, or several pages of a given one."""
+
+from __future__ import annotations
+
+from ...scales.choices import SIZES
+from ..compose import arrange, arrange_closely, compose, worth_trying
+from ..formats import FORMATS, Format
+from ..page import Drawn
+from ..rungs import fitted, on_pages
+from ..titleblock import Stamp
+from .fitting import Contents as Contents
+from .fitting import Fitting, Rungs
+
+
+def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn:
+    """Draw the sheet on `sheet`, or on the smallest format of which one sheet holds everything.
+
+    Raises
+    ------
+    InputError
+        When a view has no room on a page of the format.
+    """
+    fitting, largest, norm = Fitting(contents), FORMATS[SIZES[-1]], contents.norm
+    formats = [sheet] if sheet else worth_trying([view for view, _ in fitting.views(largest, Rungs())])
+    rungs, places = Rungs(), None
+    for candidate in formats:
+        views = [view for view, _ in fitting.views(candidate, rungs)]
+        places = arrange([view.size for view in views], candidate, norm, 1, any_order=True)
+        if places is not None:
+            break
+    if places is None:
+        rungs = fitted(fitting, candidate, norm, rungs)
+        views = [view for view, _ in fitting.views(candidate, rungs)]
+        ways = on_pages(views, candidate, norm), arrange_closely([view.size for view in views], candidate, norm)
+        places = min(filter(None, ways), key=lambda found: max(place.page for place in found))
+    pages = compose(views, places, candidate, norm, stamp)
+    return Drawn(pages, fitting.scales(candidate, rungs), candidate.name, views=tuple(views))

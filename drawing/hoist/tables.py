@@ -1,0 +1,100 @@
+"""Tables of a hoist: its quantities with their units, what formulas and rope are judged by, scale factors."""
+
+from __future__ import annotations
+
+import math
+
+from ...plans.hoist.checks import STRENGTH, Check
+from ...plans.hoist.paper import UNITS as SCALED
+from ...plans.hoist.sections import DRAWN, section_of
+from ...plans.hoist.solve import unit_of
+from ..givens import givens_view
+from ..table import table
+from ..view import View
+from .scene import HoistScene
+
+READING = 0.3  # mm by which a drawing is read
+OF_CHECK = {"rope_phase_1": "F_12_min", "rope_phase_2": "P_12_min", "support": "s_min", STRENGTH: "safety"}
+
+
+def data_table(scene: HoistScene) -> View:
+    """Return the givens in the task's own units."""
+    return givens_view(scene.givens, scene.words, scene.style)
+
+
+def results_table(scene: HoistScene) -> View:
+    """Return what is calculated, in two halves side by side."""
+    words, solved = scene.words, scene.solved
+    cells = []
+    for name, quantity in solved.quantities.items():
+        if section_of(name) == DRAWN or name in SCALED:
+            continue
+        value = words["table.calculated"] if quantity.value is None else scene.value(quantity.value)
+        unit = unit_of(name)
+        cells.append([words.symbol(name), value, "" if unit == "1" else words.unit(unit)])
+    half = (len(cells) + 1) // 2
+    head = [words["table.symbol"], words["table.value"], words["table.unit"]]
+    rows = [left + right for left, right in zip(cells[:half], [*cells[half:], ["", "", ""]], strict=False)]
+    return table("results", words["heading.hoist_results"], [head + head, *rows], scene.style)
+
+
+def checks_table(scene: HoistScene) -> View:
+    """Return the conditions of validity and strength, each with its number and verdict."""
+    words = scene.words
+    head = [words[f"gear.{name}"] for name in ("check", "condition", "value", "verdict")]
+    rows = [_check_row(scene, check) for check in scene.solved.forces.checks]
+    return table("checks", words["heading.hoist_checks"], [head, *rows], scene.style)
+
+
+def _check_row(scene: HoistScene, check: Check) -> list[str]:
+    words = scene.words
+    sign = "≥" if check.name != "support" else ">"
+    condition = f"{words.symbol(OF_CHECK[check.name])} {sign} {words.short(check.limit)}"
+    unit = f" {words.unit(check.unit)}" if check.unit else ""
+    verdict = words["said.cam_ok" if check.ok else "said.cam_fails"]
+    return [words[f"hoist.{check.name}"], condition, scene.value(check.value) + unit, verdict]
+
+
+def scales_table(scene: HoistScene) -> View:
+    """Return the scale factors, and by how much a reading may err."""
+    words = scene.words
+    head = [words["table.symbol"], words["table.value"], words["table.unit"], words["hoist.reading"]]
+    rows = []
+    symbols = [
+        *dict.fromkeys(scene.solved.scale_of_plan.values()),
+        *(s for s in SCALED if s in scene.solved.quantities),
+    ]
+    for symbol in dict.fromkeys(symbols):
+        scale = scene.scale(symbol)
+        error = f"±{words.short(round(READING * scale.mu, 12))} {words.unit(scale.unit)}"
+        rows.append([words.symbol(symbol), words.short(scale.mu), words.unit(scale.per_mm_unit), error])
+    return table("scales", words["heading.cam_scales"], [head, *rows], scene.style)
+
+
+def strength_lines(scene: HoistScene) -> list[tuple[str, ...]]:
+    """Return the check of strength as lines: force, stress, safety, verdict; and what the article would say."""
+    words, found = scene.words, scene.solved.forces.found
+    greatest = words.symbol("P_12_max" if found["P_12_max"] >= found["F_12_max"] else "F_12_max")
+    lines: list[tuple[str, ...]] = [
+        (f"{words.symbol('F_max')} = {greatest} =", f"{scene.value(found['F_max'])} {words.unit('N')}"),
+        (
+            f"{words.symbol('sigma_max')} = {words.symbol('F_max')}/S =",
+            f"{scene.value(found['sigma_max'] * 1e-6)} {words.unit('MPa')}",
+        ),
+        (
+            f"[σ]/{words.symbol('sigma_max')} =",
+            f"{scene.value(found['safety'])}",
+            f"{'≥' if scene.solved.forces.ok[STRENGTH] else '<'} K = {words.short(found['K'])}",
+        ),
+        (words["hoist.strong" if scene.solved.forces.ok[STRENGTH] else "hoist.weak"],),
+        (scene_factor(scene),),
+    ]
+    printed = found["sigma"] * found["S"] / max(found["P_12_max_printed"], math.nextafter(0.0, 1.0))
+    if (printed >= found["K"]) != scene.solved.forces.ok[STRENGTH]:
+        lines.append((words["hoist.disagrees"].format(safety=scene.value(printed)),))
+    return lines
+
+
+def scene_factor(scene: HoistScene) -> str:
+    """Return the dynamic factor."""
+    return f"{scene.words.symbol('dynamic_factor')} = {scene.value(scene.size('dynamic_factor'))}"
