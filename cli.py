@@ -477,6 +477,9 @@ def _print_class(
 @of_norm
 @titled(*BLOCK)
 @click.option("--jobs", metavar="N", default="0", callback=count, help="Processes; as many as cores when left out.")
+@click.option(
+    "--dask", metavar="ADDRESS", help="Work on a Dask cluster: the address of its scheduler, tcp://host:8786."
+)
 def batch(task: str, settings: dict[str, str], kinds: tuple[str, ...], **options: Any) -> int:
     """Draw the sheets of TASK for a class and write their notes, with a list of the files and the key for the teacher.
 

@@ -18,7 +18,7 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ..arguments import by_name, plans_wanted
 from ..case import Settings
-from ..crew import shared_out
+from ..crew import Done, shared_out
 from ..journal import Journal, digest_of
 from ..kinds import kind_of
 from ..marking.cells_out import csv_bytes, table_bytes
@@ -32,6 +32,7 @@ from .tables import key_rows, manifest_rows, roster_rows
 JOURNAL = ".kulman-batch.jsonl"
 MANIFEST, KEY = "manifest.csv", "key.csv"
 Advance = Callable[[int, int], None]
+Crew = Callable[[Making, list[Student]], Iterator[list[Done[Made]]]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +99,7 @@ def batch(
     lang: str = "uk",
     block: Mapping[str, str] | None = None,
     jobs: int | None = None,
+    dask: str | None = None,
     advance: Advance | None = None,
 ) -> Batch:
     """Draw the sheet of every student of a class.
@@ -121,6 +123,8 @@ def batch(
         What is said in every title block: `teacher`, `department`, `designation`, `date`.
     jobs : int, optional
         Processes; as many as there are cores when left out.
+    dask : str, optional
+        The address of a Dask scheduler, whose workers do the work in the place of processes here.
     advance : callable, optional
         Told how many students more are done, and of how many.
 
@@ -139,7 +143,8 @@ def batch(
     entries = read_roster(os.fspath(roster), found, each=True).entries
     students = tuple(Student(number, entry) for number, entry in enumerate(entries, 1))
     place = folder_for(folder)
-    outcomes = _run(making, students, place, jobs or os.cpu_count() or 1, advance or (lambda done, whole: None))
+    crew = _crew(jobs or os.cpu_count() or 1, dask)
+    outcomes = _run(making, students, place, crew, advance or (lambda done, whole: None))
     done = Batch(students, outcomes)
     for name, rows in ((MANIFEST, manifest_rows(done, lang)), (KEY, key_rows(done, lang))):
         write_whole(place / name, csv_bytes(list(rows), lang))
@@ -175,7 +180,18 @@ def _refuse_early(making: Making) -> None:
     making.task.resolve(next(iter(making.task.variants)), making.settings)
 
 
-def _run(making: Making, students: Sequence[Student], folder: Path, jobs: int, advance: Advance) -> tuple[Outcome, ...]:
+def _crew(jobs: int, dask: str | None) -> Crew:
+    """Return who does the work."""
+    if dask is None:
+        return lambda making, students: shared_out(making, students, jobs)
+    from ..cluster import on_cluster
+
+    return lambda making, students: on_cluster(making, students, dask)
+
+
+def _run(
+    making: Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance
+) -> tuple[Outcome, ...]:
     """Make what is not there yet; write it, and note it, as it comes."""
     journal = Journal(folder / JOURNAL, Outcome.from_json, Outcome.to_json)
     how = making.digest()
@@ -187,7 +203,7 @@ def _run(making: Making, students: Sequence[Student], folder: Path, jobs: int, a
     }
     advance(len(found), len(students))
     todo = [number for number in range(len(students)) if number not in found]
-    for done in shared_out(making, [students[number] for number in todo], jobs):
+    for done in crew(making, [students[number] for number in todo]):
         for one in done:
             number = todo[one.place]
             found[number] = _kept(one.made, students[number], folder, making.language)
