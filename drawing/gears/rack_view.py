@@ -11,7 +11,7 @@ import numpy as np
 from ...plans.gears.profile import Tooth
 from ..dimensions import linear
 from ..page import extent
-from ..shapes import Arc, Circle, Group, Line, Pen, Polyline
+from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension, right_angle
 from ..view import Canvas, View
 from .circles import PENS
@@ -34,6 +34,7 @@ def rack_view(overall: GearScene) -> View:
     x0, _, x1, _ = extent((line,))
     _lines(canvas, scene, x0 - PAST, x1 + PAST)
     _line_of_action(canvas, scene, tooth)
+    _corner(canvas, scene, tooth)
     heading = scene.words["heading.gear_rack"], scene.factor(scene.mu_l)
     return canvas.finish("rack", heading, tuple(scene.words["said.gear_rack"].split("|")))
 
@@ -62,8 +63,8 @@ def _wheel(canvas: Canvas, scene: GearScene, tooth: Tooth) -> None:
     for name, radius in (("", tooth.r), ("b", tooth.r_b)):
         arc = Arc(centre, radius * k, 0.5 * math.pi - half, 2.0 * half, PENS[name])
         canvas.add(Group((arc,), "circle", f"d_{name}1"))
-        end = centre + radius * k * cmath.rect(1.0, 0.5 * math.pi + half)
-        canvas.label(scene.words.symbol(f"d_{name}1"), end, prefer=-1 + 0j, clear=1.0, height=scene.style.text)
+        end = centre + radius * k * cmath.rect(1.0, 0.5 * math.pi - half)
+        canvas.label(scene.words.symbol(f"d_{name}1"), end, prefer=1 + 0j, clear=1.0, height=scene.style.text)
 
 
 def _lines(canvas: Canvas, scene: GearScene, left: float, right: float) -> None:
@@ -76,6 +77,17 @@ def _lines(canvas: Canvas, scene: GearScene, left: float, right: float) -> None:
         text = f"{words.symbol('x_1')}{words.symbol('m')} = {scene.length(shift * scene.mu_l)}"
         linear(canvas, (complex(right, 0.0), complex(right, shift)), 0j, "", "x_1")
         canvas.label(text, complex(right, 0.5 * shift), prefer=1 + 0j, clear=1.0, height=scene.style.text)
+
+
+def _corner(canvas: Canvas, scene: GearScene, tooth: Tooth) -> None:
+    """Give the radius of the rack's corner at its last tooth on the left."""
+    k, m = 1.0 / scene.mu_l, scene.size("m")
+    depth = (scene.size("h_a") + scene.size("c") - scene.size("x_1")) * m
+    centre = complex(-math.pi * m - tooth.e_f, tooth.rho_f - depth) * k
+    out = cmath.rect(1.0, 1.25 * math.pi)
+    at = centre + tooth.rho_f * k * out
+    canvas.add(Line(centre, at, Pen.THIN, role="radius", name="rho_f"), Head(at, out))
+    canvas.label(scene.stated("rho_f"), at, prefer=out, clear=1.0, height=scene.style.text)
 
 
 def _line_of_action(canvas: Canvas, scene: GearScene, tooth: Tooth) -> None:
