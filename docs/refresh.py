@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
-NAMES = ("accuracy", "cams", "cycle", "gears", "marking", "own-mechanism")
+NAMES = ("accuracy", "cams", "cycle", "gears", "hoist", "marking", "own-mechanism")
 DOCUMENTS = (README, *(ROOT / "docs" / f"{name}.md" for name in NAMES))
 PICTURES = ROOT / "docs" / "pictures"
 CHARTS = {  # by picture: what is charted
@@ -22,6 +22,10 @@ CHARTS = {  # by picture: what is charted
     "cam-sections": "madi-cam --chart sections",
     "cam-accuracy": "madi-cam --chart accuracy",
     "cam-stability": "madi-cam --chart stability",
+    "hoist-accuracy": "karpenko-hoist --chart accuracy",
+    "hoist-stability": "karpenko-hoist -v V10 --chart stability",
+    "hoist-depth": "karpenko-hoist -v V09 --chart depth",
+    "hoist-choice": "karpenko-hoist -v V03 --chart choice",
 }
 SHEETS = {  # by picture: what is drawn
     "nau-slider-crank-3": "nau-slider-crank -v 3 --student 'І. Петренко' --group АТ-301 --designation ТММ.РГР.03.01",
@@ -75,7 +79,7 @@ def main() -> None:
 
 
 def charts() -> None:
-    """Draw the charts of docs/accuracy.md and docs/cams.md."""
+    """Draw the charts of docs/accuracy.md, docs/cams.md and docs/hoist.md."""
     from PIL import Image
 
     for name, task in CHARTS.items():
