@@ -97,11 +97,12 @@ class Solution:
         return f"<Solution {self.task.id} {self.variant}: {self.status}, {len(self)} quantities>"
 
     def _repr_html_(self) -> str:
-        """Show the table in a notebook, and why a position has no plan."""
+        """Show the table in a notebook, what the task says of its data, and why a position has no plan."""
         from html import escape
 
-        reason = "" if self.reason is None else f"<p>{escape(self.reason.text(self.words.language))}</p>"
-        return f"{reason}<pre>{escape(self.table())}</pre>"
+        said = [] if self.reason is None else [self.reason.text(self.words.language)]
+        said += filter(None, [self.task.note_in(self.words.language)])
+        return "".join(f"<p>{escape(text)}</p>" for text in said) + f"<pre>{escape(self.table())}</pre>"
 
     def to_json(self) -> dict[str, Any]:
         """Return what `kulman solve --json` prints."""

@@ -182,3 +182,7 @@ def test_a_task_whose_source_prints_no_answers_says_so(
     monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
 
     assert run(capsys, "check", ROCKER, "printed") == ("", "the source of rocker-cam prints no answers\n")
+
+
+def test_a_notebook_shows_the_note() -> None:
+    assert f"<p>{load_task(TASK).note['en']}</p><pre>" in solve(TASK, lang="en", only="pressure")._repr_html_()
