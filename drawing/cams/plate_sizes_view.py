@@ -9,6 +9,7 @@ from ...plans.cams.size_plans import PLATE_SIZES
 from ..dimensions import linear
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension
+from ..text import lay_out
 from ..view import Canvas, View
 from .diagrams_view import SAME
 from .fan import small
@@ -101,5 +102,9 @@ def _sizes(canvas: Canvas, scene: CamScene) -> None:
     canvas.label("O", centre, prefer=1 - 1j, clear=1.0)
     sizes = ((low, "r_0_flat_min", plate.sizes.r_0_min), (centre, "r_0_flat", plate.sizes.r_0))
     for at, name, size in sizes:
-        text = f"{words.symbol(name)} = {scene.length(size)}"
+        symbol = words.symbol(name)
+        text = f"{symbol} = {scene.length(size)}"
+        between = abs(at) - 2.0 * style.arrow
+        if lay_out(text, style.text).width >= between > lay_out(symbol, style.text).width:
+            text = symbol  # the number stands with the calculations
         linear(canvas, (at, 0j), complex(OUT[name], 0.0), text, name)
