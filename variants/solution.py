@@ -18,6 +18,7 @@ from ..scales.units import format_unit
 from .case import Case, Settings, solve_case
 from .kinds import kind_of
 from .kinds.kind import Kind
+from .tables import aligned
 from .task import Task
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from ..plans.hands.hand import Hand
     from .hands import Drawing
 
+SIGNS = {"at-least": "≥", "at-most": "≤", "equal": "="}
 ROUNDING = 1e-14  # part of the largest quantity of a unit
 
 
@@ -157,7 +159,8 @@ class Solution:
     def table(self, language: str | None = None) -> str:
         """Return the quantities as a readable table: name, value, unit, components, segment in mm.
 
-        Where conditions were asked for, K and the sine of the worst intersection follow.
+        Where conditions were asked for, K and the sine of the worst intersection follow. At the end stand the checks of
+        a kind that has such a list.
         """
         words = self._words(language)
         rows = [
@@ -174,7 +177,29 @@ class Solution:
                 f"{name:{widths[0]}}  {value:>{widths[1]}}  {unit:>{widths[2]}} {parts:{widths[3]}}"
                 f"  {mm:{widths[4]}}  {condition:{widths[5]}}  {sine}".rstrip()
             )
+        if self.kind.judged:
+            lines += ["", words[self.kind.judged], aligned(_verdicts(self.checks, words), (0, 1, 3))]
         return "\n".join(lines)
+
+
+def _verdicts(checks: Mapping[str, Mapping[str, Any]], words: Words) -> list[list[str]]:
+    """Return a row for each check: its name, the quantity and its value, how it has to stand to its limit, verdict."""
+
+    def shown(value: float, si: str) -> str:
+        spelled = format_unit(words.display.unit(si), words.language)
+        return f"{words.short(words.display.value(value, si), 6)} {spelled}".rstrip()
+
+    return [
+        [
+            name,
+            check["quantity"],
+            shown(check["value"], check["unit"]),
+            SIGNS[check["relation"]],
+            shown(check["limit"], check["unit"]),
+            words["said.cam_ok" if check["ok"] else "said.cam_fails"],
+        ]
+        for name, check in checks.items()
+    ]
 
 
 def _without_rounding(q: Quantity, largest: float) -> Quantity:

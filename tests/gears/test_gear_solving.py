@@ -111,6 +111,16 @@ def test_checks_have_values_limits_and_verdicts(solution: Solution) -> None:
     assert solve(TASK, set={"material": "hardened"}).checks["tip_1"]["limit"] == pytest.approx(2e-3)
 
 
+def test_table_ends_in_the_checks_with_their_limits(solution: Solution) -> None:
+    last = solution.table("en").splitlines()[-len(solution.checks) :]
+
+    assert [line.split()[0] for line in last] == list(solution.checks)
+    assert last[4].split() == ["undercut_1", "x_1", "0.2", "≥", "0.122667", "satisfied"]
+    assert last[6].split() == ["interference_1", "rho_l1", "1.13054", "mm", "≤", "6.41925", "mm", "satisfied"]
+    bad = solve(TASK, set={"x_1": 0.1}, lang="en").table().splitlines()
+    assert [line.split()[0] for line in bad if line.endswith("not satisfied")] == ["undercut_1"]
+
+
 @pytest.mark.parametrize(
     ("settings", "failing", "told"),
     [

@@ -50,6 +50,7 @@ class Gears(Kind[GearPair, "SolvedGear"]):
     """External pairs of involute spur gears cut by a standard rack."""
 
     table, plans = "gear", PLANS
+    judged = "heading.gear_checks"
     pages = 2  # the meshing at 5:1 fills one
     display = Display(size="mm", angle="deg")
     instead = (

@@ -43,6 +43,7 @@ class Kind(ABC, Generic[Subject, Answer]):
     table: ClassVar[str]
     display: ClassVar[Display] = AS_INSIDE  # the units of results where a file says no others
     plans: ClassVar[tuple[str, ...]]
+    judged: ClassVar[str] = ""  # key of the heading of its checks, where a list of quantities ends in these
     pages: ClassVar[int] = 1  # how many a sheet has at most that holds everything well
     names: ClassVar[frozenset[str]] = frozenset()  # of what such a task may state; none where every task has its own
     segments: ClassVar[bool] = True  # whether a segment may choose a scale factor
