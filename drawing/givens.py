@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -31,6 +32,8 @@ def choice(words: Words, name: str, value: str) -> tuple[str, str]:
 
 def _number(words: Words, value: float) -> str:
     """Return a number as short as it is: a third as a fraction."""
+    if math.isinf(value):
+        return "∞"
     simple = Fraction(value).limit_denominator(DENOMINATOR)
     whole = simple.denominator == 1
     if len(text := words.short(value)) > LONG and not whole and abs(value - simple) < ROUNDING * abs(value):

@@ -62,4 +62,5 @@ def rolling_support(at: complex, name: str, scene: HoistScene) -> Group:
     rollers = tuple(Circle(foot + complex(x * 0.3 * width, -radius), radius, Pen.THIN) for x in (-1, 0, 1))
     ends = below - 0.5 * base, below + 0.5 * base
     kept = tuple(shape for shape in pivot.shapes if not (isinstance(shape, Line) and shape.role == "hatch"))
-    return Group((*kept, *rollers, Line(*ends), *hatching(*ends, -1j, scene.style)), "pivot", name)
+    ground = Line(*ends), *hatching(*ends, -1j, scene.style)
+    return Group((Group(kept, "pivot", name), Group((*rollers, *ground), "rollers", name)), "support", name)

@@ -34,6 +34,12 @@ if TYPE_CHECKING:
 
 DRAWN = "_drawn"  # what the name of a quantity ends with that is drawn
 UNASKED = ("s_min", "t_P12_max")
+RULES = {  # what is told of a check that fails
+    "rope_phase_1": "hoist-rule-rope-phase-1",
+    "rope_phase_2": "hoist-rule-rope-phase-2",
+    "support": "hoist-rule-support",
+    "strength": "hoist-rule-strength",
+}
 SYMBOLS = ("mu_l", "mu_F_circle")  # scale factors that may be chosen; those of the diagrams are found
 
 
@@ -99,7 +105,7 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         for check in solved.forces.checks:
             if not check.ok:
                 said = {"value": f"{check.value:.5g}", "limit": f"{check.limit:.5g}"}
-                found.append(InputError(f"hoist-rule-{check.name.replace('_', '-')}", **said))
+                found.append(InputError(RULES[check.name], **said))
         return tuple(found)
 
     def checks(self, solved: SolvedHoist, quantities: Mapping[str, Quantity]) -> Verdicts:
