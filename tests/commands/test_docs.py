@@ -16,6 +16,8 @@ from kulman.plans.cams.cam import FOLLOWERS, LAWS
 from kulman.plans.cams.cam import PLANS as CAM_PLANS
 from kulman.plans.gears.gear import MATERIALS
 from kulman.plans.gears.gear import PLANS as GEAR_PLANS
+from kulman.plans.hoist.hoist import PLANS as HOIST_PLANS
+from kulman.plans.hoist.hoist import SIDES, VALUES
 from kulman.plans.linkages.chain import PLANS
 from kulman.scales.packaged import packaged
 from kulman.variants import reader
@@ -24,6 +26,7 @@ from kulman.variants.checks import cam as checks_cam
 from kulman.variants.checks import driver as checks_driver
 from kulman.variants.checks import gear as checks_gear
 from kulman.variants.checks import givens as checks_givens
+from kulman.variants.checks import hoist as checks_hoist
 from kulman.variants.checks import loads as checks_loads
 from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.shelf import bundled_text
@@ -41,7 +44,7 @@ EXAMPLES = sorted((DOCS / "examples").glob("*.toml"))
 
 def example_texts() -> list[str]:
     """Return the task files from which the documents quote."""
-    bundled = (TASK, "scheme-20-press-automaton", "madi-cam", "madi-gear")
+    bundled = (TASK, "scheme-20-press-automaton", "madi-cam", "madi-gear", "karpenko-hoist")
     tasks = [*map(bundled_text, bundled), template("en", "cam")]
     return [*tasks, *(path.read_text(encoding="utf-8") for path in EXAMPLES)]
 
@@ -54,7 +57,7 @@ def keys_read(text: str, monkeypatch: pytest.MonkeyPatch) -> set[str]:
         keys.update(fields)
         return checks.record(checker, path, raw, fields)
 
-    own = (checks_mechanism, checks_driver, checks_loads, checks_cam, checks_gear)
+    own = (checks_mechanism, checks_driver, checks_loads, checks_cam, checks_gear, checks_hoist)
     modules: tuple[ModuleType, ...] = (reader, checks_givens, *own)
     for module in modules:
         monkeypatch.setattr(module, "record", noting)
@@ -93,9 +96,9 @@ def test_every_example_is_solved(path: Path) -> None:
 def test_the_words_that_a_task_file_may_use_are_named() -> None:
     assert all(f"`{name}`" in TASK_FILE for name in notations())
     assert all(f"`{name}`" in NOTATIONS for name in notations())
-    assert all(f'"{word}"' in TASK_FILE for word in (*PLANS, *CAM_PLANS, *GEAR_PLANS, *FOLLOWERS, *LAWS))
-    assert all(f'"{word}"' in TASK_FILE for word in MATERIALS)
-    assert all(f"`{name}`" in TASK_FILE for name in (*checks_cam.NUMBERS, *checks_gear.NUMBERS))
+    plans = (*PLANS, *CAM_PLANS, *GEAR_PLANS, *HOIST_PLANS)
+    assert all(f'"{word}"' in TASK_FILE for word in (*plans, *FOLLOWERS, *LAWS, *MATERIALS, *SIDES))
+    assert all(f"`{name}`" in TASK_FILE for name in (*checks_cam.NUMBERS, *checks_gear.NUMBERS, *VALUES))
 
 
 def test_every_key_of_a_notation_is_explained() -> None:
