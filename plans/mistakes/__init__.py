@@ -18,8 +18,8 @@
 
 `book.MISTAKES`
     All `Mistake(id, breaks, by_scale)` by id, `M01` ...; `inputs`, `reading`, `velocity`, `acceleration`, `forces` and
-    `lever` hold the rules of linkages, `cams` and `cam_sizes` those of cams, `gears` those of gears. Whether one concerns
-    a task follows from the steps of its program alone.
+    `lever` hold the rules of linkages, `cams` and `cam_sizes` those of cams, `gears` those of gears. Whether one
+    concerns a task follows from the steps of its program alone.
 `rules.Broken(mistake, at, how, program, givens)`
     One rule broken at one place: `at` names the step, the quantity or the given, `how` which of several ways.
 `book.broken(paper, values, ids=()) -> iterator of Broken`

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -29,7 +30,7 @@ def broken(paper: Paper, values: Mapping[str, Any], ids: Iterable[str] = ()) -> 
         yield from breaks(scene, MISTAKES[id])
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Book:
     """The signatures of all mistakes for one answer key; those that change nothing are left out.
 
@@ -51,6 +52,11 @@ class Book:
     allowed: NDArray[np.float64]
     vector: NDArray[np.bool_]
     turned: Turned
+
+    @cached_property
+    def other(self) -> NDArray[np.float64]:
+        """How many times larger what another way gives is than what the construction does, a mistake in it or none."""
+        return np.array([_ratio(self.key, name) for name in self.key.questions])
 
     def __len__(self) -> int:
         """Return the number of signatures."""
@@ -80,9 +86,16 @@ def _book(key: Key, found: Iterable[Signature], turned: Turned) -> Book:
     return Book(key, tuple(ordered), table, most, columns.right, columns.allowed, columns.vector, turned)
 
 
+def _ratio(key: Key, name: str) -> float:
+    """Return by how much what another way gives differs from the construction, as a factor."""
+    size = abs(key.values[name])
+    return float(abs(key.also[name]) / size) if name in key.also and size else 1.0
+
+
 def key_of(key: Key, signature: Signature) -> Key:
-    """Return the answer key as if the broken rule were the right one."""
+    """Return the answer key as if the broken rule were the right one, on either way."""
     allowed = dict(zip(key.questions, signature.allowed.tolist(), strict=True))
     paper = replace(key.paper, program=signature.broken.program, givens=signature.broken.givens)
     values = {**key.values, **signature.values}
-    return replace(key, paper=paper, values=values, allowed={**key.allowed, **allowed}, also={})
+    also = {name: values[name] * _ratio(key, name) for name in key.also}
+    return replace(key, paper=paper, values=values, allowed={**key.allowed, **allowed}, also=also)

@@ -12,9 +12,10 @@ import pytest
 
 from kulman.plans.boards.exact import run
 from kulman.plans.hands.shaky import Paper
+from kulman.plans.marking.answers import Answer
 from kulman.plans.marking.key import Key
 from kulman.plans.marking.verdicts import mark
-from kulman.plans.mistakes.book import broken
+from kulman.plans.mistakes.book import book, broken
 from kulman.plans.mistakes.explaining import Explanation, explain
 from kulman.plans.mistakes.signatures import Signature
 from kulman.tests.support.cam_students import (
@@ -133,6 +134,20 @@ def test_an_angle_of_the_rocker_is_that_at_another_corner() -> None:
     corners = [after("M13", how, of=key)["psi_0"] for how in ("first", "second")]
 
     assert sum(corners) + key["psi_0"] == pytest.approx(math.pi, rel=1e-12)
+
+
+def test_a_mistake_among_formulas_is_named_though_chords_give_other_numbers() -> None:
+    of = keyed_cam((("law", "sine"),), hand="cad")
+    behind = ("mu_ds", "mu_v", "mu_d2s", "mu_a", "ds_max", "v_max", "a_max", "A_1", "A_2")
+    said = {name: float(of.solution[name].value or 0.0) for name in ("l_A2", "mu_s", *behind)}
+    answers = [Answer(name, value=value * (H_V if name in behind else 1.0)) for name, value in said.items()]
+
+    explanation = explain(book(of.key), mark(of.key, answers))
+
+    assert abs(of.solution["mu_s"].value or 0.0) > of.key["mu_s"] + 3.0 * of.key.allowed["mu_s"]
+    assert explanation.marking.first_wrong == "mu_ds"
+    assert explanation.candidates[0].ids == {"M83"}
+    assert {line.name for line in explanation.marking.lines if line.verdict.faulty} == {"mu_ds"}
 
 
 # Planted mistakes.
