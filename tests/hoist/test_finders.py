@@ -45,9 +45,10 @@ def near_triple(away: float) -> tuple[Equation, float]:
     return lift_off_equation(V, 0.0, k, V / k * (x - math.sin(x))), x
 
 
+@pytest.mark.parametrize("count", [60, pytest.param(2000, marks=pytest.mark.soak)])
 @pytest.mark.parametrize("finder", SAFE)
-def test_brackets_lead_to_the_root_always(finder: str) -> None:
-    for equation, right in random_equations(60):
+def test_brackets_lead_to_the_root_always(finder: str, count: int) -> None:
+    for equation, right in random_equations(count):
         found = find(finder, equation, 1e-14)
 
         assert found.root == pytest.approx(right, rel=3e-13)
