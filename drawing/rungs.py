@@ -38,15 +38,17 @@ class Drawer(Protocol[Wanted]):
         """Return the views of a sheet, each with its figure."""
 
 
-def fitted(drawer: Drawer[Rungs], sheet: Format, norm: Norm, rungs: Rungs) -> Rungs:
+def fitted(drawer: Drawer[Rungs], sheet: Format, norm: Norm, rungs: Rungs, first: bool = False) -> Rungs:
     """Return the first rungs, from these on, at which every view has room on a page of its own.
+
+    `first` tells that it may be the first page, with the larger title block.
 
     Raises
     ------
     InputError
         When a view has none at the last rung.
     """
-    wide, high = room(sheet, norm)
+    wide, high = room(sheet, norm, first)
     while True:
         views = drawer.views(sheet, rungs)
         tight = {f.ladders: v.size for v, f in views if v.size[0] > wide or v.size[1] > high}

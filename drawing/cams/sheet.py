@@ -8,11 +8,12 @@ from itertools import product
 from ...plans.cams.solve import EQUAL
 from ...scales.choices import SIZES
 from ...scales.choose import Fixed
+from ...scales.errors import InputError
 from ..compose import arrange, arrange_closely, compose, room, worth_trying
 from ..formats import FORMATS, Format
 from ..packing import Placement
 from ..page import Drawn
-from ..rungs import fitted, on_pages
+from ..rungs import fitted
 from ..titleblock import Stamp
 from ..view import View
 from ..zones import zoned
@@ -40,17 +41,16 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         last = candidate is formats[-1]
         found = _single(fitting, candidate, last)
         if found is None and last:
-            rungs = _restored(fitting, candidate, fitted(fitting, candidate, contents.norm, Rungs()))
-            found = _several(fitting, candidate, rungs)
+            found = _several(fitting, candidate)
         if found is not None:
             break
     assert found is not None, "on the last format there are as many pages as it takes"
     return _drawn(fitting, stamp, candidate, found)
 
 
-def _restored(fitting: Fitting, sheet: Format, rungs: Rungs) -> Rungs:
+def _restored(fitting: Fitting, sheet: Format, rungs: Rungs, first: bool) -> Rungs:
     """Return rungs at which plans made of two diagrams are as large as a page has room for, now diagrams are small."""
-    wide, high = room(sheet, fitting.contents.norm)
+    wide, high = room(sheet, fitting.contents.norm, first)
     for name in EQUAL:
         for rung in range(getattr(rungs, name)):
             larger = replace(rungs, **{name: rung})
@@ -61,11 +61,23 @@ def _restored(fitting: Fitting, sheet: Format, rungs: Rungs) -> Rungs:
     return rungs
 
 
-def _several(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found:
-    """Take several pages in reading order, or fewer on which views stand closely."""
-    views, norm = _views(fitting, sheet, rungs), fitting.contents.norm
-    ways = on_pages(views, sheet, norm), arrange_closely([view.size for view in views], sheet, norm)
-    return rungs, views, min(filter(None, ways), key=lambda places: max(place.page for place in places))
+def _several(fitting: Fitting, sheet: Format) -> Found:
+    """Take several pages in reading order, or fewer on which views stand closely.
+
+    Raises
+    ------
+    InputError
+        When a view has no room on any page.
+    """
+    norm = fitting.contents.norm
+    for first in (False, True):  # where nothing stands on the first page as it is, all becomes small enough for it
+        rungs = _restored(fitting, sheet, fitted(fitting, sheet, norm, Rungs(), first), first)
+        views = _views(fitting, sheet, rungs)
+        sizes = [view.size for view in views]
+        ways = [way for way in (arrange(sizes, sheet, norm, None), arrange_closely(sizes, sheet, norm)) if way]
+        if ways:
+            return rungs, views, min(ways, key=lambda places: max(place.page for place in places))
+    raise InputError("sheet-too-small", format=sheet.name)
 
 
 def _single(fitting: Fitting, sheet: Format, last: bool) -> Found | None:

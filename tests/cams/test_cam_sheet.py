@@ -49,6 +49,14 @@ def test_the_whole_sheet_of_madi_takes_three_pages_of_a3() -> None:
     assert [fault for page in small.sheet.pages for fault in view_faults(page)] == []
 
 
+@pytest.mark.parametrize("only", ["sizes", pytest.param("diagrams", marks=pytest.mark.soak)])
+def test_a_part_of_a_cam_has_room_on_a4_beside_the_title_block(only: str) -> None:
+    part = CamCase((), "A4", only=only)
+
+    assert {view.name for view in part.sheet.views} < {view.name for view in MADI.sheet.views}
+    assert [fault for page in part.sheet.pages for fault in view_faults(page)] == []
+
+
 @pytest.mark.parametrize(
     "changes",
     [
