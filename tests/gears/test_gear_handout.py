@@ -1,4 +1,4 @@
-"""Handouts of gears: the blank tells nothing that is to be found, and every stage draws something."""
+"""Handouts and notes of gears: a blank tells nothing that is to be found, every stage draws something and is told."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from kulman.drawing.gears.begun import STAGES
 from kulman.drawing.handouts.begun import begun_pages
 from kulman.drawing.page import Page
 from kulman.drawing.shapes import Group, Shape, Text
+from kulman.scales.errors import LANGUAGES
+from kulman.scales.packaged import packaged
+from kulman.scales.scale import Scale
 from kulman.variants.case import solve_case
 from kulman.variants.sheets import Sheet, draw_case
 
@@ -68,3 +71,21 @@ def test_every_stage_draws_something_more(only: str) -> None:
 
     assert all(a < b for a, b in pairwise(counts))
     assert counts[-1] < count(drawn.pages)
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_note_tells_as_many_steps_as_a_handout_has_stages(lang: str) -> None:
+    case = solve_case(TASK, None, None, None, None)
+    scales = {"meshing": Scale("mu_l", 0.0005, "m")}
+    words = case.words(lang)
+
+    story = case.kind.story(case, scales, words, packaged("kulman.drawing.notes", "texts", lang))
+
+    assert {view: len(steps) for view, steps in story.steps.items()} == {
+        view: len(STAGES[view]) - 1 for view in story.steps
+    }
+    said = " ".join(step for steps in story.steps.values() for step in steps)
+    assert "{{" not in said
+    assert words.number(78.857, 1) in said  # d_w1 / 2 at 2:1
+    assert words.number(35.568, 1) in said  # the active line on paper
+    assert f"{words.number(26.65, 2)}°" in said

@@ -18,7 +18,9 @@ from .kind import Kind, Verdicts
 
 if TYPE_CHECKING:
     from ...drawing.formats import Format
+    from ...drawing.gears.scene import GearScene
     from ...drawing.handouts.begun import Shown
+    from ...drawing.notes.blocks import Story
     from ...drawing.page import Drawn
     from ...drawing.pens import Norm
     from ...drawing.titleblock import Stamp
@@ -208,12 +210,22 @@ class Gears(Kind[GearPair, "SolvedGear"]):
     def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what the first steps of the drawing draw."""
         from ...drawing.gears.begun import begun
+
+        return begun(self._scene(case, words), steps)
+
+    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
+        """Tell the drawing step by step."""
+        from ...drawing.gears.steps import story
+
+        return story(self._scene(case, words), scales, texts)
+
+    def _scene(self, case: Case, words: Words) -> GearScene:
+        """Return the pair with its letters, for what is said of it: no scale factor counts there."""
         from ...drawing.gears.scene import GearScene
         from ...drawing.style import STYLES
 
         solved = gear(case.solved)
-        said = self.lettered(words, solved)
-        return begun(GearScene(solved, said, STYLES["A4"], case.givens, 1.0, 1.0, 1.0), steps)
+        return GearScene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, 1.0, 1.0, 1.0)
 
     def limits(self, drawn: SolvedGear, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let pass of angles what the errors of the marks they hang on add up to."""
