@@ -12,6 +12,7 @@ from ..view import View
 from .scene import HoistScene, canvas_of
 
 PAST = 14.0  # mm by which the axis runs past the circle
+SAME = 1e-6  # part of the radius
 ANGLE = 0.3  # part of the radius at which the angle is dimensioned
 
 
@@ -36,10 +37,12 @@ def circle_view(scene: HoistScene) -> View:
     canvas.label(scene.stated("phi_1", unit="rad"), middle, prefer=middle, clear=1.0, height=scene.style.text)
     canvas.label(scene.stated("R"), (0j, start), clear=1.0, height=scene.style.text)
     marks = {"P_m": 0j, "F_12_t1": start, "P_12_max": complex(radius), "P_12_min": complex(-radius)}
+    reached = {"P_12_max": scene.size("P_m") + scene.size("R"), "P_12_min": scene.size("P_m") - scene.size("R")}
     for name, at in marks.items():
+        if abs(reached.get(name, scene.size(name)) - scene.size(name)) > SAME * scene.size("R"):
+            continue  # the rope goes slack before, or the load comes back
         canvas.add(scene.node(at, name, filled=True))
-        value = scene.size("P_m") - scene.size("R") if name == "P_12_min" else scene.size(name)
-        canvas.label(scene.stated(name, value), at, prefer=(at or -1j) - 0.6j, clear=1.2, height=scene.style.text)
+        canvas.label(scene.stated(name), at, prefer=(at or -1j) - 0.6j, clear=1.2, height=scene.style.text)
     return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")))
 
 

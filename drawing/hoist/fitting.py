@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PART, SCHEME_PART
-from ...plans.hoist.solve import SCALES, SolvedHoist
+from ...plans.hoist.solve import SCALES, SolvedHoist, reduced
 from ...scales.scale import Scale
 from ..contents import SheetContents
 from ..formats import Format
@@ -20,6 +20,7 @@ from .letters import lettered
 from .scene import HoistScene
 
 TEXT_WIDTH = 120.0
+PARTS = 1.0, 0.8, 0.63, 0.5, 0.4  # of the usual size of diagrams
 HoistFigure = Figure[HoistScene]
 
 
@@ -30,10 +31,11 @@ class Contents(SheetContents[SolvedHoist]):
 
 @dataclass(frozen=True, slots=True)
 class Rungs:
-    """How small things are drawn: the scheme, the circle; each a rung."""
+    """How small things are drawn: the scheme, the circle, the diagrams; each a rung."""
 
     mu_l: int = 0
     mu_F_circle: int = 0
+    part: int = 0
 
 
 @dataclass(slots=True)
@@ -44,6 +46,7 @@ class Fitting:
     ladders: Mapping[str, tuple[float, ...]] = field(init=False)
     _words: Words = field(init=False)
     _drawn: dict[tuple[str, str, tuple[int, ...]], View] = field(default_factory=dict)
+    _solved: dict[float, SolvedHoist] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Find the ladders."""
@@ -52,13 +55,22 @@ class Fitting:
         self.ladders = {
             "mu_l": scheme_ladder(contents.solved, contents.choosers),
             "mu_F_circle": circle_ladder(contents.solved, contents.choosers),
+            "part": PARTS,
         }
 
     def scene(self, sheet: Format, rungs: Rungs) -> HoistScene:
         """Return the scene of a sheet on a format."""
         contents = self.contents
         mus = {name: ladder[getattr(rungs, name)] for name, ladder in self.ladders.items()}
-        return HoistScene(contents.solved, self._words, STYLES[sheet.letters], contents.givens, mus)
+        return HoistScene(self.solved(rungs), self._words, STYLES[sheet.letters], contents.givens, mus)
+
+    def solved(self, rungs: Rungs) -> SolvedHoist:
+        """Return the hoist with diagrams as large as they are drawn."""
+        part = PARTS[rungs.part]
+        if part not in self._solved:
+            whole = self.contents.solved
+            self._solved[part] = whole if part == 1.0 else reduced(whole, part)
+        return self._solved[part]
 
     def views(self, sheet: Format, rungs: Rungs) -> list[tuple[View, HoistFigure]]:
         """Return the views of a sheet in the order of the work."""
@@ -93,13 +105,13 @@ def figures(contents: Contents) -> Iterator[tuple[str, HoistFigure]]:
     if FORCES_PART in plans:
         from .forces_view import forces_view
 
-        yield "forces", Figure(forces_view)
+        yield "forces", Figure(forces_view, ("part",))
     if ROOTS_PART in plans and layout.roots is not None:
         from .roots_view import extremes_view, lift_off_view
 
-        yield "lift_off", Figure(lift_off_view)
+        yield "lift_off", Figure(lift_off_view, ("part",))
         if layout.roots.waves:
-            yield "extremes", Figure(extremes_view)
+            yield "extremes", Figure(extremes_view, ("part",))
     if CIRCLE_PART in plans:
         from .circle_view import circle_view
 
@@ -107,11 +119,11 @@ def figures(contents: Contents) -> Iterator[tuple[str, HoistFigure]]:
     if BEAMS_PART in plans and layout.bent:
         from .beams_view import beams_view
 
-        yield "beams", Figure(beams_view)
+        yield "beams", Figure(beams_view, ("part",))
     yield "strength", Figure(strength_block)
     yield "checks", Figure(checks_table)
     yield "flow", Figure(flow_view)
-    yield "scales", Figure(scales_table)
+    yield "scales", Figure(scales_table, ("mu_l", "mu_F_circle", "part"))
 
 
 def strength_block(scene: HoistScene) -> View:

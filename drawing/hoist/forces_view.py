@@ -27,7 +27,10 @@ def forces_view(scene: HoistScene) -> View:
     _times(canvas, scene, field)
     _values(canvas, scene, field)
     notes = [words["hoist.article"]]
-    if not any(name.startswith("t_2_") for name in scene.solved.quantities):
+    roots = scene.solved.layout.roots
+    if scene.solved.forces.motion is not None:
+        notes.append(words["hoist.one_sided"])
+    if roots is not None and not roots.times:
         notes.append(words["hoist.no_extremes"])
     heading = (words["heading.hoist_forces"], scene.factors("mu_F", "mu_t"))
     return canvas.finish("forces", heading, tuple(notes))

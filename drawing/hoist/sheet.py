@@ -8,8 +8,8 @@ from ..formats import FORMATS, Format
 from ..page import Drawn
 from ..rungs import fitted, on_pages
 from ..titleblock import Stamp
+from .fitting import PARTS, Fitting, Rungs
 from .fitting import Contents as Contents
-from .fitting import Fitting, Rungs
 
 
 def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn:
@@ -34,4 +34,4 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         ways = on_pages(views, candidate, norm), arrange_closely([view.size for view in views], candidate, norm)
         places = min(filter(None, ways), key=lambda found: max(place.page for place in found))
     pages = compose(views, places, candidate, norm, stamp)
-    return Drawn(pages, fitting.scales(candidate, rungs), candidate.name, views=tuple(views))
+    return Drawn(pages, fitting.scales(candidate, rungs), candidate.name, PARTS[rungs.part], tuple(views))

@@ -27,8 +27,11 @@ SWINGS = 1.1  # of T_1, the axis of times beyond the lift-off
 UNITS = {"mu_t": "s", "mu_F": "N", "mu_t1": "s", "mu_y": "m", "mu_v": "m/s", "mu_x": "m", "mu_w": "m"}
 
 
-def board_givens(forces: Forces, layout: Layout) -> dict[str, Any]:
-    """Return the complete givens of the construction, beside the numbers of the hoist."""
+def board_givens(forces: Forces, layout: Layout, part_of: float = 1.0) -> dict[str, Any]:
+    """Return the complete givens of the construction, beside the numbers of the hoist.
+
+    Diagrams have about `part_of` their usual size.
+    """
     found, motion = forces.found, forces.motion
     given: dict[str, Any] = {"_turn": TURN}
     parts = {(i, n) for n in (layout.resting, layout.hanging, BEAM_SECTIONS) for i in range(n + 1)}
@@ -37,7 +40,7 @@ def board_givens(forces: Forces, layout: Layout) -> dict[str, Any]:
         given |= {"_begin": layout.roots.begin, "_section": layout.roots.section}
         given |= {f"_t_2_{n}_exact": time for n, time in enumerate(layout.roots.times, 1)}
     given |= {part(i, n): i / n for i, n in parts}
-    given |= {name: mu / MM for name, mu in scale_factors(found, layout, end_of(forces)).items()}
+    given |= {name: mu / MM for name, mu in scale_factors(found, layout, end_of(forces), part_of).items()}
     if motion is None:
         return given | {"_rest": rest_of_root(found)}
     return given | motion_givens(motion) | _ordinates(forces, layout)
@@ -69,7 +72,7 @@ def _ordinates(forces: Forces, layout: Layout) -> dict[str, float]:
     return given
 
 
-def scale_factors(found: Mapping[str, float], layout: Layout, end: float) -> dict[str, float]:
+def scale_factors(found: Mapping[str, float], layout: Layout, end: float, part_of: float = 1.0) -> dict[str, float]:
     """Return the scale factors of the diagrams, SI per millimetre, by which they fill their axes."""
     wanted = {
         "mu_t": end / TIMES,
@@ -80,7 +83,7 @@ def scale_factors(found: Mapping[str, float], layout: Layout, end: float) -> dic
     if layout.bent:
         wanted["mu_x"] = max(found[f"l_{i}"] for i in BENT) / SPAN
         wanted["mu_w"] = max(found[f"w_{i}_max"] for i in layout.bent) / BEND
-    return {name: _nearest(mu) for name, mu in wanted.items()}
+    return {name: _nearest(mu / part_of) for name, mu in wanted.items()}
 
 
 def _nearest(mu: float) -> float:

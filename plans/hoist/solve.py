@@ -17,7 +17,7 @@ from .construction import Layout, construct, layout_of
 from .diagram_plan import FORCES, UP
 from .forces import Forces, forces
 from .givens import complete
-from .hoist import PLANS, Hoist
+from .hoist import PLANS, VALUES, Hoist
 from .model import CIRCLE, HORIZONTAL
 from .paper import MM, board_givens
 from .paper import UNITS as SCALED
@@ -72,6 +72,7 @@ class SolvedHoist(Solved):
     hoist: Hoist
     forces: Forces
     layout: Layout
+    plans: tuple[str, ...]
 
     @property
     def edges(self) -> tuple[str, ...]:
@@ -83,7 +84,9 @@ class SolvedHoist(Solved):
         return {plan: MM if plan in ON_PAPER else mu for plan, mu in mus.items()}
 
 
-def solve_hoist(hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = PLANS) -> SolvedHoist:
+def solve_hoist(
+    hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = PLANS, part_of: float = 1.0
+) -> SolvedHoist:
     """Solve a hoist.
 
     Parameters
@@ -94,6 +97,8 @@ def solve_hoist(hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = 
         Its numbers in SI, as `givens.complete` takes them.
     plans : iterable of str
         Plans wanted, of `hoist.PLANS`: the numbers, with the circle, need none of them.
+    part_of : float
+        How much of their usual size diagrams on paper have, about.
 
     Raises
     ------
@@ -102,8 +107,9 @@ def solve_hoist(hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = 
     """
     found = forces(values)
     layout = layout_of(hoist, found)
+    plans = tuple(plans)
     program = construct(layout, plans)
-    given = complete(values) | board_givens(found, layout)
+    given = complete(values) | board_givens(found, layout, part_of)
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         board = run(program, {name: np.float64(value) for name, value in given.items()})  # where 1/0 is inf
     drawn = {*program.plans}
@@ -120,7 +126,13 @@ def solve_hoist(hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = 
         hoist=hoist,
         forces=found,
         layout=layout,
+        plans=plans,
     )
+
+
+def reduced(solved: SolvedHoist, part_of: float) -> SolvedHoist:
+    """Return a hoist with diagrams of about a part of their usual size."""
+    return solve_hoist(solved.hoist, {name: solved.givens[name] for name in VALUES}, solved.plans, part_of)
 
 
 def _scalars(found: Mapping[str, Quantity]) -> dict[str, Quantity]:

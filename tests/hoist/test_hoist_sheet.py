@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from kulman import sheet
-from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.hoists import VARIANTS, together, two_sided
 from kulman.tests.support.overlaps import overlaps
 from kulman.tests.support.readback import Sheet, View, read
@@ -259,9 +258,15 @@ def test_odd_hoists_have_sheets_too(case: HoistCase) -> None:
     assert "forces" in case.sheet.names
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_a_format_that_is_too_small_is_refused_in_one_line(language: str) -> None:
-    with pytest.raises(InputError) as error:
-        sheet(TASK, format="A4")
+def test_pages_of_a_small_format_have_smaller_diagrams_and_say_so() -> None:
+    case = HoistCase("V02", format="A4", lang="en")
 
-    assert "A4" in error.value.text(language)
+    view, found = case.sheet["forces"], case.forces
+
+    assert len(case.drawn.pages) > 1
+    assert overlaps(case.sheet) == []
+    lifted, support = curve(view, "P_12"), curve(view, "F_01")
+    most = np.max((lifted - support[-1]).imag) * mu(view, "F")
+    assert most == pytest.approx(found["P_12_max"], rel=1e-3)
+    assert any("usual size" in warning.text("en") for warning in case.drawn.warnings)
+    assert case.drawn.scales["forces"].mu == pytest.approx(mu(view, "F"))

@@ -160,6 +160,15 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         """Return the heading of a section, or of a plan, as the sheet has it."""
         return words[f"heading.hoist_{plan}"]
 
+    def fitted(self, solved: SolvedHoist, drawn: Drawn) -> tuple[SolvedHoist, tuple[InputError, ...]]:
+        """Return the hoist with diagrams as small as the format has room for, and tell how small that is."""
+        from ...plans.hoist.solve import reduced
+
+        if drawn.reduction == 1.0:
+            return solved, ()
+        smaller = InputError("hoist-smaller", format=drawn.format, part=f"{drawn.reduction:g}")
+        return reduced(solved, drawn.reduction), (smaller,)
+
     def lettered(self, words: Words, solved: SolvedHoist) -> Words:
         """Return the words with the letters of a hoist's quantities."""
         from ...drawing.hoist.letters import lettered
