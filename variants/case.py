@@ -102,14 +102,8 @@ def solve_case(
 def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser]:
     """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
     choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
-    known = kind_of(task.kind).scale_symbols(solved)
     for name, text in scales.items():
-        if name.startswith("mu_") and name not in known:
-            if name in solved.quantities:
-                raise InputError("scale-follows", symbol=name, known=", ".join(known))
-            raise unknown("scale-unknown", name, known, task=task.id)
-        if not name.startswith("mu_") and not kind_of(task.kind).segments:
-            raise InputError("scale-no-segments", text=quote(name), known=", ".join(known))
+        _choosable(task, name, text, solved)
         try:
             symbol = name if name.startswith("mu_") else segment_symbol(name)
             chosen = chooser(symbol, str(text) if symbol == name else f"{name}={text}", firm=True)
@@ -122,6 +116,19 @@ def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser
             raise InputError("scale-not-drawn", text=quote(name), known=drawn)
         choosers[symbol] = chosen
     return choosers
+
+
+def _choosable(task: Task, name: str, text: str | float, solved: Solved) -> None:
+    """Refuse a scale factor that a task has not or that is found, and a segment where none chooses a scale factor."""
+    kind = kind_of(task.kind)
+    known = kind.scale_symbols(solved)
+    if name.startswith("mu_") and name not in known:
+        if name in solved.quantities:
+            raise InputError("scale-follows", symbol=name, known=", ".join(known))
+        raise unknown("scale-unknown", name, known, task=task.id)
+    segment = name if not name.startswith("mu_") else str(text) if "=" in str(text) else ""
+    if segment and not kind.segments:
+        raise InputError("scale-no-segments", text=quote(segment), known=", ".join(known))
 
 
 def _shown(segment: Segment, solved: Solved, name: str) -> None:

@@ -165,6 +165,8 @@ def test_a_choice_may_set_numbers() -> None:
         ("[cam]\n", "[cam]\nsections = 6\n", "cam.sections", "12 to 90 sections"),
         ("[cam]\n", "[cam]\ncentre = 6\n", "cam.centre", "unknown key 'centre'"),
         ("[cam]\n", '[scales]\nmu_V = "0.001 (m/s)/mm"\n[cam]\n', "scales", "no scale factor 'mu_V'"),
+        ("[cam]\n", '[scales]\nmu_s = "0.001 m/mm"\n[cam]\n', "scales.mu_s", "mu_s follows from the lengths on paper"),
+        ("[cam]\n", '[scales]\nmu_l = "OA=50 mm"\n[cam]\n', "scales.mu_l", "no segment chooses a scale factor here"),
         ('"pressure"]', '"velocity"]', "plans", "unknown plan 'velocity'"),
     ],
 )

@@ -79,12 +79,14 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def fits(self, checker: Checker, subject: Cam, head: Mapping[str, Any]) -> None:
         """Check that the scale factors are those that may be chosen."""
-        for name in (name for name in head.get("scales", {}) if name not in SYMBOLS):
-            if _follows(name):
-                error = InputError("scale-follows", symbol=name, known=", ".join(SYMBOLS))
-            else:
-                error = unknown("scale-unknown", name, SYMBOLS, task=head.get("id", ""))
-            checker.fault(("scales", name), error)
+        known = ", ".join(SYMBOLS)
+        for name, text in head.get("scales", {}).items():
+            if name in SYMBOLS and "=" in text:
+                checker.fault(("scales", name), InputError("scale-no-segments", text=text, known=known))
+            elif name not in SYMBOLS and _follows(name):
+                checker.fault(("scales", name), InputError("scale-follows", symbol=name, known=known))
+            elif name not in SYMBOLS:
+                checker.fault(("scales", name), unknown("scale-unknown", name, SYMBOLS, task=head.get("id", "")))
 
     def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
         """Check that every variant is one of a cam; if `thorough`, that its cam can be found."""
