@@ -10,6 +10,7 @@ from ...plans.hoist.solve import SCALES, SolvedHoist
 from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, steps
 
+LEAST = 1e-3  # part of the mean force that the circle is taken for at least
 SPAN, DIAMETER = 160.0, 110.0  # mm of paper that the longer beam and the circle may take
 
 
@@ -19,9 +20,8 @@ def scheme_ladder(solved: SolvedHoist, choosers: Choosers) -> tuple[float, ...]:
 
 
 def circle_ladder(solved: SolvedHoist, choosers: Choosers) -> tuple[float, ...]:
-    """Return the scale factors of the circle, the one wanted first: where nothing is said, one of 80 mm at most."""
-    room = max(2.0 * solved.size("R"), solved.size("P_m") / SPAN * DIAMETER)  # the axis begins where the force is zero
-    return _ladder(solved, choosers, CIRCLE, room / DIAMETER)
+    """Return the scale factors of the circle, the one wanted first: where nothing is said, one of 110 mm at most."""
+    return _ladder(solved, choosers, CIRCLE, max(2.0 * solved.size("R"), LEAST * solved.size("P_m")) / DIAMETER)
 
 
 def _ladder(solved: SolvedHoist, choosers: Choosers, plan: str, finest: float) -> tuple[float, ...]:

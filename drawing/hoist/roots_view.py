@@ -12,7 +12,11 @@ from ...plans.laws import LAWS
 from ..diagram import Axis, Field, axes, curve, divisions
 from ..shapes import Line, Pen
 from ..view import Canvas, View
+from .magnified import magnified
 from .scene import POINTS, HoistScene, canvas_of
+
+MANY, BESIDE_CROSSING = 48, 4  # section lines
+BESIDE = 24.0  # mm from a diagram to what is magnified of it
 
 
 def _roots(scene: HoistScene) -> Roots:
@@ -54,11 +58,12 @@ def lift_off_view(scene: HoistScene) -> View:
     for name, ordinates in (("parabola", parabola), ("sinusoid", wave)):
         curve(canvas, field, zip(t.tolist(), ordinates.tolist(), strict=True), name)
     for letter in "YO":
-        canvas.add(*(_node(scene, LIFT_OFF, f"{letter}{i}") for i in range(roots.sections + 1)))
+        canvas.add(*(_node(scene, LIFT_OFF, f"{letter}{i}") for i in _shown(roots, (roots.lift_off,))))
     at = POINTS // 4
     canvas.label("y − mg/C", field.at(float(t[at]), float(parabola[at])), prefer=-1j, clear=1.5)
     canvas.label("osc", field.at(float(t[at]), float(wave[at])), prefer=1j, clear=1.5)
     _crossing(canvas, scene, LIFT_OFF, "X", "t_1_drawn")
+    magnified(canvas, scene, complex(field.at(field.x.high, 0.0).real + BESIDE, field.at(0.0, field.y.low).imag))
     heading = (words["heading.hoist_lift_off"], scene.factors("mu_y", "mu_t1"))
     return canvas.finish("lift_off", heading, (scene.stated("t_1", unit="s"),))
 
@@ -76,7 +81,7 @@ def extremes_view(scene: HoistScene) -> View:
     axes(canvas, field)
     curve(canvas, field, zip(t.tolist(), wave.tolist(), strict=True), "sinusoid")
     canvas.add(Line(ends[0], ends[1], Pen.MAIN, role="curve", name="line"))
-    canvas.add(*(_node(scene, EXTREMES, f"W{i}") for i in range(roots.sections + 1)))
+    canvas.add(*(_node(scene, EXTREMES, f"W{i}") for i in _shown(roots, roots.extremes)))
     at = POINTS // 6
     canvas.label("V cos kt + (a/k) sin kt", field.at(float(t[at]), float(wave[at])), prefer=1j, clear=1.5)
     name = f"−({words.symbol('C_01')}/{words.symbol('C_12')})(V + at)"
@@ -86,6 +91,14 @@ def extremes_view(scene: HoistScene) -> View:
     notes = [scene.stated(f"t_2_{n}", time, "s") for n, time in enumerate(roots.times, 1)]
     said = ("; ".join(notes),) if notes else (words["hoist.no_extremes"],)
     return canvas.finish("extremes", (words["heading.hoist_extremes"], scene.factors("mu_v", "mu_t1")), said)
+
+
+def _shown(roots: Roots, crossed: tuple[int, ...]) -> list[int]:
+    """Return the section lines whose points are marked: all, or of very many those beside a crossing."""
+    lines = range(roots.sections + 1)
+    if roots.sections <= MANY:
+        return list(lines)
+    return [i for i in lines if any(abs(i - k) <= BESIDE_CROSSING for k in crossed)]
 
 
 def _node(scene: HoistScene, plan: str, mark: str) -> Any:
