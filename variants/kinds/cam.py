@@ -56,8 +56,9 @@ UNUSUAL = {
     "rad": ("angle", "deg"),
     "rad/mm": ("axis", "deg"),
     "rad/s": ("speed", "rad/s"),
-    "m/s^2": ("acceleration", "m/s^2"),
+    "m/s^2": ("acceleration-most", "m/s^2"),
 }
+AT_MOST = {"length": "length-most"}  # of a number that may also be nothing
 RULES = ("roller_of_radius", "roller_of_curvature", "gamma_rise", "gamma_fall")  # checks that are told when they fail
 
 
@@ -302,8 +303,8 @@ def _unusual(solved: SolvedCam) -> Iterator[InputError]:
         value, least, most = (
             f"{number if size is None else size.from_si(number):.4g}" for number in (one.value, one.least, one.most)
         )
-        end = "-most" if one.least == 0.0 else ""
-        yield InputError(f"cam-unusual-{key}{end}", name=one.name, value=value, least=least, most=most)
+        end = AT_MOST.get(key, key) if one.least == 0.0 else key
+        yield InputError(f"cam-unusual-{end}", name=one.name, value=value, least=least, most=most)
 
 
 def _follows(symbol: str) -> bool:
