@@ -156,7 +156,7 @@ def draw_case(
     InputError, PositionError
         As for `sheet`.
     """
-    paper = format_named(format) if isinstance(format, str) else format
+    paper = format if format is None or isinstance(format, Format) else format_named(format)
     if norm not in get_args(Norm):
         raise unknown("norm-unknown", norm, get_args(Norm))
     words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
