@@ -136,8 +136,8 @@ def _free(canvas: Canvas, places: list[complex]) -> bool:
 def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> list[str]:
     """Return the numbers of what has only a letter in the figure: the angles of one position, lengths."""
     words, solved = scene.words, scene.solved
-    pressure = abs(float(theta(solved, solved.angles[line])))
-    angles = {"theta": pressure, "gamma": 0.5 * math.pi - pressure}
+    pressure = float(theta(solved, solved.angles[line]))
+    angles = {"theta": pressure, "gamma": 0.5 * math.pi - abs(pressure)}
     lengths = {"rho_min": profile.rho_min, "h": solved.values["h"], "R_roller": profile.R}
     said = (f"{words.symbol(name)}_{{{line}}} = {scene.degrees(angle)}" for name, angle in angles.items())
     sizes = (f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size))
