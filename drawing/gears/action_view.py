@@ -33,11 +33,16 @@ def action_view(overall: GearScene) -> View:
 
 
 def _lacking(scene: GearScene) -> tuple[str, ...]:
-    """Say how long the flanks touch where undercut or pointed teeth lack a part of the active line."""
+    """Say how long the flanks touch, and the contact ratio of that, where undercut or pointed teeth lack a part."""
+    words = scene.words
     first, last = scene.meshing.touching
     if last - first >= scene.size("g_alpha") * (1.0 - SAME):
         return ()
-    return (scene.words["said.gear_lacking"].format(length=scene.length(last - first)),)
+    parts = [Input(length * 1e3) for length in (max(last - first, 0.0), scene.size("p_b"))]
+    (length, pitch), result = calculation(words, lambda x, y: x / y, parts)
+    mm = words.unit("mm")
+    ratio = f"{words.symbol('epsilon_flanks')} = {length} {mm}/{pitch} {mm} = {result}"
+    return (words["said.gear_lacking"].format(length=scene.length(last - first), ratio=ratio),)
 
 
 def ratios(scene: GearScene) -> tuple[str, ...]:

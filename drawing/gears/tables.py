@@ -139,7 +139,7 @@ def condition(scene: GearScene, check: Check) -> str:
 def _number_of(scene: GearScene, check: Check, value: float) -> str:
     """Return one side of a check, lengths in mm."""
     words = scene.words
-    if check.quantity == "epsilon_alpha" or check.quantity.startswith("x_"):
+    if check.quantity.startswith(("epsilon_", "x_")):
         return words.number(value, DECIMALS[NUMBER])
     return f"{words.number(value * TIMES[MM], DECIMALS[MM])} {words.unit('mm')}"
 

@@ -13,6 +13,7 @@ from .gear import WHEELS, GearPair
 
 EPSILON = 1.2  # the least contact ratio advised for spur gears
 ROUNDING = 1e-12  # part of a length by which two ways to it may differ, and a limit may be missed
+SAME = 1e-9  # part of the active line: flanks that touch along all of it
 CENTRES = ("a_w_rolling", "a_w_shift", "a_w_tip1", "a_w_tip2")
 AT_LEAST, AT_MOST, EQUAL = RELATIONS = ("at-least", "at-most", "equal")
 
@@ -24,7 +25,8 @@ class Check:
     Parameters
     ----------
     name : str
-        What is looked at: `undercut_1`, `interference_1`, `contact_ratio`, `tip_1`, `centre_a_w_shift`, ...
+        What is looked at: `undercut_1`, `interference_1`, `contact_ratio`, `contact_flanks`, `tip_1`,
+        `centre_a_w_shift`, ...
     quantity : str
         Name of the quantity that is compared.
     value, limit : float
@@ -77,6 +79,22 @@ def _roots(found: Mapping[str, float]) -> list[Check]:
 
 def _contact(found: Mapping[str, float]) -> list[Check]:
     return [Check("contact_ratio", "epsilon_alpha", found["epsilon_alpha"], EPSILON, AT_LEAST)]
+
+
+def cut(found: Mapping[str, float]) -> bool:
+    """Tell whether teeth may lack a part of their active flanks: undercut, met at the fillet, or pointed."""
+    return not all(check.ok for check in _roots(found)) or any(found[f"s_a{i}"] < 0.0 for i in WHEELS)
+
+
+def on_flanks(found: Mapping[str, float], touching: tuple[float, float]) -> list[Check]:
+    """Return the check of the contact ratio by what is left of the flanks, where that is less than the active line.
+
+    `touching` says between which rho_1 the flanks touch, m; the formula of the contact ratio counts what is cut away.
+    """
+    length = max(touching[1] - touching[0], 0.0)
+    if length >= found["g_alpha"] * (1.0 - SAME):
+        return []
+    return [Check("contact_flanks", "epsilon_flanks", length / found["p_b"], EPSILON, AT_LEAST)]
 
 
 def _tips(pair: GearPair, found: Mapping[str, float]) -> list[Check]:

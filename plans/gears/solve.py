@@ -12,7 +12,7 @@ from ...scales.scale import steps
 from ..boards.exact import run
 from ..quantities import Quantity, quantities, shown_on
 from ..solved import Solved
-from .checks import Check, checks
+from .checks import Check, checks, cut, on_flanks
 from .construction import Layout, construct
 from .gear import PLANS, WHEELS, GearPair
 from .geometry import DIVISIONS, NOTHING, PARTS, POINTS, geometry
@@ -62,8 +62,12 @@ class SolvedGear(Solved):
 
     @property
     def checks(self) -> list[Check]:
-        """What the pair is judged by."""
-        return checks(self.pair, self.sizes)
+        """What the pair is judged by; the teeth are made where they may have lost a part of their flanks."""
+        found = checks(self.pair, self.sizes)
+        if not cut(self.sizes):
+            return found
+        place = 1 + [check.name for check in found].index("contact_ratio")
+        return [*found[:place], *on_flanks(self.sizes, self.meshing.touching), *found[place:]]
 
     @property
     def edges(self) -> tuple[str, ...]:

@@ -70,6 +70,16 @@ def test_a_broken_limit_is_told_in_the_table_of_checks() -> None:
     assert table["Undercutting, z_{2}", "x_{2} ≥ x_{min 2}"] == "satisfied"
 
 
+def test_the_contact_ratio_of_cut_flanks_is_told_in_the_table_of_checks() -> None:
+    case = GearCase((("z_1", 8), ("z_2", 25), ("x_1", 0), ("x_2", 0)), lang="en", only=PARTS)
+
+    table = {tuple(row[:2]): row[2:] for row in rows(case.sheet["checks"])[1:]}
+
+    assert faults(case, case.sheet, "Z7") == []
+    assert table["Contact ratio", "ε_{α} ≥ 1.2"] == ["1.4593", "1.2000", "satisfied"]
+    assert table["Contact ratio", "ε'_{α} ≥ 1.2"] == ["0.9127", "1.2000", "not satisfied"]
+
+
 def test_the_contour_holds_the_chosen_shifts_where_the_axes_say() -> None:
     view = MADI.sheet["contour"]
     mu = scale(view, "μ_{x}")

@@ -158,6 +158,24 @@ def test_limits_that_are_not_kept_are_told(
         assert all("{" not in warning.text(language) for warning in found.warnings)
 
 
+@pytest.mark.parametrize(
+    ("teeth", "ratio"),
+    [
+        pytest.param({"z_1": 8, "z_2": 25}, 0.9127, id="undercut pinion"),
+        pytest.param({"z_1": 7, "z_2": 7}, 0.3768, id="undercut both"),
+    ],
+)
+def test_contact_of_cut_flanks_is_judged_by_what_is_left_of_them(teeth: dict[str, object], ratio: float) -> None:
+    found = solve(TASK, set={**teeth, "x_1": 0, "x_2": 0})  # type: ignore[arg-type]
+    counted = found.solved.meshing.counted_ratio()
+
+    assert found.checks["contact_ratio"]["ok"]  # by the formula, which counts the flanks that are cut away
+    assert not found.checks["contact_flanks"]["ok"]
+    assert found.checks["contact_flanks"]["value"] == pytest.approx(ratio, abs=1e-4)
+    assert counted == pytest.approx(ratio, abs=2e-3)
+    assert any("less than 1: for a part of the turn no flanks touch" in w.text("en") for w in found.warnings)
+
+
 def test_angles_may_miss_what_their_marks_miss(solution: Solution) -> None:
     paper = paper_of(solution.solved, {scale.symbol: scale.mu for scale in solution.scales.values()})
 

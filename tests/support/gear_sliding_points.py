@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable
 from itertools import pairwise
 
+from kulman.plans.gears.meshing import meshing_of
 from kulman.tests.support.gear_cases import NEAR, WHEELS, Faults, GearCase, one, tips, unless
 from kulman.tests.support.gear_tables import NUMBER, calculations, last_digit, number, rows
 from kulman.tests.support.readback import Sheet, View
@@ -148,13 +149,16 @@ def z7_checks(case: GearCase, sheet: Sheet) -> Faults:
     """Every check has its number, its limit and the verdict; angles are in degrees; calculations come out again."""
     sizes, given = case.sizes, case.given
     table = rows(sheet["checks"])[1:]
-    yield from unless(len(table) == 11, f"there are {len(table)} checks")
+    first, last = meshing_of(given).touching
+    lacking = last - first < sizes["g_alpha"] * (1.0 - 1e-9)
+    yield from unless(len(table) == 11 + lacking, f"there are {len(table)} checks")
     for row in table[:4]:
         yield from unless(row[2] == row[3] and abs(number(row[2]) - sizes["a_w"] * 1e3) < 0.000501, f"a_w: {row}")
     expected = [
         *((given[f"x_{i}"], sizes[f"x_min{i}"], 1.0, 1.0) for i in WHEELS),
         *((sizes[f"rho_l{i}"], sizes[f"rho_p{i}"], -1.0, 1e3) for i in WHEELS),
         (sizes["epsilon_alpha"], 1.2, 1.0, 1.0),
+        *((((last - first) / sizes["p_b"], 1.2, 1.0, 1.0),) if lacking else ()),
         *((sizes[f"s_a{i}"], 0.3 * given["m"], 1.0, 1e3) for i in WHEELS),
     ]
     kept = {table[0][4]}

@@ -42,8 +42,10 @@ RULES = {  # checks that are told when they fail
     "undercut": "gear-rule-undercut",
     "interference": "gear-rule-interference",
     "contact_ratio": "gear-rule-contact",
+    "contact_flanks": "gear-rule-flanks",
     "tip": "gear-rule-tip",
 }
+BROKEN = {"contact_ratio": "gear-rule-broken", "contact_flanks": "gear-rule-flanks-broken"}  # of less than one pair
 IN_LENGTHS = ("interference", "tip")
 SYMBOLS = ("mu_l",)  # the scale factors of the diagrams are found, or given
 
@@ -143,8 +145,7 @@ class Gears(Kind[GearPair, "SolvedGear"]):
                 found.append(InputError("gear-rule-pointed", wheel=wheel))
                 continue
             said = _millimetres if rule in IN_LENGTHS else _plain
-            broken = rule == "contact_ratio" and check.value < 1.0
-            key = "gear-rule-broken" if broken else RULES[rule]
+            key = BROKEN[rule] if rule in BROKEN and check.value < 1.0 else RULES[rule]
             found.append(InputError(key, value=said(check.value), limit=said(check.limit), wheel=wheel))
         return tuple(found)
 
