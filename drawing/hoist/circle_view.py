@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import phase
-from math import pi
+from math import cos, pi, sin
 
 from ...plans.hoist.model import CIRCLE
 from ..shapes import Arc, Group, Head, Line, Pen
@@ -35,7 +35,7 @@ def circle_view(scene: HoistScene) -> View:
     canvas.add(angle_dimension(0j, max(ANGLE * radius, 8.0), run, -run, "phi_1", scene.style))
     middle = max(ANGLE * radius, 8.0) * complex(*_unit(0.5 * run))
     canvas.label(scene.stated("phi_1", unit="rad"), middle, prefer=middle, clear=1.0, height=scene.style.text)
-    canvas.label(scene.stated("R"), (0j, start), clear=1.0, height=scene.style.text)
+    canvas.label(words.symbol("R"), (0j, start), clear=1.0, height=scene.style.text)
     marks = {"P_m": 0j, "F_12_t1": start, "P_12_max": complex(radius), "P_12_min": complex(-radius)}
     reached = {"P_12_max": scene.size("P_m") + scene.size("R"), "P_12_min": scene.size("P_m") - scene.size("R")}
     for name, at in marks.items():
@@ -43,10 +43,9 @@ def circle_view(scene: HoistScene) -> View:
             continue  # the rope goes slack before, or the load comes back
         canvas.add(scene.node(at, name, filled=True))
         canvas.label(scene.stated(name), at, prefer=(at or -1j) - 0.6j, clear=1.2, height=scene.style.text)
-    return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")))
+    return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")), (scene.stated("R"),))
 
 
 def _unit(angle: float) -> tuple[float, float]:
-    from math import cos, sin
 
     return cos(angle), sin(angle)

@@ -16,6 +16,7 @@ from .magnified import magnified
 from .scene import POINTS, HoistScene, canvas_of
 
 MANY, BESIDE_CROSSING = 48, 4  # section lines
+FEW = 4  # crossings with their times beside them, and times in a line
 BESIDE = 24.0  # mm from a diagram to what is magnified of it
 
 
@@ -87,9 +88,11 @@ def extremes_view(scene: HoistScene) -> View:
     name = f"−({words.symbol('C_01')}/{words.symbol('C_12')})(V + at)"
     canvas.label(name, (ends[0], ends[1]), prefer=-1j, clear=1.5)
     for n in range(1, len(roots.times) + 1):
-        _crossing(canvas, scene, EXTREMES, f"X{n}", f"t_2_{n}_drawn")
+        number = f"({n})" if len(roots.times) > FEW else ""
+        _crossing(canvas, scene, EXTREMES, f"X{n}", f"t_2_{n}_drawn", number)
     notes = [scene.stated(f"t_2_{n}", time, "s") for n, time in enumerate(roots.times, 1)]
-    said = ("; ".join(notes),) if notes else (words["hoist.no_extremes"],)
+    lines = tuple("; ".join(notes[i : i + FEW]) for i in range(0, len(notes), FEW))
+    said = lines or (words["hoist.no_extremes"],)
     return canvas.finish("extremes", (words["heading.hoist_extremes"], scene.factors("mu_v", "mu_t1")), said)
 
 
@@ -105,11 +108,11 @@ def _node(scene: HoistScene, plan: str, mark: str) -> Any:
     return scene.node(scene.mm(f"{plan}.{mark}"), mark)
 
 
-def _crossing(canvas: Canvas, scene: HoistScene, plan: str, mark: str, name: str) -> None:
-    """Mark a crossing, and carry it down to the axis of times."""
+def _crossing(canvas: Canvas, scene: HoistScene, plan: str, mark: str, name: str, number: str = "") -> None:
+    """Mark a crossing with its time or, where there are many, its number; carry it down to the axis of times."""
     at = scene.mm(f"{plan}.{mark}")
     quantity = scene.solved.quantities[name]
     if abs(at.imag) > 0.01:
         canvas.add(Line(at, complex(at.real, 0.0), Pen.DASHED, role="projection", name=name))
     canvas.add(scene.node(at, mark, filled=True))
-    canvas.label(scene.stated(name, quantity.value or 0.0, "s"), at, prefer=1.0 - 1j, clear=1.2)
+    canvas.label(number or scene.stated(name, quantity.value or 0.0, "s"), at, prefer=1.0 - 1j, clear=1.2)

@@ -8,18 +8,28 @@ from ...plans.hoist.checks import STRENGTH, Check
 from ...plans.hoist.paper import UNITS as SCALED
 from ...plans.hoist.sections import DRAWN, section_of
 from ...plans.hoist.solve import unit_of
-from ..givens import givens_view
+from ..givens import Given, givens_view
 from ..table import table
 from ..view import View
 from .scene import HoistScene
 
+USUAL = {"Pa": (1e-6, "MPa"), "m^2": (1e6, "mm^2")}
+ROUNDING = 12  # digits
 READING = 0.3  # mm by which a drawing is read
 OF_CHECK = {"rope_phase_1": "F_12_min", "rope_phase_2": "P_12_min", "support": "s_min", STRENGTH: "safety"}
 
 
 def data_table(scene: HoistScene) -> View:
-    """Return the givens in the task's own units."""
-    return givens_view(scene.givens, scene.words, scene.style)
+    """Return the givens in the task's own units; stresses and areas in those in which people know them."""
+    givens = {name: _usual(given) for name, given in scene.givens.items()}
+    return givens_view(givens, scene.words, scene.style)
+
+
+def _usual(given: Given) -> Given:
+    times, unit = USUAL.get(given.unit, (1.0, given.unit))
+    if isinstance(given.value, str) or times == 1.0:
+        return given
+    return Given(float(f"{given.value * times:.{ROUNDING}g}"), unit)
 
 
 def results_table(scene: HoistScene) -> View:
