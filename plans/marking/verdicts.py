@@ -93,7 +93,8 @@ def count_right(key: Key, answers: Iterable[Answer], least: float) -> int:
 
 
 def _marker(key: Key, answers: Iterable[Answer]) -> _Marker:
-    said = _by_name(key, (_on_paper(key, answer) for answer in answers))
+    said = _by_name(key, answers)
+    said = _by_name(key, [_on_paper(key, answer, said) for answer in said.values()])
     return _Marker(key, said, {name: (known(a.mu) and a.mu) or None for name, a in said.items()})
 
 
@@ -127,17 +128,21 @@ def _by_name(key: Key, answers: Iterable[Answer]) -> dict[str, Answer]:
     return found
 
 
-def _on_paper(key: Key, answer: Answer) -> Answer:
+def _on_paper(key: Key, answer: Answer, said: Mapping[str, Answer]) -> Answer:
     """Return an answer on a drawing without a scale: what is measured there is the value, and no factor of it counts.
 
-    What is calculated there has its own factor, and no millimetres without it.
+    What is calculated there from its millimetres has the scale factor that the student has found, else the right one.
     """
-    question = key.questions.get(answer.name)
-    if question is None or answer.mm is None or question.plan not in key.paper.unscaled:
+    question = key.questions[answer.name]
+    if answer.mm is None or question.plan not in key.paper.unscaled:
         return answer
     if question.step.verb != "calc":
         return replace(answer, mu=key.paper.mus[question.plan])
-    return answer if known(answer.mu) else replace(answer, mm=None)
+    factor = question.step.operands[0]
+    if known(answer.mu) or not factor.startswith("mu_"):
+        return answer if known(answer.mu) else replace(answer, mm=None)
+    own = said[factor].value if factor in said else None
+    return replace(answer, mu=own if own and known(own) else float(key.values[factor]))
 
 
 class _Held(NamedTuple):

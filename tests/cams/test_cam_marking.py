@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import math
 from functools import cache
 from typing import Any
@@ -79,14 +80,12 @@ def test_form_of_a_rocker_is_headed_by_its_own_plans(tmp_path: Any) -> None:
 def test_right_answers_get_the_full_mark(tmp_path: Any, solution: Solution) -> None:
     asked = marker()
     form = asked.write_form(tmp_path / "form.csv")
-    lines = form.read_text(encoding="utf-8-sig").splitlines()
-    filled = []
-    for line in lines:
-        cells = line.split(",")
+    rows = list(csv.reader(form.read_text(encoding="utf-8-sig").splitlines()))
+    for cells in rows:
         if cells[0] in solution and len(cells) > 6:
             cells[5] = f"{solution[cells[0]].shown(solution.words.display).value:.4g}"
-        filled.append(",".join(cells))
-    form.write_text("\n".join(filled), encoding="utf-8-sig")
+    with form.open("w", encoding="utf-8-sig", newline="") as file:
+        csv.writer(file).writerows(rows)
 
     (answers,) = asked.read(str(form))
 

@@ -171,9 +171,20 @@ def test_an_ordinate_on_paper_has_no_scale_factor() -> None:
         (Answer("S_max_chord", mm=0.7 * right), Verdict.WRONG),
         (Answer("ds_max", mm=66.0, mu=key["mu_ds"], value=key["ds_max"]), Verdict.RIGHT),
         (Answer("ds_max", mm=66.0, value=key["ds_max"]), Verdict.RIGHT),
+        (Answer("ds_max", mm=66.0), Verdict.RIGHT),
+        (Answer("ds_max", mm=40.0), Verdict.WRONG),
         (Answer("ds_max", mm=66.0, mu=key["mu_ds"], value=2.0 * key["ds_max"]), Verdict.ARITHMETIC),
     ):
         assert mark(key, [answer])[answer.name].verdict is verdict
+
+
+def test_an_ordinate_alone_is_taken_by_the_scale_factor_that_was_found() -> None:
+    key = keyed_cam().key
+
+    marking = mark(key, [Answer("mu_d2s", value=2.0 * key["mu_d2s"]), Answer("A_1", mm=110.0)])
+
+    assert [line.verdict for line in marking.answered] == [Verdict.WRONG, Verdict.CARRIED]
+    assert marking["A_1"].said == pytest.approx(2.0 * key["A_1"])
 
 
 def test_what_hangs_on_a_wrong_ordinate_is_carried_through_the_whole_cam() -> None:
