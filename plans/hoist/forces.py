@@ -91,7 +91,8 @@ def forces_of_many(values: Mapping[str, Any], wanted: Iterable[str]) -> dict[str
     kept = {name: np.array(np.broadcast_to(found[name], shape)) for name in names}
     for index in map(tuple, np.argwhere(~np.broadcast_to(valid(found), shape))):
         one = {name: float(np.broadcast_to(values[name], shape)[index]) for name in VALUES}
-        alone = forces(one).found
+        motion = one_sided({name: float(np.broadcast_to(found[name], shape)[index]) for name in MOVED})
+        alone = model(one | motion_givens(motion), names, one_sided=True)
         for name in names:
             kept[name][index] = alone[name]
     return kept
