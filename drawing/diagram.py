@@ -12,6 +12,7 @@ from .symbols import dimension
 from .text import lay_out
 from .view import Canvas
 
+STEPS = (1, 2, 3, 5, 10)  # from one number of a section line to the next
 PAST = 8.0  # mm by which an axis runs past its last division
 
 
@@ -124,14 +125,27 @@ def rays(canvas: Canvas, field: Field, pole: Pole, ordinates: Iterable[tuple[int
 
 
 def numbers(lines: Sequence[float], level: float, height: float, first: int = 0) -> list[Text]:
-    """Return the numbers of section lines at a level, from the `first` on, those that do not touch the one before."""
+    """Return the numbers of section lines at a level, from the `first` on: every one, or every second, third ...
+
+    Where two lines are nearer than all others, a number that would touch the one before is left out.
+    """
+    halves = [0.5 * lay_out(str(i), height).width for i in range(first, first + len(lines))]
+    apart = 0.25 * height
+
+    def clear(i: int, j: int) -> bool:
+        return lines[j] - halves[j] > lines[i] + halves[i] + apart
+
+    gaps = sorted(range(len(lines) - 1), key=lambda i: lines[i + 1] - lines[i])
+    usual = gaps[len(gaps) // 2 :] if gaps else []  # half of the lines stand as far apart, or farther
+    step = next((k for k in STEPS if all(clear(i, i + k) for i in usual if i + k < len(lines))), STEPS[-1])
     found: list[Text] = []
-    end = -math.inf
-    for i, x in enumerate(lines, start=first):
-        half = 0.5 * lay_out(str(i), height).width
-        if x - half > end + 0.25 * height:
-            found.append(Text(complex(x, level), str(i), height, "middle", role="number", name=str(i)))
-            end = x + half
+    last = -1
+    for i in range(-first % step, len(lines), step):
+        if last < 0 or clear(last, i):
+            found.append(
+                Text(complex(lines[i], level), str(i + first), height, "middle", role="number", name=str(i + first))
+            )
+            last = i
     return found
 
 

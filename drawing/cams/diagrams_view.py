@@ -21,7 +21,7 @@ ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a di
 LETTER = {TRAVEL: "s", VELOCITY: "ds", ACCELERATION: "d2s"}
 POLES = {ACCELERATION: ("H_a", "O_{a}"), VELOCITY: ("H_v", "O_{v}")}
 RATES = {VELOCITY: ("mu_v", "m/s"), ACCELERATION: ("mu_a", "m/s^2")}  # scale factors of v and a
-BETWEEN = {5.0: 26.0, 3.5: 13.4}  # mm between diagrams, by the height of letters
+BETWEEN = {5.0: 26.0, 3.5: 10.2}  # mm between diagrams, by the height of letters
 PAST = 1.6  # heights of letters by which axes run past their curves
 RAISED = 3.3  # mm between the numbers of section lines and what is below or above them
 SAME = 1e-6  # mm, of ends of a jump
@@ -178,4 +178,4 @@ def _phases(canvas: Canvas, scene: CamScene, field: Field) -> None:
         ends = field.at(phase.start, below), field.at(phase.end, below)
         symbol = scene.words.symbol(f"phi_{phase.name}")
         text = f"{symbol} = {scene.degrees(phase.length)}"
-        linear(canvas, ends, -1j * (2.4 * scene.style.text), text, f"phi_{phase.name}")
+        linear(canvas, ends, -1j * (2.0 * scene.style.text), text, f"phi_{phase.name}")

@@ -50,6 +50,12 @@ def _joined(found: Sequence[int]) -> str:
     return ", ".join(parts)
 
 
+def shelved(found: Sequence[Number], height: float) -> Number | None:
+    """Return the number of several rays that run almost along the axis: it stands beyond the pole, on their shelf."""
+    near = [n for n in found if abs(n.level) < APART * height and not n.text.isdigit()]
+    return min(near, key=lambda n: abs(n.level), default=None)
+
+
 def small(text: float) -> float:
     """Return the height of the numbers of rays beside texts of a height, mm."""
     return max(2.5, 0.7 * text)
@@ -58,7 +64,8 @@ def small(text: float) -> float:
 def aside(ordinates: Sequence[Sequence[tuple[int, float]]], text: float) -> float:
     """Return how far to the left of the ordinates the rays of several diagrams end: there is room for all numbers."""
     height = small(text)
-    wide = (lay_out(number.text, height).width for found in ordinates for number in numbers(found, height))
+    every = (numbers(found, height) for found in ordinates)
+    wide = (lay_out(n.text, height).width for found in every for n in found if n is not shelved(found, height))
     return max(wide, default=0.0) + 4.0 * AROUND + 1.0
 
 
@@ -76,18 +83,23 @@ def fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, com
     height = small(style.text)
     at = zero - pole.reach
     ordinates = [(i, (mean - field.origin).imag) for i, mean in means]
-    boxes = list(_written(canvas, numbers(ordinates, height), field.origin - 0.5 * away, height))
+    found = numbers(ordinates, height)
+    beyond = shelved(found, height)
+    boxes = list(_written(canvas, [n for n in found if n is not beyond], field.origin - 0.5 * away, height))
     cuts: dict[float, list[tuple[int, complex]]] = {}
     for i, mean in means:
         cuts.setdefault(round(mean.imag, 4), []).append((i, mean))
     feet = [complex(zero.real, cut) for cut in sorted(cuts)]
-    for foot, (_, found) in zip(feet, sorted(cuts.items()), strict=True):
-        canvas.add(Line(at, foot, Pen.THIN, role="ray", name=" ".join(str(i) for i, _ in found)))
-        nearest = min((mean for _, mean in found), key=lambda mean: mean.real)
+    for foot, (_, equal) in zip(feet, sorted(cuts.items()), strict=True):
+        canvas.add(Line(at, foot, Pen.THIN, role="ray", name=" ".join(str(i) for i, _ in equal)))
+        nearest = min((mean for _, mean in equal), key=lambda mean: mean.real)
         canvas.add(*_broken(nearest, foot, boxes, Pen.DASHED, "projection"))
     if len(feet) > 1:
         canvas.add(Line(min(feet[0], zero, key=_height), max(feet[-1], zero, key=_height), Pen.THIN, role="feet"))
-    canvas.add(*_broken(field.origin, at - PAST, boxes, Pen.THIN, "axis"))
+    wide = lay_out(beyond.text, height).width + AROUND if beyond else 0.0
+    canvas.add(*_broken(field.origin, at - max(PAST, wide), boxes, Pen.THIN, "axis"))
+    if beyond:
+        canvas.add(Text(at - wide - 1j * (height + 2.0 * AROUND), beyond.text, height, role="number"))
     canvas.add(Circle(at, style.node, Pen.MAIN, fill="white", role="pole"))
     canvas.label(pole.letter, at, prefer=-1.0 + 1j, clear=1.0, height=style.text)
     _distance(canvas, pole, (at, min(feet[0], zero, key=_height)))

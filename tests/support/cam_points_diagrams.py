@@ -112,7 +112,10 @@ def _numbered(case: CamCase, view: View, plan: str, strip: tuple[float, complex]
         yield from unless(not missed, f"a ray of {plan} misses the mean ordinates {missed}")
     heights = [ray.points[1].imag for ray in rays]
     low, high = min(heights) - 3.0, max(heights) + 3.0
-    texts = [t for t in view.texts if feet < t.box[0] and t.box[2] < origin.real and low < t.box[1] < high]
+    pole = rays[0].points[0]
+    beside = [t for t in view.texts if feet < t.box[0] and t.box[2] < origin.real and low < t.box[1] < high]
+    beyond = [t for t in view.texts if t.box[2] < pole.real and -5.0 < t.box[1] - pole.imag < 0.0]
+    texts = beside + beyond
     numbers: list[int] = []
     for part in ", ".join(t.string for t in texts if re.fullmatch(r"[\d,– ]+", t.string)).split(", "):
         first, _, last = part.partition("–")
