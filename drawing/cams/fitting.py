@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from ...plans.cams.cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_PART
-from ...plans.cams.solve import REDUCED, SolvedCam, reduced
+from ...plans.cams.solve import SolvedCam, reduced
 from ...scales.scale import Scale
 from ..compose import room
 from ..contents import SheetContents
 from ..formats import Format
-from ..givens import Given, givens_view
+from ..givens import givens_view
 from ..rungs import Figure
 from ..style import STYLES
 from ..view import View
@@ -22,7 +22,6 @@ from .scene import CamScene
 
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
 REDUCTIONS = (1.0, 0.8, 0.5, 0.4, 0.25, 0.2, 0.1)  # of the lengths that the task has on the diagrams
-ROUNDING = 12  # digits of a length that is drawn smaller
 CamFigure = Figure[CamScene]
 NARROW = 0.65  # part of the width of lines that those on the sizes of a cam may have
 
@@ -68,8 +67,7 @@ class Fitting:
             solved = reduced(self.contents.solved, part)
             # coarser diagrams leave no fewer rungs to the plans made of them
             mus = {symbol: mus[getattr(rungs, symbol)] for symbol, mus in self._chosen(solved).items()}
-            givens = {name: _reduced(name, given, part) for name, given in self.contents.givens.items()}
-            self._scenes[key] = CamScene(solved, self._words, STYLES[sheet.letters], givens, mus)
+            self._scenes[key] = CamScene(solved, self._words, STYLES[sheet.letters], self.contents.givens, mus, part)
         return self._scenes[key]
 
     def reduction(self, rungs: Rungs) -> float:
@@ -94,13 +92,6 @@ class Fitting:
         return {plan: scene.scale(plan) for plan in self.contents.solved.scale_of_plan}
 
 
-def _reduced(name: str, given: Given, part: float) -> Given:
-    """Return a given as it is drawn: the lengths of the diagrams so many times as long."""
-    if name not in REDUCED or isinstance(given.value, str):
-        return given
-    return replace(given, value=float(f"{given.value * part ** REDUCED[name]:.{ROUNDING}g}"))
-
-
 def figures(contents: Contents, width: float) -> list[CamFigure]:
     """Return the figures of a sheet in the order of the work; lines of text are at most `width` long."""
     made = {DIAGRAMS_PART: _diagrams, SIZES_PART: _sizes, PROFILE_PART: _profiles, PRESSURE_PART: _pressure}
@@ -120,8 +111,8 @@ def _diagrams(contents: Contents, width: float) -> Iterator[CamFigure]:
     from .tables import motion_table
     from .text import choices_block, scales_block
 
-    yield Figure(_givens, ("reduction",))
-    yield Figure(lambda scene: choices_block(scene, contents.note, NARROW * width))
+    yield Figure(_givens)
+    yield Figure(lambda scene: choices_block(scene, contents.note, NARROW * width), ("reduction",))
     yield Figure(motion_table)
     yield Figure(diagrams_view, ("reduction",))
     yield Figure(lambda scene: scales_block(scene, width), ("reduction",))

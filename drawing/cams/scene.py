@@ -30,7 +30,8 @@ FINE = np.radians(0.5)  # between points of a curve
 class CamScene:
     """A solved cam on a certain format, in certain words.
 
-    `solved` has the diagrams as large as they are drawn; `mus` are the scale factors that are chosen, m/mm.
+    `solved` has the diagrams as large as they are drawn, `reduction` times as large as the task's lengths on paper;
+    `mus` are the scale factors that are chosen, m/mm.
     """
 
     solved: SolvedCam
@@ -38,6 +39,7 @@ class CamScene:
     style: Style
     givens: Mapping[str, Given]
     mus: Mapping[str, float]
+    reduction: float = 1.0
 
     @property
     def mu_l(self) -> float:

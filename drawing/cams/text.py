@@ -31,6 +31,7 @@ def choices_block(scene: CamScene, note: str, width: float) -> View:
     chosen = ((name, choice(words, name, value)) for name, value in words_given)
     lines: Lines = [(f"{words.texts.get(f'given.cam_{name}', about)}:", said) for name, (about, said) in chosen]
     lines += _about(scene)
+    lines += [_smaller(scene)] if scene.reduction != 1.0 else []
     lines += [words_of(note)] if note else []
     return text_block("choices", words["heading.cam_choices"], lines, scene.style, width)
 
@@ -169,6 +170,15 @@ def _about(scene: CamScene) -> Lines:
         lower = f"{words.symbol('phi_lower')} = {scene.degrees(lower_dwell.length)}"
         said.append((words["said.cam_lower"].format(angle=lower),))
     return said
+
+
+def _smaller(scene: CamScene) -> tuple[str, ...]:
+    """Say that the diagrams are smaller than the lengths given, and with what lengths they are drawn."""
+    words, mm = scene.words, scene.words.unit("mm")
+    lengths = ((name, words.short(round(scene.paper(name), 2))) for name in ("l_A1", "H_a", "H_v"))
+    said = [f"{words.symbol(name)} = {length} {mm};" for name, length in lengths]
+    axis = words["said.cam_axis"].format(angle=scene.degrees(scene.mu("mu_phi")))
+    return (*words_of(words["said.cam_smaller"].format(part=words.short(scene.reduction))), *said, axis)
 
 
 def _rates(scene: CamScene) -> Lines:

@@ -10,6 +10,7 @@ from kulman import check, sheet, solve
 from kulman.plans.cams.solve import EQUAL, SCALES
 from kulman.scales.errors import InputError
 from kulman.tests.support.cam_cases import MU_D2S, MU_DS, MU_S, MU_S_D2S, MU_S_DS, measured, printed_scales
+from kulman.tests.support.printed_numbers import lines_of
 from kulman.tests.support.readback import read
 from kulman.variants.marking.report_json import to_json
 from kulman.variants.sheets import Sheet
@@ -68,7 +69,9 @@ def test_a_small_sheet_prints_what_is_solved_for_it(small: Solution, drawn: Shee
         for symbol, name in own.items():
             assert printed[symbol] == pytest.approx(small.scales[name].mu, rel=5e-5), name
     assert measured(views["sizes"], "r_0") == pytest.approx(small["r_0"].mm, abs=0.01)
-    assert "15" in [text.string for text in views["givens"].texts]  # the pole distances as they are drawn
+    said = " ".join(lines_of(views["choices"]))
+    assert "0,5 заданих довжин: l_{A1} = 55 мм; H_{a} = 15 мм; H_{v} = 15 мм; 1 мм осі φ відповідає 2°" in said
+    assert {"110", "30"} <= {text.string for text in views["givens"].texts}  # the table has what the task gives
 
 
 def test_smaller_diagrams_are_told(small: Solution, drawn: Sheet) -> None:
@@ -78,6 +81,12 @@ def test_smaller_diagrams_are_told(small: Solution, drawn: Sheet) -> None:
         assert [warning.key for warning in warnings] == ["cam-smaller"]
         assert warnings[0].text("en").startswith(told)
     assert solve(TASK).warnings == ()
+
+
+def test_a_sheet_at_the_lengths_given_says_nothing_of_smaller_ones() -> None:
+    whole = read(sheet(TASK, only="diagrams", format="A1").svg())
+
+    assert not any("заданих довжин" in line for line in lines_of(whole["choices"]))
 
 
 def test_segments_without_a_format_are_those_of_the_usual_sheet() -> None:
