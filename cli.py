@@ -225,6 +225,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 @of_task
 @output(".notes", "Where to: .pdf, .md with its figures beside it; of one figure .svg, .png.", required=True)
 @click.option("--figure", metavar="NAME", help="One figure of the note alone: position, velocity, forces_23.")
+@click.option("--format", type=Word(*SIZES), help="That of the sheet whose figures and numbers the note has.")
 @titled("student", "group", "teacher", "department", "date")
 def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str | None, **options: Any) -> None:
     """Write the explanatory note of TASK: the work step by step, with equations, figures, tables."""

@@ -23,7 +23,6 @@ from .sheets import Sheet, draw_case
 from .task import Task
 
 TEXTS = "kulman.drawing.notes"
-PAPER = "A4"  # figures drawn for it have room in the note at their true size
 DOCUMENTS = (".pdf", ".md")
 SUFFIXES = (*DOCUMENTS, ".svg", ".png")
 
@@ -88,14 +87,15 @@ def note(
     scales: Settings | None = None,
     notation: str | None = None,
     lang: str = "uk",
+    format: str | None = None,
     figure: str | None = None,
     **block: str,
 ) -> Note:
-    """Write the explanatory note of one variant of a task.
+    """Write the explanatory note of one variant of a task, with the figures and numbers of its sheet.
 
     Parameters
     ----------
-    task, variant, set, only, scales, notation, lang
+    task, variant, set, only, scales, notation, lang, format
         As for `sheet`.
     figure : str, optional
         The name of the only figure that is wanted, such as `velocity`.
@@ -108,14 +108,19 @@ def note(
         As for `sheet`; or there is no such figure.
     """
     case = solve_case(task, variant, set, only, scales)
-    return note_of_case(case, block, notation, lang, figure)
+    drawn = draw_case(case, {}, format, notation=notation, lang=lang)
+    return note_of_sheet(case, drawn, block, notation, lang, figure)
 
 
-def note_of_case(
-    case: Case, block: dict[str, str], notation: str | None = None, lang: str = "uk", figure: str | None = None
+def note_of_sheet(
+    case: Case,
+    drawn: Sheet,
+    block: dict[str, str],
+    notation: str | None = None,
+    lang: str = "uk",
+    figure: str | None = None,
 ) -> Note:
-    """Write the note of a case that is solved already."""
-    drawn = draw_case(case, {}, PAPER, notation=notation, lang=lang)
+    """Write the note of a sheet that is drawn already."""
     words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
     said = packaged(TEXTS, "texts", lang)
     story = case.kind.story(case, drawn.scales, words, said)

@@ -9,6 +9,8 @@ from ..page import extent
 from ..shapes import Text
 from ..view import View
 
+ROOM = (180.0, 215.0)  # mm of a page of A4 for a figure, its caption under it
+
 
 @dataclass(frozen=True, slots=True)
 class Heading:
@@ -52,6 +54,12 @@ class Figure:
     view: View
     caption: str
     under: tuple[str, ...]
+
+    @property
+    def share(self) -> float:
+        """The part of its size on the sheet at which it has room on a page of the note."""
+        width, height = self.view.size
+        return min(1.0, ROOM[0] / width, ROOM[1] / height)
 
 
 Block = Heading | Sentences | Steps | Equations | Table | Figure

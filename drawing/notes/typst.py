@@ -16,7 +16,6 @@ from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Step
 from .figures import figure_page
 from .markup import Node, Plain, Ruled, parse
 
-WIDTH = 180.0  # mm of text on A4: as wide as the widest figure of a sheet on A4
 PREAMBLE = """\
 #set document(title: {title}, date: none)
 #set page(paper: "a4", margin: (left: 20mm, right: 10mm, top: 15mm, bottom: 20mm), numbering: "1", number-align: center)
@@ -121,13 +120,18 @@ def _block(block: Block, said: dict[str, str], numbers: Iterator[int]) -> str:
         case Table(rows=rows):
             return _table(rows)
         case Figure(view=view, caption=caption, under=under):
-            width = view.box[2] - view.box[0]
-            note = "".join(f" #linebreak() {_line(text)}" for text in under)
-            shown = f'image("{next(numbers)}.svg", width: {min(width, WIDTH):.4f}mm)'
+            lines = (*under, *reduced(block, said))
+            note = "".join(f" #linebreak() {_line(text)}" for text in lines)
+            shown = f'image("{next(numbers)}.svg", width: {view.size[0] * block.share:.4f}mm)'
             return (
                 f"#figure({shown}, kind: image, supplement: {_quoted(said['figure'])}, "
                 f"caption: [{_line(caption)}{note}])\n"
             )
+
+
+def reduced(figure: Figure, said: dict[str, str]) -> tuple[str, ...]:
+    """Say by how much a figure is smaller than on the sheet, if it is."""
+    return (said["figure.reduced"].format(part=round(100.0 * figure.share)),) if figure.share < 1.0 else ()
 
 
 def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:

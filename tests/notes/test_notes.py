@@ -78,7 +78,7 @@ def test_a_note_says_everything_in_its_language(task: str, lang: str) -> None:
 @pytest.mark.parametrize("task", tasks(table="mechanism"))  # whose plans are told mark by mark
 def test_what_is_measured_recomputes_and_is_what_is_solved(task: str) -> None:
     written = note(task, lang="en")
-    solution = solve(task, lang="en", format="A4")
+    solution = solve(task, lang="en", format=written.sheet.format)
     symbols: dict[str, list[float]] = {}
     for quantity in solution.quantities.values():
         shown = quantity.shown(solution.words.display)

@@ -102,10 +102,10 @@ class Making:
     ) -> Iterator[tuple[str, bytes]]:
         """Go through the files of one kind: their names and what they hold."""
         if kind == NOTE:
-            from ..notes import note_of_case
+            from ..notes import note_of_sheet
 
             page = {name: text for name, text in block.items() if name != "designation"}
-            document = note_of_case(case, page, self.notation, self.language).document
+            document = note_of_sheet(case, drawn, page, self.notation, self.language).document
             yield f"{stem}-note.pdf", pdf_bytes(document)
             return
         if kind == HANDOUT:
