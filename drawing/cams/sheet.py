@@ -86,7 +86,7 @@ def _single(fitting: Fitting, sheet: Format, last: bool) -> Found | None:
     found = _placed(fitting, sheet, wanted)
     if found is not None or not smaller or not _may_fit(_views(fitting, sheet, smaller[-1]), sheet):
         return found
-    tried = (_placed(fitting, sheet, rungs) for rungs in smaller)
+    tried = (_placed(fitting, sheet, rungs) for rungs in smaller if _legible(fitting, sheet, rungs))
     return next((page for page in tried if page is not None), None)
 
 
@@ -110,18 +110,16 @@ def _ways(fitting: Fitting, last: bool) -> list[Rungs]:
     """Return rungs to be tried: first what is least missed gives way, what the task asks for at the end."""
     asked = ["mu_l"] * isinstance(fitting.contents.choosers.get("mu_l"), Fixed)
     most = {name: rungs for name, rungs in GIVING.items() if name not in asked and (last or name in EQUAL)}
-    ranges = (range(_rungs(fitting, name, rungs)) for name, rungs in most.items())
+    ranges = (range(min(rungs + 1, len(fitting.ladders[name]))) for name, rungs in most.items())
     ways = (Rungs(**dict(zip(most, steps, strict=True))) for steps in product(*ranges))
     return sorted(ways, key=_missed)
 
 
-def _rungs(fitting: Fitting, name: str, most: int) -> int:
-    """Return how many rungs of a ladder may be tried: no plan made of two diagrams becomes too small to be read."""
-    mus = fitting.ladders[name]
-    if name not in EQUAL:
-        return min(most + 1, len(mus))
-    size = size_of(fitting.contents.solved, name)
-    return max(1, sum(size >= LEAST * mu for mu in mus[: most + 1]))
+def _legible(fitting: Fitting, sheet: Format, rungs: Rungs) -> bool:
+    """Whether no plan made of two diagrams becomes too small to be read for the sake of one page."""
+    scene = fitting.scene(sheet, rungs)
+    smaller = (name for name in EQUAL if getattr(rungs, name))
+    return all(size_of(scene.solved, name) >= LEAST * scene.mus[name] for name in smaller)
 
 
 def _missed(rungs: Rungs) -> tuple[int, int]:
