@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from cmath import phase
-from math import cos, pi, sin
+from math import acos, cos, pi, sin
 
 from ...plans.hoist.model import CIRCLE
 from ..shapes import Arc, Group, Head, Line, Pen
 from ..symbols import angle_dimension
-from ..view import View
+from ..view import Canvas, View
 from .scene import HoistScene, canvas_of
 
 PAST = 14.0  # mm by which the axis runs past the circle
@@ -27,10 +27,8 @@ def circle_view(scene: HoistScene) -> View:
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
     canvas.label(f"{words.symbol('P_12')}, {words.unit('N')}", right, prefer=-1j, clear=1.2)
     canvas.label(f"P′_{{12}}/k_{{1}}, {words.unit('N')}", top, prefer=1.0 + 0j, clear=1.2)
-    canvas.add(
-        Group(tuple(Arc(0j, radius, k * pi, pi, Pen.MAIN) for k in range(2)), "circle", "R"),
-        Line(0j, start, Pen.MAIN, role="radius", name="R"),
-    )
+    _circle(canvas, scene, radius)
+    canvas.add(Line(0j, start, Pen.MAIN, role="radius", name="R"))
     run = phase(start) % (2.0 * pi)
     canvas.add(angle_dimension(0j, max(ANGLE * radius, 8.0), run, -run, "phi_1", scene.style))
     middle = max(ANGLE * radius, 8.0) * complex(*_unit(0.5 * run))
@@ -43,7 +41,23 @@ def circle_view(scene: HoistScene) -> View:
             continue  # the rope goes slack before, or the load comes back
         canvas.add(scene.node(at, name, filled=True))
         canvas.label(scene.stated(name), at, prefer=(at or -1j) - 0.6j, clear=1.2, height=scene.style.text)
-    return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")), (scene.stated("R"),))
+    notes = (scene.stated("R"), *([words["hoist.slack"]] if scene.size("P_m") < scene.size("R") else []))
+    return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")), notes)
+
+
+def _circle(canvas: Canvas, scene: HoistScene, radius: float) -> None:
+    """Draw the circle; where the rope would push it is only dashed, beyond a line where its force is zero."""
+    part = scene.size("P_m") / scene.size("R") if scene.size("R") else 1.0
+    if part >= 1.0:
+        canvas.add(Group(tuple(Arc(0j, radius, k * pi, pi, Pen.MAIN) for k in range(2)), "circle", "R"))
+        return
+    end = pi - acos(part)
+    pulls = tuple(Arc(0j, radius, k * end, end, Pen.MAIN) for k in (-1, 0))
+    canvas.add(Group(pulls, "circle", "R"), Arc(0j, radius, end, 2.0 * (pi - end), Pen.DASHED, role="slack"))
+    x, high = -part * radius, radius * sin(end)
+    canvas.add(Line(complex(x, -high), complex(x, high), Pen.THIN, role="level", name="slack"))
+    symbol = scene.words.symbol("P_12")
+    canvas.label(f"{symbol} = 0", complex(x, high), prefer=-1.0 + 1j, clear=1.2, height=scene.style.text)
 
 
 def _unit(angle: float) -> tuple[float, float]:

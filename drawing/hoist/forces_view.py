@@ -7,10 +7,10 @@ import numpy as np
 from ...plans.hoist.article import article_force
 from ...plans.hoist.course import course, end_of, marks
 from ...plans.hoist.diagram_plan import FORCES
-from ..diagram import Axis, Field, axes, curve, divisions
+from ..diagram import Axis, Field, curve, divisions
 from ..shapes import Line, Pen, Text
-from ..text import lay_out
 from ..view import Canvas, View
+from .axes import ruled
 from .scene import POINTS, HoistScene, canvas_of
 
 TALLEST = 1.05
@@ -21,12 +21,18 @@ def forces_view(scene: HoistScene) -> View:
     """Draw the forces over time."""
     canvas, words = canvas_of(scene), scene.words
     field = _field(scene)
-    axes(canvas, field, past=3.0)
+    ruled(canvas, field)
     _levels(canvas, scene, field)
     _curves(canvas, scene, field)
     _times(canvas, scene, field)
     _values(canvas, scene, field)
     notes = [words["hoist.article"]]
+    if 0 in scene.solved.layout.bent:
+        mu = f"{scene.scale('mu_F').mu / scene.size('C_01'):.3g}"
+        unit = words.unit("m/mm")
+        notes.append(
+            words["hoist.course"].format(w=words.symbol("w_0"), F=words.symbol("F_01"), mu=words.decimal(mu), unit=unit)
+        )
     roots = scene.solved.layout.roots
     if scene.solved.forces.motion is not None:
         notes.append(words["hoist.one_sided"])
@@ -86,17 +92,13 @@ def _times(canvas: Canvas, scene: HoistScene, field: Field) -> None:
     marked |= {quantity.name: float(quantity.value or 0.0) for quantity in maxima[::2]}
     height, rows = scene.style.text, 0
     top = field.at(0.0, field.y.high).imag
-    for name, t in sorted(marked.items(), key=lambda mark: mark[1]):
+    for name, t in sorted(marked.items(), key=lambda mark: -mark[1]):  # the later, the lower: no text meets a line
         if t > field.x.high:
             continue
         level = top + ROW * height * (rows + 1)
         foot, end = field.at(t, field.y.low), complex(field.at(t, 0.0).real, level + height)
         canvas.add(Line(foot, end, Pen.THIN, role="time", name=name))
-        text = scene.stated(name, t, "s")
-        wide = lay_out(text, height).width
-        right = end.real + wide + 2.0 < field.at(field.x.high, 0.0).real + 15.0
-        at = complex(end.real + (0.5 if right else -0.5), level)
-        canvas.add(Text(at, text, height, "left" if right else "right", role="time"))
+        canvas.add(Text(complex(end.real + 0.5, level), scene.stated(name, t, "s"), height, "left", role="time"))
         rows += 1
 
 

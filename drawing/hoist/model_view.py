@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..shapes import Arrow, Group, Head, Line, Pen, Polyline
+from ..shapes import Arrow, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import hatching
 from ..view import Canvas, View
 from .scene import HoistScene, canvas_of
@@ -24,13 +24,14 @@ def model_view(scene: HoistScene) -> View:
     canvas.add(spring(0j, bottom, "C_01"), spring(top, end, "C_12"))
     box = tuple(complex(x, y) for x, y in ((-half, SPRING), (half, SPRING), (half, top.imag), (-half, top.imag)))
     canvas.add(Group((Polyline(box, Pen.MAIN, closed=True, fill="white"),), "link", "m"), Line(end - 9.0, end + 9.0))
-    canvas.label("m", 0.5 * (bottom + top), clear=0.0)
-    for name, at in (("C_01", 0.5 * bottom), ("C_12", 0.5 * (top + end))):
+    h = scene.style.label
+    canvas.add(Text(0.5 * (bottom + top) - 0.35j * h, "m", h, "middle", role="label"))
+    for name, at in (("C_01", 0.28 * bottom), ("C_12", 0.5 * (top + end))):
         canvas.label(words.symbol(name), at - HALF, prefer=-1.0 + 0j, clear=1.0)
     _arrow(canvas, end + 6.0, end + 6.0 + 1j * FORCE, f"{words.symbol('V_t')}, a")
     _arrow(canvas, top + 6.0, top + 6.0 + 1j * FORCE, words.symbol("F_12"))
     _arrow(canvas, bottom + 6.0, bottom + 6.0 - 1j * FORCE, words.symbol("F_01"))
-    _arrow(canvas, bottom - 6.0, bottom - 6.0 - 1j * FORCE, "mg")
+    _arrow(canvas, bottom - 8.5, bottom - 8.5 - 1j * FORCE, "mg")
     axis = complex(half + 12.0, 0.0)
     canvas.add(
         Line(axis, axis + end, Pen.THIN, role="axis"), Head(axis + end, 1j), Line(axis - 2.0, axis + 2.0, Pen.THIN)

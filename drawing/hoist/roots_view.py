@@ -9,9 +9,10 @@ import numpy as np
 from ...plans.hoist.construction import Roots
 from ...plans.hoist.root_plans import EXTREMES, LIFT_OFF
 from ...plans.laws import LAWS
-from ..diagram import Axis, Field, axes, curve, divisions
+from ..diagram import Axis, Field, curve, divisions
 from ..shapes import Line, Pen
 from ..view import Canvas, View
+from .axes import ruled
 from .magnified import magnified
 from .scene import POINTS, HoistScene, canvas_of
 
@@ -55,7 +56,7 @@ def lift_off_view(scene: HoistScene) -> View:
     parabola = np.asarray(LAWS["wound"](V, a, roots.begin + t)) - found["P_st"] / found["C"]
     low, high = float(min(parabola.min(), wave.min())), float(max(parabola.max(), wave.max()))
     field = _field(scene, f"y, {words.unit('m')}", "mu_y", (low, high))
-    axes(canvas, field)
+    ruled(canvas, field)
     for name, ordinates in (("parabola", parabola), ("sinusoid", wave)):
         curve(canvas, field, zip(t.tolist(), ordinates.tolist(), strict=True), name)
     for letter in "YO":
@@ -79,13 +80,14 @@ def extremes_view(scene: HoistScene) -> View:
     mu = scene.scale("mu_v").mu
     levels = [end.imag * mu for end in ends]
     field = _field(scene, words.unit("m/s"), "mu_v", (min(*levels, float(wave.min())), float(wave.max())))
-    axes(canvas, field)
+    ruled(canvas, field)
     curve(canvas, field, zip(t.tolist(), wave.tolist(), strict=True), "sinusoid")
     canvas.add(Line(ends[0], ends[1], Pen.MAIN, role="curve", name="line"))
     canvas.add(*(_node(scene, EXTREMES, f"W{i}") for i in _shown(roots, roots.extremes)))
     at = POINTS // 6
-    canvas.label("V cos kt + (a/k) sin kt", field.at(float(t[at]), float(wave[at])), prefer=1j, clear=1.5)
-    name = f"−({words.symbol('C_01')}/{words.symbol('C_12')})(V + at)"
+    speed = words.symbol("V_t")
+    canvas.label(f"{speed} cos kt + (a/k) sin kt", field.at(float(t[at]), float(wave[at])), prefer=1j, clear=1.5)
+    name = f"−({words.symbol('C_01')}/{words.symbol('C_12')})({speed} + at)"
     canvas.label(name, (ends[0], ends[1]), prefer=-1j, clear=1.5)
     for n in range(1, len(roots.times) + 1):
         number = f"({n})" if len(roots.times) > FEW else ""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from ...plans.hoist.beam_plans import SCHEME
 from ..dimensions import linear
-from ..shapes import Circle, Group, Line, Pen, Polyline
+from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..symbols import fixed_pivot, hatching
+from ..text import lay_out
 from ..view import Canvas, View
 from .scene import HoistScene, canvas_of
 
@@ -29,7 +30,12 @@ def scheme_view(scene: HoistScene) -> View:
         canvas.add(fixed_pivot(at[left], left, style), rolling_support(at[right], right, scene))
     for mark, letter in (("A0", "A_{0}"), ("A2", "A_{2}")):
         canvas.label(letter, at[mark], prefer=(1.0 + 1j) if mark == "A2" else (1.0 - 1j), clear=DRUM)
-    canvas.label(f"{words.symbol('G_1')}", at["A0"] + complex(0.8 * tall, 0.5 * tall), prefer=1.0 + 0j, clear=1.0)
+    canvas.keep_clear(*corners)
+    h, name = style.label, words.symbol("G_1")
+    if tall > 1.5 * h and 1.6 * tall > lay_out(name, h).width + 1.0:
+        canvas.add(Text(at["A0"] + complex(0.0, 0.5 * (tall - h) + 0.1 * h), name, h, "middle", role="label"))
+    else:
+        canvas.label(name, at["A0"] + complex(0.8 * tall, 0.5 * tall), prefer=1.0 + 0j, clear=1.0)
     _dimensions(canvas, scene, at)
     ratio = words.short(round(scene.mus["mu_l"] * 1e3, 6))
     heading = (

@@ -62,7 +62,9 @@ def _check_row(scene: HoistScene, check: Check) -> list[str]:
     condition = f"{words.symbol(OF_CHECK[check.name])} {sign} {words.short(check.limit)}"
     unit = f" {words.unit(check.unit)}" if check.unit else ""
     verdict = words["said.cam_ok" if check.ok else "said.cam_fails"]
-    return [words[f"hoist.{check.name}"], condition, scene.value(check.value) + unit, verdict]
+    would = scene.solved.forces.motion is not None and check.name != STRENGTH and not check.ok
+    value = f"{words['hoist.would_be']} " * would + scene.value(check.value) + unit
+    return [words[f"hoist.{check.name}"], condition, value, verdict]
 
 
 def scales_table(scene: HoistScene) -> View:
