@@ -19,6 +19,7 @@ from .hardware import shaft, shaft_radius
 from .scene import CamScene
 
 PAST = 5.0  # mm of the axes of a cam beyond its circles
+Free = tuple[float, float, float]  # radii, mm: text stands between the first two, or beyond the third
 SHARES = (0.5, 0.7, 0.3, 0.8, 0.2)  # of the arc of a phase at which its text may stand
 LOST = 3  # significant digits of a travel that is lost
 SIDEWAYS = 0.3  # sine of the angle below the horizontal from which on the support is there
@@ -135,11 +136,11 @@ def circle(radius: float, name: str) -> Group:
     return Group((Circle(0j, radius, Pen.THIN),), "circle", name)
 
 
-def radius_at(canvas: Canvas, scene: CamScene, name: str, value: float, angle: float, free: tuple[float, float]) -> str:
+def radius_at(canvas: Canvas, scene: CamScene, name: str, value: float, angle: float, free: Free) -> str:
     """Dimension the radius of a circle about the cam's centre along a ray.
 
-    The text runs along the ray: between the shaft and the first of the radii `free`, if need be without its number,
-    or else beyond the second; that of a cam without room for letters stands where it finds a place.
+    The text runs along the ray: between the first two of the radii `free`, beyond the shaft, if need be without its
+    number, or else beyond the third; that of a cam without room for letters stands where it finds a place.
 
     Returns
     -------
@@ -148,17 +149,17 @@ def radius_at(canvas: Canvas, scene: CamScene, name: str, value: float, angle: f
     """
     style, size = scene.style, value / scene.mu_l
     ray, whole = cmath.rect(1.0, angle), f"{scene.words.symbol(name)} = {scene.length(value)}"
-    low, high = shaft_radius(size, style) + 1.0, min(free[0], size - style.arrow)
+    low, high = max(shaft_radius(size, style), free[0]) + 1.0, min(free[1], size - style.arrow)
     text = whole if lay_out(whole, style.text).width < high - low else scene.words.symbol(name)
     left = "" if text == whole else whole
     wide = lay_out(text, style.text).width
     inside, small = wide < high - low, size < SMALLEST * style.label
-    tip = size if inside or small else free[1] + wide + 1.5
+    tip = size if inside or small else free[2] + wide + 1.5
     canvas.add(Line(0j, ray * tip, Pen.THIN, role="radius", name=name), Head(ray * size, ray))
     if small:
         canvas.label(text, (0.5 * ray * size, ray * size), prefer=ray, clear=0.8, height=style.text)
         return left
-    middle = 0.5 * (low + high) if inside else free[1] + 0.5 * wide + 1.5
+    middle = 0.5 * (low + high) if inside else free[2] + 0.5 * wide + 1.5
     turn = 1.0 if ray.real > -1e-9 else -1.0
     at = ray * complex(middle, turn)
     canvas.add(Text(at, text, style.text, "middle", cmath.phase(ray * turn), role="label", name=name))

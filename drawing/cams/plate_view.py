@@ -88,7 +88,7 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> list[str]:
     assert plate is not None
     middle = quiet(motion, sense)
     left_out = radius_at(
-        canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (plate.sizes.r_0 / mu, plate.sizes.r_0 / mu)
+        canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (0.0, plate.sizes.r_0 / mu, plate.sizes.r_0 / mu)
     )
     level, up = 1j * rod.low, 1j * scene.style.text
     _over(canvas, (level, level - sense * R), ABOVE[1] * up, words.symbol("R_plate"), "R_plate")

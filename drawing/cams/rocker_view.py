@@ -110,9 +110,9 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
     cam, division = solved.rocker, solved.layout.division
     assert cam is not None
     sizes, R = cam.sizes, cam.profile.R
-    left = [radius_at(canvas, scene, "r_0", sizes.r_0, quiet, ((sizes.r_0 - R) / mu, sizes.r_0 / mu))]
+    left = [radius_at(canvas, scene, "r_0", sizes.r_0, quiet, (0.0, (sizes.r_0 - R) / mu, sizes.r_0 / mu))]
     far = sizes.l_OC / mu
-    left += [radius_at(canvas, scene, "l_OC", sizes.l_OC, quiet + ASIDE * solved.cam.sense, (far, far))]
+    left += [radius_at(canvas, scene, "l_OC", sizes.l_OC, quiet + ASIDE * solved.cam.sense, (sizes.r_0 / mu, far, far))]
     roller_radius(canvas, scene, [scene.mm(f"{PROFILE}.B{i}") for i in division.lines], R)
     top = division.top
     pivot = scene.mm(f"{PROFILE}.A{top}")

@@ -100,7 +100,7 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
     assert roller is not None
     middle = quiet(solved.motion, sense)
     r_0 = roller.sizes.r_0
-    left = radius_at(canvas, scene, "r_0", r_0, middle, ((r_0 - roller.profile.R) / mu, r_0 / mu))
+    left = radius_at(canvas, scene, "r_0", r_0, middle, (0.0, (r_0 - roller.profile.R) / mu, r_0 / mu))
     level = rod.top + 6.0
     ends = complex(0.0, rod.top), complex(rod.x, rod.top)
     linear(canvas, ends, 1j * (level - rod.top), f"{words.symbol('e')} = {scene.length(abs(roller.sizes.e))}", "e")
