@@ -119,7 +119,8 @@ class Canvas:
             corner = placed.corners[request.name]
             at = corner - 1j * lay_out(markup, height).bottom
             self.shapes.append(Text(at, markup, height, role="label"))
-        self.shapes += [Line(*ends, Pen.THIN, role="leader") for ends in placed.leaders.values()]
+        for label, ends in placed.leaders.items():
+            self.shapes.append(Line(*ends, Pen.THIN, role="leader", name=self._markup[int(label)][0]))
         x0, y0, x1, y1 = extent(self.shapes)
         for texts, height in ((notes, self.style.text), (heading, self.style.heading)):
             lines, y1 = heading_shapes(texts, height, (x0 + x1) / 2, y1)

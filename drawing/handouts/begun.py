@@ -94,6 +94,8 @@ def _is_shown(shape: Shape, shown: Shown) -> bool:
         case Group(role=role, name=name):
             own = f"link:{name}" if role == "guide" else f"{role}:{name}"
             return role in ALWAYS or own in shown.names or name in shown.names
+        case LineShape(role="leader", name=name):
+            return name in shown.names or name in shown.letters
         case LineShape(name=name, pen=pen) | Polyline(name=name, pen=pen):
             return name in shown.names or (not name and pen.name == "AXIS")
         case _:

@@ -89,3 +89,11 @@ def test_note_tells_as_many_steps_as_a_handout_has_stages(lang: str) -> None:
     assert words.number(78.857, 1) in said  # d_w1 / 2 at 2:1
     assert words.number(35.568, 1) in said  # the active line on paper
     assert f"{words.number(26.65, 2)}°" in said
+
+
+def test_letters_on_leaders_keep_them_on_a_blank() -> None:
+    pages = handout(TASK, only="meshing", lang="en").pages
+    leaders = [line.name for page in pages for line in parts(page.shapes) if getattr(line, "role", "") == "leader"]
+
+    assert "P" in leaders
+    assert {*leaders} <= {"P", "O_{1}", "O_{2}"}
