@@ -1,6 +1,6 @@
 """The work on a hoist told step by step, as an explanatory note numbers it: formulas with their numbers, drawings.
 
-A formula is written once, as an expression in the names of quantities; `formula` prints it with letters and with numbers.
+A formula is written once, as an expression in names of quantities; `formula` prints it with letters and with numbers.
 """
 
 from __future__ import annotations
@@ -98,7 +98,8 @@ def formula(scene: HoistScene, told: Formula) -> tuple[str, ...]:
     value = scene.size(told.name)
     chunks = [f"{scene.words.symbol(told.name)} = {_printed(told.expression, _letters(scene, names))}"]
     if all(math.isfinite(scene.size(name)) for name in names):
-        chunks.append(f"= {_printed(told.expression, {name: _number(scene, scene.size(name), True) for name in names})}")
+        numbers = {name: _number(scene, scene.size(name), inside=True) for name in names}
+        chunks.append(f"= {_printed(told.expression, numbers)}")
     unit = f" {scene.words.unit(told.unit)}" if told.unit else ""
     chunks.append(f"= {_number(scene, value)}{unit}")
     return (*chunks, f"({told.number})") if told.number else tuple(chunks)

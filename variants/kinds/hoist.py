@@ -16,6 +16,7 @@ from .kind import Kind, Verdicts
 
 if TYPE_CHECKING:
     from ...drawing.formats import Format
+    from ...drawing.notes.blocks import Story
     from ...drawing.page import Drawn
     from ...drawing.pens import Norm
     from ...drawing.titleblock import Stamp
@@ -174,6 +175,16 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         from ...drawing.hoist.letters import lettered
 
         return lettered(words, len(solved.layout.roots.times) if solved.layout.roots else 0)
+
+    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
+        """Tell formulas with their numbers, and the drawings step by step."""
+        from ...drawing.hoist.scene import HoistScene
+        from ...drawing.hoist.steps import story
+        from ...drawing.style import STYLES
+
+        solved = hoist(case.solved)
+        scene = HoistScene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, {})
+        return story(scene, scales, texts)
 
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a hoist."""
