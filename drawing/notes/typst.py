@@ -120,8 +120,8 @@ def _block(block: Block, said: dict[str, str], numbers: Iterator[int]) -> str:
         case Table(rows=rows):
             return _table(rows)
         case Figure(view=view, caption=caption, under=under):
-            lines = (*under, *reduced(block, said))
-            note = "".join(f" #linebreak() {_line(text)}" for text in lines)
+            below = (*under, *reduced(block, said))
+            note = "".join(f" #linebreak() {_line(text)}" for text in below)
             shown = f'image("{next(numbers)}.svg", width: {view.size[0] * block.share:.4f}mm)'
             return (
                 f"#figure({shown}, kind: image, supplement: {_quoted(said['figure'])}, "

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ..scales.choices import HANDS, SIZES
-from ..scales.errors import LANGUAGES, InputError
-from ..scales.numbers import quote
+from ...scales.choices import HANDS, SIZES
+from ...scales.errors import LANGUAGES, InputError
+from ...scales.numbers import quote
 
 # what the title blocks of a class have in common, but for the group that the roster says
 BLOCK = ("group", "teacher", "department", "designation", "date")
-NORMS = ("gost", "iso")
+VARIANTS = (__package__ or "").rpartition(".")[0]
 Command = TypeVar("Command", bound=Callable[..., Any])
 if TYPE_CHECKING:
     TextType = click.ParamType[str]
@@ -73,10 +73,10 @@ def output(module: str, help: str, required: bool = False) -> Callable[[Command]
     """
 
     def checked(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
-        from ..drawing.writers import check_outputs
+        from ...drawing.writers import check_outputs
 
         paths = tuple(map(Path, values))
-        check_outputs(*paths, known=import_module(module, __package__).SUFFIXES)
+        check_outputs(*paths, known=import_module(module, VARIANTS).SUFFIXES)
         return paths
 
     names = ("-o", "--output", "files")
@@ -158,7 +158,7 @@ def titled(*names: str) -> Callable[[Command], Command]:
 
 def moodle_out(ctx: click.Context, param: click.Parameter, value: str | None) -> Path | None:
     """Refuse, before any work, a file that Moodle would not read, or that cannot be written."""
-    from ..drawing.writers import check_outputs
+    from ...drawing.writers import check_outputs
 
     if value is None:
         return None

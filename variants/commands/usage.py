@@ -6,9 +6,9 @@ import re
 
 import click
 
-from ..scales.errors import InputError
-from ..scales.names import unknown
-from ..scales.numbers import quote
+from ...scales.errors import InputError
+from ...scales.names import unknown
+from ...scales.numbers import quote
 
 
 def usage_error(error: click.UsageError) -> InputError:

@@ -1,0 +1,1 @@
+"""The command line's options, its console, and the commands for teachers."""

@@ -1,0 +1,71 @@
+"""What commands say: warnings, refusals, JSON, how far a long one is."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ...scales.errors import InputError, KulmanError, messages
+from ...scales.language import system_language
+
+if TYPE_CHECKING:
+    from ..task import Task
+
+CLOSED = 1
+
+
+def refuse(error: KulmanError) -> int:
+    """Show an error as one line and return its exit status."""
+    with suppress(OSError):  # nobody reads it: the status still says what happened
+        click.echo(error.text(system_language()), err=True)
+    return error.status
+
+
+def lost_output(problem: OSError) -> int:
+    """Say why the output cannot be written, unless its reader has closed it; return the exit status."""
+    # without this Python would complain once more when it flushes at exit
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if isinstance(problem, BrokenPipeError) or (sys.platform == "win32" and problem.errno == errno.EINVAL):
+        return CLOSED
+    return refuse(InputError("output-broken", reason=problem.strerror or ""))
+
+
+def warn(warnings: Sequence[KulmanError]) -> None:
+    """Show what a user should know, a line each, on stderr."""
+    for warning in warnings:
+        click.echo(warning.text(system_language()), err=True)
+
+
+def note_of(task: Task) -> None:
+    """Show on stderr what a task says of its data."""
+    language = system_language()
+    if note := task.note_in(language):
+        click.echo(f"{messages(language)['list-note']}: {note}", err=True)
+
+
+def print_json(data: Mapping[str, Any]) -> None:
+    """Print one JSON object in ASCII, which every console and pipe lets through."""
+    import json
+
+    click.echo(json.dumps(data, ensure_ascii=True, allow_nan=False, indent=2))
+
+
+@contextmanager
+def progress() -> Iterator[Callable[[int, int], None]]:
+    """Show on a console how far a class is: told how many students more are done, and of how many."""
+    if sys.stderr is None or not sys.stderr.isatty():
+        yield lambda done, whole: None
+        return
+    with click.progressbar(length=0, file=sys.stderr) as bar:
+
+        def advance(done: int, whole: int) -> None:
+            bar.length = whole
+            bar.update(done)
+
+        yield advance

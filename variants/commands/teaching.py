@@ -1,0 +1,272 @@
+"""The commands for teachers: handouts, variants, a class's sheets, marking."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ...scales.choices import HANDS, SIZES
+from ...scales.errors import InputError, messages
+from ...scales.language import system_language
+from .console import print_json, progress, refuse, warn
+from .options import (
+    BLOCK,
+    Word,
+    count,
+    count_if_given,
+    example,
+    given,
+    of_check,
+    of_norm,
+    of_task,
+    output,
+    pairs,
+    tiled,
+    titled,
+)
+
+if TYPE_CHECKING:
+    from ..marking.answers import Answers
+    from ..marking.checks import Check
+    from ..marking.result import Result
+
+
+@click.command(
+    epilog=example(
+        "kulman handout nau-slider-crank -v 3 -o blank.pdf",
+        "kulman handout nau-slider-crank -v 3 --steps 3 --format A3 -o begun.pdf",
+        "kulman handout nau-slider-crank -v 3 --key -o key.pdf",
+        "kulman handout nau-slider-crank -v 3 --over velocity -o transparency.pdf",
+    )
+)
+@of_task
+@output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
+@click.option(
+    "--steps", metavar="K", default="0", show_default=True, callback=count, help="So many steps of each plan."
+)
+@click.option("--key", is_flag=True, help="The whole work, at the same places.")
+@click.option("--over", metavar="PLAN", help="One plan alone, for a transparency to lay over a student's drawing.")
+@click.option("--format", type=Word(*SIZES), default="A4", show_default=True, help="The paper that is printed on.")
+@of_norm
+@tiled
+@titled("student", *BLOCK)
+def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
+    """Draw a handout of TASK: givens, scales and poles, no answers; with rulers that prove the print."""
+    from ... import variants
+
+    said = {name: options.pop(name) for name in (*BLOCK, "student")}
+    block = {name: text for name, text in said.items() if text is not None}
+    drawn = variants.handout(task, set=settings, block=block, **{**options, "lang": options["lang"] or "uk"})
+    for path in drawn.save(*files, tile=tile):
+        click.echo(str(path))
+    warn(drawn.warnings)
+
+
+@click.command(
+    "variants",
+    epilog=example(
+        "kulman variants nau-slider-crank --quantities V_B,a_B,M_bal",
+        "kulman variants nau-slider-crank --make 3 --range 'l_OA=25..45/5 mm' -o my-class.toml -o key.xlsx",
+        "kulman variants my-class.toml --quantities V_B -o questions.xml -o questions.gift",
+    ),
+)
+@of_task
+@click.option("--quantities", metavar="NAME,...", multiple=True, callback=given, help="Only these: V_B,a_B,M_bal.")
+@click.option("--make", metavar="N", callback=count_if_given, help="Make N new variants, each a good exercise.")
+@click.option(
+    "--range",
+    "ranges",
+    metavar="NAME=RANGE",
+    multiple=True,
+    callback=pairs,
+    help="From, to and step of a given of new variants: 'l_OA=25..60/5 mm'; without it what the task's variants span.",
+)
+@click.option("--seed", metavar="N", callback=count_if_given, help="Another number makes other variants; else 1.")
+@click.option(
+    "--from",
+    "table",
+    metavar="FILE",
+    help="Read new variants from a spreadsheet, .csv or .xlsx: parameters in rows and variants in columns, or turned.",
+)
+@click.option("--preset", type=Word(*HANDS), default="normal", show_default=True, help="What a question lets pass.")
+@output(
+    ".classes.answers",
+    "Where to: all values to .csv or .xlsx, questions for Moodle to .xml or .gift, new variants to a task file, .toml.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
+    """Show the answers of all variants of TASK beside one another; make new variants, or read them from a spreadsheet.
+
+    A variant that is made can be solved and drawn on one sheet; its crank turns round, its lines meet at no small
+    angles, its plans fit at the task's scale factors.
+    """
+    from ... import variants
+
+    if options.pop("variant") is not None:
+        raise InputError("variants-one")
+    language = options.pop("lang") or "uk"
+    with progress() as advance:
+        found = variants.all_variants(task, set=settings, lang=language, advance=advance, **options)
+    for path in found.save(*files):
+        click.echo(str(path))
+    if as_json:
+        print_json(found.to_json())
+    elif not files:
+        click.echo(found.table())
+    warn(found.warnings)
+    return refuse(InputError("variants-problems", n=len(found.left_out))) if found.left_out else 0
+
+
+@click.command(
+    epilog=example(
+        "kulman batch nau-slider-crank --form class.xlsx",
+        "kulman batch nau-slider-crank --roster class.xlsx --out sheets --as pdf --teacher 'О. Коваль'",
+    )
+)
+@of_task
+@click.option(
+    "--roster",
+    metavar="FILE",
+    help="A student a row: name, group, variant or record book, givens of one's own: .csv or .xlsx.",
+)
+@click.option("--form", metavar="FILE", help="Write a roster to fill in, .csv or .xlsx, a row for each variant.")
+@click.option("--out", "folder", metavar="FOLDER", help="Where the files go, manifest.csv and key.csv.")
+@click.option(
+    "--as",
+    "kinds",
+    type=Word("svg", "pdf", "png", "note", "handout"),
+    multiple=True,
+    default=("svg", "pdf", "note"),
+    show_default=True,
+    help="What each student gets: the sheet, the explanatory note, a blank handout. Repeatable.",
+)
+@click.option(
+    "--digits",
+    metavar="N",
+    default="1",
+    show_default=True,
+    callback=count,
+    help="How many last digits of the record book give the variant, where the roster has none.",
+)
+@click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything.")
+@of_norm
+@titled(*BLOCK)
+@click.option("--jobs", metavar="N", default="0", callback=count, help="Processes; as many as cores when left out.")
+@click.option(
+    "--dask", metavar="ADDRESS", help="Work on a Dask cluster: the address of its scheduler, tcp://host:8786."
+)
+def batch(task: str, settings: dict[str, str], kinds: tuple[str, ...], **options: Any) -> int:
+    """Draw the sheets of TASK for a class and write their notes, with a list of the files and the key for the teacher.
+
+    A run that was stopped goes on where it was; one with a longer roster draws the new sheets alone. A row that is
+    wrong costs no other student anything.
+    """
+    if options.pop("variant") is not None:
+        raise InputError("batch-variant")
+    language, form = options.pop("lang") or "uk", options.pop("form")
+    if form is not None:
+        from ..classes.batch import write_roster
+
+        click.echo(str(write_roster(task, form, language)))
+    if options["roster"] is not None and options["folder"] is not None:
+        return _draw_class(task, set=settings, lang=language, kinds=kinds, **options)
+    if form is None:
+        raise InputError("batch-nothing")
+    return 0
+
+
+def _draw_class(task: str, roster: str, folder: str, jobs: int, **options: Any) -> int:
+    """Draw the sheets of a class; a console shows how far it is."""
+    from ... import variants
+    from ..classes.batch import MANIFEST
+
+    block = {name: text for name in BLOCK if (text := options.pop(name)) is not None}
+    with progress() as advance:
+        made = variants.batch(task, roster, folder, block=block, advance=advance, jobs=jobs or None, **options)
+    n, bad = len(made.students), made.problems
+    click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))
+    for problem in bad:
+        click.echo(problem, err=True)
+    return refuse(InputError("batch-problems", n=len(bad), file=str(Path(folder) / MANIFEST))) if bad else 0
+
+
+@click.command(
+    epilog=example(
+        "kulman check nau-slider-crank -v 3 --form answers.xlsx",
+        "kulman check nau-slider-crank printed --verdict-only",
+        "kulman check nau-slider-crank printed --preset lenient -o report.html",
+    )
+)
+@of_task
+@of_check
+def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[str, str], **options: Any) -> None:
+    """Mark ANSWERS to TASK: files with one student's answers or a class's, a folder of them, or a pattern.
+
+    The variant is that of the roster, of -v, or what the file says. The word `printed` stands for the answers that the
+    source of a bundled task prints.
+    """
+    from ... import variants
+
+    shown = {name: options.pop(name) for name in ("files", "folder", "moodle", "jobs", "as_json")}
+    form = options.pop("form")
+    if form is None and not answers:
+        raise InputError("check-nothing")
+    asked = variants.check(task, set=settings, lang=lang or system_language(), **options)
+    if form is not None:
+        click.echo(str(asked.write_form(form)))
+    if answers:
+        _mark(asked, asked.read(*answers, warn=lambda error: warn([error])), **shown)
+
+
+def _mark(
+    asked: Check, found: list[Answers], files: tuple[Path, ...], folder: str | None, moodle: Path | None, **how: Any
+) -> None:
+    """Mark one student, or a class: to files, and to the console."""
+    from ..marking.reports import REPORTS
+
+    reports = [file for file in files if file.suffix.lower() in REPORTS]
+    alone = len(found) == 1 and folder is None and moodle is None and len(reports) == len(files)
+    if not alone and (how["as_json"] or reports):
+        raise InputError("check-class")
+    if alone:
+        _mark_one(asked, found[0], files, how["as_json"])
+    else:
+        results = _mark_class(asked, found, folder, how["jobs"] or None)
+        _print_class(asked, found, results, files, moodle)
+    for path in (*files, *filter(None, (folder, moodle))):
+        click.echo(str(path))
+
+
+def _mark_one(asked: Check, answers: Answers, files: tuple[Path, ...], as_json: bool) -> None:
+    """Mark one student: the report to files, else to the console."""
+    from ..marking.filing import write_reports
+    from ..marking.report_json import to_json
+    from ..marking.report_text import report_text
+
+    told = asked.mark(answers)
+    if as_json:
+        print_json(to_json(told, asked.rubric))
+    elif not files:
+        click.echo(report_text(told), nl=False)
+    write_reports(told, files)
+
+
+def _mark_class(asked: Check, found: list[Answers], folder: str | None, jobs: int | None) -> list[Result]:
+    """Mark a class; a console shows how far it is."""
+    with progress() as advance:
+        return asked.mark_all(found, folder, lambda done: advance(done, len(found)), jobs)
+
+
+def _print_class(
+    asked: Check, found: list[Answers], results: list[Result], files: tuple[Path, ...], moodle: Path | None
+) -> None:
+    """Write the tables of a class, and print a line per student."""
+    from ..marking.class_table import class_lines
+    from ..marking.filing import write_tables
+
+    write_tables(asked, results, found, files, moodle)
+    absent = asked.roster.missing(found) if asked.roster else []
+    for line in class_lines(results, absent, asked.request.language):
+        click.echo(line)
