@@ -35,10 +35,10 @@ def action_view(overall: GearScene) -> View:
 def _lacking(scene: GearScene) -> tuple[str, ...]:
     """Say how long the flanks touch, and the contact ratio of that, where undercut or pointed teeth lack a part."""
     words = scene.words
-    first, last = scene.meshing.touching
-    if last - first >= scene.size("g_alpha") * (1.0 - SAME):
+    first, last = scene.touching
+    if not scene.lacking:
         return ()
-    parts = [Input(length * 1e3) for length in (max(last - first, 0.0), scene.size("p_b"))]
+    parts = [Input(length * 1e3) for length in (last - first, scene.size("p_b"))]
     (length, pitch), result = calculation(words, lambda x, y: x / y, parts)
     mm = words.unit("mm")
     ratio = f"{words.symbol('epsilon_flanks')} = {length} {mm}/{pitch} {mm} = {result}"
@@ -98,7 +98,8 @@ def _line(canvas: Canvas, scene: GearScene) -> None:
     line = scene.size("l_N1N2") / mu
     low, high = min(0.0, *ends.values()), max(line, *ends.values())
     canvas.add(Line(complex(low, 0.0), complex(high, 0.0), Pen.THIN, role="line-of-action", name="N1N2"))
-    canvas.add(Line(complex(ends["A1"], 0.0), complex(ends["A2"], 0.0), Pen.MAIN, role="active", name="A1A2"))
+    first, last = (rho_1 / mu for rho_1 in scene.touching) if scene.lacking else (ends["A1"], ends["A2"])
+    canvas.add(Line(complex(first, 0.0), complex(last, 0.0), Pen.MAIN, role="active", name="A1A2"))
     pitch = scene.size("p_b") / mu
     ends |= {"N1": 0.0, "N2": line, "K1": ends["A1"] + pitch, "K2": ends["A2"] - pitch}
     for i, x in ((1, scene.size("rho_l1") / mu), (2, line - scene.size("rho_l2") / mu)):

@@ -123,11 +123,16 @@ def line_of_action(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel]) 
 
 
 def active_line(canvas: Canvas, scene: GearScene, inner: bool = True) -> None:
-    """Draw the active part of the line of action thick, the pole on it, and its `inner` ends of single contact."""
+    """Draw the active part of the line of action thick, the pole on it, and its `inner` ends of single contact.
+
+    Where undercut or pointed teeth lack a part of their flanks, it is thick only along what is left.
+    """
     along = scene.meshing.along
     first, last = scene.mm("A1"), scene.mm("A2")
-    if inner:
+    if inner or scene.lacking:
         canvas.add(Line(first - PAST * along, last + PAST * along, Pen.THIN, role="line-of-action", name="A1A2"))
+    if scene.lacking:
+        first, last = (scene.meshing.place(rho_1) * (1.0 / scene.mu_l) for rho_1 in scene.touching)
     canvas.add(Line(first, last, Pen.MAIN, role="active", name="A1A2"))
     node(canvas, scene, "A1", -along - 1j)
     node(canvas, scene, "A2", along + 1j)

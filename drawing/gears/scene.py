@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...plans.gears.checks import SAME
 from ...plans.gears.meshing import Meshing
 from ...scales.scale import Scale
 from ..givens import Given
@@ -51,6 +52,18 @@ class GearScene:
     def apart(self) -> bool:
         """Whether the middle of the meshing has a view of its own."""
         return self.paper("h") < TALL * self.style.label
+
+    @property
+    def lacking(self) -> bool:
+        """Whether undercut or pointed teeth lack a part of the flanks that would touch on the active line."""
+        first, last = self.touching
+        return last - first < self.size("g_alpha") * (1.0 - SAME)
+
+    @property
+    def touching(self) -> tuple[float, float]:
+        """Between which rho_1 flanks touch, m; the same number twice where none do."""
+        first, last = self.meshing.touching
+        return first, max(first, last)
 
     def size(self, name: str) -> float:
         """Return a quantity, SI."""

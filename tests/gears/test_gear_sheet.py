@@ -10,6 +10,7 @@ import shapely
 
 from kulman.drawing.gears.ladders import mu_ladder, near_ladder, rolled_ladder
 from kulman.plans.gears.gear import GearPair
+from kulman.plans.gears.meshing import meshing_of
 from kulman.plans.gears.solve import solve_gear
 from kulman.tests.support.gear_cases import GearCase, arc_of, crossings, mu, outline
 from kulman.tests.support.gear_points import POINTS
@@ -151,6 +152,18 @@ def test_the_rack_touches_the_pinion_that_it_cuts(case: GearCase) -> None:
     assert (middle - pitch) * mu(view) == pytest.approx(case.given["x_1"] * case.given["m"], abs=0.01 * mu(view))
     undercut = abs(view.point("B") - pole) > abs(view.point("N") - pole)
     assert undercut == (case.given["x_1"] < case.sizes["x_min1"])
+
+
+def test_only_what_is_left_of_undercut_flanks_is_thick_on_the_line_of_action() -> None:
+    case = ODD[0]
+    first, last = meshing_of(case.given).touching
+
+    for name in ("meshing", "action"):
+        view = case.sheet[name]
+        (thick,) = view.lines("active", "A1A2")
+        low, high = sorted(abs(end - view.point("N1")) * mu(view) for end in thick.points)
+        assert (low, high) == pytest.approx((first, last), abs=1e-8)
+        assert high - low < case.sizes["g_alpha"] - 1e-3
 
 
 SPOILED = {  # one piece of the file of the sheet changed
