@@ -7,6 +7,7 @@ import numpy as np
 from ...plans.hoist.article import article_force
 from ...plans.hoist.course import course, end_of, marks
 from ...plans.hoist.diagram_plan import FORCES
+from ...plans.laws import TURN
 from ..diagram import Axis, Field, curve, divisions
 from ..shapes import Line, Pen, Text
 from ..view import Canvas, View
@@ -66,7 +67,9 @@ def _curves(canvas: Canvas, scene: HoistScene, field: Field) -> None:
     curve(canvas, field, zip(before.tolist(), first["F_12"].tolist(), strict=True), "F_12")
     curve(canvas, field, zip(after.tolist(), second["F_12"].tolist(), strict=True), "P_12")
     printed = np.asarray(article_force(forces.found, after - t_1))
-    curve(canvas, field, zip(after.tolist(), printed.tolist(), strict=True), "printed", Pen.DASHED)
+    swing = after <= t_1 + TURN / scene.size("k_1")
+    within = np.where(printed >= field.y.low, printed, np.nan)[swing]
+    curve(canvas, field, zip(after[swing].tolist(), within.tolist(), strict=True), "printed", Pen.DASHED)
     jump = field.at(t_1, float(second["F_12"][0])), field.at(t_1, float(printed[0]))
     canvas.add(Line(*jump, Pen.DASHED, role="jump", name="printed"))
     for name, t, column in (("F_01", before[POINTS // 3], first["F_01"]), ("F_12", before[POINTS // 3], first["F_12"])):

@@ -17,6 +17,7 @@ from .magnified import magnified
 from .scene import POINTS, HoistScene, canvas_of
 
 MANY, BESIDE_CROSSING = 48, 4  # section lines
+BELOW = 1.08  # times the least ordinate, the foot of the diagram
 FEW = 4  # crossings with their times beside them, and times in a line
 BESIDE = 24.0  # mm from a diagram to what is magnified of it
 
@@ -62,8 +63,10 @@ def lift_off_view(scene: HoistScene) -> View:
     for letter in "YO":
         canvas.add(*(_node(scene, LIFT_OFF, f"{letter}{i}") for i in _shown(roots, (roots.lift_off,))))
     at = POINTS // 4
-    canvas.label("y − mg/C", field.at(float(t[at]), float(parabola[at])), prefer=-1j, clear=1.5)
-    canvas.label("osc", field.at(float(t[at]), float(wave[at])), prefer=1j, clear=1.5)
+    canvas.label(
+        "y − mg/C", field.at(float(t[at]), float(parabola[at])), prefer=-1j, clear=1.5, height=scene.style.text
+    )
+    canvas.label("osc", field.at(float(t[at]), float(wave[at])), prefer=1j, clear=1.5, height=scene.style.text)
     _crossing(canvas, scene, LIFT_OFF, "X", "t_1_drawn")
     magnified(canvas, scene, complex(field.at(field.x.high, 0.0).real + BESIDE, field.at(0.0, field.y.low).imag))
     heading = (words["heading.hoist_lift_off"], scene.factors("mu_y", "mu_t1"))
@@ -79,16 +82,22 @@ def extremes_view(scene: HoistScene) -> View:
     ends = [scene.mm(f"{EXTREMES}.L{i}") for i in range(2)]
     mu = scene.scale("mu_v").mu
     levels = [end.imag * mu for end in ends]
-    field = _field(scene, words.unit("m/s"), "mu_v", (min(*levels, float(wave.min())), float(wave.max())))
+    field = _field(scene, words.unit("m/s"), "mu_v", (BELOW * min(*levels, float(wave.min())), float(wave.max())))
     ruled(canvas, field)
     curve(canvas, field, zip(t.tolist(), wave.tolist(), strict=True), "sinusoid")
     canvas.add(Line(ends[0], ends[1], Pen.MAIN, role="curve", name="line"))
     canvas.add(*(_node(scene, EXTREMES, f"W{i}") for i in _shown(roots, roots.extremes)))
     at = POINTS // 6
     speed = words.symbol("V_t")
-    canvas.label(f"{speed} cos kt + (a/k) sin kt", field.at(float(t[at]), float(wave[at])), prefer=1j, clear=1.5)
+    canvas.label(
+        f"{speed} cos kt + (a/k) sin kt",
+        field.at(float(t[at]), float(wave[at])),
+        prefer=1j,
+        clear=1.5,
+        height=scene.style.text,
+    )
     name = f"−({words.symbol('C_01')}/{words.symbol('C_12')})({speed} + at)"
-    canvas.label(name, (ends[0], ends[1]), prefer=-1j, clear=1.5)
+    canvas.label(name, (ends[0], ends[1]), prefer=-1j, clear=1.5, height=scene.style.text)
     for n in range(1, len(roots.times) + 1):
         number = f"({n})" if len(roots.times) > FEW else ""
         _crossing(canvas, scene, EXTREMES, f"X{n}", f"t_2_{n}_drawn", number)
@@ -117,4 +126,10 @@ def _crossing(canvas: Canvas, scene: HoistScene, plan: str, mark: str, name: str
     if abs(at.imag) > 0.01:
         canvas.add(Line(at, complex(at.real, 0.0), Pen.DASHED, role="projection", name=name))
     canvas.add(scene.node(at, mark, filled=True))
-    canvas.label(number or scene.stated(name, quantity.value or 0.0, "s"), at, prefer=1.0 - 1j, clear=1.2)
+    canvas.label(
+        number or scene.stated(name, quantity.value or 0.0, "s"),
+        at,
+        prefer=1.0 - 1j,
+        clear=1.2,
+        height=scene.style.text,
+    )

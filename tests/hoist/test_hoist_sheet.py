@@ -221,6 +221,9 @@ def test_verdict_and_flow_chart_are_those_of_the_numbers(case: HoistCase) -> Non
     taken = {name for stroke in flow.strokes for role, name in stroke.path if role == "taken"}
     assert ("strong-end" in taken) == (safety >= values["K"])
     assert ("strong-places" in taken) == (safety < values["K"])
+    resting = found["F_12_max"] > found["P_12_max"]
+    for name, larger in (("F_12_max", resting), ("P_12_max", not resting)):
+        assert ({f"larger-{name}", f"{name}-stress"} <= taken) == larger
     checks = [text.string for text in case.sheet["checks"].of("cell")]
     assert any(text.startswith("F_{12 min} ≥") for text in checks)
     assert any(text.startswith("P_{12 min} ≥") for text in checks)
@@ -256,6 +259,21 @@ def test_letters_touch_nothing(case: HoistCase) -> None:
 def test_odd_hoists_have_sheets_too(case: HoistCase) -> None:
     assert overlaps(case.sheet) == []
     assert "forces" in case.sheet.names
+
+
+def test_circle_of_a_rope_that_goes_slack_ends_where_it_would_push() -> None:
+    case = HoistCase("V09", (("V_0", 1.0),), lang="en")
+    circle, checks = case.sheet["circle"], [text.string for text in case.sheet["checks"].of("cell")]
+
+    (slack,) = circle.lines("slack")
+    (zero,) = circle.lines("level", "slack")
+
+    assert slack.dashed
+    centre, of_P = node(circle, "P_m"), mu(circle, "P")
+    mean = case.forces["m"] * (9.81 + case.values["a"])
+    assert (centre - zero.points[0]).real * of_P == pytest.approx(mean, abs=NEAR * of_P)
+    assert not any(("node", "P_12_min") in ring.path for ring in circle.rings)
+    assert any(text.startswith("would be −") for text in checks)
 
 
 def test_pages_of_a_small_format_have_smaller_diagrams_and_say_so() -> None:
