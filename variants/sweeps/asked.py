@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
+from ...drawing.words import Words
 from ...scales.errors import PositionError
 from ..case import Case
 from ..task import Task
@@ -25,10 +27,11 @@ class Asked:
 
 
 @dataclass(frozen=True, slots=True)
-class OfCase:
-    """What is swept: a variant of a task."""
+class OfCase(ABC):
+    """What is swept: a variant of a task; `words` are those of the table and the CSV."""
 
     case: Case
+    words: Words
 
     @property
     def task(self) -> Task:
@@ -39,6 +42,19 @@ class OfCase:
     def variant(self) -> str:
         """The variant."""
         return self.case.variant
+
+    @abstractmethod
+    def table(self, language: str | None = None) -> str:
+        """Return what `kulman sweep` prints."""
+
+    def _repr_html_(self) -> str:
+        """Show the table in a notebook."""
+        from html import escape
+
+        return f"<pre>{escape(self.table())}</pre>"
+
+    def _words(self, language: str | None) -> Words:
+        return self.words if language is None else self.words.speaking(language)
 
 
 class Swept(Protocol):

@@ -2,52 +2,44 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...drawing.words import Words
-from ...drawing.writers import Files, save_all
 from ...plans.gears.course import columns, extremes, marks, zones
 from ...plans.gears.solve import SolvedGear
-from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit, unit
 from ..case import Case
 from ..kinds.gear import gear
-from ..tables import Cell, csv_bytes, csv_text
-from .asked import Asked, OfCase
-from .data import numbers
-from .sized import DIGITS, column_table, csv_head, extremes_table, in_degrees_and_millimetres
-
-POSITIONS = 101  # of the files: every hundredth of the active line
-SUFFIXES = (".csv",)
-OK = "ok"
+from .asked import Asked
+from .sized import (
+    DIGITS,
+    SizedSweep,
+    column_table,
+    columns_csv,
+    columns_json,
+    extremes_json,
+    extremes_table,
+    refuse_unused,
+)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class GearSweep(OfCase):
+class GearSweep(SizedSweep):
     """A pair over the contact of one pair of teeth.
 
     `positions` divide the active line evenly, its ends among them; None for the marks of the meshing in the table, and
     every hundredth in files.
     """
 
-    solved: SolvedGear
-    words: Words
-    positions: int | None
+    usual, not_drawn = 101, "gear-sweep-drawing"  # every hundredth of the active line
 
     @property
-    def status(self) -> str:
-        """`ok`: a pair that is solved can mesh."""
-        return OK
-
-    @property
-    def reason(self) -> PositionError | None:
-        """None: a pair that is solved can mesh."""
-        return None
+    def solved(self) -> SolvedGear:
+        """The pair."""
+        return gear(self.case.solved)
 
     def table(self, language: str | None = None) -> str:
         """Return the contact at its marks, or at the positions asked for; extremes of sliding; zones of contact."""
@@ -78,66 +70,19 @@ class GearSweep(OfCase):
 
     def csv(self, language: str | None = None) -> str:
         """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
-        words = self._words(language)
-        shown = [in_degrees_and_millimetres(column) for column in columns(self.solved, self._places())]
-        rows: list[list[Cell]] = [
-            [k, *(float(column.values[k]) for column in shown)] for k in range(len(shown[0].values))
-        ]
-        return csv_text(["k", *csv_head(shown, words)], rows, words.language)
+        return columns_csv(columns(self.solved, self._places()), self._words(language))
 
-    def to_json(self) -> dict[str, Any]:
-        """Return what `kulman sweep --json` prints: everything in SI."""
-        found = columns(self.solved, self._places())
+    def _data(self) -> dict[str, Any]:
+        """Return columns, extremes, marks of the contact, and where how many pairs touch."""
         return {
-            "task": self.task.id,
-            "variant": self.variant,
-            "status": self.status,
-            "columns": {column.name: {"unit": column.unit, "value": numbers(column.values)} for column in found},
-            "extremes": {
-                e.name: {
-                    "unit": e.unit,
-                    "max": {"value": e.most, "at": e.most_at},
-                    "min": {"value": e.least, "at": e.least_at},
-                }
-                for e in extremes(self.solved)
-            },
+            "columns": columns_json(columns(self.solved, self._places())),
+            "extremes": extremes_json(extremes(self.solved)),
             "marks": marks(self.solved),
             "zones": [{"from": zone.first, "to": zone.last, "pairs": zone.pairs} for zone in zones(self.solved)],
         }
 
-    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
-        """Write the columns to each of `paths`.
-
-        Raises
-        ------
-        InputError
-            A file that is not a .csv: the diagrams of sliding are on the sheet.
-        """
-
-        def files(path: Path) -> Files:
-            return [(path, csv_bytes(self.csv(), self.words.language))]
-
-        for path in map(Path, paths):
-            if path.suffix.lower() not in SUFFIXES:
-                raise InputError("gear-sweep-drawing", task=self.task.id, file=path.name)
-        return save_all(paths, SUFFIXES, files)
-
     def _places(self) -> Any:
-        first, last = self.solved.meshing.touching
-        return np.linspace(first, last, self.positions or POSITIONS)
-
-    def __repr__(self) -> str:
-        """Return task, variant and the number of positions."""
-        return f"<GearSweep {self.task.id} {self.variant}: {self.positions or POSITIONS} positions>"
-
-    def _repr_html_(self) -> str:
-        """Show the table in a notebook."""
-        from html import escape
-
-        return f"<pre>{escape(self.table())}</pre>"
-
-    def _words(self, language: str | None) -> Words:
-        return self.words if language is None else self.words.speaking(language)
+        return np.linspace(*self.solved.meshing.touching, self.count)
 
 
 def gear_sweep(case: Case, words: Words, asked: Asked) -> GearSweep:
@@ -148,8 +93,5 @@ def gear_sweep(case: Case, words: Words, asked: Asked) -> GearSweep:
     InputError
         Points, a beginning or end of the motion, or chords are asked for: a contact has none.
     """
-    unused = {"--points": asked.points, "--from": asked.start, "--to": asked.end, "--chords": asked.chords}
-    for option, value in unused.items():
-        if value is not None:
-            raise InputError("kind-without", task=case.task.id, text=option)
-    return GearSweep(case, gear(case.solved), words, asked.positions)
+    refuse_unused(case, asked)
+    return GearSweep(case, words, asked.positions)

@@ -1,21 +1,132 @@
-"""Columns of cams, gears, hoists as text: lengths in mm, angles in degrees, stresses in MPa, all else in SI."""
+"""What sweeps of cams, gears and hoists share: columns as table, CSV, JSON; what they have, write and refuse.
+
+As text, lengths are in mm, angles in degrees, stresses in MPa, all else is in SI, as everything is in JSON.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from typing import Any
+import os
+from abc import abstractmethod
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ...drawing.words import Words
+from ...drawing.writers import Files, save_all
 from ...plans.columned import Columned, Ends
+from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit, unit
-from ..tables import aligned
+from ..case import Case
+from ..tables import aligned, csv_bytes, csv_text
+from .asked import Asked, OfCase
+from .data import numbers
 
 SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}
 DIGITS, PLACES = 6, 9  # of a number in the table; decimals of the degrees of what drives
 DRIVES = "phi"
 NOTHING = 1e-9  # part of the largest value of a column below which one is rounding
+OK = "ok"
+SUFFIXES = (".csv",)
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class SizedSweep(OfCase):
+    """What is found of a subject that is solved, at `positions` places; None for as many as are usual."""
+
+    positions: int | None
+
+    usual: ClassVar[int]  # places in files
+    places: ClassVar[str] = "positions"  # what they are
+    not_drawn: ClassVar[str]  # key of the message that refuses files of other kinds
+
+    @property
+    def count(self) -> int:
+        """The number of places in files."""
+        return self.positions or self.usual
+
+    @property
+    def status(self) -> str:
+        """`ok`: what is solved moves."""
+        return OK
+
+    @property
+    def reason(self) -> PositionError | None:
+        """None: what is solved moves."""
+        return None
+
+    @abstractmethod
+    def csv(self, language: str | None = None) -> str:
+        """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
+
+    @abstractmethod
+    def _data(self) -> dict[str, Any]:
+        """Return what has been found, for JSON: everything in SI."""
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what `kulman sweep --json` prints: everything in SI."""
+        return {"task": self.task.id, "variant": self.variant, "status": self.status} | self._data()
+
+    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
+        """Write the columns to each of `paths`.
+
+        Raises
+        ------
+        InputError
+            A file that is not a .csv: diagrams are on the sheet.
+        """
+
+        def files(path: Path) -> Files:
+            return [(path, csv_bytes(self.csv(), self.words.language))]
+
+        for path in map(Path, paths):
+            if path.suffix.lower() not in SUFFIXES:
+                raise InputError(self.not_drawn, task=self.task.id, file=path.name)
+        return save_all(paths, SUFFIXES, files)
+
+    def __repr__(self) -> str:
+        """Return task, variant and the number of places."""
+        return f"<{type(self).__name__} {self.task.id} {self.variant}: {self.count} {self.places}>"
+
+
+def refuse_unused(case: Case, asked: Asked) -> None:
+    """Refuse what only the cycle of a linkage has.
+
+    Raises
+    ------
+    InputError
+        Points, a beginning or end of the motion, or chords are asked for.
+    """
+    unused = {"--points": asked.points, "--from": asked.start, "--to": asked.end, "--chords": asked.chords}
+    for option, value in unused.items():
+        if value is not None:
+            raise InputError("kind-without", task=case.task.id, text=option)
+
+
+def columns_json(found: Iterable[Columned]) -> dict[str, Any]:
+    """Return columns for JSON, by name."""
+    return {column.name: {"unit": column.unit, "value": numbers(column.values)} for column in found}
+
+
+def extremes_json(found: Iterable[Ends]) -> dict[str, Any]:
+    """Return the extremes of columns for JSON, by name."""
+    return {
+        one.name: {
+            "unit": one.unit,
+            "max": {"value": one.most, "at": one.most_at},
+            "min": {"value": one.least, "at": one.least_at},
+        }
+        for one in found
+    }
+
+
+def columns_csv(found: Iterable[Columned], words: Words, said: Mapping[str, Sequence[str]] | None = None) -> str:
+    """Return columns as CSV, the number of the row before them, after them what is `said` of each row, by heading."""
+    shown, said = [in_degrees_and_millimetres(column) for column in found], said or {}
+    rows = zip(*(map(float, column.values) for column in shown), *said.values(), strict=True)
+    return csv_text(["k", *_csv_head(shown, words), *said], ([k, *row] for k, row in enumerate(rows)), words.language)
 
 
 def in_degrees_and_millimetres(column: Columned) -> Columned:
@@ -28,7 +139,7 @@ def in_degrees_and_millimetres(column: Columned) -> Columned:
     return Columned(column.name, shown, np.round(values, PLACES) if column.name == DRIVES else values)
 
 
-def csv_head(shown: Collection[Columned], words: Words) -> list[str]:
+def _csv_head(shown: Collection[Columned], words: Words) -> list[str]:
     """Return the names of columns with their units."""
     return [f"{one.name} [{of}]" if (of := format_unit(one.unit, words.language)) else one.name for one in shown]
 

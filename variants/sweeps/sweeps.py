@@ -40,14 +40,12 @@ SECTIONS = POSITIONS = 12
 class Sweep(OfCase):
     """The whole cycle of one variant of a task.
 
-    `cycle` holds positions, values and statuses as arrays in SI; `chosen` are the points and links that were asked for;
-    `words` are those of the table and the CSV. Of a point or a link that is `compared`, the table shows the motion by
-    plans and by chords.
+    `cycle` holds positions, values and statuses as arrays in SI; `chosen` are the points and links that were asked for.
+    Of a point or a link that is `compared`, the table shows the motion by plans and by chords.
     """
 
     cycle: Cycle
     chosen: tuple[str, ...]
-    words: Words
     compared: str | None = None
 
     @property
@@ -129,15 +127,6 @@ class Sweep(OfCase):
     def __repr__(self) -> str:
         """Return task, variant and the number of positions."""
         return f"<Sweep {self.task.id} {self.variant}: {self.status}, {len(self.cycle.angles)} positions>"
-
-    def _repr_html_(self) -> str:
-        """Show the table in a notebook."""
-        from html import escape
-
-        return f"<pre>{escape(self.table())}</pre>"
-
-    def _words(self, language: str | None) -> Words:
-        return self.words if language is None else self.words.speaking(language)
 
 
 def _csv_file(sweep: Sweep) -> bytes:
@@ -221,7 +210,7 @@ def linkage_sweep(case: Case, words: Words, asked: Asked) -> Sweep:
     values = case.task.values(case.variant, case.settings)
     plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
     count = POSITIONS if asked.positions is None else asked.positions
-    return Sweep(case, cycle(mechanism, values, plans, count, first, last), chosen, words, asked.chords)
+    return Sweep(case, words, cycle(mechanism, values, plans, count, first, last), chosen, asked.chords)
 
 
 def _chosen(mechanism: Mechanism, points: str | Iterable[str] | None) -> tuple[str, ...]:
