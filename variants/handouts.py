@@ -45,7 +45,8 @@ def handout(
     task, variant, set, only, scales, format, norm, notation, lang
         As for `sheet`.
     steps : int
-        How many steps of every plan are done, as the note numbers them; poles, pivots, guides are always there.
+        How many steps of every plan are done, as the note numbers them; poles, pivots, guides are always there. Where
+        nothing that is drawn has steps, a warning says so.
     key : bool
         Draw the whole work, to be laid on the blank.
     over : str, optional
@@ -86,4 +87,6 @@ def begun_of_case(
     drawn = draw_case(case, block, printable(format_named(format)), norm, notation, lang)
     words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
     shown = case.kind.begun(case, drawn.scales, words, steps)
-    return replace(drawn, pages=tuple(map(marked, begun_pages(drawn.pages, drawn.views, shown))))
+    idle = (InputError("handout-stepless", task=case.task.id, steps=steps),) if steps and not shown else ()
+    pages = tuple(map(marked, begun_pages(drawn.pages, drawn.views, shown)))
+    return replace(drawn, pages=pages, warnings=(*drawn.warnings, *idle))

@@ -14,6 +14,7 @@ from kulman.drawing.formats import BLOCK, FORMATS, drawing_area
 from kulman.drawing.handouts.print_marks import printable
 from kulman.drawing.notes.blocks import Figure, Steps
 from kulman.drawing.shapes import Group, Line, Shape, Text, Vector
+from kulman.scales.errors import LANGUAGES
 from kulman.variants.sheets import Sheet
 from kulman.variants.shelf import bundled
 
@@ -111,6 +112,16 @@ def test_rulers_measure_100_mm_and_stand_in_the_margins() -> None:
     frame = drawing_area(printable(FORMATS["A4"]))
     assert max(shape.b.imag for shape in leaves(rulers["across"].shapes) if isinstance(shape, Line)) < frame[1]
     assert max(max(s.a.real, s.b.real) for s in leaves(rulers["up"].shapes) if isinstance(s, Line)) < frame[0]
+
+
+@pytest.mark.parametrize(("task", "only"), [("nau-slider-crank", "velocity"), ("madi-cam", "sizes")])
+def test_steps_warn_where_nothing_drawn_has_any(task: str, only: str) -> None:
+    begun, blank = (handout(task, only=only, steps=steps) for steps in (3, 0))
+
+    idle = [warning for warning in begun.warnings if warning.key == "handout-stepless"]
+    assert bool(idle) == (begun.pages == blank.pages) == (task == "madi-cam")
+    assert all("--steps 3" in warning.text(language) for warning in idle for language in LANGUAGES)
+    assert idle == [warning for warning in begun.warnings if warning not in blank.warnings]
 
 
 def test_a_transparency_has_the_plan_at_its_size() -> None:
