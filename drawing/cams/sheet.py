@@ -19,11 +19,13 @@ from ..view import View
 from ..zones import zoned
 from .fitting import Contents as Contents
 from .fitting import Fitting, Rungs
-from .ladders import LEAST, size_of
+from .ladders import size_of
 from .zones import LAYOUTS
 
 # what may be drawn smaller for the sake of one page, and by how many rungs
 GIVING = {"mu_l": 2, "reduction": 2, "mu_s_ds": 2, "mu_s_d2s": 2}
+# mm of the least radius and the stroke on a plan, so that it can be read: on S over ds/dphi more numbers stand closely
+LEGIBLE = {"mu_s_ds": 60.0, "mu_s_d2s": 50.0}
 Found = tuple[Rungs, list[View], list[Placement]]
 
 
@@ -119,7 +121,7 @@ def _legible(fitting: Fitting, sheet: Format, rungs: Rungs) -> bool:
     """Whether no plan made of two diagrams becomes too small to be read for the sake of one page."""
     scene = fitting.scene(sheet, rungs)
     smaller = (name for name in EQUAL if getattr(rungs, name))
-    return all(size_of(scene.solved, name) >= LEAST * scene.mus[name] for name in smaller)
+    return all(size_of(scene.solved, name) >= LEGIBLE[name] * scene.mus[name] for name in smaller)
 
 
 def _missed(rungs: Rungs) -> tuple[int, int]:
