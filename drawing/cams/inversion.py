@@ -28,17 +28,9 @@ RADIUS, ARROW = 0.35, 1.2  # rad from that middle towards the rod to the radius 
 SMALLEST = 7.0  # least radius of a cam, in heights of letters, that has room for letters inside
 
 
-def ratio(scene: CamScene) -> str:
-    """Return the scale of a profile as drawings have it: M 1:1, M 2:1, M 1:2."""
-    size = 1e-3 / scene.mu_l
-    words = scene.words
-    text = f"{words.short(round(size, 6))}:1" if size >= 1.0 else f"1:{words.short(round(1.0 / size, 6))}"
-    return words["said.cam_drawn"].format(ratio=text)
-
-
 def heading(scene: CamScene, key: str, plan: str) -> tuple[str, str]:
     """Return the heading of the plan of a cam: its name, its scale."""
-    return scene.words[key], f"{ratio(scene)};  {scene.factor(scene.scale(plan))}"
+    return scene.words[key], f"{scene.words.drawn_at(scene.mu_l)};  {scene.factor(scene.scale(plan))}"
 
 
 def unit_at(phi: float, sense: int) -> complex:

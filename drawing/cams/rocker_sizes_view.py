@@ -21,7 +21,6 @@ from ..text import Box
 from ..view import Canvas, View
 from .fan import small
 from .hatching import Side, hatched
-from .inversion import ratio
 from .pressing import pressed, theta
 from .scene import Array, CamScene, canvas_of, pieces
 from .sizes_view import SHOWN, on_lines
@@ -45,7 +44,7 @@ def rocker_sizes_view(scene: CamScene) -> View:
     _nodes(canvas, scene)
     _sizes(canvas, scene, cam, centre)
     _ray(canvas, scene, centre)
-    scale = f"{ratio(scene)};  {scene.factor(scene.scale(ROCKER_SIZES))}"
+    scale = f"{scene.words.drawn_at(scene.mu_l)};  {scene.factor(scene.scale(ROCKER_SIZES))}"
     notes = (*_lettered(scene, cam), *words["said.cam_analogues"].split("|"), words["said.cam_permitted"])
     return canvas.finish(ROCKER_SIZES, (words["heading.cam_rocker_sizes"], scale), notes)
 

@@ -9,7 +9,7 @@ from ...plans.cams.inversion import PROFILE
 from ..shapes import Arc, Circle, Group, Line, Pen, Text
 from ..symbols import angle_dimension, fixed_pivot, revolute
 from ..view import Canvas, View
-from .inversion import centre, circle, dwelling, letter_centre, phases, radius_at, ratio, undercut_notes
+from .inversion import centre, circle, dwelling, letter_centre, phases, radius_at, undercut_notes
 from .pressing import pressed
 from .roller_view import NUMBERS, PHASES
 from .rolling import Contact, curves, normal, roller_radius, sharpest
@@ -45,7 +45,7 @@ def rocker_view(scene: CamScene) -> View:
     letter_centre(canvas, scene, sizes.r_0 / mu, turned)
     edge = reach + 1.2 * label
     canvas.bounds = -edge, -edge, edge, edge
-    scale = f"{ratio(scene)};  {scene.factor(scene.scale(PROFILE))}"
+    scale = f"{scene.words.drawn_at(scene.mu_l)};  {scene.factor(scene.scale(PROFILE))}"
     notes = "; ".join([*_lettered(scene), *left]), *undercut_notes(scene, cam.profile.undercuts, rocks=True)
     return canvas.finish("profile", (scene.words["heading.cam_rocker_profile"], scale), notes)
 

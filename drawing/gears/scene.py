@@ -83,9 +83,7 @@ class GearScene:
 
     def factor(self, mu: float) -> str:
         """Return the scale of a view as drawings have it, and its scale factor: M 5:1; mu_l = 0.0002 m/mm."""
-        words, size = self.words, 1e-3 / mu
-        ratio = f"{words.short(round(size, 6))}:1" if size >= 1.0 else f"1:{words.short(round(1.0 / size, 6))}"
-        return f"{words['said.cam_drawn'].format(ratio=ratio)};  {words.scale(Scale('mu_l', mu, 'm'))}"
+        return f"{self.words.drawn_at(mu)};  {self.words.scale(Scale('mu_l', mu, 'm'))}"
 
     def stated(self, name: str, decimals: int = 2) -> str:
         """Return a quantity in mm as a dimension has it: d_a1 = 86.53."""

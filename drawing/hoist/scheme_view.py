@@ -37,12 +37,8 @@ def scheme_view(scene: HoistScene) -> View:
     else:
         canvas.label(name, at["A0"] + complex(0.8 * tall, 0.5 * tall), prefer=1.0 + 0j, clear=1.0)
     _dimensions(canvas, scene, at)
-    ratio = words.short(round(scene.mus["mu_l"] * 1e3, 6))
-    heading = (
-        words["heading.hoist_scheme"],
-        f"{words['said.cam_drawn'].format(ratio=f'1:{ratio}')};  {scene.factors('mu_l')}",
-    )
-    return canvas.finish("scheme", heading)
+    ratio = f"{words.drawn_at(scene.mus['mu_l'])};  {scene.factors('mu_l')}"
+    return canvas.finish("scheme", (words["heading.hoist_scheme"], ratio))
 
 
 def _dimensions(canvas: Canvas, scene: HoistScene, at: dict[str, complex]) -> None:

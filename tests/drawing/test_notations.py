@@ -38,6 +38,15 @@ def test_two_quantities_have_two_symbols() -> None:
 
 
 @pytest.mark.parametrize(
+    ("mu_l", "scale"),
+    [(1e-3, "1:1"), (5e-4, "2:1"), (4e-4, "2.5:1"), (2e-4, "5:1"), (2e-3, "1:2"), (2.5e-3, "1:2.5"), (0.15, "1:150")],
+)
+def test_scale_of_lengths_is_written_as_drawings_have_it(mu_l: float, scale: str) -> None:
+    assert Words.of("en", "iso").drawn_at(mu_l) == f"M {scale}"
+    assert Words.of("uk", "nau").drawn_at(mu_l) == f"М {scale.replace('.', ',')}"  # the Cyrillic letter
+
+
+@pytest.mark.parametrize(
     ("mark", "letter"),
     [
         ("velocity.A3", "a_{3}"),
