@@ -42,7 +42,7 @@ def _lacking(scene: GearScene) -> tuple[str, ...]:
     (length, pitch), result = calculation(words, lambda x, y: x / y, parts)
     mm = words.unit("mm")
     ratio = f"{words.symbol('epsilon_flanks')} = {length} {mm}/{pitch} {mm} = {result}"
-    return (words["said.gear_lacking"].format(length=scene.length(last - first), ratio=ratio),)
+    return words["said.gear_lacking"].format(length=scene.length(last - first)), ratio
 
 
 def ratios(scene: GearScene) -> tuple[str, ...]:
