@@ -39,6 +39,7 @@ class Done(Generic[Made]):
     made: Made | None
 
 
+Advance = Callable[[int, int], None]  # told how many more are done, and of how many
 Piece = list[tuple[int, Item]]
 
 

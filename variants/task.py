@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from numbers import Real
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
@@ -173,6 +174,13 @@ class Task:
     def note_in(self, language: str) -> str:
         """Return what a user should know of the data, in a language; nothing where the task says nothing."""
         return self.note.get(language, "")
+
+    @property
+    def text(self) -> str:
+        """The text of the file that says all this, as it is now."""
+        from .shelf import bundled_text
+
+        return Path(self.file).read_text(encoding="utf-8") if self.file else bundled_text(self.id)
 
     def variant(self, variant_id: str | None = None) -> Variant:
         """Return a variant, the first one without an id."""

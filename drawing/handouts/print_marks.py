@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ...scales.packaged import packaged
 from ..formats import Format
 from ..page import Page
 from ..shapes import Group, Line, Pen, Shape, Text
@@ -11,7 +12,6 @@ from ..shapes import Group, Line, Pen, Shape, Text
 MARGIN, FOOT = 8.0, 14.0  # mm of the frame from the edges of the paper: most printers reach no farther than 5
 LENGTH, TICK, LONG = 100, 1.5, 3.0  # of a ruler and its marks, mm
 LETTERS = 2.5
-SAID = {"uk": "друк 100 %", "ru": "печать 100 %", "en": "print at 100 %"}
 
 
 def printable(sheet: Format) -> Format:
@@ -24,7 +24,13 @@ def marked(page: Page) -> Page:
     x, y = 24.0, 6.0
     across = _ruler(complex(x, y), 1 + 0j)
     up = _ruler(complex(12.0, 60.0), 1j)
-    text = Text(complex(x + LENGTH + 4.0, y), SAID[page.language], LETTERS, role="stamp", name="print")
+    text = Text(
+        complex(x + LENGTH + 4.0, y),
+        packaged(__package__, "texts", page.language)["print.whole"],
+        LETTERS,
+        role="stamp",
+        name="print",
+    )
     return replace(
         page, shapes=(*page.shapes, Group((*across, text), "ruler", "across"), Group(tuple(up), "ruler", "up"))
     )

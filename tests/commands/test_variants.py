@@ -13,6 +13,9 @@ import pytest
 
 from kulman import all_variants, cli, load_task, sheet, solve
 from kulman.plans.boards.exact import SMALL
+from kulman.variants.classes.task_text import with_variants
+from kulman.variants.reader import read_text
+from kulman.variants.shelf import bundled
 
 TASK = "nau-slider-crank"
 ROWS = """\
@@ -104,6 +107,25 @@ def test_a_seed_tells_the_variants() -> None:
     assert again is not None
     assert other is not None
     assert first.text == again.text != other.text
+
+
+@pytest.mark.parametrize("name", bundled())
+def test_other_variants_leave_everything_else_as_it_is(name: str) -> None:
+    task = load_task(name)
+    first, *_ = task.variants.values()
+    row = {
+        given: value if isinstance(value, str) else f"{unit.from_si(value):.12g} {unit.name}".removesuffix(" 1")
+        for given, value in first.values.items()
+        if (unit := task.givens[given].unit) is not None or isinstance(value, str)
+    }
+
+    found, faults = read_text(with_variants(task.text, [("one", row), ("two", row)]), "new.toml")
+
+    assert faults == ()
+    assert found is not None
+    assert list(found.variants) == ["one", "two"]
+    assert found.resolve("two") == pytest.approx(task.resolve(first.id))
+    assert (found.givens, found.mechanism, found.scales) == (task.givens, task.mechanism, task.scales)
 
 
 def turned(text: str) -> str:

@@ -160,8 +160,8 @@ def test_processes_and_one_process_give_the_same(tmp_path: Path) -> None:
     answers = handed_in(class_file(tmp_path, 20))
     done: list[int] = []
 
-    alone = mark_class(job(), answers, lambda number: None, jobs=1)
-    together = mark_class(job(), answers, done.append, jobs=2)
+    alone = mark_class(job(), answers, lambda done, whole: None, jobs=1)
+    together = mark_class(job(), answers, lambda more, whole: done.append(more), jobs=2)
 
     assert together == alone
     assert sum(done) == 20
@@ -182,7 +182,7 @@ def test_a_stopped_run_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.
 
     monkeypatch.setattr(class_run, "mark_one", stopping)
     with pytest.raises(KeyboardInterrupt):
-        mark_class(job(folder), answers, lambda number: None, jobs=1)
+        mark_class(job(folder), answers, lambda done, whole: None, jobs=1)
     journal = folder / ".kulman-check.jsonl"
     assert journal.exists()
     journal.write_text(journal.read_text(encoding="utf-8") + '{"digest": "torn', encoding="utf-8")
@@ -193,12 +193,12 @@ def test_a_stopped_run_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.
         return first(job, desk, number, one)
 
     monkeypatch.setattr(class_run, "mark_one", counting)
-    results = mark_class(job(folder), answers, lambda number: None, jobs=1)
+    results = mark_class(job(folder), answers, lambda done, whole: None, jobs=1)
 
     assert before == 10
     assert again == [8, 9, 10, 11]  # the eight of the piece that was whole are not marked again
     assert not journal.exists()
-    alone = mark_class(job(), answers, lambda number: None, jobs=1)
+    alone = mark_class(job(), answers, lambda done, whole: None, jobs=1)
     assert [replace(result, reports=()) for result in results] == alone
     assert all((folder / name).is_file() for result in results for name in result.reports)
 
@@ -208,11 +208,11 @@ def test_reports_of_students_who_are_no_longer_there_are_removed(tmp_path: Path)
     folder.mkdir()
     foreign = folder / "004-Student-09.html"
     foreign.write_text("somebody's own", encoding="utf-8")
-    mark_class(job(folder), answers, lambda number: None, jobs=1)
+    mark_class(job(folder), answers, lambda done, whole: None, jobs=1)
     changed = folder / "004-Student-04.txt"
     changed.write_text("with remarks", encoding="utf-8")
 
-    mark_class(job(folder), answers[:1] + answers[2:3], lambda number: None, jobs=1)
+    mark_class(job(folder), answers[:1] + answers[2:3], lambda done, whole: None, jobs=1)
 
     stems = {"001-Student-01.html", "001-Student-01.txt", "002-Student-03.html", "002-Student-03.txt"}
     there = {path.name for path in folder.iterdir() if path.suffix in (".html", ".txt")}
@@ -234,18 +234,18 @@ def test_changed_answers_are_marked_again(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(crew, "TOGETHER", 1)
     monkeypatch.setattr(class_run, "mark_one", counting)
     with pytest.raises(KeyboardInterrupt):
-        mark_class(job(folder), answers, lambda number: None, jobs=1)
+        mark_class(job(folder), answers, lambda done, whole: None, jobs=1)
     changed = [answers[0], replace(answers[1], lines={})]
     marked.clear()
 
-    mark_class(job(folder), changed, lambda number: None, jobs=1)
+    mark_class(job(folder), changed, lambda done, whole: None, jobs=1)
 
     assert marked == ["Student 02"]
 
 
 def test_calculated_segments_are_too_exact_and_drawn_ones_are_not(tmp_path: Path) -> None:
-    drawn = mark_class(job(), handed_in(class_file(tmp_path, 25)), lambda number: None, jobs=1)
-    calculated = mark_class(job(), handed_in(class_file(tmp_path, 1, drawn=False)), lambda number: None, jobs=1)
+    drawn = mark_class(job(), handed_in(class_file(tmp_path, 25)), lambda done, whole: None, jobs=1)
+    calculated = mark_class(job(), handed_in(class_file(tmp_path, 1, drawn=False)), lambda done, whole: None, jobs=1)
 
     assert sum(result.exact for result in drawn) == 0
     assert calculated[0].exact
@@ -293,7 +293,7 @@ def test_rounding_hides_exactness() -> None:
 
 
 def test_a_result_survives_its_file(tmp_path: Path) -> None:
-    result = mark_class(job(), handed_in(class_file(tmp_path, 1)), lambda number: None, jobs=1)[0]
+    result = mark_class(job(), handed_in(class_file(tmp_path, 1)), lambda done, whole: None, jobs=1)[0]
 
     assert Result.from_json(result.to_json()) == result
     assert result.mark is not None

@@ -16,6 +16,7 @@ from ...scales.packaged import packaged
 from ...scales.units import format_unit
 from ..arguments import names_of
 from ..case import Settings
+from ..crew import Advance
 from ..marking.cells_out import Cell, table_bytes
 from ..marking.checks import Check, check
 from ..marking.grid import SUFFIXES as CELLS
@@ -24,7 +25,7 @@ from ..marking.wording import texts
 from ..tables import aligned
 from ..task import Task
 from .moodle import Asked, gift_bytes, xml_bytes
-from .variants import Advance, NewVariants, import_variants, make_variants
+from .variants import NewVariants, import_variants, make_variants
 
 TASK_FILE = ".toml"
 SUFFIXES = (*CELLS, ".xml", ".gift", TASK_FILE)

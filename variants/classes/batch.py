@@ -18,7 +18,7 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ..arguments import by_name, plans_wanted
 from ..case import Settings
-from ..crew import Done, shared_out
+from ..crew import Advance, Done, shared_out
 from ..journal import Journal, digest_of
 from ..kinds import kind_of
 from ..marking.cells_out import csv_bytes, table_bytes
@@ -31,7 +31,6 @@ from .tables import key_rows, manifest_rows, roster_rows
 
 JOURNAL = ".kulman-batch.jsonl"
 MANIFEST, KEY = "manifest.csv", "key.csv"
-Advance = Callable[[int, int], None]
 Crew = Callable[[Making, list[Student]], Iterator[list[Done[Made]]]]
 
 

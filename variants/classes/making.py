@@ -20,7 +20,6 @@ from ..marking.grid import SHOWN
 from ..marking.roster import Entry
 from ..sheet_id import sheet_id
 from ..sheets import Sheet, draw_case
-from ..shelf import bundled_text
 from ..task import Task
 
 NOTE, HANDOUT = "note", "handout"
@@ -69,9 +68,8 @@ class Making:
 
     def digest(self) -> str:
         """Return what tells this making from any that would make other files."""
-        text = Path(self.task.file).read_text(encoding="utf-8") if self.task.file else bundled_text(self.task.id)
         how = (self.kinds, self.settings, self.only, self.scales, self.format, self.norm, self.notation)
-        return digest_of(repr((__version__, text, how, self.language, self.block, self.digits)))
+        return digest_of(repr((__version__, self.task.text, how, self.language, self.block, self.digits)))
 
     def make(self, student: Student) -> Made:
         """Make the files of a student; what cannot be made is told, not raised."""

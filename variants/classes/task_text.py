@@ -5,19 +5,12 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Mapping
-from pathlib import Path
-
-from ..shelf import bundled_text
-from ..task import Task
 
 _HEADER = re.compile(r"\s*\[")
 _VARIANT = re.compile(r"\s*\[\[\s*variant\s*\]\]|\s*\[\s*variant\s*\.")
+_ARRAY = re.compile(r"\s*variant\s*=\s*\[")
+_STRING = re.compile(r'"(?:\\.|[^"\\])*"|\'[^\']*\'')
 _ID = re.compile(r"^id\s*=.*$", re.MULTILINE)
-
-
-def text_of(task: Task) -> str:
-    """Return the text of a task's file."""
-    return Path(task.file).read_text(encoding="utf-8") if task.file else bundled_text(task.id)
 
 
 def with_variants(text: str, rows: Iterable[tuple[str, Mapping[str, str]]], name: str | None = None) -> str:
@@ -28,8 +21,12 @@ def with_variants(text: str, rows: Iterable[tuple[str, Mapping[str, str]]], name
     name : str, optional
         Another id of the task.
     """
-    kept, inside = [], False
+    kept, inside, depth = [], False, 0
     for line in text.splitlines():
+        if depth or _ARRAY.match(line):  # variant = [ ... ]
+            plain = _STRING.sub("", line).partition("#")[0]
+            depth += plain.count("[") - plain.count("]")
+            continue
         if _HEADER.match(line):
             inside = _VARIANT.match(line) is not None
         if not inside:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ...scales.arguments import of_kind
@@ -11,14 +11,14 @@ from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ..arguments import by_name
 from ..case import Settings
+from ..crew import Advance
 from ..reader import TaskFileError, load_task, read_text
 from ..task import LocatedError, Task
 from .ranges import looked_at, made, ranges_of
 from .table_in import Read, read_variants
-from .task_text import text_of, with_variants
+from .task_text import with_variants
 
 MOST = 1000  # variants that are made at once
-Advance = Callable[[int, int], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +130,7 @@ def _task_with(task: Task, rows: Mapping[str, Mapping[str, str]]) -> NewVariants
     TaskFileError
         One of them is no variant of the task.
     """
-    text = with_variants(text_of(task), rows.items())
+    text = with_variants(task.text, rows.items())
     file = task.file or f"{task.id}.toml"
     found, faults = read_text(text, file)
     if found is None:

@@ -256,7 +256,7 @@ def _mark_one(asked: Check, answers: Answers, files: tuple[Path, ...], as_json: 
 def _mark_class(asked: Check, found: list[Answers], folder: str | None, jobs: int | None) -> list[Result]:
     """Mark a class; a console shows how far it is."""
     with progress() as advance:
-        return asked.mark_all(found, folder, lambda done: advance(done, len(found)), jobs)
+        return asked.mark_all(found, folder, advance, jobs)
 
 
 def _print_class(

@@ -12,6 +12,7 @@ from ...scales.arguments import of_kind
 from ...scales.errors import KulmanError
 from ..arguments import by_name, plans_wanted
 from ..case import Settings
+from ..crew import Advance
 from ..kinds import kind_of
 from ..reader import load_task
 from ..task import Task
@@ -84,7 +85,7 @@ class Check:
         self,
         answers: Sequence[Answers],
         folder: PathLike | None = None,
-        advance: Callable[[int], None] | None = None,
+        advance: Advance | None = None,
         jobs: int | None = None,
     ) -> list[Result]:
         """Mark a class, in its order.
@@ -94,7 +95,7 @@ class Check:
         folder : str or PathLike, optional
             Where reports on every student go, .html and .txt.
         advance : callable, optional
-            Told how many students more are done.
+            Told how many students more are done, and of how many.
         jobs : int, optional
             Processes; as many as there are cores when left out.
 
@@ -105,7 +106,7 @@ class Check:
         """
         from .filing import mark_all
 
-        return mark_all(self, answers, folder, advance or (lambda done: None), jobs)
+        return mark_all(self, answers, folder, advance or (lambda done, whole: None), jobs)
 
 
 def _refuse(error: KulmanError) -> None:

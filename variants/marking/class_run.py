@@ -12,9 +12,8 @@ from pathlib import Path
 from ... import __version__
 from ...drawing.writers import slug, write_whole
 from ...scales.errors import InputError, KulmanError
-from ..crew import shared_out
+from ..crew import Advance, shared_out
 from ..journal import Journal, digest_of
-from ..shelf import bundled_text
 from .answers import Answers
 from .checks import Check
 from .marked import Desk
@@ -24,7 +23,6 @@ from .result import Result, failed, result_of
 
 JOURNAL = ".kulman-check.jsonl"
 REPORTS_NOTED = ".kulman-reports.json"  # which reports of a folder are the program's own
-Advance = Callable[[int], None]
 Item = tuple[int, Answers]
 
 
@@ -43,9 +41,8 @@ class Job:
     def digest(self) -> str:
         """Return what tells this job from any that would mark or say something else."""
         check, request = self.check, self.check.request
-        task = request.task
-        text = Path(task.file).read_text(encoding="utf-8") if task.file else bundled_text(task.id)
-        parts = (__version__, text, request.variant, request.settings, request.only, request.scales, request.notation)
+        asked = (request.variant, request.settings, request.only, request.scales, request.notation)
+        parts = (__version__, request.task.text, *asked)
         own = (request.language, request.format, check.rubric, check.digits, check.own, tuple(REPORTS))
         return digest_of(repr((parts, own)))
 
@@ -56,7 +53,7 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
     Parameters
     ----------
     advance : callable
-        Told how many students more are done.
+        Told how many students more are done, and of how many.
     jobs : int, optional
         Processes; as many as there are cores when left out.
 
@@ -68,12 +65,12 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
     students = list(enumerate(answers))
     marked = _Marked(job)
     found = {item[0]: result for item in students if (result := marked.before(item)) is not None}
-    advance(len(found))
+    advance(len(found), len(students))
     todo = [item for item in students if item[0] not in found]
     for done in shared_out(job, todo, jobs or os.cpu_count() or 1):
         for number, result in (marked.noted(todo[one.place], one.made) for one in done):
             found[number] = result
-        advance(len(done))
+        advance(len(done), len(students))
     results = [found[number] for number, _ in students]
     marked.finish(results)
     return results

@@ -7,10 +7,11 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ...drawing.writers import Files, folder_for, save_all
+from ..crew import Advance
 from .answers import Answers
 from .cells_out import csv_bytes, table_bytes
 from .checks import Check
-from .class_run import Advance, Job, mark_class
+from .class_run import Job, mark_class
 from .class_table import class_rows, moodle_rows
 from .form import class_header, form_rows
 from .grid import SUFFIXES
