@@ -10,7 +10,7 @@ from ...plans.gears.gear import WHEELS
 from ...plans.gears.geometry import POINTS
 from ..table import table
 from ..view import View
-from .marks import letter, marks
+from .marks import along, letter, marks
 from .scene import GearScene
 
 MM, DEGREE, NUMBER, WHOLE = "mm", "°", "", "whole"
@@ -69,9 +69,12 @@ def number(scene: GearScene, name: str, kind: str) -> str:
 def points_table(scene: GearScene) -> View:
     """Return the table of the twelve points: ordinates of the velocities, their differences, specific sliding.
 
-    Differences are those of the printed ordinates, and sliding has as many digits as come out of these.
+    Differences are those of the printed ordinates, and sliding has as many digits as come out of these. Points end in
+    N1 and N2: where A1 or A2 lies beyond, no point has its letter.
     """
-    words, places = scene.words, marks(scene.solved.sizes)
+    words, line = scene.words, scene.size("l_N1N2")
+    on_line = [name for name, rho_1 in along(scene.solved.sizes).items() if 0.0 <= rho_1 <= line]
+    places = {name: point for name, point in marks(scene.solved.sizes).items() if name in on_line}
     mm = words.unit("mm")
     letters = {point: letter(name) for name, point in places.items()}
     y_1, y_2 = words.symbol("y_1"), words.symbol("y_2")

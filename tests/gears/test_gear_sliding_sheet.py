@@ -76,6 +76,8 @@ def test_the_contact_ratio_of_cut_flanks_is_told_in_the_table_of_checks() -> Non
     table = {tuple(row[:2]): row[2:] for row in rows(case.sheet["checks"])[1:]}
 
     assert faults(case, case.sheet, "Z7") == []
+    letters = [row[1] for row in rows(case.sheet["points"])[1:] if row[1][0].isalpha()]
+    assert letters == ["N_{1}", "P", "A_{2}", "N_{2}"]  # A_1 is beyond N_1
     assert table["Contact ratio", "ε_{α} ≥ 1.2"] == ["1.4593", "1.2000", "satisfied"]
     assert table["Contact ratio", "ε'_{α} ≥ 1.2"] == ["0.9127", "1.2000", "not satisfied"]
 
