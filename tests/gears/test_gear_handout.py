@@ -85,7 +85,6 @@ def test_note_tells_as_many_steps_as_a_handout_has_stages(lang: str) -> None:
         view: len(STAGES[view]) - 1 for view in story.steps
     }
     said = " ".join(step for steps in story.steps.values() for step in steps)
-    assert "{{" not in said
     assert words.number(78.857, 1) in said  # d_w1 / 2 at 2:1
     assert words.number(35.568, 1) in said  # the active line on paper
     assert f"{words.number(26.65, 2)}°" in said
