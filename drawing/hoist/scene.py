@@ -19,7 +19,6 @@ from ..words import Words
 COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
 POINTS = 300  # of a curve
 DIGITS = 4
-BIG = 1e5  # N/m, Pa from which on a value has a power of ten
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ EPSILON = 1.2  # the least contact ratio advised for spur gears
 ROUNDING = 1e-12  # part of a length by which two ways to it may differ, and a limit may be missed
 SAME = 1e-9  # part of the active line: flanks that touch along all of it
 CENTRES = ("a_w_rolling", "a_w_shift", "a_w_tip1", "a_w_tip2")
-AT_LEAST, AT_MOST, EQUAL = RELATIONS = ("at-least", "at-most", "equal")
+AT_LEAST, AT_MOST, EQUAL = ("at-least", "at-most", "equal")
 
 
 @dataclass(frozen=True, slots=True)

@@ -89,14 +89,6 @@ class Meshing:
         numbers = np.arange(math.ceil((first - base) / pitch), math.floor((last - base) / pitch) + 1)
         return np.asarray(base + pitch * numbers)
 
-    def counted_ratio(self, steps: int = 1000) -> float:
-        """Return how many pairs touch on average over a pitch, counted in equal steps.
-
-        For teeth that are neither undercut where they touch nor pointed that is the contact ratio.
-        """
-        angles = 2.0 * math.pi / self.teeth[0].z * (np.arange(steps) + 0.5) / steps
-        return float(np.mean([len(self.contacts(angle)) for angle in angles]))
-
     def directions(self, angle: float) -> tuple[complex, complex]:
         """Return from each centre the direction of the tooth that touches at the pole when the angle is zero."""
         found = []

@@ -8,7 +8,7 @@ from typing import Any
 
 from .onesided import OneSided
 
-ROPE_1, ROPE_2, SUPPORT, STRENGTH = CHECKS = ("rope_phase_1", "rope_phase_2", "support", "strength")
+ROPE_1, ROPE_2, SUPPORT, STRENGTH = ("rope_phase_1", "rope_phase_2", "support", "strength")
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 # what is known over time, and in what; the forces of both phases are one
 UNITS = {"t": "s", "y": "m", "s": "m", "F_01": "N", "F_12": "N", "sigma": "Pa", "w_0": "m", "w_2": "m"}
 EMPTY: Mapping[str, Array] = {}
-BOTH, ROPE, SUPPORT, NEITHER = STATES = ("both", "rope", "support", "neither")  # what bears the load
+BOTH, ROPE, SUPPORT, NEITHER = ("both", "rope", "support", "neither")  # what bears the load
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -16,9 +16,7 @@ Source: Karpenko, Muzyka, Gudym, formulas (1) to (3).
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -149,21 +147,3 @@ def _in_modes(modes: Array, values: Array) -> Array:
 def _sinc(x: Array) -> Array:
     """Return sin(x) / x, 1 at 0."""
     return np.sinc(x * (1.0 / math.pi))
-
-
-def hoist_row(values: Mapping[str, Any]) -> RowMotion:
-    """Return phase 1 of a hoist as the row with n = 1: the forces are -F_01 and -F_12.
-
-    Parameters
-    ----------
-    values : mapping of str to float or array
-        `m C_01 C_12 V_t a g`, SI; the stiffnesses finite.
-    """
-    m, C_01, C_12, V_t, a, g = np.broadcast_arrays(
-        *(np.asarray(values[name], float) for name in ("m", "C_01", "C_12", "V_t", "a", "g"))
-    )
-    none = np.zeros_like(m)
-    row = Row(
-        m[..., None], np.stack((C_01, C_12), axis=-1), (-m * g)[..., None], np.stack((none, np.asarray(a)), axis=-1)
-    )
-    return row.motion(np.stack((m * g, none), axis=-1), np.stack((none, -C_12 * V_t), axis=-1))

@@ -143,13 +143,3 @@ def stability_limit(method: str) -> float:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if grows(middle) else (middle, high)
     return low
-
-
-def slowing(method: str, z: Any) -> Array:
-    """Return the part by which a method's period is longer than the exact one at w h = z; NaN where it is no swing."""
-    uu, uv, vu, vv = one_step(method, z)
-    determinant = uu * vv - uv * vu
-    cosine = 0.5 * (uu + vv) / np.sqrt(np.where(determinant > 0.0, determinant, np.nan))
-    angle = np.arctan2(np.sqrt(np.where(np.abs(cosine) <= 1.0, 1.0 - cosine * cosine, np.nan)), cosine)
-    found: Array = z / angle - 1.0
-    return found

@@ -14,6 +14,7 @@ from kulman.plans.gears.sections import SECTIONS, section_of
 from kulman.plans.hands.hand import preset
 from kulman.plans.hands.shaky import paper_of
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.gears import counted_ratio
 from kulman.variants.solution import Solution
 
 TASK = "madi-gear"
@@ -167,7 +168,7 @@ def test_limits_that_are_not_kept_are_told(
 )
 def test_contact_of_cut_flanks_is_judged_by_what_is_left_of_them(teeth: dict[str, object], ratio: float) -> None:
     found = solve(TASK, set={**teeth, "x_1": 0, "x_2": 0})  # type: ignore[arg-type]
-    counted = found.solved.meshing.counted_ratio()
+    counted = counted_ratio(found.solved.meshing)
 
     assert found.checks["contact_ratio"]["ok"]  # by the formula, which counts the flanks that are cut away
     assert not found.checks["contact_flanks"]["ok"]

@@ -17,7 +17,7 @@ from kulman.plans.gears.course import columns, extremes, marks, pairs, zones
 from kulman.plans.gears.gear import CCW, CW, GearPair
 from kulman.plans.gears.solve import SolvedGear, solve_gear
 from kulman.scales.errors import InputError
-from kulman.tests.support.gears import madi
+from kulman.tests.support.gears import counted_ratio, madi
 
 TASK = "madi-gear"
 CASES = [
@@ -76,7 +76,7 @@ def test_zones_follow_one_another_and_hold_as_many_pairs_as_touch(others: dict[s
             assert len(solved.meshing.contacts(solved.meshing.angle(rho))) == zone.pairs == pairs(solved, np.array(rho))
     # as many pairs as touch on average over a pitch
     mean = sum(zone.length for zone in found) / solved.sizes["p_b"]
-    assert mean == pytest.approx(solved.meshing.counted_ratio(4000), abs=2e-3)
+    assert mean == pytest.approx(counted_ratio(solved.meshing, 4000), abs=2e-3)
 
 
 def test_ends_of_an_undercut_contact_are_not_called_those_of_the_active_line() -> None:

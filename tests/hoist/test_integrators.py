@@ -17,7 +17,7 @@ from kulman.plans.hoist.steppers import (
     VERLET,
     Motion,
     growth,
-    slowing,
+    one_step,
     stability_limit,
 )
 from kulman.tests.support.hoist_rows import SEVERAL, Exact, exact
@@ -109,6 +109,13 @@ def test_growth_of_explicit_euler_is_that_of_its_polynomial() -> None:
     z = np.geomspace(1e-3, 10.0, 20)
 
     assert growth(EXPLICIT, z) == pytest.approx(np.sqrt(1.0 + z * z), rel=1e-12)
+
+
+def slowing(method: str, z: float) -> float:
+    """Return the part by which a method's period is longer than the exact one at w h = z."""
+    uu, uv, vu, vv = (float(value) for value in one_step(method, z))
+    swing = 0.5 * (uu + vv) / np.sqrt(uu * vv - uv * vu)
+    return float(z / np.arccos(swing) - 1.0)
 
 
 @pytest.mark.parametrize(

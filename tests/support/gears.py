@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from kulman.plans.gears.gear import STANDARD
+from kulman.plans.gears.meshing import Meshing
 
 SEED = 1765
 HALVINGS = 70
@@ -23,6 +24,12 @@ Function = Callable[[Array], Array]
 def madi(**others: float) -> dict[str, float]:
     """Return the givens of the project's pair, complete, with others in their place."""
     return {**STANDARD, **MADI, **others}
+
+
+def counted_ratio(meshing: Meshing, steps: int = 1000) -> float:
+    """Return how many pairs touch on average over a pitch, counted in equal steps."""
+    angles = 2.0 * math.pi / meshing.teeth[0].z * (np.arange(steps) + 0.5) / steps
+    return float(np.mean([len(meshing.contacts(float(angle))) for angle in angles]))
 
 
 def random_pairs(random: np.random.Generator, count: int) -> dict[str, Array]:

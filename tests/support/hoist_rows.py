@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kulman.plans.hoist.row import Row, RowMotion, hoist_row
+from kulman.plans.hoist.row import Row, RowMotion
 
 Array = NDArray[np.float64]
 # plausible cranes and others, among them many swings before lift-off, one, none; speeds and accelerations of zero
@@ -38,6 +39,24 @@ class Exact:
         on_support = -self.first.forces(np.minimum(t, self.t_1))[..., 1]
         later: Array = np.where(t < self.t_1, on_support, -self.second.forces(np.maximum(t - self.t_1, 0.0))[..., 1])
         return later
+
+
+def hoist_row(values: Mapping[str, Any]) -> RowMotion:
+    """Return phase 1 of a hoist as the row with n = 1: the forces are -F_01 and -F_12.
+
+    Parameters
+    ----------
+    values : mapping of str to float or array
+        `m C_01 C_12 V_t a g`, SI; the stiffnesses finite.
+    """
+    m, C_01, C_12, V_t, a, g = np.broadcast_arrays(
+        *(np.asarray(values[name], float) for name in ("m", "C_01", "C_12", "V_t", "a", "g"))
+    )
+    none = np.zeros_like(m)
+    row = Row(
+        m[..., None], np.stack((C_01, C_12), axis=-1), (-m * g)[..., None], np.stack((none, np.asarray(a)), axis=-1)
+    )
+    return row.motion(np.stack((m * g, none), axis=-1), np.stack((none, -C_12 * V_t), axis=-1))
 
 
 def lifted(values: Mapping[str, Array], first: RowMotion, t_1: Array) -> RowMotion:
