@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 
-from ..board import RecordingBoard
+from ..calculated import calculated
 from .geometry import SIZES
 
 # of the calculated quantities, each the steps of one part of the geometry
@@ -19,12 +19,8 @@ OF_DIAGRAMS = ("PW", "mu_rho", "mu_theta")
 @cache
 def _calculated() -> Mapping[str, str]:
     """Return the section of every calculated quantity."""
-    found = dict.fromkeys(FOUND, CALCULATED[0])
-    for section, part in zip(CALCULATED, SIZES, strict=True):
-        board = RecordingBoard()
-        part(board)
-        found |= dict.fromkeys((step.name for step in board.steps), section)
-    return found
+    parts = {section: (part,) for section, part in zip(CALCULATED, SIZES, strict=True)}
+    return dict.fromkeys(FOUND, CALCULATED[0]) | calculated(parts)
 
 
 def section_of(name: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 
-from ..board import RecordingBoard
+from ..calculated import calculated
 from .model import circle, extremes, lifted, lifting_off, printed, reduced, strength, suspended
 
 DRAWN = "drawn"
@@ -22,13 +22,7 @@ SECTIONS = (*PARTS, DRAWN)
 @cache
 def _calculated() -> Mapping[str, str]:
     """Return the section of every calculated quantity."""
-    found: dict[str, str] = {}
-    for section, parts in PARTS.items():
-        board = RecordingBoard()
-        for part in parts:
-            part(board)
-        found |= dict.fromkeys((step.name for step in board.steps), section)
-    return found
+    return calculated(PARTS)
 
 
 def section_of(name: str) -> str:

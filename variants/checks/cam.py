@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import replace
 
 from ...plans.cams.cam import (
     AS_RISE,
@@ -24,38 +24,22 @@ from ...plans.cams.cam import (
     Curve,
 )
 from ...scales.errors import InputError
-from ...scales.names import unknown
 from ...scales.numbers import quote
-from ...scales.units import Unit, customary, unit
+from ...scales.units import unit
 from ..task import Bound, Given
 from ..toml_places import Path
 from .basics import Checker, Field, array_of, one_of, record, rows, word
 from .givens import literal, word_or_choice
 from .names import Names
+from .numbers import Number, check_numbers
 
 TABLE = "cam"
 WORDS = ("law", "law_fall", "fall", "rotation", "limits")  # keys whose value may be the name of a choice
 SHORTEST = math.radians(0.01)  # of a phase in which a follower moves
 MOST_SECTIONS = 90  # of a phase: finer than a degree nobody divides one
-
-
-@dataclass(frozen=True, slots=True)
-class Number:
-    """A number of a cam: which values it may have, whose it is, whether they need it, what it is where nobody says.
-
-    The default is in SI.
-    """
-
-    bound: Bound = Bound.POSITIVE
-    had_by: tuple[str, ...] = FOLLOWERS
-    needed: bool = True
-    default: float | None = None
-
-
-_STRAIGHT, _ROLLING = (ROLLER, PLATE), (ROLLER, ROCKER)
 NUMBERS = {
-    "h": Number(had_by=_STRAIGHT),
-    "psi": Number(Bound.ACUTE, (ROCKER,)),
+    "h": Number(),
+    "psi": Number(Bound.ACUTE),
     "phi_rise": Number(Bound.TURN),
     "phi_upper": Number(Bound.NOT_NEGATIVE, default=0.0),
     "phi_fall": Number(Bound.TURN),
@@ -66,28 +50,25 @@ NUMBERS = {
     "H_a": Number(default=0.03),
     "H_v": Number(default=0.03),
     "mu_phi": Number(default=math.radians(1e3)),
-    "gamma_rise": Number(Bound.ACUTE, _ROLLING),
-    "gamma_fall": Number(Bound.ACUTE, _ROLLING),
-    "R_roller": Number(had_by=_ROLLING),
-    "rho_flat": Number(Bound.NOT_NEGATIVE, (PLATE,), default=0.01),
-    "margin": Number(Bound.NOT_NEGATIVE, (PLATE,), default=0.005),
-    "l_rocker": Number(had_by=(ROCKER,)),
-    "l_OC": Number(had_by=(ROCKER,), needed=False),  # else the pivot is where the cam is smallest
-    "r_0": Number(had_by=_ROLLING, needed=False),
-    "e": Number(Bound.FREE, (ROLLER,), needed=False),
+    "gamma_rise": Number(Bound.ACUTE),
+    "gamma_fall": Number(Bound.ACUTE),
+    "R_roller": Number(),
+    "rho_flat": Number(Bound.NOT_NEGATIVE, default=0.01),
+    "margin": Number(Bound.NOT_NEGATIVE, default=0.005),
+    "l_rocker": Number(),
+    "l_OC": Number(needed=False),  # else the pivot is where the cam is smallest
+    "r_0": Number(needed=False),
+    "e": Number(Bound.FREE, needed=False),
 }
-
-
-def _unit(name: str) -> Unit:
-    """Return the unit of a number of a cam."""
-    return unit(VALUES[name] or "1")
-
-
-def words_of(raw: object) -> frozenset[str]:
-    """Return the words of `[cam]` that may be names of choices."""
-    if not isinstance(raw, dict):
-        return frozenset()
-    return frozenset(name for key in WORDS if isinstance(name := raw.get(key), str))
+_STRAIGHT, _ROLLING = (ROLLER, PLATE), (ROLLER, ROCKER)
+HAD_BY = {  # numbers that not every follower has
+    "h": _STRAIGHT,
+    "psi": (ROCKER,),
+    **dict.fromkeys(("gamma_rise", "gamma_fall", "R_roller", "r_0"), _ROLLING),
+    **dict.fromkeys(("rho_flat", "margin"), (PLATE,)),
+    **dict.fromkeys(("l_rocker", "l_OC"), (ROCKER,)),
+    "e": (ROLLER,),
+}
 
 
 def read_cam(checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Cam | None:
@@ -106,7 +87,7 @@ def read_cam(checker: Checker, raw: object, names: Names, givens: Mapping[str, G
     followers = tuple(dict.fromkeys(read.get("followers", ())))
     if ROCKER in followers and len(followers) > 1:
         checker.fault((*path, "followers"), InputError("follower-rocker"))
-    _numbers(checker, names, followers)
+    check_numbers(checker, names, _numbers_for(followers), VALUES, "cam-number-unknown")
     if len(checker.faults) > before:
         return None
     return Cam(**{**read, "followers": followers, "curves": curves})
@@ -164,38 +145,21 @@ def _unfit(curve: Curve) -> InputError | None:
     return None
 
 
-def _numbers(checker: Checker, names: Names, followers: tuple[str, ...]) -> None:
-    """Check that the numbers are there that the followers need, and no others; fill in the usual ones."""
-    for name, dimension in names.dimensions.items():
-        place = names.stated.get(name, ("givens",))
-        if name not in NUMBERS:
-            checker.fault(place, unknown("cam-number-unknown", name, NUMBERS))
-        elif followers and not _had(name, followers):
-            checker.fault(place, InputError("cam-number-unused", text=name, followers=", ".join(followers)))
-        elif dimension not in (None, _unit(name).dimension):
-            checker.fault(place, InputError("value-wrong", text=name, expected=customary(_unit(name))))
-        else:
-            names.bounds[name] = NUMBERS[name].bound
+def _numbers_for(followers: tuple[str, ...]) -> dict[str, Number]:
+    """Return the numbers of a cam; those that none of the followers has are of no use, where there are followers."""
+    found = dict(NUMBERS)
     for name, number in NUMBERS.items():
-        needed = number.needed and _had(name, followers)
-        if not needed or number.default is not None:
-            names.optional.add(name)
-        if needed and number.default is not None:
-            names.named[name] = number.default  # a variant may say another
-        elif needed and name not in names.dimensions:
-            checker.fault(("givens",), InputError("key-missing", name=name))
-
-
-def _had(name: str, followers: tuple[str, ...]) -> bool:
-    """Whether one of the followers has a number."""
-    return not {*NUMBERS[name].had_by}.isdisjoint(followers)
+        if {*HAD_BY.get(name, FOLLOWERS)}.isdisjoint(followers):
+            error = InputError("cam-number-unused", text=name, followers=", ".join(followers)) if followers else None
+            found[name] = replace(number, needed=False, unused=error)
+    return found
 
 
 def impossible(values: Mapping[str, float]) -> Iterator[InputError]:
     """Go through what no cam can have among the numbers of a variant: those that a choice sets are bounded, too."""
     for name, number in NUMBERS.items():
         if name in values and not number.bound.admits(values[name]):
-            yield InputError(number.bound.value, text=f"{name} = {_unit(name).from_si(values[name]):.7g}")
+            yield InputError(number.bound.value, text=f"{name} = {unit(VALUES[name] or '1').from_si(values[name]):.7g}")
     for name in ("phi_rise", "phi_fall"):
         if 0.0 < values[name] < SHORTEST:
             angles = {"angle": f"{math.degrees(values[name]):.4g}", "least": f"{math.degrees(SHORTEST):g}"}

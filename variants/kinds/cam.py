@@ -13,9 +13,9 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.scale import Scale
 from ...scales.units import unit
-from ..checks.cam import NUMBERS, WORDS, impossible, read_cam, words_of
+from ..checks.cam import NUMBERS, WORDS, impossible, read_cam
 from ..task import Given, Task
-from .kind import Kind, Verdicts
+from .kind import Kind, Verdicts, first_of
 
 if TYPE_CHECKING:
     from ...drawing.formats import Format
@@ -65,14 +65,10 @@ RULES = ("roller_of_radius", "roller_of_curvature", "gamma_rise", "gamma_fall") 
 class Cams(Kind[Cam, "SolvedCam"]):
     """Disk cams with translating roller and flat-faced followers, or with a rocker."""
 
-    table, plans = "cam", PLANS
+    table, plans, choosing = "cam", PLANS, WORDS
     display = Display(size="mm", angle="deg")
     names = frozenset((*NUMBERS, *WORDS))
     segments = False
-
-    def words(self, raw: object) -> frozenset[str]:
-        """Return the words of `[cam]` that may be names of choices."""
-        return words_of(raw)
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Cam | None:
         """Read `[cam]`."""
@@ -217,9 +213,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
         """Return the headings of diagrams, chords, sizes, profiles."""
         from ...plans.cams.sections import ROLLER, section_of
 
-        first: dict[str, str] = {}
-        for name in self.listed(solved, self.plans):
-            first.setdefault(section_of(name), name)
+        first = first_of(self.listed(solved, self.plans), section_of)
         keys = HEADINGS | ({ROLLER: "heading.cam_rocker"} if solved.rocker is not None else {})
         return {name: words[keys[section]] for section, name in first.items()}
 

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from ...plans.gears.gear import PLANS, GearPair
+from ...plans.gears.gear import MODULES, PLANS, GearPair
 from ...plans.gears.limits import impossible
 from ...scales.choose import Choosers
 from ...scales.display import Display
 from ...scales.errors import InputError
-from ...scales.names import unknown
 from ...scales.scale import Scale
-from ..checks.gear import read_gear, words_of
+from ..checks.gear import KNOWN, read_gear
 from ..task import Given, Task
-from .kind import Kind, Verdicts
+from .kind import Kind, Verdicts, check_scales, first_of
 
 if TYPE_CHECKING:
     from ...drawing.formats import Format
@@ -54,8 +53,10 @@ class Gears(Kind[GearPair, "SolvedGear"]):
     """External pairs of involute spur gears cut by a standard rack."""
 
     table, plans = "gear", PLANS
+    choosing = tuple(KNOWN)
     judged = "heading.gear_checks"
     pages = 2  # the meshing at 5:1 fills one
+    rows: ClassVar[Mapping[str, tuple[float, ...]]] = {"m": MODULES}
     display = Display(size="mm", angle="deg")
     instead = (
         (frozenset(("x_1", "x_2")), ("x_sum", "a_w")),
@@ -63,19 +64,13 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         (frozenset(("a_w",)), ("x_1", "x_2", "x_sum")),
     )
 
-    def words(self, raw: object) -> frozenset[str]:
-        """Return the words of `[gear]` that may be names of choices."""
-        return words_of(raw)
-
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> GearPair | None:
         """Read `[gear]`."""
         return read_gear(checker, raw, names, givens)
 
     def fits(self, checker: Checker, subject: GearPair, head: Mapping[str, Any]) -> None:
         """Check that the scale factors are those that may be chosen."""
-        for name in head.get("scales", {}):
-            if name not in SYMBOLS:
-                checker.fault(("scales", name), unknown("scale-unknown", name, SYMBOLS, task=head.get("id", "")))
+        check_scales(checker, head, SYMBOLS)
 
     def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
         """Check that every variant is one of a pair; if `thorough`, that its wheels have teeth and can mesh."""
@@ -181,9 +176,7 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         """Return the headings of the sections of the note."""
         from ...plans.gears.sections import section_of
 
-        first: dict[str, str] = {}
-        for name in solved.quantities:
-            first.setdefault(section_of(name), name)
+        first = first_of(solved.quantities, section_of)
         return {name: words[f"heading.gear_{section}"] for section, name in first.items()}
 
     def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 from ...plans.hoist.hoist import PLANS, Hoist
 from ...scales.choose import Choosers
 from ...scales.errors import InputError
-from ...scales.names import unknown
 from ...scales.scale import Scale
-from ..checks.hoist import read_hoist, words_of
+from ..checks.hoist import KNOWN, read_hoist
 from ..task import Given, Task
-from .kind import Kind, Verdicts
+from .kind import Kind, Verdicts, check_scales, first_of
 
 if TYPE_CHECKING:
     from ...drawing.formats import Format
@@ -48,10 +47,7 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
     """Loads that a rope takes off a beam, wound up on another beam."""
 
     table, plans = "hoist", PLANS
-
-    def words(self, raw: object) -> frozenset[str]:
-        """Return the words of `[hoist]` that may be names of choices."""
-        return words_of(raw)
+    choosing = tuple(KNOWN)
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Hoist | None:
         """Read `[hoist]`."""
@@ -59,9 +55,7 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
     def fits(self, checker: Checker, subject: Hoist, head: Mapping[str, Any]) -> None:
         """Check that the scale factors are those that may be chosen."""
-        for name in head.get("scales", {}):
-            if name not in SYMBOLS:
-                checker.fault(("scales", name), unknown("scale-unknown", name, SYMBOLS, task=head.get("id", "")))
+        check_scales(checker, head, SYMBOLS)
 
     def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
         """Check that every variant moves its load; if `thorough`, that its forces can be found."""
@@ -136,9 +130,7 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         """Return the headings of the sections of the note."""
         from ...plans.hoist.sections import section_of
 
-        first: dict[str, str] = {}
-        for name in solved.quantities:
-            first.setdefault(section_of(name), name)
+        first = first_of(solved.quantities, section_of)
         return {name: words[f"heading.hoist_{section}"] for section, name in first.items()}
 
     def asks(self, solved: SolvedHoist, question: Question) -> bool:

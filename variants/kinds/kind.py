@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from ...plans.solved import Solved
 from ...scales.choose import Choosers
 from ...scales.display import AS_INSIDE, Display
 from ...scales.errors import InputError
+from ...scales.names import unknown
 from ...scales.scale import Scale
 from ..task import Given, Instead, Task
 
@@ -41,19 +42,23 @@ class Kind(ABC, Generic[Subject, Answer]):
     """A kind of tasks; `table` is where their files describe the subject, `plans` what can be drawn of it."""
 
     table: ClassVar[str]
+    choosing: ClassVar[tuple[str, ...]] = ()  # keys of the table whose value may be the name of a choice
     display: ClassVar[Display] = AS_INSIDE  # the units of results where a file says no others
     plans: ClassVar[tuple[str, ...]]
     judged: ClassVar[str] = ""  # key of the heading of its checks, where a list of quantities ends in these
     pages: ClassVar[int] = 1  # how many a sheet has at most that holds everything well
     names: ClassVar[frozenset[str]] = frozenset()  # of what such a task may state; none where every task has its own
     segments: ClassVar[bool] = True  # whether a segment may choose a scale factor
+    rows: ClassVar[Mapping[str, tuple[float, ...]]] = {}  # values in SI that a standard has, of givens of new variants
     instead: ClassVar[Instead] = ()  # which givens of a user stand in the place of others
 
     # Reading a task file. Faults go to the checker.
 
     def words(self, raw: object) -> frozenset[str]:
         """Return what the table `raw` says in words that may be names of choices: these need not set numbers."""
-        return frozenset()
+        if not isinstance(raw, dict):
+            return frozenset()
+        return frozenset(name for key in self.choosing if isinstance(name := raw.get(key), str))
 
     @abstractmethod
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Subject | None:
@@ -214,3 +219,22 @@ class Kind(ABC, Generic[Subject, Answer]):
     def vector_letters(self, solved: Answer, words: Words) -> dict[str, str]:
         """Return the letters of the vectors that show quantities on their plans."""
         return {}
+
+
+def first_of(names: Iterable[str], section_of: Callable[[str], str]) -> dict[str, str]:
+    """Return the first of the `names` in every section, by section, in their order.
+
+    >>> first_of(("r_0", "s", "r_1"), lambda name: name[0])
+    {'r': 'r_0', 's': 's'}
+    """
+    first: dict[str, str] = {}
+    for name in names:
+        first.setdefault(section_of(name), name)
+    return first
+
+
+def check_scales(checker: Checker, head: Mapping[str, Any], known: tuple[str, ...]) -> None:
+    """Check that a file chooses no scale factors but those that are `known`."""
+    for name in head.get("scales", {}):
+        if name not in known:
+            checker.fault(("scales", name), unknown("scale-unknown", name, known, task=head.get("id", "")))
