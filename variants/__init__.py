@@ -3,10 +3,10 @@
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .batches.batch import batch as batch
     from .charts.charts import chart as chart
-    from .classes.answers import all_variants as all_variants
-    from .classes.batch import batch as batch
     from .handouts import handout as handout
+    from .making.all_variants import all_variants as all_variants
     from .marking.checks import check as check
     from .notes import note as note
     from .reader import load_task as load_task
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 __all__ = ["all_variants", "batch", "chart", "check", "handout", "load_task", "note", "sheet", "solve", "sweep"]
 
 _HOMES = {
-    "all_variants": "classes.answers",
-    "batch": "classes.batch",
+    "all_variants": "making.all_variants",
+    "batch": "batches.batch",
     "chart": "charts.charts",
     "check": "marking.checks",
     "handout": "handouts",

@@ -15,7 +15,7 @@ from xml.dom import minidom
 import pytest
 
 from kulman import batch, check, cli
-from kulman.variants.classes.making import Made, Making, Student
+from kulman.variants.batches.student import Made, Making, Student
 
 TASK = "nau-slider-crank"
 

@@ -92,7 +92,7 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
 )
 @click.option("--preset", type=Word(*HANDS), default="normal", show_default=True, help="What a question lets pass.")
 @output(
-    ".classes.answers",
+    ".making.all_variants",
     "Where to: all values to .csv or .xlsx, questions for Moodle to .xml or .gift, new variants to a task file, .toml.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
@@ -167,7 +167,7 @@ def batch(task: str, settings: dict[str, str], kinds: tuple[str, ...], **options
         raise InputError("batch-variant")
     language, form = options.pop("lang") or "uk", options.pop("form")
     if form is not None:
-        from ..classes.batch import write_roster
+        from ..batches.batch import write_roster
 
         click.echo(str(write_roster(task, form, language)))
     if options["roster"] is not None and options["folder"] is not None:
@@ -180,7 +180,7 @@ def batch(task: str, settings: dict[str, str], kinds: tuple[str, ...], **options
 def _draw_class(task: str, roster: str, folder: str, jobs: int, **options: Any) -> int:
     """Draw the sheets of a class; a console shows how far it is."""
     from ... import variants
-    from ..classes.batch import MANIFEST
+    from ..batches.batch import MANIFEST
 
     block = {name: text for name in BLOCK if (text := options.pop(name)) is not None}
     with progress() as advance:

@@ -26,7 +26,7 @@ from ..marking.grid import SUFFIXES
 from ..marking.roster import read_roster
 from ..reader import load_task
 from ..task import Task
-from .making import KINDS, NOTE, Made, Making, Student
+from .student import FORMS, NOTE, Made, Making, Student
 from .tables import key_rows, manifest_rows, roster_rows
 
 JOURNAL = ".kulman-batch.jsonl"
@@ -165,8 +165,8 @@ def write_roster(task: str | os.PathLike[str] | Task, file: str | os.PathLike[st
 
 def _known(kinds: Sequence[str]) -> tuple[str, ...]:
     for kind in kinds:
-        if kind not in KINDS:
-            raise unknown("batch-kind", kind, KINDS)
+        if kind not in FORMS:
+            raise unknown("batch-kind", kind, FORMS)
     return tuple(dict.fromkeys(kinds))
 
 

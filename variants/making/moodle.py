@@ -11,7 +11,7 @@ HALF = 2.0  # how many tolerances off an answer still gets half
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class Question:
     """A numerical question: a name, the text, the right value and by how much an answer may miss."""
 
     name: str
@@ -20,7 +20,7 @@ class Asked:
     tolerance: float
 
 
-def gift_bytes(category: str, questions: Iterable[Asked]) -> bytes:
+def gift_bytes(category: str, questions: Iterable[Question]) -> bytes:
     """Return questions as GIFT: an answer that misses by up to twice the tolerance gets half."""
     lines = [f"$CATEGORY: {_gift(category)}", ""]
     for asked in questions:
@@ -35,7 +35,7 @@ def _gift(text: str) -> str:
     return re.sub(r"([~=#{}:\\])", r"\\\1", " ".join(text.split()))
 
 
-def xml_bytes(category: str, questions: Iterable[Asked]) -> bytes:
+def xml_bytes(category: str, questions: Iterable[Question]) -> bytes:
     """Return questions as Moodle's XML: an answer that misses by up to twice the tolerance gets half."""
     parts = [
         '<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n',
@@ -46,7 +46,7 @@ def xml_bytes(category: str, questions: Iterable[Asked]) -> bytes:
     return "".join(parts).encode("utf-8")
 
 
-def _question(asked: Asked) -> str:
+def _question(asked: Question) -> str:
     answers = "".join(
         f'<answer fraction="{fraction}"><text>{asked.value:.10g}</text>'
         f"<tolerance>{times * asked.tolerance:.3g}</tolerance></answer>"

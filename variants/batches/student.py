@@ -23,7 +23,7 @@ from ..sheets import Sheet, draw_case
 from ..task import Task
 
 NOTE, HANDOUT = "note", "handout"
-KINDS = ("svg", "pdf", "png", NOTE, HANDOUT)
+FORMS = ("svg", "pdf", "png", NOTE, HANDOUT)
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,15 +24,15 @@ from ..marking.keyed import Keyed, keyed
 from ..marking.wording import texts
 from ..tables import aligned
 from ..task import Task
-from .moodle import Asked, gift_bytes, xml_bytes
-from .variants import NewVariants, import_variants, make_variants
+from .moodle import Question, gift_bytes, xml_bytes
+from .new_variants import NewVariants, import_variants, make_variants
 
 TASK_FILE = ".toml"
 SUFFIXES = (*CELLS, ".xml", ".gift", TASK_FILE)
 
 
 @dataclass(frozen=True, slots=True)
-class Answers:
+class AllVariants:
     """All variants: the key of each, or why it has none."""
 
     check: Check
@@ -108,7 +108,7 @@ class Answers:
             values = (_shown(key, name) for key in self.keys.values())
             yield (name, format_unit(unit, self._language), *values)
 
-    def _questions(self) -> Iterator[Asked]:
+    def _questions(self) -> Iterator[Question]:
         """Go through the questions, variant by variant; tolerances are those of the marking."""
         said = packaged(__package__, "texts", self._language)
         for variant, key in self.keys.items():
@@ -122,7 +122,7 @@ class Answers:
                     title=self.check.request.task.title[self._language], variant=variant, sheet=key.sheet,
                     symbol=key.symbol(name), unit=unit,
                 )  # fmt: skip
-                yield Asked(f"{variant}-{name}", text, value, key.key.allowed[name] * factor)
+                yield Question(f"{variant}-{name}", text, value, key.key.allowed[name] * factor)
 
 
 def _si(key: Keyed, name: str) -> float | None:
@@ -149,7 +149,7 @@ def all_variants(
     notation: str | None = None,
     lang: str = "uk",
     advance: Advance | None = None,
-) -> Answers:
+) -> AllVariants:
     """Solve all variants of a task: those that it has, or new ones.
 
     Parameters
@@ -197,7 +197,7 @@ def all_variants(
     for name in wanted:
         if name not in known:
             raise unknown("quantity-unknown", name, known)
-    return Answers(asked, keys, problems, wanted, new)
+    return AllVariants(asked, keys, problems, wanted, new)
 
 
 def _new(

@@ -6,12 +6,13 @@ import math
 import random
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ..case import Settings, solve_case
+from ..kinds import kind_of
 from ..sheets import draw_case
 from ..task import Given, LocatedError, Task
 
@@ -24,15 +25,22 @@ _RANGE = re.compile(r"(?P<low>.+?)\s*\.\.\s*(?P<high>[^/]+?)\s*(?:/\s*(?P<step>.
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """A given's values: from `low` to `high` in steps, in its own unit; exact decimals."""
+    """A given's values: from `low` to `high` in steps, in its own unit; exact decimals.
+
+    Where a standard has a `row` of values, only these.
+    """
 
     unit: str
     low: Decimal
     high: Decimal
     step: Decimal
+    row: tuple[Decimal, ...] = ()
 
     def pick(self, luck: random.Random) -> str:
         """Return one of the values as it is written."""
+        row = [value for value in self.row if self.low <= value <= self.high]
+        if row:
+            return f"{luck.choice(row).normalize():f} {self.unit}".strip()
         count = int((self.high - self.low) / self.step) if self.step else 0
         value = self.low + luck.randint(0, count) * self.step
         return f"{value.normalize():f} {self.unit}".strip()
@@ -47,6 +55,10 @@ def ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, Range]:
         No range, or a given that is none of the task's.
     """
     found = {name: _spanned(task, name, given) for name, given in task.givens.items() if given.unit is not None}
+    for name, row in kind_of(task.kind).rows.items():
+        one, given = found.get(name), task.givens.get(name)
+        if one is not None and given is not None and given.unit is not None:
+            found[name] = replace(one, row=tuple(_decimal(given.unit.from_si(value)) for value in row))
     for name, text in asked.items():
         given = task.givens.get(name)
         if given is None or given.unit is None:
@@ -69,9 +81,10 @@ def _read(given: Given, text: str, usual: Range | None) -> Range:
     step = _decimal(unit.from_si(_number(given, _with(parts["step"], text)))) if parts["step"] else None
     if low > high or (step is not None and step <= 0):
         raise InputError("range-bad", text=quote(text))
+    row = usual.row if usual is not None and step is None else ()
     if step is None:
         step = usual.step if usual is not None and 0 < usual.step <= high - low else _round_step(high - low)
-    return Range(unit.behind, low, high, step)
+    return Range(unit.behind, low, high, step, row)
 
 
 def _with(part: str, whole: str) -> str:

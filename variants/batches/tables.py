@@ -13,7 +13,7 @@ from ..marking.wording import texts
 if TYPE_CHECKING:
     from ..task import Task
     from .batch import Batch, Outcome
-    from .making import Student
+    from .student import Student
 
 Rows = Iterator[tuple[Cell, ...]]
 
