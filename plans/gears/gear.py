@@ -32,6 +32,11 @@ VALUES = {
     "PW": "m",  # drawn length of the velocity along the profiles at the pole
     "mu_theta": "1/mm",  # scale factor of the diagrams of specific sliding
 }
+# modules of GOST 9563-60, both rows, m
+MODULES = (
+    *(1e-3, 1.125e-3, 1.25e-3, 1.375e-3, 1.5e-3, 1.75e-3, 2e-3, 2.25e-3, 2.5e-3, 2.75e-3, 3e-3, 3.5e-3, 4e-3, 4.5e-3),
+    *(5e-3, 5.5e-3, 6e-3, 7e-3, 8e-3, 9e-3, 10e-3, 11e-3, 12e-3, 14e-3, 16e-3, 18e-3, 20e-3, 22e-3, 25e-3),
+)
 # what is not given: the basic rack of GOST 13755-81, a drawn length, a scale factor
 STANDARD = {"alpha": math.radians(20.0), "h_a": 1.0, "h_l": 2.0, "c": 0.25, "PW": 40e-3, "mu_theta": 50.0}
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 
 import pytest
 
@@ -10,6 +11,7 @@ from kulman import solve
 from kulman.plans.gears.gear import STANDARD, VALUES, GearPair
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.checks.gear import NUMBERS
+from kulman.variants.making.ranges import ranges_of
 from kulman.variants.reader import load_task, read_text
 from kulman.variants.shelf import bundled_text
 from kulman.variants.task import Task
@@ -187,3 +189,19 @@ def test_limits_that_are_told_are_the_limits() -> None:
         assert solve(TASK, set={"alpha": alpha, "h_l": 1.8}, only="geometry").solved.givens["alpha"] == math.radians(
             alpha
         )
+
+
+@pytest.mark.parametrize(
+    ("asked", "modules"),
+    [
+        pytest.param({}, {"4 mm", "4.5 mm", "5 mm", "5.5 mm", "6 mm"}, id="round that of the task"),
+        pytest.param({"m": "2..3"}, {"2 mm", "2.25 mm", "2.5 mm", "2.75 mm", "3 mm"}, id="a range"),
+        pytest.param({"m": "4..5/0.2"}, {f"{m:g} mm" for m in (4, 4.2, 4.4, 4.6, 4.8, 5)}, id="a range with a step"),
+    ],
+)
+def test_new_variants_have_modules_of_the_standard_unless_a_step_is_said(
+    asked: dict[str, str], modules: set[str]
+) -> None:
+    span, luck = ranges_of(load_task("madi-gear"), asked)["m"], random.Random(5)
+
+    assert {span.pick(luck) for _ in range(200)} == modules
