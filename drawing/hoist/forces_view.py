@@ -29,11 +29,9 @@ def forces_view(scene: HoistScene) -> View:
     _values(canvas, scene, field)
     notes = [words["hoist.article"]]
     if 0 in scene.solved.layout.bent:
-        mu = f"{scene.scale('mu_F').mu / scene.size('C_01'):.3g}"
+        mu = words.short(float(f"{scene.scale('mu_F').mu / scene.size('C_01'):.3g}"))
         unit = words.unit("m/mm")
-        notes.append(
-            words["hoist.course"].format(w=words.symbol("w_0"), F=words.symbol("F_01"), mu=words.decimal(mu), unit=unit)
-        )
+        notes.append(words["hoist.course"].format(w=words.symbol("w_0"), F=words.symbol("F_01"), mu=mu, unit=unit))
     roots = scene.solved.layout.roots
     if scene.solved.forces.motion is not None:
         notes.append(words["hoist.one_sided"])

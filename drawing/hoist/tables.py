@@ -39,8 +39,8 @@ def results_table(scene: HoistScene) -> View:
     for name, quantity in solved.quantities.items():
         if section_of(name) == DRAWN or name in SCALED:
             continue
-        value = words["table.calculated"] if quantity.value is None else scene.value(quantity.value)
-        unit = unit_of(name)
+        times, unit = USUAL.get(unit_of(name), (1.0, unit_of(name)))
+        value = words["table.calculated"] if quantity.value is None else scene.value(quantity.value * times)
         cells.append([words.symbol(name), value, "" if unit == "1" else words.unit(unit)])
     half = (len(cells) + 1) // 2
     head = [words["table.symbol"], words["table.value"], words["table.unit"]]

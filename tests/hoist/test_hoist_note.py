@@ -10,7 +10,7 @@ import pytest
 from kulman import note
 from kulman.drawing.hoist.scene import HoistScene
 from kulman.drawing.hoist.steps import BENT, HANGING, REDUCED, SLACK, STARTED, TOLD, formula
-from kulman.drawing.notes.blocks import Equations, Figure, Steps
+from kulman.drawing.notes.blocks import Equations, Figure, Steps, Table
 from kulman.drawing.style import STYLES
 from kulman.drawing.words import Words
 from kulman.plans.hoist.forces import forces
@@ -76,3 +76,11 @@ def test_formulas_that_are_not_valid_are_not_told() -> None:
     assert "The closed formulas are not valid here" in text
     assert "P_{12 max} = P_{m} + R" not in text
     assert "(11)" not in text.partition("Divide")[0]
+
+
+def test_small_and_large_numbers_are_printed_as_people_write_them() -> None:
+    blocks = note(TASK, "V03", lang="en").document.blocks
+    rows = [row for block in blocks if isinstance(block, Table) for row in block.rows]
+    assert any(row[3:] == ("σ_{max}", "256.1", "MPa") for row in rows)
+    under = [line for block in blocks if isinstance(block, Figure) for line in block.under]
+    assert "F_{01} is the deflection w_{0} of the support beam, too: 0.0000457 m/mm" in under
