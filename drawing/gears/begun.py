@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 from ...plans.gears.gear import SHIFTS, WHEELS
 from ...plans.gears.geometry import POINTS
+from ...plans.gears.meshing_plan import MOST
 from ..handouts.begun import Shown
 from .scene import GearScene
 from .tables import OF_WHEELS, PAIR, named
@@ -32,7 +33,7 @@ MESHING: tuple[Stage, ...] = (
     (_both("L#", "flank_#"), _both("L_{#}")),
     (("position:start", "position:end", *_both("K#")), _both("K_{#}")),
 )
-PARTS = tuple(str(k) for k in range(17))
+PARTS = tuple(str(k) for k in range(MOST + 1))
 ROLLING: tuple[Stage, ...] = (
     (("P",), ("P",)),
     (("N1N2", *_both("N#", "d_b#")), _both("N_{#}")),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 
@@ -11,7 +12,7 @@ from kulman import handout, solve
 from kulman.drawing.gears.begun import STAGES
 from kulman.drawing.handouts.begun import begun_pages
 from kulman.drawing.page import Page
-from kulman.drawing.shapes import Group, Shape, Text
+from kulman.drawing.shapes import Group, Line, Polyline, Shape, Text
 from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
 from kulman.scales.scale import Scale
@@ -71,6 +72,61 @@ def test_every_stage_draws_something_more(only: str) -> None:
 
     assert all(a < b for a, b in pairwise(counts))
     assert counts[-1] < count(drawn.pages)
+
+
+PAIRS = ({}, {"z_1": 40, "z_2": 60, "x_1": 0, "x_2": 0}, {"z_1": 8, "z_2": 25, "x_1": 0.5, "x_2": 0})
+# what a stage draws of marks that have no shape of their own
+DRAWN_BY = (
+    (r"meshing\.C_([af][12])", r"d_\1"),
+    (r"meshing\.[MRS]([12])_[123]", r"wheel:\1"),
+    (r"meshing\.B[12]_(start|end)", r"position:\1"),
+    (r"sliding\.V([12])_(\d\d)", r"ordinate:y_\1_\2"),
+    (r"sliding\.(\d\d)", r"ordinate:y_1_\1"),
+    (r"theta\.T(12|21)_(\d\d)", r"node:theta_\1_\2"),
+    (r"theta\.(\d\d)", r"node:theta_12_\1"),
+    (r"(?:meshing|sliding|theta)\.(\w+)", r"\1"),
+)
+
+
+def own_names(shape: Shape) -> set[str]:
+    """Return by what names a stage may show a shape."""
+    if isinstance(shape, Group):
+        return {shape.name, f"{shape.role}:{shape.name}"}
+    return {shape.name} if isinstance(shape, (Line, Polyline)) else {getattr(shape, "name", "")}
+
+
+def family(names: Iterable[str]) -> set[str]:
+    """Return names and letters with `#` for the number of a part or a point, of which a pair has more or fewer."""
+    return {re.sub(r"(^|_)\d+$", r"\1#", name) for name in names}
+
+
+def test_stages_name_nothing_that_is_not_drawn() -> None:
+    case = solve_case(TASK, None, None, None, None)
+    views = {view.name: list(parts(view.shapes)) for view in draw_case(case, {}, lang="en").views}
+
+    assert views.keys() | {"near"} == views.keys() | STAGES.keys()
+    for name, stages in STAGES.items():  # the middle of the meshing may stand apart, with the same stages
+        shapes = views[name] if name != "near" else [*views["meshing"], *views.get(name, [])]
+        drawn = {own for shape in shapes for own in own_names(shape)}
+        lettered = {shape.markup for shape in shapes if isinstance(shape, Text)}
+        assert family(own for names, _ in stages for own in names) <= family(drawn), name
+        assert family(letter for _, letters in stages for letter in letters) <= family(lettered), name
+
+
+@pytest.mark.parametrize("others", PAIRS)
+def test_every_mark_of_the_construction_has_its_stage(others: dict[str, float]) -> None:
+    program = solve_case(TASK, None, {name: str(value) for name, value in others.items()}, None, None).solved.program
+    said = {own for stages in STAGES.values() for names, letters in stages for own in (*names, *letters)}
+
+    marks = [step.name for plan in ("meshing", "sliding", "theta") for step in program.on(plan)]
+    assert len(marks) > 100
+    assert [mark for mark in marks if not {drawn_by(mark), re.sub(r"O(\d)", r"O_{\1}", drawn_by(mark))} & said] == []
+
+
+def drawn_by(mark: str) -> str:
+    """Return the name of what shows a mark."""
+    pattern, name = next((pattern, name) for pattern, name in DRAWN_BY if re.fullmatch(pattern, mark))
+    return re.sub(pattern, name, mark)
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
