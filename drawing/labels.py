@@ -28,6 +28,7 @@ from .spots import (
     Wanted,
     circle_table,
     crossings,
+    overlaps,
 )
 
 SOME = 300  # places on a leader, the cheapest for their own sake, that are looked at
@@ -275,7 +276,7 @@ class _Scene:
             old = Bodies.strokes(*np.array(list(board.leaders.values())).T)
             on = old.distance(x[:, None], y[:, None], one.hw, one.hh, slice(None)) < one.gap
             cost += COVER * on.sum(axis=1) + CROSSING * crossings(lines, old)
-        cost += CROSSING * crossings(lines, self.bodies)
+        cost += CROSSING * (crossings(lines, self.bodies) + overlaps(lines, self.bodies))
         k = int(cost.argmin())
         if cost[k] >= limit:
             return False

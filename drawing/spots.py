@@ -28,6 +28,7 @@ AFIELD, PITCH = 75.0, 5.0  # mm, how far a label may go when it has no place nea
 ALONG = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78, 0.86])  # places along a segment
 TOUCH = 0.3  # mm: a stroke that comes so near to a node ends there
 SLACK = 1e-9  # mm, for rounding
+MERGED = 5  # boxes through which a leader would rather run than along a stroke
 
 
 @dataclass(frozen=True, slots=True)
@@ -329,4 +330,27 @@ def crossings(lines: Bodies, bodies: Bodies) -> NDArray[np.intp]:
     hit = over & under & (v != 0) & bodies.hard
     hit |= (_from_point(q[None, :], p, u) < bodies.radius) & (v == 0) & bodies.hard & (bodies.radius > 0)
     count: NDArray[np.intp] = hit.sum(axis=1)
+    return count
+
+
+def overlaps(lines: Bodies, bodies: Bodies) -> NDArray[np.intp]:
+    """Count, for each line, the boxes through which it runs, and `MERGED` times the strokes along which it runs.
+
+    A box in which it begins is that of the arrow which it names, and does not count; strokes do, thin ones too: along
+    an axis a leader cannot be seen.
+    """
+    box = ((bodies.along == 0) & (bodies.hx > 0) & (bodies.hy > 0)).nonzero()[0]
+    x, y, hx, hy = (
+        part[:, None] for part in (bodies.middle.real[box], bodies.middle.imag[box], bodies.hx[box], bodies.hy[box])
+    )
+    start = lines.middle - lines.along
+    begins = (abs(start.real - x) < hx + TOUCH) & (abs(start.imag - y) < hy + TOUCH)
+    through = (lines.distance(x, y, hx, hy, slice(None)) < SLACK) & ~begins
+    stroke = (bodies.along != 0).nonzero()[0]
+    q, v, m = bodies.middle[stroke], bodies.along[stroke], bodies.normal[stroke]
+    d, u = lines.middle[:, None] - q, lines.along[:, None]
+    beside = abs((d * m.conj()).real) + abs((u * m.conj()).real) < TOUCH  # both its ends
+    way = abs((d * v.conj()).real) * (1.0 / abs(v))
+    along = beside & (way < abs(v) + abs(u) - TOUCH)
+    count: NDArray[np.intp] = through.sum(axis=0) + MERGED * along.sum(axis=1)
     return count

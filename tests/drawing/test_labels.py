@@ -264,3 +264,24 @@ def test_hundreds_of_labels():
 
     assert not labels.failed
     assert not covered(requests, obstacles, labels, GAP - 1e-6)
+
+
+AXIS, WORD = (-5 + 0j, 5 + 0j), (2.0, -0.4, 3.5, 0.4)
+
+
+@pytest.mark.parametrize(("thin", "boxes"), [([AXIS], []), ([], [WORD])], ids=["an axis", "a word"])
+def test_a_leader_runs_neither_along_an_axis_nor_through_a_word(thin, boxes):
+    corners = [5 * turned(1, 22.5 * k) for k in range(17)]
+    wall = list(itertools.pairwise(corners))
+    request = Request("0, 25", 9, 4, 0j)
+
+    def leader(*things: list) -> shapely.LineString:
+        head, foot = place([request], Obstacles(wall, things[0], [(0j, 0.6)], things[1]), GAP).leaders["0, 25"]
+        return shapely.LineString([(head.real, head.imag), (foot.real, foot.imag)])
+
+    bare = [shapely.LineString([(a.real, a.imag), (b.real, b.imag)]) for a, b in thin] + [
+        shapely.box(*b) for b in boxes
+    ]
+
+    assert leader([], []).intersection(bare[0]).length > 1.0  # where nothing is in its way
+    assert leader(thin, boxes).intersection(bare[0]).length < 0.01
