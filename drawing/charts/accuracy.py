@@ -89,7 +89,7 @@ STEPPED = (RK4, TRAPEZOID, EXPLICIT)  # methods whose setting is a step
 WIDELY = 8  # rows of the key that leave room for more
 
 
-def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: str, turns: bool | None) -> Figure:
+def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: str, places: str) -> Figure:
     """Draw a contest.
 
     Parameters
@@ -98,8 +98,8 @@ def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: s
         How and on what it was measured.
     hand : str
         Name of the hand that draws.
-    turns : bool, optional
-        Whether the driver turns: steps are angles then; None where nothing drives.
+    places : {"rad", "m", "s"}
+        SI unit of the places of entries: of angles the steps are angles, too.
     """
 
     def draw(figure: Figure) -> None:
@@ -111,7 +111,7 @@ def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: s
             _hands(axes, place, [e for e in contest.of(kind.name) if e.method == HAND and e.error], words)
             letter(axes, contest, kind.name, words)
         left, bottom = FIELDS[len(shown)]
-        _key(box(figure, left, bottom - 8.0, SIZE[0], SIZE[1] + BAND + 8.0), words, hand, contest, turns)
+        _key(box(figure, left, bottom - 8.0, SIZE[0], SIZE[1] + BAND + 8.0), words, hand, contest, places)
 
     return page(title, note, draw)
 
@@ -248,7 +248,7 @@ def _hands(axes: Axes, place: tuple[float, float], entries: Sequence[Entry], wor
         band.text(low / 1.6, y, said, fontsize=SMALL, va="center", ha="right")
 
 
-def _key(axes: Axes, words: Words, hand: str, contest: Contest, turns: bool | None) -> None:
+def _key(axes: Axes, words: Words, hand: str, contest: Contest, places: str) -> None:
     """Say what markers and numbers mean."""
     axes.set_axis_off()
     axes.set_xlim(0.0, 126.0)
@@ -257,7 +257,7 @@ def _key(axes: Axes, words: Words, hand: str, contest: Contest, turns: bool | No
     rows = [(look, look.words) for method, look in LOOKS.items() if method in present and method != EXTENDED]
     y = 6.0
     for look, key in rows:
-        text = "differences-slide" if key == DIFFERENCES and not turns else key
+        text = "differences-slide" if key == DIFFERENCES and places != "rad" else key
         axes.plot([0.0, 5.0, 10.0], [y] * 3, linestyle=look.line or "none", color=GREY, lw=1.0)
         face = BLACK if look.filled else "white"
         axes.plot(5.0, y, look.marker, ms=4.2, mfc=face, mec=BLACK, mew=0.9)

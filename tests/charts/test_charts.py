@@ -41,7 +41,7 @@ def quickened(patch: pytest.MonkeyPatch) -> None:
     little = partial(charts.accuracy_chart, effort=Effort((1, 10), 20))
     patch.setattr(charts, "accuracy_chart", little)
     patch.setattr(contests, "ROUNDS", 1)
-    patch.setattr("kulman.variants.charts.accuracy.SIZES", ("A4",))
+    patch.setattr("kulman.variants.charts.linkage.SIZES", ("A4",))
 
 
 @pytest.fixture

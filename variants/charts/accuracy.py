@@ -4,25 +4,14 @@ from __future__ import annotations
 
 import os
 import platform
-import time
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ... import __version__
-from ...drawing.formats import format_named
 from ...drawing.words import Words
-from ...plans.contest import FULL, Contest, Effort, Entry
-from ...plans.hands.hand import preset
-from ...plans.linkages.accuracy.comparison import contest
-from ...plans.linkages.accuracy.hand_drawn import DrawnSheet, by_hand
-from ...plans.linkages.cycles.cycle import Cycle
-from ...scales.choices import SIZES
-from ...scales.errors import InputError
-from ..kinds.linkage import linkage
-from ..sheets import scales_of
+from ...plans.contest import Contest, Entry
 from ..tables import Cell, aligned
 from .data import Scene, as_csv, finite, place_column, place_si, place_value, short, wrapped
 
@@ -37,13 +26,12 @@ TIMES = ("seconds [s]", "at_once", "failed", "front")
 class AccuracyChart:
     """Speed against accuracy: `contest` holds an entry for every method, setting and kind of quantities.
 
-    `turns` tells whether the driver does, None where places are times; `compared` is the key of what errors and times
-    are.
+    `places` is the SI unit of the places of entries; `compared` is the key of what errors and times are.
     """
 
     heading: ClassVar[str] = "chart.accuracy"
     scene: Scene
-    turns: bool | None
+    places: str
     contest: Contest
     compared: str = "chart.compared"
 
@@ -75,10 +63,10 @@ class AccuracyChart:
         """Return all entries."""
         fronts = {id(entry) for kind in self.contest.kinds for entry in self.contest.front(kind.name)}
         rows = [self._row(entry, id(entry) in fronts) for entry in self.contest.entries]
-        return as_csv((*HEAD, place_column(self.turns), *TIMES), rows, words)
+        return as_csv((*HEAD, place_column(self.places), *TIMES), rows, words)
 
     def _row(self, e: Entry, front: bool) -> list[Cell]:
-        at = place_value(self.turns, e.place)
+        at = place_value(self.places, e.place)
         head: list[Cell] = [e.method, e.setting, e.kind, e.error, e.typical, e.name, at]
         return [*head, e.seconds, e.at_once, e.failed, int(front)]
 
@@ -87,7 +75,7 @@ class AccuracyChart:
         return {
             "machine": machine(Words.of("en", self.scene.case.task.notation)),
             "hand": self.scene.hand,
-            "places": [place_si(self.turns, at) for at in self.contest.places],
+            "places": [place_si(self.places, at) for at in self.contest.places],
             "entries": [self._item(entry) for entry in self.contest.entries],
         }
 
@@ -99,7 +87,7 @@ class AccuracyChart:
             "error": finite(entry.error),
             "typical": finite(entry.typical),
             "quantity": entry.name,
-            "at": place_si(self.turns, entry.place),
+            "at": place_si(self.places, entry.place),
             "seconds": finite(entry.seconds),
             "at_once": entry.at_once,
             "failed": entry.failed,
@@ -111,43 +99,7 @@ class AccuracyChart:
         from ...drawing.charts.accuracy import accuracy_page
 
         title, note = self.scene.title(self.heading), "\n".join(self.notes(words))
-        return accuracy_page(self.contest, words, title, note, self.scene.hand, self.turns)
-
-
-def accuracy_chart(scene: Scene, cycle: Cycle, names: Sequence[str], effort: Effort = FULL) -> AccuracyChart:
-    """Let all methods compete.
-
-    Raises
-    ------
-    InputError
-        With the key `chart-no-rivals`: nothing that is wanted can be compared.
-    """
-    found = contest(cycle, len(cycle.angles), time.process_time, names, effort)
-    if not found.kinds:
-        raise InputError("chart-no-rivals")
-    hands = tuple(_hands(scene, cycle, found))
-    return AccuracyChart(scene, cycle.drive.turns, replace(found, entries=found.entries + hands))
-
-
-def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
-    """Go through the errors of a hand on the sheets of all formats."""
-    for name in SIZES:
-        mus = _mus(scene, name)
-        if mus is not None:
-            drawn = DrawnSheet(name, linkage(scene.case.solved), mus)
-            yield from by_hand(cycle, drawn, preset(scene.hand).hand, found.kinds)
-
-
-def _mus(scene: Scene, name: str) -> Mapping[str, float] | None:
-    """Return the scale factors, by plan, that a sheet of a format takes; None where there is no such sheet."""
-    case = scene.case
-    if case.solved.trouble is not None:
-        return None
-    try:
-        scales = scales_of(case, scene.words, format_named(name))
-    except InputError:  # too small for a plan, or for a scale factor that was asked for
-        return None
-    return {plan: scale.mu for plan, scale in scales.items()}
+        return accuracy_page(self.contest, words, title, note, self.scene.hand, self.places)
 
 
 def machine(words: Words) -> str:

@@ -43,4 +43,4 @@ class CamCharts:
 def cam_accuracy_chart(scene: Scene, solved: SolvedCam, effort: Effort = FULL) -> AccuracyChart:
     """Let all ways to the motion of a cam compete."""
     found = rivals(solved, time.process_time, preset(scene.hand).hand, effort)
-    return AccuracyChart(scene, True, found, "chart.cam_compared")
+    return AccuracyChart(scene, "rad", found, "chart.cam_compared")

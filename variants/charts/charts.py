@@ -128,7 +128,7 @@ def chart(
         As for `solve`.
     chart : str or iterable of str, optional
         Of a linkage `accuracy`, `stability`, `depth`, of a cam `sections`, `accuracy`, `stability`, of gears
-        `scale`; all when left out.
+        `scale`, of a hoist `accuracy`, `stability`, `roots`, `depth`, `choice`; all when left out.
     positions : int, optional
         Positions of the cycle of a linkage that are looked at: 36 for `accuracy`, else 360 when left out.
     quantities : str or iterable of str, optional

@@ -18,6 +18,7 @@ from ..tables import Cell, csv_bytes, csv_text
 
 DIGITS = 3
 LINE = 110  # characters
+PLACES = {"rad": ("place", "deg"), "m": ("place", "mm"), "s": ("t", "s")}  # in files: what they are called, their unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,23 +52,25 @@ def place_head(cycle: Cycle, words: Words) -> str:
     return f"{driver_name(cycle)}, {format_unit('deg' if cycle.drive.turns else 'mm', words.language)}"
 
 
-def place_value(turns: bool | None, at: float) -> float:
-    """Return a place of a driver that turns, or slides, in the unit of `place_head`; None: a time, s."""
-    if turns is None:
-        return at
-    return float(round(unit("deg").from_si(at) % 360.0, 9) % 360.0 if turns else at * 1e3)
+def driver_unit(cycle: Cycle) -> str:
+    """Return the SI unit of the driver's places."""
+    return "rad" if cycle.drive.turns else "m"
 
 
-def place_column(turns: bool | None) -> str:
-    """Return the head of a CSV's column with places of a driver that turns, or slides; None: of times."""
-    if turns is None:
-        return "t [s]"
-    return f"place [{'deg' if turns else 'mm'}]"
+def place_value(of: str, at: float) -> float:
+    """Return a place of the SI unit `of` in that of `place_column`, an angle within a turn."""
+    value = unit(PLACES[of][1]).from_si(at)
+    return float(round(value % 360.0, 9) % 360.0 if of == "rad" else value)
 
 
-def place_si(turns: bool | None, at: float) -> float:
-    """Return a place of a driver for JSON: an angle in [0, 2 pi), metres, or seconds."""
-    return float(at % TURN % TURN) if turns else float(at)  # -1e-17 % TURN is TURN
+def place_column(of: str) -> str:
+    """Return the head of a CSV's column with places of the SI unit `of`."""
+    return "{} [{}]".format(*PLACES[of])
+
+
+def place_si(of: str, at: float) -> float:
+    """Return a place of the SI unit `of` for JSON, an angle in [0, 2 pi)."""
+    return float(at % TURN % TURN if of == "rad" else at)  # -1e-17 % TURN is TURN
 
 
 def short(words: Words, value: float | None, digits: int = DIGITS) -> str:

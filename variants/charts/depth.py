@@ -11,7 +11,7 @@ from ...plans.linkages.accuracy.depth import Cost, Depth, depth
 from ...plans.linkages.cycles.cycle import Cycle
 from ...plans.quantities import unit_of
 from ..tables import Cell, aligned
-from .data import Scene, as_csv, finite, place, place_column, place_head, place_si, place_value, short
+from .data import Scene, as_csv, driver_unit, finite, place, place_column, place_head, place_si, place_value, short
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -54,10 +54,10 @@ class DepthChart:
             [c.key, " ".join(c.parts), c.balance, c.balance_rms, c.reaction, c.reaction_rms, self._place(c)]
             for c in self.found.costs
         ]
-        return as_csv((*HEAD, place_column(self.cycle.drive.turns)), rows, words)
+        return as_csv((*HEAD, place_column(driver_unit(self.cycle))), rows, words)
 
     def _place(self, cost: Cost) -> float:
-        return place_value(self.cycle.drive.turns, cost.place)
+        return place_value(driver_unit(self.cycle), cost.place)
 
     def to_json(self) -> dict[str, Any]:
         """Return all simplifications as data."""
@@ -82,7 +82,7 @@ class DepthChart:
             "parts": list(cost.parts),
             "balance": {"max": cost.balance, "rms": cost.balance_rms},
             "reaction": None if cost.reaction is None else {"max": cost.reaction, "rms": finite(cost.reaction_rms)},
-            "at": place_si(self.cycle.drive.turns, cost.place),
+            "at": place_si(driver_unit(self.cycle), cost.place),
         }
 
     def figure(self, words: Words) -> Figure:

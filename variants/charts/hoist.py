@@ -74,4 +74,4 @@ def _accuracy(scene: Scene, solved: SolvedHoist, givens: Mapping[str, float], ef
     mus = {plan: scale.mu for plan, scale in case.kind.first_scales(solved, case.choosers).items()}
     drawn = (*by_board(solved, time.process_time), *by_hand(solved, mus, preset(scene.hand).hand))
     whole = replace(found, entries=(*found.entries, *drawn))
-    return AccuracyChart(scene, None, whole, "chart.hoist_compared")
+    return AccuracyChart(scene, "s", whole, "chart.hoist_compared")

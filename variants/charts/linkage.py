@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import ClassVar
 
+from ...drawing.formats import format_named
 from ...plans.board import with_needs
+from ...plans.contest import FULL, Contest, Effort, Entry
+from ...plans.hands.hand import preset
+from ...plans.linkages.accuracy.comparison import contest
+from ...plans.linkages.accuracy.hand_drawn import DrawnSheet, by_hand
 from ...plans.linkages.chain import NEEDS
 from ...plans.linkages.cycles.cycle import Cycle, cycle
-from ...scales.errors import PositionError
+from ...scales.choices import SIZES
+from ...scales.errors import InputError, PositionError
 from ...scales.names import unknown
 from ..case import Case
-from ..kinds.linkage import mechanism_of
-from .accuracy import accuracy_chart
-from .data import Scene
+from ..kinds.linkage import linkage, mechanism_of
+from ..sheets import scales_of
+from .accuracy import AccuracyChart
+from .data import Scene, driver_unit
 from .depth import depth_chart
 from .gallery import Asked, Chart
 from .stability import stability_chart
@@ -67,3 +76,39 @@ def _cycle(case: Case, positions: int) -> Cycle:
     if not found.reach.stretches:
         raise case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
     return found
+
+
+def accuracy_chart(scene: Scene, cycle: Cycle, names: Sequence[str], effort: Effort = FULL) -> AccuracyChart:
+    """Let all methods compete.
+
+    Raises
+    ------
+    InputError
+        With the key `chart-no-rivals`: nothing that is wanted can be compared.
+    """
+    found = contest(cycle, len(cycle.angles), time.process_time, names, effort)
+    if not found.kinds:
+        raise InputError("chart-no-rivals")
+    hands = tuple(_hands(scene, cycle, found))
+    return AccuracyChart(scene, driver_unit(cycle), replace(found, entries=found.entries + hands))
+
+
+def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
+    """Go through the errors of a hand on the sheets of all formats."""
+    for name in SIZES:
+        mus = _mus(scene, name)
+        if mus is not None:
+            drawn = DrawnSheet(name, linkage(scene.case.solved), mus)
+            yield from by_hand(cycle, drawn, preset(scene.hand).hand, found.kinds)
+
+
+def _mus(scene: Scene, name: str) -> Mapping[str, float] | None:
+    """Return the scale factors, by plan, that a sheet of a format takes; None where there is no such sheet."""
+    case = scene.case
+    if case.solved.trouble is not None:
+        return None
+    try:
+        scales = scales_of(case, scene.words, format_named(name))
+    except InputError:  # too small for a plan, or for a scale factor that was asked for
+        return None
+    return {plan: scale.mu for plan, scale in scales.items()}

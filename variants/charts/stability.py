@@ -23,6 +23,7 @@ from ..tables import Cell, aligned
 from .data import (
     Scene,
     as_csv,
+    driver_unit,
     finite,
     place,
     place_column,
@@ -102,12 +103,12 @@ class StabilityChart:
     def csv(self, words: Words) -> bytes:
         """Return all positions."""
         found, names = self.found, tuple(self.found.conditions)
-        head = [place_column(self.cycle.drive.turns), "status", "sine", "angle [deg]", "worst"]
+        head = [place_column(driver_unit(self.cycle)), "status", "sine", "angle [deg]", "worst"]
         for name in names:
             head += [f"K_{name}", f"digits_{name}", f"miss_{name} [{'mm' if found.in_mm[name] else '%'}]"]
         rows = []
         for i, at in enumerate(found.places):
-            row: list[Cell] = [place_value(self.cycle.drive.turns, at), found.statuses[i], float(found.sines[i])]
+            row: list[Cell] = [place_value(driver_unit(self.cycle), at), found.statuses[i], float(found.sines[i])]
             row += [float(found.angles[i]), found.worst[i]]
             for name in names:
                 values = found.conditions[name], found.digits(name), found.misses[name]
@@ -121,7 +122,7 @@ class StabilityChart:
         return {
             "hand": self.scene.hand,
             "scales": dict(self.scales),
-            "places": [place_si(self.cycle.drive.turns, at) for at in found.places],
+            "places": [place_si(driver_unit(self.cycle), at) for at in found.places],
             "statuses": list(found.statuses),
             "sines": [finite(value) for value in found.sines],
             "worst": list(found.worst),
@@ -135,7 +136,7 @@ class StabilityChart:
                 for name in found.conditions
             },
             "spots": [
-                {"kind": spot.kind, "at": place_si(self.cycle.drive.turns, spot.place), "link": spot.link}
+                {"kind": spot.kind, "at": place_si(driver_unit(self.cycle), spot.place), "link": spot.link}
                 for spot in found.spots
                 for spot in found.spots
             ],
