@@ -48,7 +48,8 @@ def test_what_a_kind_has_not_is_refused_in_one_line(asked: Callable[[Case], Any]
     for language in LANGUAGES:
         line = refused.value.text(language)
         assert line.startswith("nau-slider-crank: ")
-        assert line.endswith(f": {named}")
+        assert line.split().count(named) == 1
+        assert "\n" not in line
 
 
 def test_a_bare_kind_warns_of_nothing_checks_nothing_and_asks_everything(case: Case) -> None:
