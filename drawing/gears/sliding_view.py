@@ -52,7 +52,8 @@ def sliding_view(scene: GearScene) -> View:
     cut = words["gear.cut"].format(theta=words.number(cut_of(scene), 0))
     if ordinates.reduction < 1.0:
         said.insert(0, words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / ordinates.reduction)}"))
-    notes = [f"{words['gear.hatched']}; {cut}", *filter(None, ["; ".join(said)])]
+    said.insert(0, words["gear.speeds"].format(length=words.short(scene.solved.values["PW"] * 1e3)))
+    notes = [f"{words['gear.hatched']}; {cut}", "; ".join(said)]
     theta = f"{words.symbol('mu_theta')} = {words.short(below.y.scale.mu)} {words.unit('mm')}^{{−1}}"
     heading = words["heading.gear_sliding"], f"{words.scale(above.x.scale)};  {theta}"
     return canvas.finish("sliding", heading, tuple(notes))
