@@ -206,7 +206,8 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
     "--positions",
     metavar="N",
     callback=count_if_given,
-    help="How many positions: 8, 12, 24, ...; without it 12, of a cam its section lines, and every degree in files.",
+    help="How many positions: 8, 12, 24, ...; without it 12, of a cam its section lines, and in files of cams 360, "
+    "of gears 101, of hoists 361.",
 )
 @click.option(
     "--points", metavar="POINT,...", multiple=True, callback=given, help="Only these points, or numbered links."
@@ -247,7 +248,8 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     metavar="CHART,...",
     multiple=True,
     callback=given,
-    help="Of accuracy, stability, depth, of a cam sections, accuracy, stability, of gears scale; else all.",
+    help="Of accuracy, stability, depth; of a cam sections, accuracy, stability; of gears scale; of a hoist accuracy, "
+    "stability, roots, depth, choice; else all.",
 )
 @click.option("--quantities", metavar="NAME,...", multiple=True, callback=given, help="Only these: V_B,a_B,M_bal.")
 @click.option(
@@ -281,7 +283,7 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 @click.option("--kind", type=Word(*KINDS), default=KINDS[0], show_default=True, help="What the task is about.")
 @click.option("--lang", type=Word(*LANGUAGES), help="Language of the comments.")
 def new(file: str, kind: str, lang: str | None) -> None:
-    """Write FILE, a task file with comments, to begin a mechanism of one's own: a four-bar linkage, ready to solve."""
+    """Write FILE, a task file with comments, ready to solve: a four-bar linkage, a cam, a gear pair or a hoist."""
     from .variants.starter import start
 
     click.echo(str(start(file, lang or system_language(), kind)))

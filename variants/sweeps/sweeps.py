@@ -159,8 +159,9 @@ def sweep(
     task, variant, set, only, scales, notation, lang
         As for `solve`.
     positions : int, optional
-        How many positions: they divide the circle of the crank evenly, into 12 when left out. Of a cam the section
-        lines in the table, every degree in files when left out.
+        How many positions: they divide the circle of the crank evenly, into 12 when left out. Without it a table
+        of a cam has its section lines, and files every degree of a cam, 101 places of contact of gears, 361 times of
+        a hoist.
     points : str or iterable of str, optional
         Letters of points and numbers of links, `"B,S2,3"`: only their columns are shown.
     start : str or number, optional
