@@ -90,7 +90,6 @@ class Fitting:
 
 def figures(contents: Contents) -> Iterator[tuple[str, HoistFigure]]:
     """Go through the figures of a sheet, by name, in the order of the work."""
-    from .flow_view import flow_view
     from .model_view import model_view
     from .tables import checks_table, data_table, results_table, scales_table
 
@@ -120,9 +119,12 @@ def figures(contents: Contents) -> Iterator[tuple[str, HoistFigure]]:
         from .beams_view import beams_view
 
         yield "beams", Figure(beams_view, ("part",))
-    yield "strength", Figure(strength_block)
-    yield "checks", Figure(checks_table)
-    yield "flow", Figure(flow_view)
+    if FORCES_PART in plans:
+        from .flow_view import flow_view
+
+        yield "strength", Figure(strength_block)
+        yield "checks", Figure(checks_table)
+        yield "flow", Figure(flow_view)
     yield "scales", Figure(scales_table, ("mu_l", "mu_F_circle", "part"))
 
 

@@ -288,3 +288,17 @@ def test_pages_of_a_small_format_have_smaller_diagrams_and_say_so() -> None:
     assert most == pytest.approx(found["P_12_max"], rel=1e-3)
     assert any("usual size" in warning.text("en") for warning in case.drawn.warnings)
     assert case.drawn.scales["forces"].mu == pytest.approx(mu(view, "F"))
+
+
+@pytest.mark.parametrize(
+    ("only", "own"),
+    [
+        ("circle", {"circle"}),
+        ("scheme", {"scheme", "model"}),
+        pytest.param("forces", {"forces", "strength", "checks", "flow"}, marks=pytest.mark.soak),
+    ],
+)
+def test_a_sheet_has_what_belongs_to_the_parts_wanted(only: str, own: set[str]) -> None:
+    names = {view.name for view in sheet(TASK, only=only).views}
+
+    assert names == own | {"givens", "results", "scales"}
