@@ -2,66 +2,41 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
-import shlex
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
 
 import kulman
-from kulman import cli
+from kulman.docs import refresh
 from kulman.plans.cams.cam import LAWS
+from kulman.tests.support.documents import blocks, run_here
 from kulman.variants.sweeps.cam import CamSweep
 
 DOCS = Path(kulman.__file__).parent / "docs"
 TEXT = (DOCS / "cams.md").read_text(encoding="utf-8")
-SLOW = ("chart", "sheet")  # commands
-
-
-def refresh() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("refresh", DOCS / "refresh.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def blocks(slow: bool) -> list[str]:
-    found = refresh().BLOCK.findall(TEXT)
-    return [block for block in found if block.startswith(tuple(f"$ kulman {name}" for name in SLOW)) == slow]
 
 
 def test_what_the_document_shows_is_what_is_printed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    module, found = refresh(), blocks(slow=False)
-    monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
+    found = blocks(TEXT)
+    run_here(monkeypatch, capsys)
     monkeypatch.chdir(tmp_path)
-
-    def here(command: str, folder: str) -> tuple[str, int]:
-        """Run a command without starting Python again."""
-        with pytest.raises(SystemExit) as stopped:
-            cli.main(shlex.split(command)[1:])
-        return "".join(capsys.readouterr()), int(stopped.value.code or 0)
-
-    monkeypatch.setattr(module, "run", here)
 
     assert len(found) >= 5
     for block in found:
-        assert module.filled(block, str(tmp_path)) == block
+        assert refresh.filled(block, str(tmp_path)) == block
 
 
 @pytest.mark.soak
 def test_charts_and_sheets_of_the_document_are_what_is_printed(tmp_path: Path) -> None:
-    found = blocks(slow=True)
+    found = blocks(TEXT, slow=True)
 
     assert len(found) == 3
     for block in found:
-        assert refresh().filled(block, str(tmp_path)) == block
+        assert refresh.filled(block, str(tmp_path)) == block
 
 
 def test_every_law_and_every_column_is_named() -> None:
@@ -74,10 +49,9 @@ def test_every_law_and_every_column_is_named() -> None:
 
 
 def test_pictures_of_the_document_are_drawn_by_its_commands() -> None:
-    module = refresh()
-    drawn = {*module.SHEETS, *(f"chart-{name}" for name in module.CHARTS)}
+    drawn = {*refresh.SHEETS, *(f"chart-{name}" for name in refresh.CHARTS)}
 
-    assert "cams" in module.NAMES
+    assert "cams" in refresh.NAMES
     for name in re.findall(r"pictures/([\w-]+)\.png", TEXT):
         assert name in drawn
         assert (DOCS / "pictures" / f"{name}.png").exists()
