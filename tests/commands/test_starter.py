@@ -31,7 +31,7 @@ def test_file_is_valid_at_once_in_every_language(language: str, kind: str) -> No
 
     assert (task.id, MODULES[task.kind]) == ("own-task", kind)
     assert "own-task.toml" in path.read_text(encoding="utf-8")
-    assert not re.search("my-(mechanism|cam|gear)", path.read_text(encoding="utf-8"))
+    assert not re.search("my-(mechanism|cam|gear|hoist)", path.read_text(encoding="utf-8"))
     for variant in task.variants:
         solution = solve(path, variant)
         assert (solution.status, solution.warnings) == ("ok", ())

@@ -340,7 +340,7 @@ def test_answers_are_marked_from_python_without_a_word(tmp_path: Path, capsys: p
     files = [answers(tmp_path), answers(tmp_path, {"a_B": 295.3}, name="b.csv")]
 
     report = asked.mark(asked.read(files[0])[0])
-    results = asked.mark_all(asked.read(*files), tmp_path / "reports", done.append, jobs=1)
+    results = asked.mark_all(asked.read(*files), tmp_path / "reports", lambda more, whole: done.append(more), jobs=1)
 
     assert report.own
     assert report.marked.marking.first_wrong is None
