@@ -14,7 +14,7 @@ from ..view import View
 
 NUMBER = re.compile(r"[−-]?\d+(?:[.,]\d+)?(?: |$)")  # what a cell of units does not begin with
 ALWAYS = ("axis", "pivot", "frame")  # roles of what the task gives, not the work
-GIVEN = ("givens", "data", "choices", "note", "structure")  # views that say what the task is
+GIVEN = ("givens", "data", "choices", "note", "structure", "scales")  # views of the task, and of how it is drawn
 
 
 @dataclass(frozen=True, slots=True)
