@@ -6,36 +6,10 @@ import re
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 import kulman
-from kulman.docs import refresh
-from kulman.tests.support.documents import blocks, run_here
 
 DOCS = Path(kulman.__file__).parent / "docs"
 TEXT = (DOCS / "gears.md").read_text(encoding="utf-8")
-
-
-def test_what_the_document_shows_is_what_is_printed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    run_here(monkeypatch, capsys)
-
-    found = blocks(TEXT)
-
-    assert len(found) == 4
-    for block in found:
-        assert refresh.filled(block, str(tmp_path)) == block
-
-
-@pytest.mark.soak
-def test_the_sheet_and_the_chart_of_the_document_are_drawn(tmp_path: Path) -> None:
-    found = blocks(TEXT, slow=True)
-
-    assert len(found) == 2
-    for block in found:
-        assert refresh.filled(block, str(tmp_path)) == block
 
 
 def test_every_quantity_every_check_and_every_column_is_named() -> None:
@@ -49,13 +23,6 @@ def test_every_quantity_every_check_and_every_column_is_named() -> None:
     named = {found for quoted in re.findall(r"`([^`]+)`", prose) for found in quoted.split()}
     assert [name for name in names if not named & {name, of_pinion[name]}] == []
     assert [name for name in (*columns, *checks) if name not in named] == []
-
-
-def test_pictures_of_the_document_are_drawn_by_its_commands() -> None:
-    assert "gears" in refresh.NAMES
-    for name in re.findall(r"pictures/([\w-]+)\.png", TEXT):
-        assert name in refresh.SHEETS
-        assert (DOCS / "pictures" / f"{name}.png").exists()
 
 
 def test_the_lines_of_python_run() -> None:
