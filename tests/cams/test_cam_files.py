@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import pytest
 
@@ -12,11 +13,11 @@ from kulman.plans.cams.laws_of_motion import law_of_motion
 from kulman.plans.cams.motion import Motion
 from kulman.scales.errors import InputError
 from kulman.scales.units import unit
+from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.checks.cam import NUMBERS, impossible
 from kulman.variants.kinds import MODULES, kind_of, table_in
 from kulman.variants.reader import load_task, read_text
 from kulman.variants.shelf import bundled, bundled_text
-from kulman.variants.task import Task
 
 TASK = "madi-cam"
 TEXT = bundled_text(TASK)
@@ -29,20 +30,7 @@ values = [0, 2, -1, 0]
 """
 
 
-def edited(*changes: tuple[str, str]) -> str:
-    """Return the bundled file with other words in it."""
-    text = TEXT
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new, 1)
-    return text
-
-
-def task_of(text: str) -> Task:
-    task, faults = read_text(text, "t.toml")
-    assert not faults
-    assert task is not None
-    return task
+edited = partial(with_changes, TEXT)
 
 
 # the kinds

@@ -4,37 +4,25 @@ from __future__ import annotations
 
 import math
 import random
+from functools import partial
 
 import pytest
 
 from kulman import solve
 from kulman.plans.gears.gear import STANDARD, VALUES, GearPair
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.checks.gear import NUMBERS
 from kulman.variants.making.ranges import ranges_of
 from kulman.variants.reader import load_task, read_text
 from kulman.variants.shelf import bundled_text
-from kulman.variants.task import Task
 
 TASK = "madi-gear"
 TEXT = bundled_text(TASK)
 BOTH = "x_1 = 0.2\nx_2 = 0.85\n"
 
 
-def edited(*changes: tuple[str, str]) -> str:
-    """Return the bundled file with other words in it."""
-    text = TEXT
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new, 1)
-    return text
-
-
-def task_of(text: str) -> Task:
-    task, faults = read_text(text, "t.toml")
-    assert not faults
-    assert task is not None
-    return task
+edited = partial(with_changes, TEXT)
 
 
 def test_words_of_a_variant_stand_in_the_place_of_the_names_of_choices() -> None:
