@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Generic, Protocol, TypeVar
 
@@ -36,6 +36,20 @@ class Drawer(Protocol[Wanted]):
 
     def views(self, sheet: Format, rungs: Wanted) -> Sequence[tuple[View, Figure[Any]]]:
         """Return the views of a sheet, each with its figure."""
+
+
+class Kept(Generic[Scene]):
+    """Views that have been drawn: one is drawn again only where a ladder that it depends on has another rung."""
+
+    def __init__(self) -> None:
+        self._drawn: dict[tuple[Hashable, ...], View] = {}
+
+    def view(self, scene: Scene, sheet: Format, rungs: object, figure: Figure[Scene], *of: Hashable) -> View:
+        """Return the view of a figure; `of` tells it from others of the sheet, and what else it depends on."""
+        key = sheet.name, *of, *(getattr(rungs, ladder) for ladder in figure.ladders)
+        if key not in self._drawn:
+            self._drawn[key] = figure.draw(scene)
+        return self._drawn[key]
 
 
 def fitted(drawer: Drawer[Rungs], sheet: Format, norm: Norm, rungs: Rungs, first: bool = False) -> Rungs:

@@ -12,7 +12,7 @@ from ..compose import room
 from ..contents import SheetContents
 from ..formats import Format
 from ..givens import givens_view
-from ..rungs import Figure
+from ..rungs import Figure, Kept
 from ..style import STYLES
 from ..view import View
 from ..words import Words
@@ -48,7 +48,7 @@ class Fitting:
     contents: Contents
     ladders: Mapping[str, tuple[float, ...]] = field(init=False)
     _words: Words = field(init=False)
-    _drawn: dict[tuple[str, int, tuple[int, ...]], View] = field(default_factory=dict)
+    _kept: Kept[CamScene] = field(default_factory=Kept)
     _scenes: dict[tuple[str, Rungs], CamScene] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -78,13 +78,8 @@ class Fitting:
         """Return the views of a sheet in the order of the work."""
         scene = self.scene(sheet, rungs)
         width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
-        found = []
-        for number, figure in enumerate(figures(self.contents, width)):
-            key = sheet.name, number, tuple(getattr(rungs, name) for name in figure.ladders)
-            if key not in self._drawn:
-                self._drawn[key] = figure.draw(scene)
-            found.append((self._drawn[key], figure))
-        return found
+        wanted = enumerate(figures(self.contents, width))
+        return [(self._kept.view(scene, sheet, rungs, figure, number), figure) for number, figure in wanted]
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""

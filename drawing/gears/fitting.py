@@ -13,7 +13,7 @@ from ...scales.scale import Scale
 from ..compose import room
 from ..contents import SheetContents
 from ..formats import Format
-from ..rungs import Figure
+from ..rungs import Figure, Kept
 from ..style import STYLES
 from ..view import View
 from ..words import Words
@@ -48,7 +48,7 @@ class Fitting:
     contents: Contents
     ladders: Mapping[str, tuple[float, ...]] = field(init=False)
     _words: Words = field(init=False)
-    _drawn: dict[tuple[str, str, tuple[int, ...], bool], View] = field(default_factory=dict)
+    _kept: Kept[GearScene] = field(default_factory=Kept)
 
     def __post_init__(self) -> None:
         """Find the ladders."""
@@ -71,14 +71,10 @@ class Fitting:
         """Return the views of a sheet in the order of the work."""
         scene = self.scene(sheet, rungs)
         width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
-        found = []
-        for name, figure in figures(self.contents, scene, width):
-            rung = tuple(getattr(rungs, ladder) for ladder in figure.ladders)
-            key = sheet.name, name, rung, name == MESHING and scene.apart
-            if key not in self._drawn:
-                self._drawn[key] = figure.draw(scene)
-            found.append((self._drawn[key], figure))
-        return found
+        return [
+            (self._kept.view(scene, sheet, rungs, figure, name, name == MESHING and scene.apart), figure)
+            for name, figure in figures(self.contents, scene, width)
+        ]
 
     def least(self, sheet: Format) -> Rungs:
         """Return the first rungs at which the lines that size the views have room, before any view is drawn."""

@@ -10,7 +10,7 @@ from ...plans.hoist.solve import SCALES, SolvedHoist, reduced
 from ...scales.scale import Scale
 from ..contents import SheetContents
 from ..formats import Format
-from ..rungs import Figure
+from ..rungs import Figure, Kept
 from ..style import STYLES
 from ..table import text_block
 from ..view import View
@@ -45,7 +45,7 @@ class Fitting:
     contents: Contents
     ladders: Mapping[str, tuple[float, ...]] = field(init=False)
     _words: Words = field(init=False)
-    _drawn: dict[tuple[str, str, tuple[int, ...]], View] = field(default_factory=dict)
+    _kept: Kept[HoistScene] = field(default_factory=Kept)
     _solved: dict[float, SolvedHoist] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -74,13 +74,8 @@ class Fitting:
 
     def views(self, sheet: Format, rungs: Rungs) -> list[tuple[View, HoistFigure]]:
         """Return the views of a sheet in the order of the work."""
-        scene, found = self.scene(sheet, rungs), []
-        for name, figure in figures(self.contents):
-            key = sheet.name, name, tuple(getattr(rungs, ladder) for ladder in figure.ladders)
-            if key not in self._drawn:
-                self._drawn[key] = figure.draw(scene)
-            found.append((self._drawn[key], figure))
-        return found
+        scene, wanted = self.scene(sheet, rungs), figures(self.contents)
+        return [(self._kept.view(scene, sheet, rungs, figure, name), figure) for name, figure in wanted]
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
