@@ -20,11 +20,11 @@ from kulman import check, cli
 from kulman.tests.support.marking_cases import answer, key, students
 from kulman.variants import crew
 from kulman.variants.marking import class_run
-from kulman.variants.marking.answers import Answers, Who
+from kulman.variants.marking.answers import Answers
 from kulman.variants.marking.class_run import Job, mark_class, slug
 from kulman.variants.marking.flags import Measured, shared, too_exact
 from kulman.variants.marking.result import Result
-from kulman.variants.marking.roster import Entry, Roster
+from kulman.variants.roster import Entry, Roster, Who
 
 TASK = "nau-slider-crank"
 ASKED = ("V_A", "V_BA", "V_B", "V_S2", "omega_2", "a_BA_n", "a_BA_t", "a_B", "a_S2", "R_12", "R_32", "M_bal")

@@ -16,10 +16,10 @@ from kulman import check
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.scales.packaged import packaged
 from kulman.tests.support.answer_files import ASKED, HEAD, ROW, messages, one, read
-from kulman.variants.marking.cells_in import read_grid
-from kulman.variants.marking.cells_out import csv_bytes, harmless, xlsx_bytes
-from kulman.variants.marking.grid import letters
 from kulman.variants.marking.reading import read_answers
+from kulman.variants.spreadsheets.cells_in import read_grid
+from kulman.variants.spreadsheets.cells_out import csv_bytes, harmless, xlsx_bytes
+from kulman.variants.spreadsheets.grid import letters
 
 PACKAGE = "kulman.variants.marking"
 

@@ -21,10 +21,10 @@ from ..case import Settings
 from ..crew import Advance, Done, shared_out
 from ..journal import Journal, digest_of
 from ..kinds import kind_of
-from ..marking.cells_out import csv_bytes, table_bytes
-from ..marking.grid import SUFFIXES
-from ..marking.roster import read_roster
 from ..reader import load_task
+from ..roster import read_roster
+from ..spreadsheets.cells_out import csv_bytes, table_bytes
+from ..spreadsheets.grid import SUFFIXES
 from ..task import Task
 from .student import FORMS, NOTE, Made, Making, Student
 from .tables import key_rows, manifest_rows, roster_rows

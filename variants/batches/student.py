@@ -16,10 +16,10 @@ from ...scales.numbers import quote
 from ...scales.units import format_unit
 from ..case import Case, solve_case
 from ..journal import digest_of
-from ..marking.grid import SHOWN
-from ..marking.roster import Entry
+from ..roster import Entry
 from ..sheet_id import sheet_id
 from ..sheets import Sheet, draw_case
+from ..spreadsheets.grid import SHOWN
 from ..task import Task
 
 NOTE, HANDOUT = "note", "handout"

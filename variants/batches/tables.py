@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ...scales.packaged import packaged
-from ..marking.answers import WHO
-from ..marking.cells_out import Cell
 from ..marking.wording import texts
+from ..roster import WHO
+from ..spreadsheets.cells_out import Cell
 
 if TYPE_CHECKING:
     from ..task import Task

@@ -267,6 +267,6 @@ def _print_class(
     from ..marking.filing import write_tables
 
     write_tables(asked, results, found, files, moodle)
-    absent = asked.roster.missing(found) if asked.roster else []
+    absent = asked.roster.missing(one.who for one in found) if asked.roster else []
     for line in class_lines(results, absent, asked.request.language):
         click.echo(line)

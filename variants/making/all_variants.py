@@ -17,11 +17,11 @@ from ...scales.units import format_unit
 from ..arguments import names_of
 from ..case import Settings
 from ..crew import Advance
-from ..marking.cells_out import Cell, table_bytes
 from ..marking.checks import Check, check
-from ..marking.grid import SUFFIXES as CELLS
 from ..marking.keyed import Keyed, keyed
 from ..marking.wording import texts
+from ..spreadsheets.cells_out import Cell, table_bytes
+from ..spreadsheets.grid import SUFFIXES as CELLS
 from ..tables import aligned
 from ..task import Task
 from .moodle import Question, gift_bytes, xml_bytes

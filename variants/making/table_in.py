@@ -10,9 +10,9 @@ from ...drawing.writers import slug
 from ...scales.errors import InputError
 from ...scales.names import latin
 from ...scales.numbers import quote
-from ..marking.cells_in import read_grid
-from ..marking.grid import SHOWN, Grid
-from ..marking.headers import about_kind, column_kind, split_unit
+from ..spreadsheets.cells_in import read_grid
+from ..spreadsheets.grid import SHOWN, Grid
+from ..spreadsheets.headers import about_kind, column_kind, split_unit
 from ..task import LocatedError, Task
 
 _WORD = re.compile(r"^\s*(?:варіант|вариант|variant|вар\.?|var\.?|№)\s*(?:№)?\s*", re.IGNORECASE)

@@ -9,25 +9,8 @@ from ...plans.marking.answers import nearest
 from ...plans.quantities import Quantity
 from ...scales.display import Display
 from ...scales.errors import KulmanError
+from ..roster import Who
 from ..task import LocatedError
-
-WHO = ("student", "group", "book", "number", "email")
-
-
-@dataclass(frozen=True, slots=True)
-class Who:
-    """A student as the file, or the roster, names one; what is not said is empty."""
-
-    student: str = ""
-    group: str = ""
-    book: str = ""
-    number: str = ""
-    email: str = ""
-
-    @classmethod
-    def of(cls, about: Mapping[str, str]) -> Who:
-        """Return the student of whom a file says so."""
-        return cls(*(about.get(key, "") for key in WHO))
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,9 +8,9 @@ import re
 from ...scales.errors import InputError
 from ...scales.numbers import quote, split_number
 from ...scales.units import Unit, converted, unit
+from ..spreadsheets.grid import Grid
+from ..spreadsheets.headers import UNDERSTOOD, tidy
 from .answers import Asked, Mu
-from .grid import Grid
-from .headers import UNDERSTOOD, tidy
 
 NONE = frozenset(UNDERSTOOD["none"])
 SENSES = {word: int(sense) for sense, words in UNDERSTOOD["senses"].items() for word in words}

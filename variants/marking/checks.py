@@ -15,10 +15,10 @@ from ..case import Settings
 from ..crew import Advance
 from ..kinds import kind_of
 from ..reader import load_task
+from ..roster import Roster, read_roster
 from ..task import Task
 from .answers import Answers, Asked
 from .keyed import Request, asked_of
-from .roster import Roster, read_roster
 from .rubric import Rubric, read_rubric
 
 if TYPE_CHECKING:

@@ -6,11 +6,10 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
 from ...plans.marking.verdicts import Verdict
-from .answers import WHO
-from .cells_out import Cell
+from ..roster import WHO, Entry
+from ..spreadsheets.cells_out import Cell
 from .flags import shared
 from .result import Result
-from .roster import Entry
 from .wording import mistake_texts, texts
 
 

@@ -8,18 +8,18 @@ from pathlib import Path
 
 from ...drawing.writers import Files, folder_for, save_all
 from ..crew import Advance
+from ..roster import Roster
+from ..spreadsheets.cells_out import csv_bytes, table_bytes
+from ..spreadsheets.grid import SUFFIXES
 from .answers import Answers
-from .cells_out import csv_bytes, table_bytes
 from .checks import Check
 from .class_run import Job, mark_class
 from .class_table import class_rows, moodle_rows
 from .form import class_header, form_rows
-from .grid import SUFFIXES
 from .marked import Desk
 from .report import Report, report
 from .reports import REPORTS, report_bytes
 from .result import Result, result_of
-from .roster import Roster
 from .wording import texts
 
 
@@ -87,7 +87,7 @@ def write_tables(
 ) -> None:
     """Write the tables of a class."""
     language = check.request.language
-    absent = check.roster.missing(answers) if check.roster else []
+    absent = check.roster.missing(one.who for one in answers) if check.roster else []
     rows = list(class_rows(results, absent, language))
 
     def table(path: Path) -> Files:

@@ -10,8 +10,9 @@ from pathlib import Path
 
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
-from .answers import Answers, Asked, Who
-from .grid import SHOWN, SUFFIXES
+from ..roster import Who
+from ..spreadsheets.grid import SHOWN, SUFFIXES
+from .answers import Answers, Asked
 from .reading import read_answers
 
 PRINTED = "printed"

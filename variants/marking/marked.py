@@ -11,13 +11,13 @@ from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ..case import Settings
+from ..roster import Entry, variant_of_book
 from ..sheet_id import same_id, variant_of_id
 from .answers import Answers
 from .checks import Check
 from .elsewhere import fits_other
 from .keyed import Keyed, keyed
 from .misfits import Misfit, counted_once, misfits
-from .roster import Entry, variant_of_book
 
 KEPT = 32  # answer keys
 

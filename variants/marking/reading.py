@@ -9,12 +9,13 @@ from pathlib import Path
 from ...scales.errors import InputError
 from ...scales.names import latin, unknown
 from ...scales.numbers import quote
+from ..roster import Who
+from ..spreadsheets.cells_in import read_grid
+from ..spreadsheets.grid import SHOWN, Grid
+from ..spreadsheets.headers import LOOKED_AT, about_kind, column_kind, quantity_part, split_unit
 from ..task import LocatedError
 from . import cells
-from .answers import Answers, Asked, Line, Mu, Who
-from .cells_in import read_grid
-from .grid import SHOWN, Grid
-from .headers import LOOKED_AT, about_kind, column_kind, quantity_part, split_unit
+from .answers import Answers, Asked, Line, Mu
 from .swapped import put_back
 
 NUMBERS = ("mm", "mu", "value")

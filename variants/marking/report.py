@@ -11,7 +11,7 @@ from ...plans.board import Step
 from ...plans.marking.verdicts import Line, Verdict, behind
 from ...plans.mistakes.rules import Broken
 from ...scales.units import format_unit
-from .answers import WHO
+from ..roster import WHO
 from .marked import Marked
 from .misfits import Misfit
 from .rubric import Rubric

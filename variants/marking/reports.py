@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from .grid import SUFFIXES as TABLES
+from ..spreadsheets.grid import SUFFIXES as TABLES
 from .report import Report
 from .report_html import report_html
 from .report_text import report_text

@@ -8,7 +8,8 @@ from typing import Any
 
 from ...plans.marking.verdicts import Verdict
 from ...scales.errors import KulmanError
-from .answers import Answers, Who
+from ..roster import Who
+from .answers import Answers
 from .flags import Measured, measured, too_exact
 from .marked import Marked
 from .wording import texts

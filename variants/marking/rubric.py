@@ -14,9 +14,9 @@ from ...plans.quantities import unit_of
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
+from ..spreadsheets.grid import SHOWN
 from ..task import LocatedError
 from .answers import Asked
-from .grid import SHOWN
 
 WORTH = {
     Verdict.RIGHT: 1.0,

@@ -8,16 +8,32 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from ...scales.errors import InputError
-from ...scales.names import latin, unknown
-from ...scales.numbers import quote
-from ..task import LocatedError, Task
-from .answers import Answers, Who
-from .cells_in import read_grid
-from .grid import SHOWN, Grid
-from .headers import LOOKED_AT, about_kind, quantity_part
+from ..scales.errors import InputError
+from ..scales.names import latin, unknown
+from ..scales.numbers import quote
+from .spreadsheets.cells_in import read_grid
+from .spreadsheets.grid import SHOWN, Grid
+from .spreadsheets.headers import LOOKED_AT, about_kind, quantity_part
+from .task import LocatedError, Task
 
+WHO = ("student", "group", "book", "number", "email")
 KEYS = ("number", "book", "email", "student")  # by which a student is found, the surest first
+
+
+@dataclass(frozen=True, slots=True)
+class Who:
+    """A student as the file, or the roster, names one; what is not said is empty."""
+
+    student: str = ""
+    group: str = ""
+    book: str = ""
+    number: str = ""
+    email: str = ""
+
+    @classmethod
+    def of(cls, about: Mapping[str, str]) -> Who:
+        """Return the student of whom a file says so."""
+        return cls(*(about.get(key, "") for key in WHO))
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,10 +84,10 @@ class Roster:
                 return found[0]
         return None
 
-    def missing(self, handed_in: Iterable[Answers]) -> list[Entry]:
-        """Return those who have handed in nothing."""
-        there = {id(entry) for answers in handed_in if (entry := self.find(answers.who)) is not None}
-        return [entry for entry in self.entries if id(entry) not in there]
+    def missing(self, there: Iterable[Who]) -> list[Entry]:
+        """Return those who are not there."""
+        found = {id(entry) for who in there if (entry := self.find(who)) is not None}
+        return [entry for entry in self.entries if id(entry) not in found]
 
 
 def _folded(text: str) -> str:
