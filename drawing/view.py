@@ -27,7 +27,8 @@ class View:
     """A finished figure: its shapes and the box that they fill, mm.
 
     What it says is kept beside the shapes: the lines of its `heading` and its `notes`, the `lines` of a text, each in
-    chunks between which it may break, and the `rows` of a table, the first of which is its head.
+    chunks between which it may break, and the `rows` of a table, the first of which is its head. `parts` tells of every
+    shape to which part of the work it belongs, where the view is drawn part by part.
     """
 
     name: str
@@ -37,6 +38,7 @@ class View:
     notes: tuple[str, ...] = ()
     lines: tuple[tuple[str, ...], ...] = ()
     rows: tuple[tuple[str | None, ...], ...] = ()
+    parts: tuple[str, ...] = ()
 
     @property
     def size(self) -> tuple[float, float]:
@@ -59,12 +61,18 @@ class Canvas:
     _markup: list[tuple[str, float]] = field(default_factory=list)
     _boxes: list[Box] = field(default_factory=list)
     _spare: dict[str, str] = field(default_factory=dict)
+    _parts: list[tuple[int, str]] = field(default_factory=list)
+    _lettered: list[str] = field(default_factory=list)
     bounds: Box | None = None  # letters stay inside of it
     coarse: float = 0.0  # mm by which letters may take a curve of many points for a shorter broken line
 
     def add(self, *shapes: Shape) -> None:
         """Draw shapes."""
         self.shapes.extend(shapes)
+
+    def part(self, name: str) -> None:
+        """Begin, or go on with, a part of the work: what is drawn and lettered from here on belongs to it."""
+        self._parts.append((len(self.shapes), name))
 
     def keep_clear(self, *points: complex) -> None:
         """Let no letter stand in the box of these points."""
@@ -93,6 +101,7 @@ class Canvas:
         name = str(len(self._requests))
         self._requests.append(Request(name, *size, anchor, clear, prefer, priority, strict, afield=not spare))
         self._markup.append((markup, height))
+        self._lettered.append(self._parts[-1][1] if self._parts else "")
         if spare:
             self._spare[name] = spare
 
@@ -112,6 +121,7 @@ class Canvas:
     def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:
         """Place the letters, write the heading lines and smaller notes above, and close the view."""
         left, placed = self._placed()
+        parts = [*self._drawn_parts(), *(self._lettered[int(request.name)] for request in left)]
         kept = {request.name for request in left}
         notes = (*notes, *_joined([text for name, text in self._spare.items() if name not in kept]))
         for request in left:
@@ -121,12 +131,21 @@ class Canvas:
             self.shapes.append(Text(at, markup, height, role="label"))
         for label, ends in placed.leaders.items():
             self.shapes.append(Line(*ends, Pen.THIN, role="leader", name=self._markup[int(label)][0]))
+            parts.append(self._lettered[int(label)])
         x0, y0, x1, y1 = extent(self.shapes)
         for texts, height in ((notes, self.style.text), (heading, self.style.heading)):
             lines, y1 = heading_shapes(texts, height, (x0 + x1) / 2, y1)
             self.shapes += lines
         x0, _, x1, _ = extent(self.shapes)
-        return View(name, tuple(self.shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, tuple(notes))
+        box = x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
+        every = (*parts, *("" for _ in self.shapes[len(parts) :])) if self._parts else ()
+        return View(name, tuple(self.shapes), box, heading, tuple(notes), parts=every)
+
+    def _drawn_parts(self) -> list[str]:
+        """Return to which part each shape belongs that is drawn so far."""
+        starts = [0, *(start for start, _ in self._parts), len(self.shapes)]
+        names = ["", *(name for _, name in self._parts)]
+        return [name for name, (a, b) in zip(names, pairwise(starts), strict=True) for _ in range(a, b)]
 
     def _placed(self) -> tuple[list[Request], Labels]:
         """Place the letters; leave out spare ones that cover something, or that stand in the way of others."""

@@ -22,7 +22,8 @@ class Shown:
     """What is drawn of a view: names of points, links, construction lines and quantities, and the letters.
 
     `notes` are the lines under its heading, which may hold results. A table keeps its first `columns`, and the `rows`
-    with these first cells; without any said, its last column where that is one of units.
+    with these first cells; without any said, its last column where that is one of units. Of a view that is drawn part
+    by part these `parts` are drawn, whatever their names and letters.
     """
 
     names: frozenset[str]
@@ -30,6 +31,7 @@ class Shown:
     notes: bool = True
     rows: frozenset[str] | None = None
     columns: int = 1
+    parts: frozenset[str] | None = None
 
 
 NOTHING = Shown(frozenset(), frozenset(), notes=False)
@@ -51,8 +53,16 @@ def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Sho
     if view.lines:
         return replace(shape, shapes=tuple(part for part in shape.shapes if _is_heading(part)))
     hidden = frozenset(() if kept.notes else view.notes)
-    parts = (part for part in shape.shapes if not (_is_heading(part) and _markup(part) in hidden))
-    return replace(shape, shapes=tuple(part for part in parts if _is_shown(part, kept)))
+    parts = view.parts or ("",) * len(shape.shapes)
+    own = (part for part, name in zip(shape.shapes, parts, strict=True) if _belongs(part, name, kept))
+    return replace(shape, shapes=tuple(part for part in own if not (_is_heading(part) and _markup(part) in hidden)))
+
+
+def _belongs(shape: Shape, part: str, shown: Shown) -> bool:
+    """Whether a shape of this part is shown, or without parts by its name or letter."""
+    if shown.parts is None or _is_heading(shape):
+        return _is_shown(shape, shown)
+    return part in shown.parts
 
 
 def _is_heading(shape: Shape) -> bool:
