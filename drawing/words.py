@@ -137,7 +137,7 @@ class Words:
         """Return the scale of lengths as drawings have it, M 1:1, M 2:1, M 1:2; `mu_l` in m/mm."""
         size = 1e-3 / mu_l  # mm on paper of a millimetre of what is drawn
         ratio = f"{self.short(round(size, 6))}:1" if size >= 1.0 else f"1:{self.short(round(1.0 / size, 6))}"
-        return self["said.cam_drawn"].format(ratio=ratio)
+        return self["said.drawn"].format(ratio=ratio)
 
     def symbol(self, name: str, bar: bool = False) -> str:
         """Return the markup of a quantity's symbol, with a vector bar where wanted."""

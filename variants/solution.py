@@ -196,7 +196,7 @@ def _verdicts(checks: Mapping[str, Mapping[str, Any]], words: Words) -> list[lis
             shown(check["value"], check["unit"]),
             SIGNS[check["relation"]],
             shown(check["limit"], check["unit"]),
-            words["said.cam_ok" if check["ok"] else "said.cam_fails"],
+            words["said.ok" if check["ok"] else "said.fails"],
         ]
         for name, check in checks.items()
     ]

@@ -21,7 +21,7 @@ Lines = list[tuple[str, ...]]
 def scales_block(scene: CamScene, width: float) -> View:
     """Return the calculation of amplitudes, scale factors and greatest rates."""
     lines = [*_amplitudes(scene), *_factors(scene), *_chords(scene), *_rates(scene)]
-    return text_block("equations_scales", scene.words["heading.cam_scales"], lines, scene.style, width)
+    return text_block("equations_scales", scene.words["heading.scales"], lines, scene.style, width)
 
 
 def choices_block(scene: CamScene, note: str, width: float) -> View:
@@ -198,7 +198,7 @@ def rules(scene: CamScene) -> Lines:
     lines: Lines = []
     for rule in rules_of(scene.solved):
         sides = _of_roller(scene, rule) if rule.of else _of_transmission(scene, rule)
-        lines.append((sides, f"({scene.words['said.cam_ok' if rule.kept else 'said.cam_fails']})"))
+        lines.append((sides, f"({scene.words['said.ok' if rule.kept else 'said.fails']})"))
     return lines
 
 

@@ -109,7 +109,7 @@ def _sliding(scene: GearScene, own: float, mate: float, exact: float) -> str:
 def checks_table(scene: GearScene) -> View:
     """Return the checks, each with its number, its limit and the verdict."""
     words = scene.words
-    head = [words[f"gear.{name}"] for name in ("check", "condition", "value", "limit", "verdict")]
+    head = [words[f"table.{name}"] for name in ("check", "condition", "value", "limit", "verdict")]
     rows = [_check_row(scene, check) for check in scene.solved.checks]
     return table("checks", words["heading.gear_checks"], [head, *rows], scene.style)
 
@@ -121,7 +121,7 @@ def _check_row(scene: GearScene, check: Check) -> list[str]:
     if wheel.isdigit():
         about += f", {words.symbol(f'z_{wheel}')}"
     sides = _number_of(scene, check, check.value), _number_of(scene, check, check.limit)
-    verdict = words["said.cam_ok" if check.ok else "said.cam_fails"]
+    verdict = words["said.ok" if check.ok else "said.fails"]
     return [about, condition(scene, check), *sides, verdict]
 
 

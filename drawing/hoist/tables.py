@@ -51,7 +51,7 @@ def results_table(scene: HoistScene) -> View:
 def checks_table(scene: HoistScene) -> View:
     """Return the conditions of validity and strength, each with its number and verdict."""
     words = scene.words
-    head = [words[f"gear.{name}"] for name in ("check", "condition", "value", "verdict")]
+    head = [words[f"table.{name}"] for name in ("check", "condition", "value", "verdict")]
     rows = [_check_row(scene, check) for check in scene.solved.forces.checks]
     return table("checks", words["heading.hoist_checks"], [head, *rows], scene.style)
 
@@ -61,7 +61,7 @@ def _check_row(scene: HoistScene, check: Check) -> list[str]:
     sign = "≥" if check.name != "support" else ">"
     condition = f"{words.symbol(OF_CHECK[check.name])} {sign} {words.short(check.limit)}"
     unit = f" {words.unit(check.unit)}" if check.unit else ""
-    verdict = words["said.cam_ok" if check.ok else "said.cam_fails"]
+    verdict = words["said.ok" if check.ok else "said.fails"]
     would = scene.solved.forces.motion is not None and check.name != STRENGTH and not check.ok
     value = f"{words['hoist.would_be']} " * would + scene.value(check.value) + unit
     return [words[f"hoist.{check.name}"], condition, value, verdict]
@@ -80,7 +80,7 @@ def scales_table(scene: HoistScene) -> View:
         scale = scene.scale(symbol)
         error = f"±{words.short(round(READING * scale.mu, 12))} {words.unit(scale.unit)}"
         rows.append([words.symbol(symbol), words.short(scale.mu), words.unit(scale.per_mm_unit), error])
-    return table("scales", words["heading.cam_scales"], [head, *rows], scene.style)
+    return table("scales", words["heading.scales"], [head, *rows], scene.style)
 
 
 def strength_lines(scene: HoistScene) -> list[tuple[str, ...]]:
