@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from ..scales.choices import SIZES
+from ..scales.scale import Scale
 from .formats import FORMATS, Format, drawing_area, reserved_boxes
 from .frame import frame_shapes
 from .packing import Placement, pack
 from .page import Page
 from .pens import Norm
 from .rows import Size
+from .shapes import Group
 from .titleblock import Stamp
 from .view import View
 
@@ -133,16 +135,55 @@ def arrange_rest(views: Sequence[View], sheet: Format, norm: Norm) -> list[Place
     return pack([[view.size] for view in views], _area(sheet, norm), later, gap=GAP, pages=None, any_order=False)
 
 
-def compose(views: Sequence[View], places: Sequence[Placement], sheet: Format, norm: Norm, stamp: Stamp) -> list[Page]:
-    """Return the finished pages: frame, title block and the views at their places."""
-    count = max(place.page for place in places) + 1
-    pages = []
-    for number in range(count):
-        own = replace(stamp, sheet=number + 1, sheets=count)
-        frame = frame_shapes(sheet, own, norm, first=number == 0)
-        figures = [v.at(p.x, p.y) for v, p in zip(views, places, strict=True) if p.page == number]
-        pages.append(Page(sheet.width, sheet.height, (*frame, *figures), stamp.title, stamp.language, norm))
-    return pages
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A sheet but for its title block: views in order of the work, and at their places, by page.
+
+    `scales` are the scale factors that it has, by plan. `reduction` is what a millimetre of a drawing is there whose
+    lengths on paper the task has given.
+    """
+
+    views: tuple[View, ...]
+    placed: tuple[tuple[Group, ...], ...]
+    scales: Mapping[str, Scale]
+    sheet: Format
+    norm: Norm
+    reduction: float = 1.0
+
+    @property
+    def format(self) -> str:
+        """The name of its format."""
+        return self.sheet.name
+
+    def pages(self, stamp: Stamp) -> tuple[Page, ...]:
+        """Return the finished pages: frame, title block and the views at their places.
+
+        Raises
+        ------
+        InputError
+            The title block cannot hold its words.
+        """
+        sheet, pages = self.sheet, []
+        for number, figures in enumerate(self.placed):
+            own = replace(stamp, sheet=number + 1, sheets=len(self.placed))
+            frame = frame_shapes(sheet, own, self.norm, first=number == 0)
+            pages.append(Page(sheet.width, sheet.height, (*frame, *figures), stamp.title, stamp.language, self.norm))
+        return tuple(pages)
+
+
+def compose(
+    views: Sequence[View],
+    places: Sequence[Placement],
+    scales: Mapping[str, Scale],
+    sheet: Format,
+    norm: Norm,
+    reduction: float = 1.0,
+) -> Drawn:
+    """Set views at their places on the pages of `sheet`."""
+    pages: list[list[Group]] = [[] for _ in range(max(place.page for place in places) + 1)]
+    for view, place in zip(views, places, strict=True):
+        pages[place.page].append(view.at(place.x, place.y))
+    return Drawn(tuple(views), tuple(map(tuple, pages)), scales, sheet, norm, reduction)
 
 
 def usable(sheet: Format, norm: Norm) -> tuple[float, float, float, float]:

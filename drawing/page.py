@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from cmath import rect
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import pi
-from typing import TYPE_CHECKING, assert_never
+from typing import assert_never
 
-from ..scales.scale import Scale
 from .pens import Norm, Pens, pens_for
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Polyline, Shape, Text, Vector
 from .text import Box, corners
-
-if TYPE_CHECKING:
-    from .view import View
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,20 +31,6 @@ class Page:
     def pens(self) -> Pens:
         """Return the widths, dashes and arrowheads of a page of this size."""
         return pens_for(self.width, self.height, self.norm)
-
-
-@dataclass(frozen=True, slots=True)
-class Drawn:
-    """A drawn sheet: its pages, the scale factors that they have, by plan, its format, its views in order of the work.
-
-    `reduction` is what a millimetre of a drawing is there whose lengths on paper the task has given.
-    """
-
-    pages: list[Page]
-    scales: Mapping[str, Scale]
-    format: str
-    reduction: float = 1.0
-    views: tuple[View, ...] = ()
 
 
 def _reach(shape: Shape) -> tuple[complex, ...]:

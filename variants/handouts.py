@@ -11,7 +11,6 @@ from ..drawing.handouts.begun import begun_pages
 from ..drawing.handouts.over import over_page
 from ..drawing.handouts.print_marks import marked, printable
 from ..drawing.pens import Norm
-from ..drawing.words import Words
 from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.names import unknown
@@ -85,7 +84,7 @@ def begun_of_case(
 ) -> Sheet:
     """Draw the handout of a case with so many steps done."""
     drawn = draw_case(case, block, printable(format_named(format)), norm, notation, lang)
-    words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
+    words = case.words(lang, notation)
     shown = case.kind.begun(case, drawn.scales, words, steps)
     idle = (InputError("handout-stepless", task=case.task.id, steps=steps),) if steps and not shown else ()
     pages = tuple(map(marked, begun_pages(drawn.pages, drawn.views, shown)))

@@ -12,7 +12,6 @@ from ..drawing.notes.blocks import Document, Figure, Heading, Sentences, TitlePa
 from ..drawing.notes.figures import figure_page
 from ..drawing.notes.markdown import markdown
 from ..drawing.notes.typst import pdf_bytes
-from ..drawing.words import Words
 from ..drawing.writers import WRITERS, Files, save_all
 from ..scales.errors import InputError
 from ..scales.names import unknown
@@ -121,7 +120,7 @@ def note_of_sheet(
     figure: str | None = None,
 ) -> Note:
     """Write the note of a sheet that is drawn already."""
-    words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
+    words = case.words(lang, notation)
     said = packaged(TEXTS, "texts", lang)
     story = case.kind.story(case, drawn.scales, words, said)
     identity = sheet_id(case.task, case.variant, case.settings)

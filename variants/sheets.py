@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import get_args
 
+from ..drawing.compose import Drawn
 from ..drawing.formats import Format, format_named
-from ..drawing.page import Drawn, Page
+from ..drawing.page import Page
 from ..drawing.pens import Norm
 from ..drawing.titleblock import Stamp
 from ..drawing.view import View
@@ -156,17 +157,33 @@ def draw_case(
     InputError, PositionError
         As for `sheet`.
     """
+    drawn = drawing_of(case, format, norm, notation, lang)
+    return sheet_of(case, drawn, stamp_of(case, block, notation, lang))
+
+
+def drawing_of(
+    case: Case,
+    format: str | Format | None = None,
+    norm: Norm = "gost",
+    notation: str | None = None,
+    lang: str = "uk",
+) -> Drawn:
+    """Draw the sheet of a case but for its title block; arguments and errors as of `draw_case`."""
     paper = format if format is None or isinstance(format, Format) else format_named(format)
     if norm not in get_args(Norm):
         raise unknown("norm-unknown", norm, get_args(Norm))
-    words = Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
     error = case.solved.error()
     if error is not None:
         raise error
+    return case.kind.draw(case, case.words(lang, notation), norm, paper)
+
+
+def stamp_of(case: Case, block: Mapping[str, str], notation: str | None = None, lang: str = "uk") -> Stamp:
+    """Return what the title block of a case says."""
     for name, text in block.items():
         of_kind(name, text, (str,), "str")
     said = {name: block.get(name, "") for name in BLOCK}
-    stamp = Stamp(
+    return Stamp(
         title=case.task.title[lang],
         designation=said["designation"],
         organisation=said["department"],
@@ -174,11 +191,10 @@ def draw_case(
         student=said["student"],
         teacher=said["teacher"],
         date=said["date"],
-        document_type=words["sheet.document"],
+        document_type=case.words(lang, notation)["sheet.document"],
         language=lang,
         identity=sheet_id(case.task, case.variant, case.settings),
     )
-    return sheet_of(case, case.kind.draw(case, words, stamp, norm, paper))
 
 
 def scales_of(case: Case, words: Words, paper: Format) -> Mapping[str, Scale]:
@@ -194,15 +210,14 @@ def drawn_on(case: Case, words: Words, paper: Format) -> Drawn:
     InputError
         The sheet does not fit on it.
     """
-    stamp = Stamp(title=case.task.title[words.language], language=words.language)
-    return case.kind.draw(case, words, stamp, paper=paper)
+    return case.kind.draw(case, words, paper=paper)
 
 
-def sheet_of(case: Case, drawn: Drawn) -> Sheet:
+def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
     """Return the sheet of a case that has been drawn, with what a user should know of it."""
     _, fitted = case.kind.fitted(case.solved, drawn)
     warnings = (*case.warnings, *fitted, *_coarser(case, drawn))
-    return Sheet(tuple(drawn.pages), drawn.scales, drawn.format, warnings, drawn.views)
+    return Sheet(drawn.pages(stamp), drawn.scales, drawn.format, warnings, drawn.views)
 
 
 def _coarser(case: Case, drawn: Drawn) -> Iterator[InputError]:

@@ -9,12 +9,10 @@ from ...plans.cams.solve import EQUAL
 from ...scales.choices import SIZES
 from ...scales.choose import Fixed
 from ...scales.errors import InputError
-from ..compose import arrange, arrange_closely, compose, room, worth_trying
+from ..compose import Drawn, arrange, arrange_closely, compose, room, worth_trying
 from ..formats import FORMATS, Format
 from ..packing import Placement
-from ..page import Drawn
 from ..rungs import fitted
-from ..titleblock import Stamp
 from ..view import View
 from ..zones import zoned
 from .fitting import Contents as Contents
@@ -29,7 +27,7 @@ LEGIBLE = {"mu_s_ds": 60.0, "mu_s_d2s": 50.0}
 Found = tuple[Rungs, list[View], list[Placement]]
 
 
-def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn:
+def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     """Draw the sheet on `sheet`, or on the smallest format of which one sheet holds everything.
 
     Raises
@@ -47,7 +45,7 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         if found is not None:
             break
     assert found is not None, "on the last format there are as many pages as it takes"
-    return _drawn(fitting, stamp, candidate, found)
+    return _drawn(fitting, candidate, found)
 
 
 def _restored(fitting: Fitting, sheet: Format, rungs: Rungs, first: bool) -> Rungs:
@@ -133,7 +131,7 @@ def _may_fit(views: list[View], sheet: Format) -> bool:
     return sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height
 
 
-def _drawn(fitting: Fitting, stamp: Stamp, sheet: Format, found: Found) -> Drawn:
+def _drawn(fitting: Fitting, sheet: Format, found: Found) -> Drawn:
     rungs, views, places = found
-    pages = compose(views, places, sheet, fitting.contents.norm, stamp)
-    return Drawn(pages, fitting.scales(sheet, rungs), sheet.name, fitting.reduction(rungs), tuple(views))
+    scales, norm = fitting.scales(sheet, rungs), fitting.contents.norm
+    return compose(views, places, scales, sheet, norm, fitting.reduction(rungs))

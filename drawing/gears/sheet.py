@@ -9,14 +9,12 @@ from itertools import product
 
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
-from ..compose import arrange, arrange_rest, compose, worth_trying
+from ..compose import Drawn, arrange, arrange_rest, compose, worth_trying
 from ..formats import FORMATS, Format
 from ..nesting import Nest, names
 from ..packing import Placement
-from ..page import Drawn
 from ..pens import Norm
 from ..rungs import fitted, has_next, lower
-from ..titleblock import Stamp
 from ..view import View
 from ..zones import zoned
 from .fitting import Contents, Fitting, Rungs
@@ -31,7 +29,7 @@ LEAST = 0.25  # part of the area that what stands beside the meshing keeps at th
 FULL = 0.75  # part of a format that views may cover
 
 
-def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn:
+def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     """Draw the sheet on `sheet`, or on the smallest format of which one sheet holds everything.
 
     Raises
@@ -49,8 +47,7 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         candidate = formats[-1]
         found = _pages(fitting, candidate)
     rungs, views, places = found
-    pages = compose(views, places, candidate, norm, stamp)
-    return Drawn(pages, fitting.scales(candidate, rungs), candidate.name, views=tuple(views))
+    return compose(views, places, fitting.scales(candidate, rungs), candidate, norm)
 
 
 def _pages(fitting: Fitting, sheet: Format) -> Found:

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from ...scales.choices import SIZES
-from ..compose import arrange, arrange_closely, compose, worth_trying
+from ..compose import Drawn, arrange, arrange_closely, compose, worth_trying
 from ..formats import FORMATS, Format
-from ..page import Drawn
 from ..rungs import fitted, on_pages
-from ..titleblock import Stamp
 from .fitting import PARTS, Fitting, Rungs
 from .fitting import Contents as Contents
 
 
-def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn:
+def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     """Draw the sheet on `sheet`, or on the smallest format of which one sheet holds everything.
 
     Raises
@@ -33,5 +31,4 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         views = [view for view, _ in fitting.views(candidate, rungs)]
         ways = on_pages(views, candidate, norm), arrange_closely([view.size for view in views], candidate, norm)
         places = min(filter(None, ways), key=lambda found: max(place.page for place in found))
-    pages = compose(views, places, candidate, norm, stamp)
-    return Drawn(pages, fitting.scales(candidate, rungs), candidate.name, PARTS[rungs.part], tuple(views))
+    return compose(views, places, fitting.scales(candidate, rungs), candidate, norm, PARTS[rungs.part])

@@ -18,10 +18,9 @@ from ..task import Given, Task
 from .kind import Kind, Verdicts, first_of
 
 if TYPE_CHECKING:
+    from ...drawing.compose import Drawn
     from ...drawing.formats import Format
-    from ...drawing.page import Drawn
     from ...drawing.pens import Norm
-    from ...drawing.titleblock import Stamp
     from ...drawing.words import Words
     from ...plans.cams.profile import PlateProfile, RollerProfile
     from ...plans.cams.solve import SolvedCam
@@ -241,14 +240,14 @@ class Cams(Kind[Cam, "SolvedCam"]):
             return words["heading.cam_rocker_profile"]
         return words[f"heading.cam_{DIAGRAMS_PART if plan in AXES else plan}"]
 
-    def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
+    def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a cam."""
         from ...drawing.cams.fitting import Contents
         from ...drawing.cams.sheet import draw
 
         note = case.task.note_in(words.language)
         contents = Contents(cam(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
-        return draw(contents, stamp, paper)
+        return draw(contents, paper)
 
     def fitted(self, solved: SolvedCam, drawn: Drawn) -> tuple[SolvedCam, tuple[InputError, ...]]:
         """Return the cam with diagrams as small as the format has room for, and with what lengths these are drawn."""

@@ -16,13 +16,12 @@ from ..task import Given, Task
 from .kind import Kind, Verdicts, check_scales, first_of
 
 if TYPE_CHECKING:
+    from ...drawing.compose import Drawn
     from ...drawing.formats import Format
     from ...drawing.gears.scene import GearScene
     from ...drawing.handouts.begun import Shown
     from ...drawing.notes.blocks import Story
-    from ...drawing.page import Drawn
     from ...drawing.pens import Norm
-    from ...drawing.titleblock import Stamp
     from ...drawing.words import Words
     from ...plans.condition import Condition
     from ...plans.gears.solve import SolvedGear
@@ -179,13 +178,13 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         first = first_of(solved.quantities, section_of)
         return {name: words[f"heading.gear_{section}"] for section, name in first.items()}
 
-    def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
+    def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a pair."""
         from ...drawing.gears.fitting import Contents
         from ...drawing.gears.sheet import draw
 
         contents = Contents(gear(case.solved), case.plans, case.choosers, case.givens, words, norm)
-        return draw(contents, stamp, paper)
+        return draw(contents, paper)
 
     def asks(self, solved: SolvedGear, question: Question) -> bool:
         """Ask not for what is given, nor for ordinates that are nothing or PW by construction."""

@@ -14,11 +14,10 @@ from ..task import Given, Task
 from .kind import Kind, Verdicts, check_scales, first_of
 
 if TYPE_CHECKING:
+    from ...drawing.compose import Drawn
     from ...drawing.formats import Format
     from ...drawing.notes.blocks import Story
-    from ...drawing.page import Drawn
     from ...drawing.pens import Norm
-    from ...drawing.titleblock import Stamp
     from ...drawing.words import Words
     from ...plans.hands.hand import Tolerance
     from ...plans.hands.shaky import Paper
@@ -178,13 +177,13 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         scene = HoistScene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, {})
         return story(scene, scales, texts)
 
-    def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
+    def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a hoist."""
         from ...drawing.hoist.fitting import Contents
         from ...drawing.hoist.sheet import draw
 
         contents = Contents(hoist(case.solved), case.plans, case.choosers, case.givens, words, norm)
-        return draw(contents, stamp, paper)
+        return draw(contents, paper)
 
 
 KIND = Hoists()

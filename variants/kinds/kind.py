@@ -15,12 +15,11 @@ from ...scales.scale import Scale
 from ..task import Given, Instead, Task
 
 if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
+    from ...drawing.compose import Drawn
     from ...drawing.formats import Format
     from ...drawing.handouts.begun import Shown
     from ...drawing.notes.blocks import Story
-    from ...drawing.page import Drawn
     from ...drawing.pens import Norm
-    from ...drawing.titleblock import Stamp
     from ...drawing.words import Words
     from ...plans.condition import Condition
     from ...plans.hands.hand import Tolerance
@@ -150,7 +149,7 @@ class Kind(ABC, Generic[Subject, Answer]):
     # Drawing.
 
     @abstractmethod
-    def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
+    def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a case; on the smallest format that holds everything where `paper` is not said."""
 
     def fitted(self, solved: Answer, drawn: Drawn) -> tuple[Answer, tuple[InputError, ...]]:

@@ -27,13 +27,12 @@ from ..task import Given, Task
 from .kind import Kind, Verdicts
 
 if TYPE_CHECKING:
+    from ...drawing.compose import Drawn
     from ...drawing.formats import Format
     from ...drawing.handouts.begun import Shown
     from ...drawing.linkages.scene import Scene
     from ...drawing.notes.blocks import Story
-    from ...drawing.page import Drawn
     from ...drawing.pens import Norm
-    from ...drawing.titleblock import Stamp
     from ...drawing.words import Words
     from ...plans.condition import Condition
     from ...plans.marking.key import Question
@@ -175,7 +174,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             found["compound"] = {"ok": gap < COMPOUND_AGREES, "value": gap, "unit": ""}
         return found
 
-    def draw(self, case: Case, words: Words, stamp: Stamp, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
+    def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the plans of one position, and the cycle where the task wants it."""
         from ...drawing.linkages.layout.fitting import Contents
         from ...drawing.linkages.layout.sheet import draw
@@ -190,7 +189,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         plans = case.plans if solved is case.solved else (*case.plans, POSITION)
         note = case.task.note_in(words.language)
         contents = Contents(solved, plans, case.choosers, case.givens, words, norm, whole, note=note)
-        return draw(contents, stamp, paper)
+        return draw(contents, paper)
 
     def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
         """Tell every plan step by step, its equations before it."""

@@ -26,4 +26,4 @@ def cycle_sheet(case: Case, whole: Cycle, words: Words) -> Sheet:
     language = words.language
     stamp = Stamp(title=case.task.title[language], document_type=words["sheet.document"], language=language)
     contents = Contents(linkage(case.solved), ("cycle",), case.choosers, case.givens, words, "gost", whole)
-    return sheet_of(case, draw(contents, stamp))
+    return sheet_of(case, draw(contents), stamp)

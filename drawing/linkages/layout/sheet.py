@@ -5,12 +5,10 @@ from __future__ import annotations
 from operator import is_
 
 from ....scales.errors import InputError
-from ...compose import arrange, arrange_halves, compose, worth_trying
+from ...compose import Drawn, arrange, arrange_halves, compose, worth_trying
 from ...formats import FORMATS, Format
 from ...packing import Placement
-from ...page import Drawn
 from ...pens import Norm
-from ...titleblock import Stamp
 from ...view import View
 from .fitting import Contents, Fitted, Fitting
 from .several import forces_begin, several
@@ -20,7 +18,7 @@ COARSER = 5  # steps below the wanted scales, pa = 50 mm, beyond which several p
 CROWDED = 1.6  # parts of a page whose figures no coarser rung brings on one page
 
 
-def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn:
+def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     """Draw the sheet on `sheet`, or on the smallest format of which one sheet holds everything.
 
     Raises
@@ -35,13 +33,13 @@ def draw(contents: Contents, stamp: Stamp, sheet: Format | None = None) -> Drawn
         laid_out = zoned(fitting, customary, contents.norm)
         if laid_out is not None:
             zoned_views, zoned_scales, zoned_places = laid_out
-            return _drawn(fitting, stamp, customary, (zoned_views, zoned_scales), zoned_places)
+            return _drawn(fitting, customary, (zoned_views, zoned_scales), zoned_places)
     formats = [sheet] if sheet is not None else worth_trying(fitting.views(customary)[0])
     for candidate in formats:
         found = _single(fitting, candidate, COARSER if candidate is formats[-1] else 0)
         if found is not None:
-            return _drawn(fitting, stamp, candidate, *found)
-    return _drawn(fitting, stamp, formats[-1], *several(fitting, formats[-1]))
+            return _drawn(fitting, candidate, *found)
+    return _drawn(fitting, formats[-1], *several(fitting, formats[-1]))
 
 
 def _area(fitted: Fitted) -> float:
@@ -80,6 +78,6 @@ def _halved(fitted: Fitted, sheet: Format, norm: Norm) -> list[Placement] | None
     return arrange_halves([view.size for view in views], forces_begin([view.name for view in views]), sheet, norm)
 
 
-def _drawn(fitting: Fitting, stamp: Stamp, sheet: Format, fitted: Fitted, places: list[Placement]) -> Drawn:
+def _drawn(fitting: Fitting, sheet: Format, fitted: Fitted, places: list[Placement]) -> Drawn:
     views, scales = fitted
-    return Drawn(compose(views, places, sheet, fitting.contents.norm, stamp), scales, sheet.name, views=tuple(views))
+    return compose(views, places, scales, sheet, fitting.contents.norm)
