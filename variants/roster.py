@@ -1,16 +1,17 @@
-"""The roster of a class: who is in it, which variant and data each one has; or a variant by the record book."""
+"""The roster of a class: who is in it, which task, variant and data each one has."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
 from ..scales.errors import InputError
-from ..scales.names import latin, unknown
+from ..scales.names import unknown
 from ..scales.numbers import quote
+from .record_book import Digits, Schemes, variant_of_book
 from .spreadsheets.cells_in import read_grid
 from .spreadsheets.grid import SHOWN, Grid
 from .spreadsheets.headers import LOOKED_AT, about_kind, quantity_part
@@ -40,7 +41,7 @@ class Who:
 class Entry:
     """One student of the roster: the variant, empty where the record book decides, and other values for givens.
 
-    `problem` is why the row cannot be used, where others can be without it.
+    `problem` is why the row cannot be used, where others can be without it; `task` is the id of the student's task.
     """
 
     who: Who
@@ -48,8 +49,9 @@ class Entry:
     settings: Mapping[str, str]
     place: str
     problem: InputError | None = None
+    task: str = ""
 
-    def variant_of(self, task: Task, digits: int = 1) -> str:
+    def variant_of(self, task: Task, digits: int | str = 1) -> str:
         """Return the variant, that of the record book where none is written; empty where neither is.
 
         Raises
@@ -95,37 +97,55 @@ def _folded(text: str) -> str:
     return re.sub(r"[\s.'’ʼ`]+", "", text.casefold().replace("ё", "е"))
 
 
-def read_roster(file: str | Path, task: Task, each: bool = False) -> Roster:
+@dataclass(frozen=True, slots=True)
+class _Columns:
+    """A grid with what its columns hold: `about` of a student, and givens with their units."""
+
+    grid: Grid
+    about: Mapping[str, int]
+    givens: Mapping[int, tuple[str, str]]
+    schemes: Schemes
+
+    def said(self, row: int) -> dict[str, str]:
+        """Return what a row says of the student."""
+        return {kind: self.grid.text(row, column) for kind, column in self.about.items()}
+
+    def other(self, row: int) -> bool:
+        """Whether a row names a task that is none of these; a number may stand for any."""
+        said = self.said(row).get("task", "")
+        return bool(said) and not said.isdigit() and said not in self.schemes.ids
+
+    def place(self, row: int, kind: str) -> str:
+        """Return the address of the cell that says `kind` of a student."""
+        return self.grid.place(row, self.about[kind]) if kind in self.about else self.grid.place(row)
+
+
+def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Roster:
     """Read a roster: CSV or XLSX with a column `student`, and `variant`, `record book`, givens such as `phi [deg]`.
 
     Parameters
     ----------
+    of : Task or Schemes
+        The task of the class, then students to whom a column `task` gives another one are left out; or several.
     each : bool
         Let a row that is wrong be the problem of its student alone.
 
     Raises
     ------
     InputError
-        No such columns; an unknown variant or given, or a value that it cannot take, with the cell.
+        No such columns; an unknown task, variant or given, or a value that it cannot take, with the cell.
     """
     grid = read_grid(file)
     header = next((row for row in range(min(len(grid.rows), LOOKED_AT)) if _is_header(grid.rows[row])), None)
     if header is None:
         raise InputError("roster-header", file=quote(grid.file, SHOWN))
-    about: dict[str, int] = {}
-    givens: dict[int, tuple[str, str]] = {}
-    for column, text in enumerate(grid.rows[header]):
-        kind, part = about_kind(text), quantity_part(text)
-        if kind is not None:
-            about.setdefault(kind, column)
-        elif part is not None and part[0] in task.givens:
-            givens[column] = (part[0], part[2])
-        elif part is not None and "_" in text:
-            error = unknown("given-unknown", part[0], task.givens, task=task.id)
-            raise LocatedError(grid.place(header, column), error)
-    rows = range(header + 1, len(grid.rows))
+    columns = _columns(grid, header, of if isinstance(of, Schemes) else Schemes((of,), Digits.of(1)))
+    rows = [row for row in range(header + 1, len(grid.rows)) if any(grid.rows[row])]
+    if isinstance(of, Task):
+        rows = [row for row in rows if not columns.other(row)]
+        columns = replace(columns, about={kind: column for kind, column in columns.about.items() if kind != "task"})
     read = _told if each else _entry
-    return Roster(tuple(read(grid, row, about, givens, task) for row in rows if any(grid.rows[row])))
+    return Roster(tuple(read(columns, row) for row in rows))
 
 
 def _is_header(row: tuple[str, ...]) -> bool:
@@ -133,52 +153,57 @@ def _is_header(row: tuple[str, ...]) -> bool:
     return bool(kinds & set(KEYS)) and len(row) > 1
 
 
-def _told(grid: Grid, row: int, about: Mapping[str, int], givens: Mapping[int, tuple[str, str]], task: Task) -> Entry:
+def _columns(grid: Grid, header: int, schemes: Schemes) -> _Columns:
+    """Return what the columns hold, by the words over them."""
+    known = tuple(dict.fromkeys(name for task in schemes.tasks for name in task.givens))
+    about: dict[str, int] = {}
+    givens: dict[int, tuple[str, str]] = {}
+    for column, text in enumerate(grid.rows[header]):
+        kind, part = about_kind(text), quantity_part(text)
+        if kind is not None:
+            about.setdefault(kind, column)
+        elif part is not None and part[0] in known:
+            givens[column] = (part[0], part[2])
+        elif part is not None and "_" in text:
+            error = unknown("given-unknown", part[0], known, task=", ".join(schemes.ids))
+            raise LocatedError(grid.place(header, column), error)
+    return _Columns(grid, about, givens, schemes)
+
+
+def _told(columns: _Columns, row: int) -> Entry:
     """Read one student; what is wrong is said with the student."""
     try:
-        return _entry(grid, row, about, givens, task)
+        return _entry(columns, row)
     except InputError as error:
-        return Entry(Who.of(_said(grid, row, about)), "", {}, grid.place(row), error)
+        return Entry(Who.of(columns.said(row)), "", {}, columns.grid.place(row), error)
 
 
-def _said(grid: Grid, row: int, about: Mapping[str, int]) -> dict[str, str]:
-    return {kind: grid.text(row, column) for kind, column in about.items()}
-
-
-def _entry(grid: Grid, row: int, about: Mapping[str, int], givens: Mapping[int, tuple[str, str]], task: Task) -> Entry:
+def _entry(columns: _Columns, row: int) -> Entry:
     """Read one student."""
-    said = _said(grid, row, about)
+    said, place = columns.said(row), columns.place
+    try:
+        task = columns.schemes.of(said.get("task", ""), said.get("book", ""))
+    except InputError as problem:
+        raise LocatedError(place(row, "task" if said.get("task") else "book"), problem) from problem
     variant = said.get("variant", "")
     if variant and variant not in task.variants:
         error = unknown("variant-unknown", variant, task.variants, task=task.id)
-        raise LocatedError(grid.place(row, about["variant"]), error)
-    settings = {}
-    for column, (name, unit) in givens.items():
-        text = grid.text(row, column)
-        if text:
-            settings[name] = f"{text} {unit}" if unit and re.fullmatch(r"[-−+0-9.,\s]+", text) else text
-            try:
-                task.givens[name].read(settings[name])
-            except InputError as error:
-                raise LocatedError(f"{grid.place(row, column)}, {name}", error) from error
-    return Entry(Who.of(said), variant, settings, grid.place(row))
+        raise LocatedError(place(row, "variant"), error)
+    settings = dict(_settings(columns, row, task))
+    return Entry(Who.of(said), variant, settings, columns.grid.place(row), task=task.id)
 
 
-def variant_of_book(task: Task, book: str, digits: int = 1) -> str:
-    """Return the variant by the last digits of a record book: the one of this number, else counted round.
-
-    Raises
-    ------
-    InputError
-        The record book has no such digits.
-
-    >>> from kulman import load_task
-    >>> variant_of_book(load_task("nau-slider-crank"), "АТ-2023/417")
-    '7'
-    """
-    found = re.sub(r"\D", "", latin(book))[-digits:]
-    if len(found) < digits:
-        raise InputError("roster-book", text=quote(book), n=digits)
-    names = [name for name in task.variants if name.isdigit()] or list(task.variants)
-    by_number = {int(name): name for name in names if name.isdigit()}
-    return by_number.get(int(found)) or names[int(found) % len(names)]
+def _settings(columns: _Columns, row: int, task: Task) -> Iterator[tuple[str, str]]:
+    """Go through the data that a student has alone."""
+    for column, (name, unit) in columns.givens.items():
+        text = columns.grid.text(row, column)
+        if not text:
+            continue
+        value = f"{text} {unit}" if unit and re.fullmatch(r"[-−+0-9.,\s]+", text) else text
+        try:
+            if name not in task.givens:
+                raise unknown("given-unknown", name, task.givens, task=task.id)
+            task.givens[name].read(value)
+        except InputError as error:
+            raise LocatedError(f"{columns.grid.place(row, column)}, {name}", error) from error
+        yield name, value

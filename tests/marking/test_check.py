@@ -21,7 +21,8 @@ from kulman.variants.marking.report_html import report_html
 from kulman.variants.marking.report_json import to_json
 from kulman.variants.marking.report_text import report_text
 from kulman.variants.marking.rubric import read_rubric
-from kulman.variants.roster import read_roster, variant_of_book
+from kulman.variants.record_book import variant_of_book
+from kulman.variants.roster import read_roster
 from kulman.variants.sheet_id import same_id, sheet_id, variant_of_id
 
 TASK = "nau-slider-crank"

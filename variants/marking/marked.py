@@ -11,7 +11,8 @@ from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ..case import Settings
-from ..roster import Entry, variant_of_book
+from ..record_book import variant_of_book
+from ..roster import Entry
 from ..sheet_id import same_id, variant_of_id
 from .answers import Answers
 from .checks import Check
