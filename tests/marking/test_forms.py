@@ -18,8 +18,10 @@ from kulman.scales.packaged import packaged
 from kulman.tests.support.answer_files import ASKED, HEAD, ROW, messages, one, read
 from kulman.variants.marking.reading import read_answers
 from kulman.variants.spreadsheets.cells_in import read_grid
-from kulman.variants.spreadsheets.cells_out import csv_bytes, harmless, xlsx_bytes
+from kulman.variants.spreadsheets.cells_out import csv_table
+from kulman.variants.spreadsheets.csv_write import harmless
 from kulman.variants.spreadsheets.grid import letters
+from kulman.variants.spreadsheets.xlsx_write import xlsx_bytes
 
 PACKAGE = "kulman.variants.marking"
 
@@ -258,7 +260,7 @@ def test_a_class_is_a_row_for_each_student(tmp_path: Path) -> None:
 @settings(max_examples=60, deadline=None)
 @given(st.lists(st.lists(st.text(max_size=12), min_size=1, max_size=5), min_size=1, max_size=5))
 def test_nothing_written_starts_a_formula(rows: list[list[str]]) -> None:
-    for row in csv.reader(io.StringIO(csv_bytes(rows, "uk").decode("utf-8-sig"), newline=""), delimiter=";"):
+    for row in csv.reader(io.StringIO(csv_table(rows, "uk").decode("utf-8-sig"), newline=""), delimiter=";"):
         assert not any(cell.lstrip(" ").startswith(("=", "+", "-", "@", "\t", "\r")) for cell in row)
     book = openpyxl.load_workbook(io.BytesIO(xlsx_bytes(rows, "=x")))
     assert book.active is not None
@@ -267,7 +269,7 @@ def test_nothing_written_starts_a_formula(rows: list[list[str]]) -> None:
 
 def test_a_text_that_looks_like_a_formula_comes_back(tmp_path: Path) -> None:
     file = tmp_path / "a.csv"
-    file.write_bytes(csv_bytes([["x", "=1+1", "-5 mm", 1.5], ["V_B", "V_A", "V_BA", 2]], "uk"))
+    file.write_bytes(csv_table([["x", "=1+1", "-5 mm", 1.5], ["V_B", "V_A", "V_BA", 2]], "uk"))
 
     assert read_grid(file).rows[0] == ("x", "=1+1", "-5 mm", "1,5")
 

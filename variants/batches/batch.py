@@ -23,7 +23,7 @@ from ..journal import Journal, digest_of
 from ..kinds import kind_of
 from ..reader import load_task
 from ..roster import read_roster
-from ..spreadsheets.cells_out import csv_bytes, table_bytes
+from ..spreadsheets.cells_out import csv_table, table_bytes
 from ..spreadsheets.grid import SUFFIXES
 from ..task import Task
 from .student import FORMS, NOTE, Made, Making, Student
@@ -146,7 +146,7 @@ def batch(
     outcomes = _run(making, students, place, crew, advance or (lambda done, whole: None))
     done = Batch(students, outcomes)
     for name, rows in ((MANIFEST, manifest_rows(done, lang)), (KEY, key_rows(done, lang))):
-        write_whole(place / name, csv_bytes(list(rows), lang))
+        write_whole(place / name, csv_table(list(rows), lang))
     return done
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ...scales.packaged import packaged
 from ..marking.wording import texts
 from ..roster import WHO
-from ..spreadsheets.cells_out import Cell
+from ..spreadsheets.csv_write import Cell
 
 if TYPE_CHECKING:
     from ..task import Task

@@ -12,7 +12,8 @@ import numpy as np
 from ... import __version__
 from ...drawing.words import Words
 from ...plans.contest import Contest, Entry
-from ..tables import Cell, aligned
+from ..spreadsheets.csv_write import Cell
+from ..tables import aligned
 from .data import Scene, as_csv, finite, place_column, place_si, place_value, short, wrapped
 
 if TYPE_CHECKING:

@@ -12,7 +12,8 @@ from ...plans.cams.convergence import DRAWINGS, ROUNDING
 from ...plans.cams.robustness import Robustness, robustness
 from ...plans.cams.solve import SolvedCam
 from ...plans.hands.hand import PRESETS
-from ..tables import Cell, aligned
+from ..spreadsheets.csv_write import Cell
+from ..tables import aligned
 from .data import Scene, as_csv, short, wrapped
 
 if TYPE_CHECKING:

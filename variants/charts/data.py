@@ -13,8 +13,8 @@ from ...plans.laws import TURN
 from ...plans.linkages.cycles.cycle import Cycle
 from ...scales.units import format_unit, unit
 from ..case import Case
+from ..spreadsheets.csv_write import Cell, csv_bytes, csv_text
 from ..sweeps.columns import driver_name
-from ..tables import Cell, csv_bytes, csv_text
 
 DIGITS = 3
 LINE = 110  # characters
@@ -89,7 +89,7 @@ def wrapped(text: str) -> str:
 
 def as_csv(head: Sequence[str], rows: Iterable[Sequence[Cell]], words: Words) -> bytes:
     """Return rows as the CSV file of a chart."""
-    return csv_bytes(csv_text(head, rows, words.language), words.language)
+    return csv_bytes(csv_text([head, *rows], words.language), words.language)
 
 
 def finite(value: float | None) -> float | None:

@@ -10,7 +10,8 @@ from ...drawing.words import Words
 from ...plans.linkages.accuracy.depth import Cost, Depth, depth
 from ...plans.linkages.cycles.cycle import Cycle
 from ...plans.quantities import unit_of
-from ..tables import Cell, aligned
+from ..spreadsheets.csv_write import Cell
+from ..tables import aligned
 from .data import Scene, as_csv, driver_unit, finite, place, place_column, place_head, place_si, place_value, short
 
 if TYPE_CHECKING:

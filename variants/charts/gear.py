@@ -13,7 +13,8 @@ from ...plans.gears.solve import SolvedGear, unit_of
 from ...plans.hands.hand import PRESETS
 from ...scales.names import unknown
 from ..kinds.gear import gear
-from ..tables import Cell, aligned
+from ..spreadsheets.csv_write import Cell
+from ..tables import aligned
 from .data import Scene, as_csv, finite, short, wrapped
 from .gallery import Asked
 

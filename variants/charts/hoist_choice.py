@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from ...drawing.words import Words
 from ...plans.hoist.choice import Choice
 from ...scales.units import format_unit, unit
-from ..tables import Cell, aligned
+from ..spreadsheets.csv_write import Cell
+from ..tables import aligned
 from .data import Scene, as_csv
 
 if TYPE_CHECKING:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from ...drawing.words import Words
 from ...plans.hoist.depth import COMPARED, MANY, HoistDepth, OneMass
 from ...scales.units import format_unit
-from ..tables import Cell, aligned
+from ..spreadsheets.csv_write import Cell
+from ..tables import aligned
 from .data import Scene, as_csv, finite, short, wrapped
 
 if TYPE_CHECKING:

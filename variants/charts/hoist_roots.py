@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from ...drawing.words import Words
 from ...plans.hoist.finders import FINDERS
 from ...plans.hoist.root_race import Course, RootRace
-from ..tables import Cell, aligned
+from ..spreadsheets.csv_write import Cell
+from ..tables import aligned
 from .data import Scene, as_csv, finite, short, wrapped
 
 if TYPE_CHECKING:

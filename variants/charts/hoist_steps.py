@@ -11,7 +11,8 @@ from ...drawing.words import Words
 from ...plans.hoist.integrators import GROWN
 from ...plans.hoist.step_limits import StepLimits
 from ...plans.hoist.steppers import ORDERS
-from ..tables import Cell, aligned
+from ..spreadsheets.csv_write import Cell
+from ..tables import aligned
 from .data import Scene, as_csv, finite, short, wrapped
 
 if TYPE_CHECKING:

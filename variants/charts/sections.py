@@ -11,7 +11,8 @@ from ...plans.cams.convergence import DRAWINGS, Convergence, compared, convergen
 from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.hands.hand import PRESETS
 from ...scales.names import unknown
-from ..tables import Cell, aligned
+from ..spreadsheets.csv_write import Cell
+from ..tables import aligned
 from .data import Scene, as_csv, finite, short, wrapped
 
 if TYPE_CHECKING:

@@ -18,8 +18,9 @@ from ...plans.linkages.cycles.cycle import Cycle
 from ...plans.linkages.solved import solve_linkage
 from ...plans.quantities import BALANCES
 from ...scales.errors import InputError
+from ..spreadsheets.csv_write import Cell
 from ..sweeps.columns import driver_name
-from ..tables import Cell, aligned
+from ..tables import aligned
 from .data import (
     Scene,
     as_csv,

@@ -20,7 +20,8 @@ from ..crew import Advance
 from ..marking.checks import Check, check
 from ..marking.keyed import Keyed, keyed
 from ..marking.wording import texts
-from ..spreadsheets.cells_out import Cell, table_bytes
+from ..spreadsheets.cells_out import table_bytes
+from ..spreadsheets.csv_write import Cell
 from ..spreadsheets.grid import SUFFIXES as CELLS
 from ..tables import aligned
 from ..task import Task

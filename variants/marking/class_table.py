@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from ...plans.marking.verdicts import Verdict
 from ..roster import WHO, Entry
-from ..spreadsheets.cells_out import Cell
+from ..spreadsheets.csv_write import Cell
 from .flags import shared
 from .result import Result
 from .wording import mistake_texts, texts

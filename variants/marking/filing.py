@@ -9,7 +9,7 @@ from pathlib import Path
 from ...drawing.writers import Files, folder_for, save_all
 from ..crew import Advance
 from ..roster import Roster
-from ..spreadsheets.cells_out import csv_bytes, table_bytes
+from ..spreadsheets.cells_out import csv_table, table_bytes
 from ..spreadsheets.grid import SUFFIXES
 from .answers import Answers
 from .checks import Check
@@ -92,7 +92,7 @@ def write_tables(
 
     def table(path: Path) -> Files:
         if path == moodle:
-            return [(path, csv_bytes(list(moodle_rows(results, language)), language, ","))]
+            return [(path, csv_table(list(moodle_rows(results, language)), language, ","))]
         return [(path, table_bytes(path, rows, language, check.request.task.id, [0], 1))]
 
     save_all((*files, *filter(None, (moodle,))), SUFFIXES, table)

@@ -20,7 +20,8 @@ from ...plans.columned import Columned, Ends
 from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit, unit
 from ..case import Case
-from ..tables import aligned, csv_bytes, csv_text
+from ..spreadsheets.csv_write import csv_bytes, csv_text
+from ..tables import aligned
 from .asked import Asked, OfCase
 from .data import numbers
 
@@ -126,7 +127,8 @@ def columns_csv(found: Iterable[Columned], words: Words, said: Mapping[str, Sequ
     """Return columns as CSV, the number of the row before them, after them what is `said` of each row, by heading."""
     shown, said = [in_degrees_and_millimetres(column) for column in found], said or {}
     rows = zip(*(map(float, column.values) for column in shown), *said.values(), strict=True)
-    return csv_text(["k", *_csv_head(shown, words), *said], ([k, *row] for k, row in enumerate(rows)), words.language)
+    head = ["k", *_csv_head(shown, words), *said]
+    return csv_text([head, *([k, *row] for k, row in enumerate(rows))], words.language)
 
 
 def in_degrees_and_millimetres(column: Columned) -> Columned:

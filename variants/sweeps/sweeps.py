@@ -25,7 +25,7 @@ from ..arguments import names_of, positions_of
 from ..case import Case, Settings, solve_case
 from ..kinds.linkage import mechanism_of
 from ..sheets import Sheet
-from ..tables import csv_bytes
+from ..spreadsheets.csv_write import csv_bytes
 from ..task import LocatedError, Task
 from .asked import Asked, OfCase, Swept
 from .columns import letters

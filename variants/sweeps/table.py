@@ -14,7 +14,8 @@ from ...plans.linkages.cycles.cycle import Cycle
 from ...plans.linkages.cycles.strokes import OutputMotion
 from ...plans.quantities import unit_of
 from ...scales.units import format_unit, unit
-from ..tables import aligned, csv_text
+from ..spreadsheets.csv_write import csv_text
+from ..tables import aligned
 from .columns import (
     Column,
     all_columns,
@@ -58,7 +59,7 @@ def as_csv(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
     shown = [column.shown(words.display) for column in columns]
     head = ["k", *(f"{column.name} [{format_unit(column.unit, words.language)}]" for column in shown), "status"]
     rows = ([k, *(column.values[k] for column in shown), status] for k, status in enumerate(cycle.statuses))
-    return csv_text(head, rows, words.language)
+    return csv_text([head, *rows], words.language)
 
 
 def _cell(words: Words, column: Column, k: int) -> str:
