@@ -70,9 +70,17 @@ class Canvas:
         """Draw shapes."""
         self.shapes.extend(shapes)
 
-    def part(self, name: str) -> None:
-        """Begin, or go on with, a part of the work: what is drawn and lettered from here on belongs to it."""
+    def part(self, name: str) -> str:
+        """Begin, or go on with, a part of the work: what is drawn and lettered from here on belongs to it.
+
+        Returns
+        -------
+        str
+            The part to which it belonged up to here.
+        """
+        before = self._parts[-1][1] if self._parts else ""
         self._parts.append((len(self.shapes), name))
+        return before
 
     def keep_clear(self, *points: complex) -> None:
         """Let no letter stand in the box of these points."""

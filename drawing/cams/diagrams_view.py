@@ -39,14 +39,21 @@ def diagrams_view(scene: CamScene) -> View:
             low -= most + BETWEEN[scene.style.label]
         fields.append(_field(scene, plan, 1j * low))
         low += _ends(scene, plan)[0]
+    canvas.part("scales")
     boxes = [_scales(canvas, scene, plan, field) for plan, field in zip(drawn, fields, strict=True)]
+    canvas.part("sections")
     _section_lines(canvas, scene, fields, boxes)
     away = aside([[(i, mean.imag) for i, mean in _means(scene, plan)] for plan in drawn], scene.style.text)
     for plan, field in zip(drawn, fields, strict=True):
+        canvas.part("axes")
         axes(canvas, field, False, PAST * scene.style.label)
+        given, shown = plan == solved.layout.given, plan[-1]
+        canvas.part(f"law_{shown}" if given else f"chords_{shown}")
         _exact(canvas, scene, plan, field)
         _board(canvas, scene, plan, field, away)
+        canvas.part(f"law_{shown}" if given else "scales")
         _amplitudes(canvas, scene, plan, field)
+    canvas.part("sections")
     _phases(canvas, scene, fields[-1])
     per_mm = scene.words["said.cam_axis"].format(angle=scene.degrees(scene.across.mu))
     heading = (scene.words["heading.cam_diagrams"], f"{scene.factor(scene.across)}  ({per_mm})")
@@ -135,9 +142,11 @@ def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field, away: float
         canvas.add(*(_mark(scene, at, "node", str(i)) for i, at in nodes))
     means = [(i, origin + mean) for i, mean in _means(scene, plan)]
     if means:
+        curve = canvas.part(f"rays_{plan[-1]}")
         name, letter = POLES[plan]
         text = f"{words.symbol(name)} = {words.short(round(scene.paper(name), 2))}"
         fan(canvas, field, Pole(scene.paper(name), letter, name, text), means, away)
+        canvas.part(curve if plan == solved.layout.given else f"means_{plan[-1]}")
         canvas.add(*(_mark(scene, mean, "mean", str(i)) for i, mean in means))
 
 

@@ -78,6 +78,8 @@ def fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, com
         Those of one height have one ray.
     away : float
         What `aside` has returned.
+
+    The pole with its distance is the part of the work that `pole` names.
     """
     style, zero = canvas.style, field.origin - away
     height = small(style.text)
@@ -97,9 +99,12 @@ def fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, com
     if len(feet) > 1:
         canvas.add(Line(min(feet[0], zero, key=_height), max(feet[-1], zero, key=_height), Pen.THIN, role="feet"))
     wide = lay_out(beyond.text, height).width + AROUND if beyond else 0.0
+    rays = canvas.part(pole.name)
     canvas.add(*_broken(field.origin, at - max(PAST, wide), boxes, Pen.THIN, "axis"))
     if beyond:
+        canvas.part(rays)
         canvas.add(Text(at - wide - 1j * (height + 2.0 * AROUND), beyond.text, height, role="number"))
+        canvas.part(pole.name)
     canvas.add(Circle(at, style.node, Pen.MAIN, fill="white", role="pole"))
     canvas.label(pole.letter, at, prefer=-1.0 + 1j, clear=1.0, height=style.text)
     _distance(canvas, pole, (at, min(feet[0], zero, key=_height)))

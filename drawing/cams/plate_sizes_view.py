@@ -28,15 +28,20 @@ def plate_sizes_view(scene: CamScene) -> View:
     plate = solved.plate
     assert plate is not None
     canvas, mu = canvas_of(scene), scene.scale(PLATE_SIZES).mu
+    canvas.part("points")
     outline = _curve(canvas, scene)
     left, right = (end(p.real for p in outline) for end in (min, max))
     top, foot = max(p.imag for p in outline), -plate.sizes.r_0 / mu
+    canvas.part("axes")
     for a, b in ((complex(left - PAST, 0.0), complex(right + PAST, 0.0)), (1j * (foot - PAST), 1j * (top + PAST))):
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
     canvas.label(words.symbol("s"), 1j * (top + PAST), prefer=1 + 0j, clear=1.2)
     canvas.label(words.symbol("d2s"), complex(right + PAST, 0.0), prefer=-1j, clear=1.2)
+    canvas.part("tangent")
     _tangent(canvas, scene, plate.sizes.r_0_min / mu, plate.sizes.phi)
+    canvas.part("points")
     _nodes(canvas, scene)
+    canvas.part("centre")
     _sizes(canvas, scene)
     heading = words["heading.cam_plate_sizes"], scene.factor(scene.scale(PLATE_SIZES))
     return canvas.finish("plate_sizes", heading, transfer(scene, PLATE_SIZES))

@@ -43,17 +43,23 @@ def plate_view(scene: CamScene) -> View:
     outer = math.hypot(r_0 + stroke, R)
     rod = Rod(0.0, r_0 + THICK * label, outer + (PHASES + 1.2) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
+    canvas.part("shaft")
     centre(canvas, scene, r_0, rod.top + 6.0)
+    canvas.part("circles")
     canvas.add(circle(r_0, "r_0_flat"))
     _positions(canvas, scene, R, reach - 0.9 * label)
+    canvas.part("profile")
     outline = plate.profile.outline() * (1.0 / mu)
     canvas.add(Group((Polyline(tuple(outline.tolist()), Pen.MAIN, closed=True),), "curve", "practical"))
     corners(canvas, scene, plate.profile.undercuts)
+    canvas.part("circles")
     numbers(canvas, scene, 0.0, reach)
     phases(canvas, scene, 0.0, outer + PHASES * label)
+    canvas.part("follower")
     _follower(canvas, scene, rod, R)
     left = _sizes(canvas, scene, rod, R)
     notes = "; ".join([*left, *_numbers(scene)]), *undercut_notes(scene, plate.profile.undercuts)
+    canvas.part("shaft")
     letter_centre(canvas, scene, r_0)
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
@@ -66,10 +72,13 @@ def _positions(canvas: Canvas, scene: CamScene, R: float, reach: float) -> None:
     for i, phi in enumerate(solved.angles.tolist()):
         up = unit_at(phi, solved.cam.sense)
         at, contact = (scene.mm(f"{PLATE_PROFILE}.{letter}{i}") for letter in "BK")
+        canvas.part("circles")
         canvas.add(Line(0j, up * reach, Pen.THIN, role="position", name=str(i)))
+        canvas.part("profile")
         if i:
             canvas.add(Line(at + 1j * up * R, at - 1j * up * R, Pen.THIN, role="plate", name=str(i)))
-        for role, place in (("node", at), ("contact", contact)):
+        for role, place, part in (("node", at, "centres"), ("contact", contact, "profile")):
+            canvas.part(part)
             canvas.add(Group((Circle(place, scene.style.node, Pen.THIN, fill="white"),), role, str(i)))
 
 
@@ -87,9 +96,11 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> list[str]:
     plate, motion = solved.plate, solved.motion
     assert plate is not None
     middle = quiet(motion, sense)
+    canvas.part("circles")
     left_out = radius_at(
         canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (0.0, plate.sizes.r_0 / mu, plate.sizes.r_0 / mu)
     )
+    canvas.part("follower")
     level, up = 1j * rod.low, 1j * scene.style.text
     _over(canvas, (level, level - sense * R), ABOVE[1] * up, words.symbol("R_plate"), "R_plate")
     right, left = (motion.maximum(0.0, side, 0.0).value for side in (1.0, -1.0))
@@ -100,6 +111,7 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> list[str]:
         else:
             same = abs(right - left) < SAME * right
             linear(canvas, ends, ABOVE[0] * up, "" if same else ANALOGUE, name)
+    canvas.part("centres")
     top = solved.layout.division.top
     axis = unit_at(float(solved.angles[top]), sense)
     ends = axis * (plate.sizes.r_0 / mu), scene.mm(f"{PLATE_PROFILE}.B{top}")

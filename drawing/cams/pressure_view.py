@@ -30,9 +30,13 @@ def pressure_view(scene: CamScene) -> View:
     curves = [list(zip(phi.tolist(), value.tolist(), strict=True)) for phi, value in courses(solved)]
     every = [y for points in curves for _, y in points] + [limit for _, limit in limits] + [0.0]
     field = _field(scene, min(every), max(every))
+    canvas.part("axes")
     axes(canvas, field, lettered=False)
+    canvas.part("curve")
     canvas.add(Group(tuple(Polyline(tuple(field.at(*p) for p in points)) for points in curves), "curve", "theta"))
+    canvas.part("limits")
     boxes = [_limit(canvas, scene, field, curves, at) for at in limits]
+    canvas.part("curve")
     _sections(canvas, scene, field, [found for found in boxes if found is not None])
     per_mm = f"{words.symbol('mu_theta')} = {scene.degrees(field.y.scale.mu)}/{words.unit('mm')}"
     heading = words["heading.cam_pressure"], f"{per_mm};  {scene.factor(field.x.scale)}"

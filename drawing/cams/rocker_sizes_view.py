@@ -37,12 +37,14 @@ def rocker_sizes_view(scene: CamScene) -> View:
     centre = scene.mm(f"{ROCKER_SIZES}.C")
     _rocker(canvas, scene, cam)
     frame = _frame(scene, centre)
+    canvas.part("limits")
     _limits(canvas, scene)
     for limit in cam.rocker.limits(cam.limits):
         _bound(canvas, scene, limit, frame)
     _permitted(canvas, scene, cam, centre)
     _nodes(canvas, scene)
     _sizes(canvas, scene, cam, centre)
+    canvas.part("pressure")
     _ray(canvas, scene, centre)
     scale = f"{scene.words.drawn_at(scene.mu_l)};  {scene.factor(scene.scale(ROCKER_SIZES))}"
     notes = (*_lettered(scene, cam), *words["said.cam_analogues"].split("|"), words["said.cam_permitted"])
@@ -53,13 +55,16 @@ def _rocker(canvas: Canvas, scene: CamScene, cam: RockerCam) -> None:
     """Draw the rocker in all positions, the path of its roller, and the curve of the analogues' ends."""
     solved, style, l = scene.solved, scene.style, cam.sizes.l / scene.mu_l
     over = PAST / l
+    canvas.part("positions")
     canvas.add(Arc(0j, l, -over, cam.rocker.motion.h + 2.0 * over, Pen.AXIS, role="path", name="B"))
+    canvas.part("analogues")
     for phase in (cam.rocker.motion.rise, cam.rocker.motion.fall):
         ends: list[complex] = []
         for phi, *_ in pieces(solved, phase):
             ends += _ends(cam, phi, l)
         canvas.add(Group((Polyline(tuple(ends), Pen.MAIN),), "curve", phase.name))
     division, shown = solved.layout.division, pressed(scene, SHOWN)
+    canvas.part("positions")
     for i in division.lines:
         at, end = (scene.mm(f"{ROCKER_SIZES}.{letter}{i}") for letter in "BD")
         # from the pivot only the rocker itself, its highest position, and the one that is lettered
@@ -67,6 +72,7 @@ def _rocker(canvas: Canvas, scene: CamScene, cam: RockerCam) -> None:
         near, far = (0j if whole else min(at, end, key=abs)), max(at, end, key=abs)
         pen = Pen.MAIN if i == 0 else Pen.THIN
         canvas.add(Group((Line(near, at if i == 0 else far, pen),), "position", str(i)))
+    canvas.part("pivot")
     canvas.add(fixed_pivot(0j, "C", style))
     canvas.label("C", 0j, prefer=-1 + 1j, clear=style.pair + 1.0)
 
@@ -167,16 +173,20 @@ def _sides(scene: CamScene, cam: RockerCam) -> Iterator[Side]:
 def _nodes(canvas: Canvas, scene: CamScene) -> None:
     """Mark the roller's centre and the end of the analogue in every position, and number the ends."""
     shared: dict[complex, list[str]] = {}
+    canvas.part("positions")
     for i in scene.solved.layout.division.lines:
         at = scene.mm(f"{ROCKER_SIZES}.B{i}")
         canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"B{i}"))
+    canvas.part("analogues")
     for i, phase in on_lines(scene):
         at = _end(scene, i, phase)
         canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"{i}_{phase}"))
         key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
         shared.setdefault(key, []).append(str(i))
     middle, named = sum(shared) / len(shared), str(pressed(scene, SHOWN))
+    canvas.part("positions")
     canvas.label(f"B_{{{named}}}", scene.mm(f"{ROCKER_SIZES}.B{named}"), prefer=1 + 0j, height=scene.style.text)
+    canvas.part("analogues")
     for at, numbers in shared.items():
         text = f"D_{{{named}}}" if numbers == [named] else ", ".join(dict.fromkeys(numbers))
         height = scene.style.text if numbers == [named] else small(scene.style.text)
@@ -187,16 +197,19 @@ def _sizes(canvas: Canvas, scene: CamScene, cam: RockerCam, centre: complex) -> 
     """Mark the chosen centre; dimension r_0, l_OC, the rocker and its swing; show the sense of the cam."""
     words, style = scene.words, scene.style
     low, high = scene.mm(f"{ROCKER_SIZES}.B0"), scene.mm(f"{ROCKER_SIZES}.B{scene.solved.layout.division.top}")
+    canvas.part("centre")
     for name, end in (("r_0", low), ("l_OC", 0j)):
         unit = (end - centre) / abs(end - centre)
         canvas.add(Group((Line(centre, end, Pen.THIN), Head(end, unit), Head(centre, -unit)), "dimension", name))
         canvas.label(words.symbol(name), (centre, end), prefer=unit * 1j, clear=0.8, height=style.text)
+    canvas.part("positions")
     out = 1j * high / abs(high) * 3.0 * style.label
     linear(canvas, (0j, high), out, words.symbol("l_rocker"), "l_rocker")
     radius = 0.45 * abs(low)
     canvas.add(angle_dimension(0j, radius, 0.0, cam.rocker.motion.h, "psi", style))
     middle = cmath.rect(radius, 0.5 * cam.rocker.motion.h)
     canvas.label(words.symbol("psi"), middle, prefer=-1 + 0j, clear=1.0, height=style.text)
+    canvas.part("centre")
     canvas.add(Group((Circle(centre, style.node * 1.5, Pen.MAIN, fill="white"),), "point", "O"))
     canvas.label("O", centre, prefer=1 + 0j, clear=1.0)
     sense = scene.solved.cam.sense

@@ -30,18 +30,24 @@ def rocker_view(scene: CamScene) -> View:
     far = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in solved.layout.division.lines) + cam.profile.R / mu
     outer = max(abs(pivot), far)
     turned = cmath.phase(start / 1j)
+    canvas.part("shaft")
     centre(canvas, scene, sizes.r_0 / mu, far + 3.0, turned)
+    canvas.part("pivots")
     canvas.add(circle(sizes.r_0 / mu, "r_0"), circle(abs(pivot), "l_OC"))
     _positions(canvas, scene)
     curves(canvas, scene, cam.profile)
+    canvas.part("pivots")
     _numbers(canvas, scene, outer + NUMBERS * label)
     reach = outer + (PHASES + 1.0) * label
     phases(canvas, scene, reach * math.cos(cmath.phase(pivot)), reach)
+    canvas.part("sharpest")
     sharpest(canvas, scene, cam.profile)
     line = pressed(scene, SHOWN)
     _normal(canvas, scene, line)
+    canvas.part("follower")
     _follower(canvas, scene)
     left = _sizes(canvas, scene, dwelling(solved.motion, solved.cam.sense) + turned)
+    canvas.part("shaft")
     letter_centre(canvas, scene, sizes.r_0 / mu, turned)
     edge = reach + 1.2 * label
     canvas.bounds = -edge, -edge, edge, edge
@@ -60,10 +66,14 @@ def _positions(canvas: Canvas, scene: CamScene) -> None:
     for i, phi in enumerate(solved.angles.tolist()):
         pivot, at = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "AB")
         low = -solved.cam.sense * phi
+        canvas.part("pitch")
         canvas.add(Arc(pivot, l, low - over, swing + 2.0 * over, Pen.THIN, role="arc", name=str(i)))
         if i:
+            canvas.part("profile")
             canvas.add(Group((Circle(at, R, Pen.THIN),), "roller", str(i)))
+            canvas.part("pivots")
             canvas.add(Group((Circle(pivot, node, Pen.THIN, fill="white"),), "node", f"A{i}"))
+        canvas.part("pitch")
         canvas.add(Group((Circle(at, node, Pen.THIN, fill="white"),), "node", f"B{i}"))
 
 
@@ -84,6 +94,7 @@ def _normal(canvas: Canvas, scene: CamScene, i: int) -> None:
     assert cam is not None
     dpsi = float(cam.rocker.motion.at(float(scene.solved.angles[i]))[1]) * scene.solved.cam.sense
     pole = pivot * (dpsi / (dpsi - 1.0))  # the roller's velocity is that of the cam there
+    canvas.part("normal")
     canvas.add(Group((Line(pivot, at, Pen.THIN),), "rocker", str(i)))
     normal(canvas, scene, Contact(i, at, touch, pole, 1j * (at - pivot) / abs(at - pivot)))
 
@@ -110,10 +121,13 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
     cam, division = solved.rocker, solved.layout.division
     assert cam is not None
     sizes, R = cam.sizes, cam.profile.R
+    canvas.part("pivots")
     left = [radius_at(canvas, scene, "r_0", sizes.r_0, quiet, (0.0, (sizes.r_0 - R) / mu, sizes.r_0 / mu))]
     far = sizes.l_OC / mu
     left += [radius_at(canvas, scene, "l_OC", sizes.l_OC, quiet + ASIDE * solved.cam.sense, (sizes.r_0 / mu, far, far))]
+    canvas.part("profile")
     roller_radius(canvas, scene, [scene.mm(f"{PROFILE}.B{i}") for i in division.lines], R)
+    canvas.part("pitch")
     top = division.top
     pivot = scene.mm(f"{PROFILE}.A{top}")
     swing, low = cam.rocker.motion.h, -solved.cam.sense * float(solved.angles[top])

@@ -44,19 +44,26 @@ def roller_view(scene: CamScene) -> View:
     label = scene.style.label
     rod = Rod(e, s_0, outer + (PHASES + 1.2) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
+    canvas.part("shaft")
     centre(canvas, scene, roller.sizes.r_0 / mu, rod.top + 12.0, offset=abs(e))
+    canvas.part("circles")
     canvas.add(circle(roller.sizes.r_0 / mu, "r_0"))
     if abs(e) > 0.05:
         canvas.add(circle(abs(e), "e"))
     _positions(canvas, scene, e, reach - 0.9 * label)
     curves(canvas, scene, roller.profile)
+    canvas.part("lines")
     numbers(canvas, scene, e, reach)
     contact = _contact(scene, pressed(scene, SHOWN))
+    canvas.part("circles")
     phases(canvas, scene, e, outer + PHASES * label, past_normal(contact, scene.style))
+    canvas.part("sharpest")
     sharpest(canvas, scene, roller.profile)
     normal(canvas, scene, contact)
+    canvas.part("follower")
     _follower(canvas, scene, rod, R)
     left = _sizes(canvas, scene, rod)
+    canvas.part("shaft")
     letter_centre(canvas, scene, roller.sizes.r_0 / mu, offset=abs(e))
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
@@ -73,9 +80,12 @@ def _positions(canvas: Canvas, scene: CamScene, e: float, reach: float) -> None:
     for i, phi in enumerate(solved.angles.tolist()):
         up = unit_at(phi, solved.cam.sense)
         foot, at = scene.mm(f"{PROFILE}.E{i}"), scene.mm(f"{PROFILE}.B{i}")
+        canvas.part("lines")
         canvas.add(Line(foot, on_circle(e, reach, up), Pen.THIN, role="position", name=str(i)))
         if i:
+            canvas.part("profile")
             canvas.add(Group((Circle(at, R, Pen.THIN),), "roller", str(i)))
+        canvas.part("pitch")
         canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", str(i)))
 
 
@@ -100,12 +110,15 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
     assert roller is not None
     middle = quiet(solved.motion, sense)
     r_0 = roller.sizes.r_0
+    canvas.part("circles")
     left = radius_at(canvas, scene, "r_0", r_0, middle, (0.0, (r_0 - roller.profile.R) / mu, r_0 / mu))
     level = rod.top + 6.0
     ends = complex(0.0, rod.top), complex(rod.x, rod.top)
     linear(canvas, ends, 1j * (level - rod.top), f"{words.symbol('e')} = {scene.length(abs(roller.sizes.e))}", "e")
     division = solved.layout.division
+    canvas.part("profile")
     roller_radius(canvas, scene, [scene.mm(f"{PROFILE}.B{i}") for i in division.lines], roller.profile.R)
+    canvas.part("pitch")
     if rests(solved.motion):
         low = complex(rod.x, rod.low)
         out = complex(-sense * max(roller.profile.R / mu + OUT * scene.style.text, OUT * scene.style.label))

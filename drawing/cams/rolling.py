@@ -56,7 +56,8 @@ def curves(canvas: Canvas, scene: CamScene, profile: RollerProfile) -> None:
     mu = scene.mu_l
     pitch = profile.pitch(scene.solved.motion.samples()[:-1]) * (1.0 / mu)
     outline = profile.outline() * (1.0 / mu)
-    for points, pen, name in ((pitch, Pen.AXIS, "pitch"), (outline, Pen.MAIN, "practical")):
+    for points, pen, name, part in ((pitch, Pen.AXIS, "pitch", "pitch"), (outline, Pen.MAIN, "practical", "profile")):
+        canvas.part(part)
         canvas.add(Group((Polyline(tuple(points.tolist()), pen, closed=True),), "curve", name))
     corners(canvas, scene, profile.undercuts)
 
@@ -94,10 +95,12 @@ def normal(canvas: Canvas, scene: CamScene, contact: Contact) -> None:
     at, up = contact.at, contact.up
     out = (at - contact.touch) / abs(at - contact.touch)
     reach = REACH * style.label
+    canvas.part("normal")
     canvas.add(Line(contact.pole, past_normal(contact, style), Pen.THIN, role="normal", name=str(i)))
     canvas.add(Line(at - 1j * up * reach, at + 1j * up * reach, Pen.THIN, role="transverse", name=str(i)))
     canvas.add(Line(0j, contact.pole, Pen.THIN, role="transverse", name=f"P{i}"))
-    for mark, place in (("K", contact.touch), ("P", contact.pole)):
+    for mark, place, part in (("K", contact.touch, "profile"), ("P", contact.pole, "normal")):
+        canvas.part(part)
         canvas.add(Group((Circle(place, style.node, Pen.MAIN, fill="white"),), "point", f"{mark}{i}"))
         canvas.label(f"{mark}_{{{i}}}", place, prefer=place * 1j, clear=0.8, height=style.text)
     across = up * -1j if cmath.phase(up / out) > 0.0 else up * 1j
