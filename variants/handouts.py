@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
+from ..drawing.compose import Drawn
 from ..drawing.formats import format_named
 from ..drawing.handouts.begun import begun_pages
 from ..drawing.handouts.over import over_page
@@ -15,7 +16,7 @@ from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from .case import Case, Settings, solve_case
-from .sheets import Sheet, draw_case
+from .sheets import Sheet, draw_case, drawing_of, sheet_of, stamp_of
 from .task import Task
 
 PAPER = "A4"
@@ -63,7 +64,8 @@ def handout(
         raise InputError("handout-steps", text=str(steps))
     case = solve_case(task, variant, set, only, scales)
     if over is None and not key:
-        return begun_of_case(case, block or {}, steps, format, norm, notation, lang)
+        drawing = drawing_for_print(case, format, norm, notation, lang)
+        return begun_of_case(case, drawing, block or {}, steps, notation, lang)
     drawn = draw_case(case, block or {}, printable(format_named(format)), norm, notation, lang)
     if over is not None:
         figures = {view.name: view for view in drawn.views if not (view.rows or view.lines)}
@@ -73,19 +75,24 @@ def handout(
     return replace(drawn, pages=tuple(map(marked, drawn.pages)))
 
 
+def drawing_for_print(
+    case: Case, format: str = PAPER, norm: Norm = "gost", notation: str | None = None, lang: str = "uk"
+) -> Drawn:
+    """Draw the sheet of a case, but for its title block, on paper whose edge printers leave white."""
+    return drawing_of(case, printable(format_named(format)), norm, notation, lang)
+
+
 def begun_of_case(
     case: Case,
+    drawing: Drawn,
     block: Mapping[str, str],
     steps: int = 0,
-    format: str = PAPER,
-    norm: Norm = "gost",
     notation: str | None = None,
     lang: str = "uk",
 ) -> Sheet:
-    """Draw the handout of a case with so many steps done."""
-    drawn = draw_case(case, block, printable(format_named(format)), norm, notation, lang)
-    words = case.words(lang, notation)
-    shown = case.kind.begun(case, drawn.scales, words, steps)
+    """Return the handout of a case whose `drawing` is for print, with so many steps done."""
+    drawn = sheet_of(case, drawing, stamp_of(case, block, notation, lang))
+    shown = case.kind.begun(case, drawn.scales, case.words(lang, notation), steps)
     idle = (InputError("handout-stepless", task=case.task.id, steps=steps),) if steps and not shown else ()
     pages = tuple(map(marked, begun_pages(drawn.pages, drawn.views, shown)))
     return replace(drawn, pages=pages, warnings=(*drawn.warnings, *idle))

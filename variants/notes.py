@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..drawing.notes.blocks import Document, Figure, Heading, Sentences, TitlePage, blocks_of
+from ..drawing.compose import Drawn
+from ..drawing.notes.blocks import Block, Document, Figure, Heading, Sentences, TitlePage, blocks_of
 from ..drawing.notes.figures import figure_page
 from ..drawing.notes.markdown import markdown
 from ..drawing.notes.typst import pdf_bytes
@@ -108,26 +109,23 @@ def note(
     """
     case = solve_case(task, variant, set, only, scales)
     drawn = draw_case(case, {}, format, notation=notation, lang=lang)
-    return note_of_sheet(case, drawn, block, notation, lang, figure)
-
-
-def note_of_sheet(
-    case: Case,
-    drawn: Sheet,
-    block: dict[str, str],
-    notation: str | None = None,
-    lang: str = "uk",
-    figure: str | None = None,
-) -> Note:
-    """Write the note of a sheet that is drawn already."""
-    words = case.words(lang, notation)
-    said = packaged(TEXTS, "texts", lang)
-    story = case.kind.story(case, drawn.scales, words, said)
-    identity = sheet_id(case.task, case.variant, case.settings)
-    page = TitlePage(case.task.title[lang], case.task.id, case.variant, identity=identity, **block)
-    about = Sentences((said["note.about"].format(sheet=identity),))
-    end = (Heading(said["note.conclusions"]), Sentences(story.conclusions)) if story.conclusions else ()
-    found = Note(Document(page, (about, *blocks_of(drawn.views, story), *end), lang), drawn, figure)
+    document = Document(title_page(case, block, lang), body_of(case, drawn, notation, lang), lang)
+    found = Note(document, drawn, figure)
     if figure is not None and figure not in found.figures:
         raise unknown("figure-unknown", figure, found.figures)
     return found
+
+
+def title_page(case: Case, block: Mapping[str, str], lang: str) -> TitlePage:
+    """Return what the first page of the note of a case says."""
+    identity = sheet_id(case.task, case.variant, case.settings)
+    return TitlePage(case.task.title[lang], case.task.id, case.variant, identity=identity, **block)
+
+
+def body_of(case: Case, drawn: Drawn | Sheet, notation: str | None = None, lang: str = "uk") -> tuple[Block, ...]:
+    """Return what follows the first page: who the author is changes nothing of it."""
+    said = packaged(TEXTS, "texts", lang)
+    story = case.kind.story(case, drawn.scales, case.words(lang, notation), said)
+    about = Sentences((said["note.about"].format(sheet=sheet_id(case.task, case.variant, case.settings)),))
+    end = (Heading(said["note.conclusions"]), Sentences(story.conclusions)) if story.conclusions else ()
+    return about, *blocks_of(drawn.views, story), *end

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
 from ... import __version__
+from ...drawing.compose import Drawn
+from ...drawing.notes.blocks import Block, Document
 from ...drawing.notes.typst import pdf_bytes
 from ...drawing.pens import Norm
 from ...drawing.writers import page_files, slug
@@ -15,14 +18,17 @@ from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ...scales.units import format_unit
 from ..case import Case, solve_case
+from ..handouts import begun_of_case, drawing_for_print
 from ..journal import digest_of
+from ..notes import body_of, title_page
 from ..roster import Entry
 from ..sheet_id import sheet_id
-from ..sheets import Sheet, draw_case
+from ..sheets import Sheet, drawing_of, sheet_of, stamp_of
 from ..spreadsheets.grid import SHOWN
 from ..task import Task
 
 NOTE, HANDOUT = "note", "handout"
+KEPT = 32  # variants whose drawings a process keeps for the next students that have them
 FORMS = ("svg", "pdf", "png", NOTE, HANDOUT)
 
 
@@ -46,6 +52,42 @@ class Made:
     problem: str = ""
 
 
+@dataclass(frozen=True)
+class Work:
+    """What students with the same data share: all but the names; each part is made when it is first asked for."""
+
+    case: Case
+    drawing: Drawn
+    notation: str | None
+    language: str
+
+    @cached_property
+    def body(self) -> tuple[Block, ...]:
+        """The note after its first page."""
+        return body_of(self.case, self.drawing, self.notation, self.language)
+
+    @cached_property
+    def blank(self) -> Drawn:
+        """The drawing on the paper of handouts."""
+        return drawing_for_print(self.case, notation=self.notation, lang=self.language)
+
+    @cached_property
+    def key(self) -> dict[str, float | None]:
+        """The right values in the units in which they are shown, and the segments on the sheet, mm.
+
+        The names are those of the columns in which a class hands in its answers.
+        """
+        case, found = self.case, dict[str, float | None]()
+        for name, quantity in measured(case.solved.quantities, case.solved.shown_on, self.drawing.scales).items():
+            if quantity.kind != "point":
+                shown = quantity.shown(case.display)
+                unit = format_unit(shown.unit, self.language)
+                found[f"{name} [{unit}]" if unit else name] = shown.value
+                if quantity.mm is not None:
+                    found[f"{name}.mm"] = quantity.mm
+        return found
+
+
 @dataclass(frozen=True, slots=True)
 class Making:
     """What is made for every student of a class, and how; the values of a row go before `settings`."""
@@ -61,6 +103,7 @@ class Making:
     language: str = "uk"
     block: Mapping[str, str] = field(default_factory=dict)
     digits: int = 1
+    _works: dict[Hashable, Work] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def begin(self) -> Callable[[Student], Made]:
         """Return what makes the files of a student."""
@@ -80,41 +123,41 @@ class Making:
             return Made(student.entry.variant, problem=f"{place}{error.text(self.language)}")
 
     def _made(self, student: Student) -> Made:
-        case = self._case(student.entry)
-        who = student.entry.who
+        who, work = student.entry.who, self._work(student.entry)
+        case = work.case
         block = {**self.block, "student": who.student, "group": who.group or self.block.get("group", "")}
-        drawn = draw_case(case, block, self.format, self.norm, self.notation, self.language)
+        drawn = sheet_of(case, work.drawing, stamp_of(case, block, self.notation, self.language))
         stem = f"{student.number:03d}-{slug(f'{who.student} {case.variant}')}"
-        files = {name: data for kind in self.kinds for name, data in self._files(case, block, drawn, kind, stem)}
+        files = {name: data for kind in self.kinds for name, data in self._files(work, block, drawn, kind, stem)}
         notes = tuple(warning.text(self.language) for warning in drawn.warnings)
-        return Made(
-            case.variant,
-            sheet_id(case.task, case.variant, case.settings),
-            files,
-            _key(case, drawn, self.language),
-            notes,
-        )
+        return Made(case.variant, sheet_id(case.task, case.variant, case.settings), files, work.key, notes)
 
     def _files(
-        self, case: Case, block: dict[str, str], drawn: Sheet, kind: str, stem: str
+        self, work: Work, block: dict[str, str], drawn: Sheet, kind: str, stem: str
     ) -> Iterator[tuple[str, bytes]]:
         """Go through the files of one kind: their names and what they hold."""
         if kind == NOTE:
-            from ..notes import note_of_sheet
-
             page = {name: text for name, text in block.items() if name != "designation"}
-            document = note_of_sheet(case, drawn, page, self.notation, self.language).document
+            document = Document(title_page(work.case, page, self.language), work.body, self.language)
             yield f"{stem}-note.pdf", pdf_bytes(document)
             return
         if kind == HANDOUT:
-            from ..handouts import begun_of_case
-
-            drawn, stem, kind = (
-                begun_of_case(case, block, lang=self.language, notation=self.notation),
-                f"{stem}-handout",
-                "pdf",
-            )
+            drawn = begun_of_case(work.case, work.blank, block, notation=self.notation, lang=self.language)
+            stem, kind = f"{stem}-handout", "pdf"
         yield from ((path.name, data) for path, data in page_files(drawn.pages, Path(f"{stem}.{kind}")))
+
+    def _work(self, entry: Entry) -> Work:
+        """Return what students with these data share, from the last ones where it is there."""
+        if entry.problem is not None:
+            raise entry.problem
+        data = entry.variant_of(self.task, self.digits), frozenset(entry.settings.items())
+        if data not in self._works:
+            for oldest in [*self._works][: len(self._works) + 1 - KEPT]:
+                del self._works[oldest]
+            case = self._case(entry)
+            drawing = drawing_of(case, self.format, self.norm, self.notation, self.language)
+            self._works[data] = Work(case, drawing, self.notation, self.language)
+        return self._works[data]
 
     def _case(self, entry: Entry) -> Case:
         """Solve the variant of a row with its data.
@@ -122,27 +165,9 @@ class Making:
         Raises
         ------
         InputError
-            The row was wrong, or says no variant.
+            The row says no variant, or the data have no solution.
         """
-        if entry.problem is not None:
-            raise entry.problem
         variant = entry.variant_of(self.task, self.digits)
         if not variant:
             raise InputError("batch-no-variant", known=quote(", ".join(self.task.variants), SHOWN))
         return solve_case(self.task, variant, {**self.settings, **entry.settings}, self.only, self.scales)
-
-
-def _key(case: Case, drawn: Sheet, language: str) -> dict[str, float | None]:
-    """Return the right values in the units in which they are shown, and the segments on the sheet, mm.
-
-    The names are those of the columns in which a class hands in its answers.
-    """
-    found: dict[str, float | None] = {}
-    for name, quantity in measured(case.solved.quantities, case.solved.shown_on, drawn.scales).items():
-        if quantity.kind != "point":
-            shown = quantity.shown(case.display)
-            unit = format_unit(shown.unit, language)
-            found[f"{name} [{unit}]" if unit else name] = shown.value
-            if quantity.mm is not None:
-                found[f"{name}.mm"] = quantity.mm
-    return found
