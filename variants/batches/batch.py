@@ -201,7 +201,8 @@ def _run(
         if (outcome := journal.found(digest)) is not None and outcome.there(folder)
     }
     advance(len(found), len(students))
-    todo = [number for number in range(len(students)) if number not in found]
+    # students with the same data one after another, as these share what is drawn
+    todo = sorted((n for n in range(len(students)) if n not in found), key=lambda n: students[n].data)
     for done in crew(making, [students[number] for number in todo]):
         for one in done:
             number = todo[one.place]

@@ -39,6 +39,12 @@ class Student:
     number: int
     entry: Entry
 
+    @property
+    def data(self) -> tuple[str, str, tuple[tuple[str, str], ...]]:
+        """What the work depends on; of a record book the last digits decide, read from its end."""
+        entry = self.entry
+        return entry.variant, entry.who.book[::-1], tuple(sorted(entry.settings.items()))
+
 
 @dataclass(frozen=True, slots=True)
 class Made:
