@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import re
+import time
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from io import BytesIO
@@ -12,7 +13,7 @@ from pathlib import Path
 from typing import BinaryIO, TypeAlias
 
 from ..scales.arguments import of_kind
-from ..scales.errors import InputError
+from ..scales.errors import InputError, OutputError
 from ..scales.numbers import quote
 from .page import Page
 
@@ -42,6 +43,9 @@ WRITERS: dict[str, Writer] = {".svg": _svg, ".pdf": _pdf, ".png": _png}
 SUFFIXES = tuple(WRITERS)
 ONE_PAGE = {".svg", ".png"}  # several pages become x-1.svg, x-2.svg, ...
 SHOWN = 200  # characters of a path in a message
+PART = ".part"  # ends the names of files that are not whole yet
+PAUSES = (0.05, 0.1, 0.2, 0.4) if os.name == "nt" else ()  # seconds between attempts
+_LEFT = re.compile(r"\.(.+)\.\d+\.part")
 LONGEST = 120  # bytes of a name within that of a file: systems take 255 for the whole
 
 
@@ -194,8 +198,9 @@ def folder_for(folder: str | os.PathLike[str]) -> Path:
     try:
         path.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as problem:
+        kind = OutputError if isinstance(problem, OSError) else InputError
         reason = getattr(problem, "strerror", "") or ""
-        raise InputError("output-refused", file=quote(path, SHOWN), reason=reason) from None
+        raise kind("output-refused", file=quote(path, SHOWN), reason=reason) from None
     return path
 
 
@@ -215,23 +220,51 @@ def _write(files: Files) -> None:
     waiting: list[tuple[Path, Path]] = []
     try:
         for path, data in files:
-            beside = path.with_name(f".{path.name}.{os.getpid()}.part")
+            beside = path.with_name(f".{path.name}.{os.getpid()}{PART}")
             waiting.append((beside, path))
-            with _told(path), beside.open("xb") as stream:
-                stream.write(data)
+            with refused(path):
+                beside.unlink(missing_ok=True)  # of a killed run that had the same number
+                with beside.open("xb") as stream:
+                    stream.write(data)
         for beside, path in waiting:
-            with _told(path):
-                os.replace(beside, path)
+            with refused(path):
+                _replace(beside, path)
     finally:
         for beside, _ in waiting:
             with suppress(OSError):
                 beside.unlink()
 
 
+def _replace(beside: Path, path: Path) -> None:
+    """Put a whole file in its place; on Windows a scanner of viruses may keep the new one for a moment."""
+    for pause in PAUSES:
+        try:
+            return os.replace(beside, path)
+        except PermissionError:
+            time.sleep(pause)
+    return os.replace(beside, path)
+
+
+def sweep_parts(folder: Path, own: Callable[[str], bool]) -> None:
+    """Remove what killed runs have left half-written of the files whose names are their `own`."""
+    with suppress(OSError):
+        for path in folder.glob(f".*{PART}"):
+            name = _LEFT.fullmatch(path.name)
+            if name is not None and own(name[1]):
+                with suppress(OSError):
+                    path.unlink()
+
+
 @contextmanager
-def _told(path: Path) -> Iterator[None]:
-    """Say which file the system refuses to write."""
+def refused(path: Path) -> Iterator[None]:
+    """Say which file the system refuses to write.
+
+    Raises
+    ------
+    OutputError
+        For what the system says.
+    """
     try:
         yield
     except OSError as problem:
-        raise InputError("output-refused", file=quote(path, SHOWN), reason=problem.strerror or "") from None
+        raise OutputError("output-refused", file=quote(path, SHOWN), reason=problem.strerror or "") from None

@@ -1,4 +1,4 @@
-"""What a long run has finished, a line each, so that a killed one can be gone on with; gone when all is done."""
+"""What a long run has finished, a line each, so that a killed one can be gone on with."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from ..drawing.writers import write_whole
+from ..drawing.writers import refused, write_whole
 from ..scales.errors import InputError
 
 Result = TypeVar("Result")
@@ -31,9 +31,12 @@ class Journal(Generic[Result]):
     ) -> None:
         self.path, self.dump = path, dump
         self.before: dict[str, Result] = {}
-        with suppress(FileNotFoundError):
-            for line in path.read_text(encoding="utf-8").splitlines():
-                with suppress(ValueError, KeyError, TypeError):  # the last line of a killed run may be torn
+        self._torn = False
+        with suppress(OSError):  # what cannot be read is made again
+            text = path.read_bytes().decode("utf-8", "replace")
+            self._torn = text[-1:] not in ("", "\n")  # the last line of a killed run
+            for line in text.splitlines():
+                with suppress(ValueError, KeyError, TypeError, AttributeError):  # torn, or no line of a journal
                     item = json.loads(line)
                     self.before[item["digest"]] = load(item["result"])
 
@@ -42,9 +45,17 @@ class Journal(Generic[Result]):
         return self.before.get(digest)
 
     def note(self, digest: str, result: Result) -> None:
-        """Keep a result."""
-        with self.path.open("a", encoding="utf-8") as stream:
-            stream.write(self._line(digest, result))
+        """Keep a result.
+
+        Raises
+        ------
+        OutputError
+            It cannot be written.
+        """
+        line = self._line(digest, result)
+        with refused(self.path), self.path.open("ab") as stream:
+            stream.write(f"\n{line}".encode("ascii") if self._torn else line.encode("ascii"))
+        self._torn = False
 
     def keep(self, results: Iterable[tuple[str, Result]]) -> None:
         """Keep these results alone, for a run that comes later, each with its digest."""

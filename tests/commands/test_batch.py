@@ -188,7 +188,7 @@ def test_a_full_disk_leaves_nothing_half_written(tmp_path: Path) -> None:
         [sys.executable, "-c", LIMITED, "9000", *arguments], capture_output=True, text=True, check=False
     )
 
-    assert full.returncode == 2
+    assert full.returncode == 4
     assert full.stderr.count("\n") == 1
     assert [name for name in files(out) if name.endswith((".svg", ".pdf", ".part"))] == []
     subprocess.run([sys.executable, "-c", LIMITED, "1000000", *arguments], check=True, capture_output=True)
@@ -213,7 +213,7 @@ def test_a_killed_run_is_gone_on_with(tmp_path: Path, made: list[int]) -> None:
     batch(TASK, file, out, kinds=["svg"], lang="en", jobs=1)
 
     assert 8 <= before <= 12
-    assert set(made).isdisjoint(range(1, 8))  # a piece of eight is noted as it is written
+    assert len(made) <= 13 - before  # all that is there is noted, but for the last one
     batch(TASK, file, tmp_path / "whole", kinds=["svg"], lang="en", jobs=1)
     assert files(out) == files(tmp_path / "whole")
 
