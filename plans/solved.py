@@ -12,6 +12,8 @@ from .board import Program
 from .boards.exact import Status, Trouble
 from .quantities import Quantity
 
+PAPER_MM = 1e-3  # metres of paper in a millimetre: diagrams are drawn in these
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Solved:

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from ...plans.cams.integration import DIAGRAMS
 from ...plans.cams.motion import Phase
-from ...plans.cams.solve import PAPER_MM, SCALES, SolvedCam
+from ...plans.cams.solve import SCALES, SolvedCam
+from ...plans.solved import PAPER_MM
 from ...scales.scale import Scale
 from ..givens import Given
 from ..printed import decimals_for
@@ -83,6 +84,13 @@ class CamScene:
     def length(self, value: float) -> str:
         """Return a length of the mechanism in mm, as a dimension has it."""
         return self.words.number(value * 1e3, 2)
+
+    def stated(self, name: str, value: float) -> str:
+        """Return a length of the mechanism with its letter in mm, as a sentence has it; a given as it is given."""
+        given = self.givens.get(name)
+        if given is not None and given.unit == "mm" and not isinstance(given.value, str):
+            return f"{self.words.symbol(name)} = {self.words.short(given.value)} {self.words.unit('mm')}"
+        return f"{self.words.symbol(name)} = {self.length(value)} {self.words.unit('mm')}"
 
     def degrees(self, angle: float) -> str:
         """Return an angle as a dimension has it: to a hundredth of a degree, without zeros at the end."""

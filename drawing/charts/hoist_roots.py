@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...plans.hoist.finders import BISECTION, BRENT, ILLINOIS, NEWTON, SECANT
-from ...plans.hoist.root_race import Course, RootRace
+from ...plans.hoist.root_race import RootRace, Ways
 from ..words import Words
 from .paper import BLACK, SMALL, TEXT, box, page
 
@@ -40,11 +40,11 @@ def roots_page(found: RootRace, words: Words, title: str) -> Figure:
     return page(title, words["chart.hoist.roots_note"], draw)
 
 
-def _field(axes: Axes, course: Course, words: Words, key: str, corner: str) -> None:
-    axes.set_title(words[key].format(x=words.short(course.root, 5)), loc="left", fontsize=TEXT + 0.5, pad=5.0)
+def _field(axes: Axes, ways: Ways, words: Words, key: str, corner: str) -> None:
+    axes.set_title(words[key].format(x=words.short(ways.root, 5)), loc="left", fontsize=TEXT + 0.5, pad=5.0)
     for method, (line, marker) in LOOKS.items():
-        found = course.found[method]
-        error = np.maximum(course.errors[method][: min(found.evaluations + 1, SHOWN)], FLOOR)
+        found = ways.found[method]
+        error = np.maximum(ways.errors[method][: min(found.evaluations + 1, SHOWN)], FLOOR)
         said = "chart.hoist.fails" if np.isnan(found.root) else "chart.hoist.stops"
         label = words[said].format(method=words[f"chart.{method}"], n=found.evaluations)
         look: Any = {"marker": marker, "ms": 3.8, "mfc": "white", "mew": 0.8, "lw": 0.9, "clip_on": True}

@@ -7,7 +7,8 @@ from collections.abc import Iterable
 
 from ...plans.gears.meshing_plan import MESHING
 from ...plans.gears.sliding_plan import SLIDING, THETA
-from ...plans.gears.solve import PAPER_MM, SolvedGear
+from ...plans.gears.solve import SolvedGear
+from ...plans.solved import PAPER_MM
 from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, steps
 

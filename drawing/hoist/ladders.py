@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from ...plans.hoist.beam_plans import BENT, SCHEME
 from ...plans.hoist.model import CIRCLE
-from ...plans.hoist.paper import MM
-from ...plans.hoist.paper import UNITS as SCALED
+from ...plans.hoist.paper import SCALED
 from ...plans.hoist.solve import SCALES, SolvedHoist
+from ...plans.solved import PAPER_MM
 from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, steps
 
@@ -33,7 +33,7 @@ def scales_of(solved: SolvedHoist, choosers: Choosers) -> dict[str, Scale]:
     found = {}
     for plan, symbol in solved.scale_of_plan.items():
         if symbol in SCALED:
-            found[plan] = Scale(symbol, float(solved.values[symbol]) * MM, SCALED[symbol])
+            found[plan] = Scale(symbol, float(solved.values[symbol]) * PAPER_MM, SCALED[symbol])
         else:
             ladder = scheme_ladder if plan == SCHEME else circle_ladder
             found[plan] = Scale(symbol, ladder(solved, choosers)[0], "m" if plan == SCHEME else "N")

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ...plans.hoist.paper import MM
-from ...plans.hoist.paper import UNITS as SCALED
+from ...plans.hoist.paper import SCALED
 from ...plans.hoist.solve import ON_PAPER, SCALES, SolvedHoist
+from ...plans.solved import PAPER_MM
 from ...scales.scale import Scale
 from ..givens import Given
 from ..printed import decimals_for
@@ -38,13 +38,13 @@ class HoistScene:
     def scale(self, symbol: str) -> Scale:
         """Return a scale factor as it is drawn."""
         if symbol in SCALED:
-            return Scale(symbol, float(self.solved.values[symbol]) * MM, SCALED[symbol])
+            return Scale(symbol, float(self.solved.values[symbol]) * PAPER_MM, SCALED[symbol])
         return Scale(symbol, self.mus[symbol], "m" if symbol == "mu_l" else "N")
 
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""
         plan = mark.rpartition(".")[0]
-        return self.solved.point(mark) * (1.0 / (MM if plan in ON_PAPER else self.mus[SCALES[plan]]))
+        return self.solved.point(mark) * (1.0 / (PAPER_MM if plan in ON_PAPER else self.mus[SCALES[plan]]))
 
     def value(self, value: float) -> str:
         """Return a value with the usual digits."""

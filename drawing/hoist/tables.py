@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ...plans.hoist.checks import STRENGTH, Check
-from ...plans.hoist.paper import UNITS as SCALED
+from ...plans.hoist.paper import SCALED
 from ...plans.hoist.sections import DRAWN, section_of
 from ...plans.hoist.solve import unit_of
 from ..givens import Given, givens_view

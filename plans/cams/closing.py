@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .division import Division
-from .formulas import MM
+from .formulas import MM_PER_M
 from .integration import ACCELERATION, TRAVEL, VELOCITY
 from .sectioned import ordinates
 from .solve import SolvedCam
@@ -40,7 +40,7 @@ def travel_errors(
     dict of str to array of `shape`
         By `WAYS`; where the velocity is given there is none to be closed. The travel is scaled by its own stroke.
     """
-    x = angles * (1.0 / (solved.givens["mu_phi"] * MM))
+    x = angles * (1.0 / (solved.givens["mu_phi"] * MM_PER_M))
     travel = ordinates(values, TRAVEL, division, *shape)
     closed = {AS_DRAWN: travel, STROKE: stroke_closed(travel, x)}
     if solved.layout.given == ACCELERATION:

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..laws import define, dot
 
-MM = 1e3  # millimetres in a metre of paper
+MM_PER_M = 1e3  # millimetres in a metre of paper
 ARC = "arc_length"  # the law of the stroke of a rocker
 SHARPEST = "sharpest"  # the law of the least radius of curvature
 
@@ -93,22 +93,22 @@ define(
     # A_2 = A_1 * u / (1 - u): both lobes have the same area
     second_amplitude=lambda amplitude, u: amplitude * u / (1.0 - u),
     # x = phi / mu_phi
-    on_axis=lambda angle, mu: angle / (mu * MM),
+    on_axis=lambda angle, mu: angle / (mu * MM_PER_M),
     # an ordinate of the given diagram is a part of its amplitude
     part_of_amplitude=lambda amplitude, part: amplitude * part,
     # greatest ordinates of the curves drawn after a law: parts of A * x / H_a and of A * x^2 / (H_a * H_v)
     first_integral=lambda part, amplitude, length, pole: part * amplitude * length / pole,
     second_integral=lambda part, amplitude, length, pole, other: part * amplitude * length * length / (pole * other),
     # mu = value / mm
-    scale_factor=lambda value, length: value / (length * MM),
+    scale_factor=lambda value, length: value / (length * MM_PER_M),
     # mu_ds = mu_s / (mu_phi * H_v), mu_d2s = mu_ds / (mu_phi * H_a)
-    derived_scale=lambda mu, mu_axis, pole: mu / (mu_axis * pole * MM),
+    derived_scale=lambda mu, mu_axis, pole: mu / (mu_axis * pole * MM_PER_M),
     # mu_v = omega * mu_ds, mu_a = omega^2 * mu_d2s
     speed_scale=lambda omega, mu: omega * mu,
     acceleration_scale=lambda omega, mu: omega * omega * mu,
     # value = mm * mu
-    to_scale=lambda mu, length: mu * length * MM,
-    ordinate_to_scale=lambda mu, up, segment: dot(up, segment) * mu * MM,
+    to_scale=lambda mu, length: mu * length * MM_PER_M,
+    ordinate_to_scale=lambda mu, up, segment: dot(up, segment) * mu * MM_PER_M,
     # tg nu = mu_s / mu_ds
     transfer_angle=_angle,
     # a size of a mechanism is proportional to the travel

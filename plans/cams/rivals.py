@@ -23,7 +23,7 @@ from ..hands.shaky import draw
 from ..hands.spread import kept
 from .convergence import DRAWINGS, SEED
 from .division import Division
-from .formulas import MM
+from .formulas import MM_PER_M
 from .integration import ACCELERATION, TRAVEL, VELOCITY
 from .motion import TURN, Motion
 from .sectioned import drawn_on, equal_division, inner_jumps, nodes, ordinates
@@ -229,5 +229,5 @@ def _drawn(solved: SolvedCam, division: Division, values: Any, *shape: int) -> C
     if solved.layout.given != ACCELERATION:
         return travel, np.zeros_like(travel)
     return travel, ordinates(values, VELOCITY, division, *shape) * (
-        1.0 / (solved.givens["H_v"] * solved.givens["mu_phi"] * MM)
+        1.0 / (solved.givens["H_v"] * solved.givens["mu_phi"] * MM_PER_M)
     )

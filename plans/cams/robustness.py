@@ -15,7 +15,7 @@ from ..hands.spread import kept
 from .closing import travel_errors
 from .convergence import DRAWINGS, SEED
 from .division import Division
-from .formulas import MM
+from .formulas import MM_PER_M
 from .integration import ACCELERATION, TRAVEL, VELOCITY
 from .sectioned import NEAR, drawn_on, exact_values, inner_jumps, nodes, ordinates
 from .solve import SolvedCam
@@ -117,4 +117,4 @@ def _closing(solved: SolvedCam, angles: Array, division: Division, hand: Hand) -
 
 
 def _millimetres(ordinates: Array) -> float:
-    return float(kept(ordinates, 0.0)) * MM
+    return float(kept(ordinates, 0.0)) * MM_PER_M

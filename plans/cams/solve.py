@@ -10,7 +10,7 @@ from ..board import Program, with_needs
 from ..boards.exact import run
 from ..laws import LAWS
 from ..quantities import Quantity, quantities, shown_on
-from ..solved import Solved
+from ..solved import PAPER_MM, Solved
 from .cam import PLANS, PLATE, ROCKER, ROLLER, SIZES_PART, Cam
 from .construction import NEEDS, Layout, construct
 from .division import Division
@@ -49,7 +49,6 @@ SHOWN_ON = {
 }
 # how the numbers that a task has on the paper of the diagrams change with the size of the drawing
 REDUCED = {"l_A1": 1, "H_a": 1, "H_v": 1, "mu_phi": -1}
-PAPER_MM = 1e-3  # metres of paper in a millimetre: the diagrams are drawn in these
 UNITS = {
     "v_max": "m/s",
     "a_max": "m/s^2",

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from .cam import VALUES
 from .solve import SolvedCam, unit_of
 
 DEGREE = math.radians(1.0)
@@ -32,8 +33,6 @@ GIVEN = {
 }
 # what follows is looked at where all that is given is usual
 FOUND = {"r_0": (2e-3, 1.0), "r_0_flat": (2e-3, 1.0), "a_max": (0.0, 1e5)}
-UNITS = {"phi_rise": "rad", "phi_fall": "rad", "psi": "rad", "gamma_rise": "rad", "gamma_fall": "rad", "omega": "rad/s"}
-PLAIN = ("u", "u_fall")
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,5 +56,5 @@ def _beyond(solved: SolvedCam, usual: dict[str, tuple[float, float]]) -> Iterato
     for name, (least, most) in usual.items():
         value = solved.givens.get(name) if usual is GIVEN else solved.values.get(name)
         if value is not None and not least * (1.0 - 1e-9) <= value <= most * (1.0 + 1e-9):
-            unit = "" if name in PLAIN else UNITS.get(name) or unit_of(name)
+            unit = VALUES[name] if name in VALUES else unit_of(name)
             yield Unusual(name, unit, float(value), least, most)

@@ -11,7 +11,7 @@ from typing import Any
 from ...scales.scale import steps
 from ..boards.exact import run
 from ..quantities import Quantity, quantities, shown_on
-from ..solved import Solved
+from ..solved import PAPER_MM, Solved
 from .checks import Check, checks, cut, on_flanks
 from .construction import Layout, construct
 from .gear import PLANS, WHEELS, GearPair
@@ -32,7 +32,6 @@ SHOWN_ON = dict.fromkeys(
     ),
     MESHING,
 )
-PAPER_MM = 1e-3  # metres of paper in a millimetre: the diagrams are drawn in these
 LONGEST = 250.0  # mm, that N1N2 may be under the diagrams
 # the three points of the table that stand in A1, P, A2, in the order in which these follow from N1 to N2
 MARKS = tuple(POINTS[sum(n for _, n in DIVISIONS[: k + 1])] for k in range(3))

@@ -8,8 +8,9 @@ from ..hands.adding import added_up
 from ..hands.hand import Tolerance
 from ..hands.shaky import Paper
 from ..marking.key import rounded
+from ..solved import PAPER_MM
 from .gear import WHEELS
-from .solve import PAPER_MM, SolvedGear
+from .solve import SolvedGear
 
 ANGULAR = tuple(f"{name}{i}{end}" for name, end in (("phi_alpha", "_drawn"), ("epsilon_alpha_arc", "")) for i in WHEELS)
 # curvatures of both flanks at the ends of the active line

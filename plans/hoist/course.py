@@ -14,12 +14,12 @@ from ..board import Board, Program, RecordingBoard
 from ..boards.exact import ExactBoard
 from ..columned import Columned
 from ..laws import TURN
-from .model import rope_force
+from .lift_off import rope_force
 from .onesided import OneSided, Piece
 
 Array = NDArray[np.float64]
 # what is known over time, and in what; the forces of both phases are one
-UNITS = {"t": "s", "y": "m", "s": "m", "F_01": "N", "F_12": "N", "sigma": "Pa", "w_0": "m", "w_2": "m"}
+COLUMN_UNITS = {"t": "s", "y": "m", "s": "m", "F_01": "N", "F_12": "N", "sigma": "Pa", "w_0": "m", "w_2": "m"}
 EMPTY: Mapping[str, Array] = {}
 BOTH, ROPE, SUPPORT, NEITHER = ("both", "rope", "support", "neither")  # what bears the load
 
@@ -128,7 +128,9 @@ def _course(
     board = ExactBoard({**found, **known})
     board.follow(_programs()[1])
     values = {**board.values, **instead}
-    return Course(tuple(Columned(name, of, np.asarray(values[name], float)) for name, of in UNITS.items()), states)
+    return Course(
+        tuple(Columned(name, of, np.asarray(values[name], float)) for name, of in COLUMN_UNITS.items()), states
+    )
 
 
 def end_of(found: Mapping[str, float], motion: OneSided | None) -> float:

@@ -9,7 +9,8 @@ angles; `T` stands where the force is greatest.
 from __future__ import annotations
 
 from ..board import Board
-from .model import CIRCLE, HORIZONTAL, rope_force
+from .lift_off import rope_force
+from .model import CIRCLE, HORIZONTAL
 
 FORCES = "forces"
 UP = "_up"

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
 
-from .series import cosine_rest, sine_rest
+from .roots import bracket, lag, lag_rate
 
 Function = Callable[[float], float]
 BISECTION, NEWTON, SECANT, ILLINOIS, BRENT = "bisection", "newton-root", "secant", "illinois", "brent"
@@ -60,17 +60,13 @@ def lift_off_equation(V: float, a: float, k: float, height: float) -> Equation:
     u, wanted = a / k, k * height
 
     def value(x: float) -> float:
-        return float(V * sine_rest(x) + u * cosine_rest(x)) - wanted
+        return float(lag(V, u, x)) - wanted
 
     def slope(x: float) -> float:
-        half = math.sin(0.5 * x)
-        return 2.0 * V * half * half + u * float(sine_rest(x))
+        return float(lag_rate(V, u, x))
 
-    def wound(length: float) -> float:
-        return 2.0 * length / (V + math.sqrt(V * V + 2.0 * a * length)) if length > 0.0 else 0.0
-
-    low, high = wound(height - V / k), wound(height + V / k + 2.0 * a / (k * k))
-    return Equation(value, slope, k * low, k * high)
+    low, high = bracket(V, a, k, height)
+    return Equation(value, slope, float(low), float(high))
 
 
 Guess = tuple[float, float]  # an approximation, and how far it is believed to be from the root

@@ -16,7 +16,6 @@ import numpy as np
 
 from ..laws import TURN, define
 from . import roots
-from .series import cosine_rest, sine_rest
 
 FAR = 1.0 / (9.0 * math.sqrt(3.0))
 
@@ -42,15 +41,12 @@ def _oscillation_rate(V: Any, a: Any, k: Any, t: Any) -> Any:
 def _lagging(V: Any, a: Any, k: Any, t: Any) -> Any:
     """Return what is wound up less the oscillation, without cancellation."""
     x, period = _phase(k, t)
-    swinging = (V * sine_rest(x) + a * period * cosine_rest(x)) * period
-    return np.where(np.isinf(k), V * t + 0.5 * a * t * t, swinging)
+    return np.where(np.isinf(k), V * t + 0.5 * a * t * t, roots.lag(V, a * period, x) * period)
 
 
 def _load_rate(V: Any, a: Any, k: Any, t: Any) -> Any:
     x, period = _phase(k, t)
-    half = np.sin(0.5 * x)
-    swinging = 2.0 * V * (half * half) + a * period * sine_rest(x)
-    return np.where(np.isinf(k), V + a * t, swinging)
+    return np.where(np.isinf(k), V + a * t, roots.lag_rate(V, a * period, x))
 
 
 def _larger_of(first: Any, second: Any) -> Any:

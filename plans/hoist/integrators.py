@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .roots import time_to_wind
 from .steppers import STEPPERS, Motion, State, Stepper, growth, stability_limit
 
 Array = NDArray[np.float64]
@@ -27,7 +28,7 @@ MARGIN = 1.5  # times as long as the exact lift-off can take
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class Trace:
     """States at the steps, a row a step, a column a hoist: times, s, displacements from the static one, velocities."""
 
     t: Array
@@ -126,7 +127,7 @@ class Hoists:
         height = self.m * self.g * yielding + np.where(
             self.rigid, 0.0, self.V_t / self.k + 2.0 * self.a / (self.k * self.k)
         )
-        found: Array = 2.0 * height / (self.V_t + np.sqrt(self.V_t * self.V_t + 2.0 * self.a * height))
+        found: Array = time_to_wind(self.V_t, self.a, height)
         return found
 
 
@@ -172,20 +173,20 @@ def _located(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
 def _missed(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
     until = hoists.latest() + 2.0 * math.pi / hoists.k_1
     none = np.zeros_like(h)
-    course = _steps(STEPPERS[method], hoists.one_sided(), none, (none, none), h, int(np.ceil(until / h).max()) + 1)
-    force = hoists.force(course.t, (course.u, course.v))
-    off = (hoists.lift(course.t, (course.u, course.v)) >= 0.0).argmax(axis=0)
+    trace = _steps(STEPPERS[method], hoists.one_sided(), none, (none, none), h, int(np.ceil(until / h).max()) + 1)
+    force = hoists.force(trace.t, (trace.u, trace.v))
+    off = (hoists.lift(trace.t, (trace.u, trace.v)) >= 0.0).argmax(axis=0)
     own = np.arange(len(off))
-    t_1 = course.t[off, own]
+    t_1 = trace.t[off, own]
     end = t_1 + 2.0 * math.pi / hoists.k_1
-    before, after = course.t <= t_1, (course.t >= t_1) & (course.t <= end + h)
+    before, after = trace.t <= t_1, (trace.t >= t_1) & (trace.t <= end + h)
     F_12_max, P_12_max = (np.max(force, axis=0, initial=-np.inf, where=part) for part in (before, after))
     steps = (z, off, np.ceil((end - t_1) / h).astype(np.int64))
-    return _judged(hoists, method, steps, (t_1, force[off, own], F_12_max, P_12_max), (course.t, force, end))
+    return _judged(hoists, method, steps, (t_1, force[off, own], F_12_max, P_12_max), (trace.t, force, end))
 
 
 def _judged(
-    hoists: Hoists, method: str, taken: tuple[Array, Any, Any], found: tuple[Array, ...], course: tuple[Array, ...]
+    hoists: Hoists, method: str, taken: tuple[Array, Any, Any], found: tuple[Array, ...], trace: tuple[Array, ...]
 ) -> Run:
     """Refuse what the method has made grow."""
     z, first, last = taken
@@ -196,23 +197,23 @@ def _judged(
     beyond = (np.where(hoists.rigid, z_1, z) > limit) & (limit > 0.0)
     refused: Flags = beyond | (grown > GROWN) | ~np.isfinite(found[0])
     t_1, F_12_t1, F_12_max, P_12_max = (np.where(refused, np.nan, one) for one in found)
-    t, force, end = course
+    t, force, end = trace
     over = refused | (t > end)
     highest = np.maximum(F_12_max, P_12_max)
     masked = (np.where(over, np.nan, one) for one in (t, force))
     return Run(z, t_1, F_12_t1, F_12_max, P_12_max, highest, grown, refused, first + last, *masked)
 
 
-def _steps(take: Stepper, motion: Motion, t: Array, state: State, h: Array, count: int) -> Course:
+def _steps(take: Stepper, motion: Motion, t: Array, state: State, h: Array, count: int) -> Trace:
     """Go so many steps."""
     rows = [(t, *state)]
     for i in range(count):
         state = take(motion, t + i * h, state, h)
         rows.append((t + (i + 1) * h, *state))
-    return _course(rows)
+    return _trace(rows)
 
 
-def _until_lift_off(hoists: Hoists, method: str, t: Array, state: State, h: Array) -> tuple[Course, Any]:
+def _until_lift_off(hoists: Hoists, method: str, t: Array, state: State, h: Array) -> tuple[Trace, Any]:
     """Step until every load has left its support; return the steps, and time and state where it does."""
     take, motion = STEPPERS[method], hoists.on_support()
     rows = [(t, *state)]
@@ -233,28 +234,28 @@ def _until_lift_off(hoists: Hoists, method: str, t: Array, state: State, h: Arra
     begin = rows[-1]
     lifted = _within(hoists.lift, _Step(take, motion, (begin[0], (begin[1], begin[2])), h))
     off = tuple(np.where(going, np.nan, one) for one in lifted)
-    return _course([*rows, off]), off
+    return _trace([*rows, off]), off
 
 
-def _course(rows: list[Any]) -> Course:
-    return Course(*(np.stack([row[i] for row in rows]) for i in range(3)))
+def _trace(rows: list[Any]) -> Trace:
+    return Trace(*(np.stack([row[i] for row in rows]) for i in range(3)))
 
 
-def _peak(hoists: Hoists, take: Stepper, phase: Callable[[Hoists], Motion], course: Course, end: Array) -> Array:
+def _peak(hoists: Hoists, take: Stepper, phase: Callable[[Hoists], Motion], trace: Trace, end: Array) -> Array:
     """Return the highest maximum of the rope's force up to `end`, found within steps; minus infinity for none."""
-    rate = hoists.rate(course.t, (course.u, course.v))
-    row, own = np.nonzero((rate[:-1] > 0.0) & (rate[1:] <= 0.0) & (course.t[1:] <= end))
+    rate = hoists.rate(trace.t, (trace.u, trace.v))
+    row, own = np.nonzero((rate[:-1] > 0.0) & (rate[1:] <= 0.0) & (trace.t[1:] <= end))
     found = np.full(end.shape, -np.inf)
     if row.size:
         some = hoists.chosen(own)
-        begin, h = _at(course, row, own), course.t[row + 1, own] - course.t[row, own]
+        begin, h = _at(trace, row, own), trace.t[row + 1, own] - trace.t[row, own]
         t, u, v = _within(some.rate, _Step(take, phase(some), begin, h))
         np.maximum.at(found, own, some.force(t, (u, v)))
     return found
 
 
-def _at(course: Course, row: Any, own: Any) -> tuple[Array, State]:
-    return course.t[row, own], (course.u[row, own], course.v[row, own])
+def _at(trace: Trace, row: Any, own: Any) -> tuple[Array, State]:
+    return trace.t[row, own], (trace.u[row, own], trace.v[row, own])
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...scales.scale import steps
 from ..laws import TURN
+from ..solved import PAPER_MM
 from .beam_plans import BENT
 from .beam_plans import SECTIONS as BEAM_SECTIONS
 from .construction import Layout, Roots
@@ -18,13 +19,12 @@ from .diagram_plan import HANGING, RESTING, part
 from .forces import Forces, motion_givens
 from .refining import rest_of_root
 
-MM = 1e-3  # metres of paper in a millimetre: the diagrams are drawn in these
 TIMES, ORDINATES, SPAN, BEND = 180.0, 120.0, 160.0, 40.0  # mm of paper that axes should take
 WIDEST = 2.0  # ratio of neighbours in the series of scale factors
 TALLEST = 1.05  # of the greatest force, the axis of forces
 SWINGS = 1.1  # of T_1, the axis of times beyond the lift-off
 # units of the scale factors of diagrams
-UNITS = {"mu_t": "s", "mu_F": "N", "mu_t1": "s", "mu_y": "m", "mu_v": "m/s", "mu_x": "m", "mu_w": "m"}
+SCALED = {"mu_t": "s", "mu_F": "N", "mu_t1": "s", "mu_y": "m", "mu_v": "m/s", "mu_x": "m", "mu_w": "m"}
 
 
 def board_givens(forces: Forces, layout: Layout, part_of: float = 1.0) -> dict[str, Any]:
@@ -40,7 +40,7 @@ def board_givens(forces: Forces, layout: Layout, part_of: float = 1.0) -> dict[s
         given |= {"_begin": layout.roots.begin, "_section": layout.roots.section}
         given |= {f"_t_2_{n}_exact": time for n, time in enumerate(layout.roots.times, 1)}
     given |= {part(i, n): i / n for i, n in parts}
-    given |= {name: mu / MM for name, mu in scale_factors(found, layout, end_of(forces), part_of).items()}
+    given |= {name: mu / PAPER_MM for name, mu in scale_factors(found, layout, end_of(forces), part_of).items()}
     if motion is None:
         return given | {"_rest": rest_of_root(found)}
     return given | motion_givens(motion) | _ordinates(forces, layout)

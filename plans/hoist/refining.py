@@ -17,7 +17,8 @@ from ..boards.exact import ExactBoard
 from ..boards.fifty_digits import DIGITS, fifty_digits
 from ..laws import define
 from .hoist import VALUES
-from .series import sine_rest
+from .lift_off import lifting_off, reduced
+from .roots import lag_rate
 
 ILL = 1e3  # how much larger than those of the givens errors of t_1 may be without more digits
 ROUNDS = 400
@@ -29,9 +30,7 @@ BRACKET = 1e-4  # rad, first guess of how far the root is from that found with s
 def _condition(V: Any, a: Any, k: Any, height: Any, t_1: Any) -> Any:
     """Return by how much errors of m g / C grow in t_1: height / (t_1 * slope), one or less on a rigid support."""
     x = np.where(np.isinf(k), 0.0, np.where(np.isinf(k), 1.0, k) * t_1)
-    half = np.sin(0.5 * x)
-    slope = 2.0 * V * (half * half) + a / k * sine_rest(x)
-    return np.where(np.isinf(k), 1.0, height / (t_1 * slope))
+    return np.where(np.isinf(k), 1.0, height / (t_1 * lag_rate(V, a / k, x)))
 
 
 define(condition_of_root=_condition)
@@ -40,8 +39,6 @@ define(condition_of_root=_condition)
 @cache
 def _programs() -> tuple[Program, Program]:
     """Return the calculation of the root with its condition, and of what it depends on."""
-    from .model import lifting_off, reduced
-
     board = RecordingBoard()
     reduced(board)
     lifting_off(board)
@@ -83,7 +80,7 @@ def _rest(program: Program, values: Mapping[str, float], t_1: float) -> float:
         V, k, height, a = found["V_t"], found["k"], found["_height"], mpf(values["a"])
         u, x = a / k, k * mpf(t_1)
 
-        def surplus(x: Any) -> tuple[Any, Any]:
+        def surplus(x: Any) -> tuple[Any, Any]:  # (11) once more: fifty digits cancel without harm, `lag` has but 16
             sine, cosine = x - mp.sin(x), 1 - mp.cos(x)
             return V * sine + u * (x * x / 2 - cosine) - k * height, V * cosine + u * sine
 

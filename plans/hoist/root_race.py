@@ -25,7 +25,7 @@ TOLERANCE = 1e-14  # at which evaluations are counted
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class Ways:
     """Ways to one root.
 
     Parameters
@@ -51,8 +51,8 @@ class Course:
 class RootRace:
     """Ways to the root of the hoist itself, and to the nearly triple one."""
 
-    own: Course
-    triple: Course
+    own: Ways
+    triple: Ways
 
 
 def root_race(values: Mapping[str, float]) -> RootRace:
@@ -70,14 +70,14 @@ def root_race(values: Mapping[str, float]) -> RootRace:
     speed = V if V > 0.0 else values["a"] / k  # of a rope that starts from rest: what it has soon after
     x = TURN + AWAY
     triple = lift_off_equation(speed, 0.0, k, speed / k * float(sine_rest(x)))
-    return RootRace(_course(own, float(right["k"] * right["t_1"])), _course(triple, x))
+    return RootRace(_ways(own, float(right["k"] * right["t_1"])), _ways(triple, x))
 
 
-def _course(equation: Equation, root: float) -> Course:
+def _ways(equation: Equation, root: float) -> Ways:
     errors = {}
     for method in FINDERS:
         with np.errstate(invalid="ignore", over="ignore"):
             guesses = np.array(approximations(method, equation, EVALUATIONS))
             away = np.abs(guesses / root - 1.0)
         errors[method] = np.where(np.isfinite(away), np.maximum(away, LEAST), np.nan)
-    return Course(root, errors, {method: find(method, equation, TOLERANCE) for method in FINDERS})
+    return Ways(root, errors, {method: find(method, equation, TOLERANCE) for method in FINDERS})

@@ -27,6 +27,22 @@ def time_to_wind(V: Any, a: Any, length: Any) -> Any:
         return np.where(length > 0.0, 2.0 * length / (V + root), 0.0)
 
 
+def lag(V: Any, u: Any, x: Any) -> Any:
+    """Return k (y - osc) of (11), without cancellation: what is wound up less the oscillation, at x = k t, u = a/k."""
+    return V * sine_rest(x) + u * cosine_rest(x)
+
+
+def lag_rate(V: Any, u: Any, x: Any) -> Any:
+    """Return the derivative of `lag` by x: V (1 - cos x) + u (x - sin x), never negative."""
+    half = np.sin(0.5 * x)
+    return 2.0 * V * half * half + u * sine_rest(x)
+
+
+def bracket(V: Any, a: Any, k: Any, height: Any) -> tuple[Any, Any]:
+    """Return two places x = k t between which (11) has its root: its oscillation is between -V/k and V/k + 2 a/k^2."""
+    return k * time_to_wind(V, a, height - V / k), k * time_to_wind(V, a, height + V / k + 2.0 * a / (k * k))
+
+
 @np.errstate(invalid="ignore", divide="ignore")
 def lift_off(V: Any, a: Any, k: Any, height: Any) -> Any:
     """Return t_1, the root of (11): when the support carries nothing any more.
@@ -44,14 +60,11 @@ def lift_off(V: Any, a: Any, k: Any, height: Any) -> Any:
     rigid = np.isinf(k)
     rate = np.where(rigid, 1.0, k)
     u = a / rate
-    low = rate * time_to_wind(V, a, height - V / k)
-    high = rate * time_to_wind(V, a, height + V / k + 2.0 * a / (k * k))
+    low, high = bracket(V, a, rate, height)
     wanted = rate * height
 
     def surplus(x: Any) -> tuple[Any, Any]:
-        half = np.sin(0.5 * x)
-        slope = 2.0 * V * (half * half) + u * sine_rest(x)
-        return (V * sine_rest(x) + u * cosine_rest(x)) - wanted, slope
+        return lag(V, u, x) - wanted, lag_rate(V, u, x)
 
     x = rising_zero(surplus, np.where(rigid, NAN, low), np.where(rigid, NAN, high))
     return np.where(rigid, time_to_wind(V, a, height), x / rate)

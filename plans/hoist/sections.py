@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from functools import cache
 
 from ..calculated import calculated
-from .model import circle, extremes, lifted, lifting_off, printed, reduced, strength, suspended
+from .lift_off import lifting_off, reduced
+from .model import circle, extremes, lifted, printed, strength, suspended
 
 DRAWN = "drawn"
 PARTS = {

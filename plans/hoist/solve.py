@@ -11,7 +11,7 @@ import numpy as np
 from ..board import Program
 from ..boards.exact import run
 from ..quantities import Quantity, quantities, shown_on
-from ..solved import Solved
+from ..solved import PAPER_MM, Solved
 from .beam_plans import BENT, SCHEME
 from .construction import Layout, construct, layout_of
 from .diagram_plan import FORCES, UP
@@ -19,8 +19,7 @@ from .forces import Forces, forces
 from .givens import complete
 from .hoist import PLANS, VALUES, Hoist
 from .model import CIRCLE, HORIZONTAL
-from .paper import MM, board_givens
-from .paper import UNITS as SCALED
+from .paper import SCALED, board_givens
 from .root_plans import EXTREMES, LIFT_OFF
 from .sections import place_of
 
@@ -81,7 +80,7 @@ class SolvedHoist(Solved):
 
     def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
         """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""
-        return {plan: MM if plan in ON_PAPER else mu for plan, mu in mus.items()}
+        return {plan: PAPER_MM if plan in ON_PAPER else mu for plan, mu in mus.items()}
 
 
 def solve_hoist(
@@ -149,7 +148,7 @@ def _scales(given: Mapping[str, Any], drawn: set[str]) -> dict[str, Quantity]:
     """Return the scale factors of the diagrams that are drawn: they are found, and so are results."""
     of_plan = {"mu_t": FORCES, "mu_t1": LIFT_OFF, "mu_x": "", **{SCALES[plan]: plan for plan in ON_PAPER}}
     names = (name for name in SCALED if name in given and (of_plan[name] in drawn or _bends(name, drawn)))
-    return {name: Quantity(name, float(given[name]) * MM, f"{_bracketed(SCALED[name])}/mm") for name in names}
+    return {name: Quantity(name, float(given[name]) * PAPER_MM, f"{_bracketed(SCALED[name])}/mm") for name in names}
 
 
 def _bends(name: str, drawn: set[str]) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ..hands.hand import Tolerance
 from ..marking.key import rounded
-from .paper import MM
+from ..solved import PAPER_MM
 from .solve import SolvedHoist
 
 
@@ -21,7 +21,7 @@ def _times(solved: SolvedHoist, tolerance: Tolerance) -> Iterator[tuple[str, flo
         drawn = solved.quantities.get(f"{name}_drawn")
         if drawn is None or quantity.value is None or drawn.value is None or not math.isfinite(drawn.value):
             continue
-        mu = float(solved.values["mu_t1"]) * MM
+        mu = float(solved.values["mu_t1"]) * PAPER_MM
         of_segment = tolerance.of_segment(abs(drawn.value) / mu) * mu
         yield name, max(abs(drawn.value - quantity.value) + of_segment, rounded(quantity.value, tolerance))
         yield f"{name}_drawn", max(of_segment, rounded(quantity.value, tolerance))

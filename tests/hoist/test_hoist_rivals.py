@@ -14,7 +14,7 @@ from kulman.plans import contest as contests
 from kulman.plans.contest import Contest, Effort
 from kulman.plans.hands.hand import preset
 from kulman.plans.hoist import rivals as races
-from kulman.plans.hoist.course import BOTH, NEITHER, ROPE, SUPPORT, UNITS, course, end_of, marks
+from kulman.plans.hoist.course import BOTH, COLUMN_UNITS, NEITHER, ROPE, SUPPORT, course, end_of, marks
 from kulman.plans.hoist.drawn import by_board, by_hand
 from kulman.plans.hoist.finders import FINDERS, NEWTON
 from kulman.plans.hoist.forces import forces
@@ -131,7 +131,7 @@ def test_forces_over_time_move_the_load(values: dict[str, float]) -> None:
     smooth = np.ones(len(bent), bool)
     smooth[np.clip(np.concatenate((events - 1, events)), 0, len(bent) - 1)] = False
     assert bent[smooth] == pytest.approx(pulled[smooth], abs=1e-4 * column["F_12"].max())
-    assert list(column) == list(UNITS)
+    assert list(column) == list(COLUMN_UNITS)
 
 
 def test_states_say_what_bears() -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...drawing.words import Words
 from ...plans.hoist.finders import FINDERS
-from ...plans.hoist.root_race import Course, RootRace
+from ...plans.hoist.root_race import RootRace, Ways
 from ..spreadsheets.csv_write import Cell
 from ..tables import aligned
 from .data import Scene, as_csv, finite, short, wrapped
@@ -30,29 +30,29 @@ class HoistRootsChart:
     found: RootRace
 
     @property
-    def _courses(self) -> dict[str, Course]:
+    def _of_roots(self) -> dict[str, Ways]:
         return {OWN: self.found.own, TRIPLE: self.found.triple}
 
     def table(self, words: Words) -> str:
         """Return how many evaluations every method takes to which error."""
         parts = []
-        for name, course in self._courses.items():
+        for name, ways in self._of_roots.items():
             rows = [[words["chart.method"], words["chart.hoist.evaluations"], words["chart.hoist.reached"]]]
             for method in FINDERS:
-                found = course.found[method]
+                found = ways.found[method]
                 failed = math.isnan(found.root)
                 said = words["chart.hoist.fails"].format(method=words[f"chart.{method}"])
                 cells = [said, "–", "–"] if failed else [words[f"chart.{method}"], str(found.evaluations)]
-                rows.append(cells if failed else [*cells, short(words, course.error(method))])
-            head = words[f"chart.hoist.{name}_root"].format(x=words.short(course.root, 7))
+                rows.append(cells if failed else [*cells, short(words, ways.error(method))])
+            head = words[f"chart.hoist.{name}_root"].format(x=words.short(ways.root, 7))
             parts.append(f"{head}\n{aligned(rows)}")
         return "\n\n".join((*parts, wrapped(words["chart.hoist.roots_note"])))
 
     def _items(self) -> Iterator[tuple[str, str, int, float | None, int, bool]]:
-        for name, course in self._courses.items():
+        for name, ways in self._of_roots.items():
             for method in FINDERS:
-                found = course.found[method]
-                for i, error in enumerate(course.errors[method].tolist(), 1):
+                found = ways.found[method]
+                for i, error in enumerate(ways.errors[method].tolist(), 1):
                     yield name, method, i, finite(error), found.evaluations, math.isnan(found.root)
 
     def csv(self, words: Words) -> bytes:
@@ -64,17 +64,17 @@ class HoistRootsChart:
         """Return all of it as data."""
         return {
             name: {
-                "root": course.root,
+                "root": ways.root,
                 "methods": {
                     method: {
-                        "evaluations": course.found[method].evaluations,
-                        "error": finite(course.error(method)),
-                        "errors": [finite(error) for error in course.errors[method].tolist()],
+                        "evaluations": ways.found[method].evaluations,
+                        "error": finite(ways.error(method)),
+                        "errors": [finite(error) for error in ways.errors[method].tolist()],
                     }
                     for method in FINDERS
                 },
             }
-            for name, course in self._courses.items()
+            for name, ways in self._of_roots.items()
         }
 
     def figure(self, words: Words) -> Figure:
