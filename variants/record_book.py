@@ -89,7 +89,10 @@ def variant_of_book(task: Task, book: str, digits: int | str = 1) -> str:
     >>> variant_of_book(load_task("nau-slider-crank"), "АТ-2023/417")
     '7'
     """
-    meant = Digits.of(digits)
+    return _variant(task, book, Digits.of(digits))
+
+
+def _variant(task: Task, book: str, meant: Digits) -> str:
     number = meant.number(VARIANT, book)
     if number is None:
         return ""
@@ -136,6 +139,21 @@ class Schemes:
         if len(ids := self.ids) > 1:
             raise InputError("batch-no-task", known=quote(", ".join(ids), SHOWN))
         return self.tasks[0]
+
+    def variant_of(self, task: Task, said: str, book: str) -> str:
+        """Return the variant that a roster names, else that of the record book.
+
+        Raises
+        ------
+        InputError
+            There is no such variant, or nothing says which.
+        """
+        if said:
+            return task.variant(said).id
+        found = _variant(task, book, self.digits) if book else ""
+        if not found:
+            raise InputError("batch-no-variant", known=quote(", ".join(task.variants), SHOWN))
+        return found
 
     @property
     def ids(self) -> Sequence[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -99,12 +100,16 @@ def _folded(text: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Columns:
-    """A grid with what its columns hold: `about` of a student, and givens with their units."""
+    """A grid with what its columns hold: `about` of a student, and givens with their units.
+
+    With `whole` each row must say which variant a student has.
+    """
 
     grid: Grid
     about: Mapping[str, int]
     givens: Mapping[int, tuple[str, str]]
     schemes: Schemes
+    whole: bool
 
     def said(self, row: int) -> dict[str, str]:
         """Return what a row says of the student."""
@@ -115,10 +120,6 @@ class _Columns:
         said = self.said(row).get("task", "")
         return bool(said) and not said.isdigit() and said not in self.schemes.ids
 
-    def place(self, row: int, kind: str) -> str:
-        """Return the address of the cell that says `kind` of a student."""
-        return self.grid.place(row, self.about[kind]) if kind in self.about else self.grid.place(row)
-
 
 def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Roster:
     """Read a roster: CSV or XLSX with a column `student`, and `variant`, `record book`, givens such as `phi [deg]`.
@@ -126,7 +127,8 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
     Parameters
     ----------
     of : Task or Schemes
-        The task of the class, then students to whom a column `task` gives another one are left out; or several.
+        The task of the class, then students to whom a column `task` gives another one are left out; or several, then
+        each student must have a task and a variant.
     each : bool
         Let a row that is wrong be the problem of its student alone.
 
@@ -139,7 +141,7 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
     header = next((row for row in range(min(len(grid.rows), LOOKED_AT)) if _is_header(grid.rows[row])), None)
     if header is None:
         raise InputError("roster-header", file=quote(grid.file, SHOWN))
-    columns = _columns(grid, header, of if isinstance(of, Schemes) else Schemes((of,), Digits.of(1)))
+    columns = _columns(grid, header, of)
     rows = [row for row in range(header + 1, len(grid.rows)) if any(grid.rows[row])]
     if isinstance(of, Task):
         rows = [row for row in rows if not columns.other(row)]
@@ -153,8 +155,9 @@ def _is_header(row: tuple[str, ...]) -> bool:
     return bool(kinds & set(KEYS)) and len(row) > 1
 
 
-def _columns(grid: Grid, header: int, schemes: Schemes) -> _Columns:
+def _columns(grid: Grid, header: int, of: Task | Schemes) -> _Columns:
     """Return what the columns hold, by the words over them."""
+    schemes = of if isinstance(of, Schemes) else Schemes((of,), Digits.of(1))
     known = tuple(dict.fromkeys(name for task in schemes.tasks for name in task.givens))
     about: dict[str, int] = {}
     givens: dict[int, tuple[str, str]] = {}
@@ -167,7 +170,7 @@ def _columns(grid: Grid, header: int, schemes: Schemes) -> _Columns:
         elif part is not None and "_" in text:
             error = unknown("given-unknown", part[0], known, task=", ".join(schemes.ids))
             raise LocatedError(grid.place(header, column), error)
-    return _Columns(grid, about, givens, schemes)
+    return _Columns(grid, about, givens, schemes, isinstance(of, Schemes))
 
 
 def _told(columns: _Columns, row: int) -> Entry:
@@ -180,17 +183,27 @@ def _told(columns: _Columns, row: int) -> Entry:
 
 def _entry(columns: _Columns, row: int) -> Entry:
     """Read one student."""
-    said, place = columns.said(row), columns.place
-    try:
-        task = columns.schemes.of(said.get("task", ""), said.get("book", ""))
-    except InputError as problem:
-        raise LocatedError(place(row, "task" if said.get("task") else "book"), problem) from problem
+    said = columns.said(row)
+    who, schemes = Who.of(said), columns.schemes
+    with _located(columns, row, "task"):
+        task = schemes.of(said.get("task", ""), who.book)
     variant = said.get("variant", "")
-    if variant and variant not in task.variants:
-        error = unknown("variant-unknown", variant, task.variants, task=task.id)
-        raise LocatedError(place(row, "variant"), error)
+    with _located(columns, row, "variant"):
+        if variant or columns.whole:
+            variant = schemes.variant_of(task, variant, who.book)
     settings = dict(_settings(columns, row, task))
-    return Entry(Who.of(said), variant, settings, columns.grid.place(row), task=task.id)
+    return Entry(who, variant, settings, columns.grid.place(row), task=task.id)
+
+
+@contextmanager
+def _located(columns: _Columns, row: int, kind: str) -> Iterator[None]:
+    """Say with a problem in which cell it is: that of `kind`, of the record book where it is empty, or the row."""
+    grid, about = columns.grid, columns.about
+    try:
+        yield
+    except InputError as problem:
+        column = next((about[one] for one in (kind, "book") if grid.text(row, about.get(one))), None)
+        raise LocatedError(grid.place(row, column), problem) from problem
 
 
 def _settings(columns: _Columns, row: int, task: Task) -> Iterator[tuple[str, str]]:

@@ -3,70 +3,36 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
-from dataclasses import dataclass, fields
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TypeAlias
 
 from ...drawing.formats import format_named
 from ...drawing.pens import Norm
 from ...drawing.words import Words
-from ...drawing.writers import WRITERS, folder_for, save_all, write_whole
-from ...scales.arguments import of_kind
+from ...drawing.writers import folder_for, save_all, slug, write_whole
 from ...scales.errors import InputError
 from ...scales.names import unknown
+from ...scales.numbers import quote
 from ..arguments import by_name, plans_wanted
 from ..case import Settings
-from ..crew import Advance, Done, shared_out
-from ..journal import Journal, digest_of
+from ..crew import Advance, shared_out
 from ..kinds import kind_of
 from ..reader import load_task
+from ..record_book import SCHEME, VARIANT, Digits, Schemes
 from ..roster import read_roster
 from ..spreadsheets.cells_out import csv_table, table_bytes
-from ..spreadsheets.grid import SUFFIXES
+from ..spreadsheets.grid import SHOWN, SUFFIXES
 from ..task import Task
-from .student import FORMS, NOTE, Made, Making, Student
-from .tables import key_rows, manifest_rows, roster_rows
+from .outcome import Outcome
+from .student import FORMS, NOTE, Making, Student
+from .tables import Rows, key_rows, manifest_rows, roster_rows
+from .work import Crew, run
 
-JOURNAL = ".kulman-batch.jsonl"
 MANIFEST, KEY = "manifest.csv", "key.csv"
-Crew = Callable[[Making, list[Student]], Iterator[list[Done[Made]]]]
-
-
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """What a student has got: the files with digests of what they hold, the key; or what the problem is."""
-
-    variant: str
-    sheet: str
-    files: Mapping[str, str]
-    key: Mapping[str, float | None]
-    notes: tuple[str, ...]
-    problem: str
-
-    @classmethod
-    def of(cls, made: Made) -> Outcome:
-        """Return what has been made, without what the files hold."""
-        files = {name: digest_of(data) for name, data in made.files.items()}
-        return cls(made.variant, made.sheet, files, made.key, made.notes, made.problem)
-
-    @classmethod
-    def from_json(cls, data: Mapping[str, Any]) -> Outcome:
-        """Return an outcome from plain data."""
-        return cls(**{**data, "notes": tuple(data["notes"])})
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the outcome as plain data."""
-        return {item.name: getattr(self, item.name) for item in fields(self)}
-
-    def there(self, folder: Path) -> bool:
-        """Whether the files are in the folder as they were made; a problem is looked at again."""
-        with suppress(OSError):
-            return not self.problem and all(
-                digest_of((folder / name).read_bytes()) == digest for name, digest in self.files.items()
-            )
-        return False
+One: TypeAlias = str | os.PathLike[str] | Task
+Tasks: TypeAlias = One | Sequence[One]
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,12 +49,12 @@ class Batch:
 
 
 def batch(
-    task: str | os.PathLike[str] | Task,
+    task: Tasks,
     roster: str | os.PathLike[str],
     folder: str | os.PathLike[str],
     *,
     kinds: Sequence[str] = ("svg", "pdf", NOTE),
-    digits: int = 1,
+    digits: int | str | None = None,
     set: Settings | None = None,
     only: str | Iterable[str] | None = None,
     scales: Settings | None = None,
@@ -104,20 +70,25 @@ def batch(
     """Draw the sheet of every student of a class.
 
     In the folder stand the files of every student, `manifest.csv`, which lists them, and `key.csv` with the right
-    values. A run that was stopped, or one with a longer roster, draws only what is missing or has changed.
+    values, of several tasks one for each. A run that was stopped, or one with a longer roster, draws only what is
+    missing or has changed.
 
     Parameters
     ----------
-    task, set, only, scales, format, norm, notation, lang
+    task : str, PathLike, Task, or several of them
+        Of several the first is scheme 1; one may stand there more than once.
+    set, only, scales, format, norm, notation, lang
         As for `sheet`; what the roster says of a student goes before `set`.
     roster : str or PathLike
-        A .csv or .xlsx with a student in each row: name, group, variant or record book, givens of one's own.
+        A .csv or .xlsx with a student in each row: name, group, variant or record book, givens of one's own; of several
+        tasks also which, by id or number.
     folder : str or PathLike
         Where the files go; it is made where it is missing.
     kinds : sequence of str
         What each student gets: the sheet as `svg`, `pdf`, `png`, the explanatory `note`, a blank `handout`.
-    digits : int
-        How many last digits of the record book give the variant, where the roster has none.
+    digits : int or str, optional
+        How many last digits of the record book give the variant, where the roster has none; or what each of them is
+        for, from left to right: `"variant,scheme"`, which is usual for several tasks.
     block : mapping of str to str, optional
         What is said in every title block: `teacher`, `department`, `designation`, `date`.
     jobs : int, optional
@@ -132,35 +103,82 @@ def batch(
     InputError
         The roster, or an argument, is at fault for all; or a file cannot be written: what is done stays.
     """
-    found = task if isinstance(task, Task) else load_task(task)
-    plans = None if only is None else plans_wanted(only, found.plans, kind_of(found.kind).plans)
+    tasks = _tasks(task)
     making = Making(
-        found, _known(kinds), by_name("set", set), plans, by_name("scales", scales), format, norm, notation, lang,
-        dict(block or {}), digits,
+        _once(tasks), _known(kinds), by_name("set", set), _plans(_once(tasks), only), by_name("scales", scales), format,
+        norm, notation, lang, dict(block or {}),
     )  # fmt: skip
     _refuse_early(making)
-    entries = read_roster(os.fspath(roster), found, each=True).entries
+    schemes = Schemes(tasks, Digits.of(_usual(tasks) if digits is None else digits))
+    entries = read_roster(os.fspath(roster), schemes, each=True).entries
     students = tuple(Student(number, entry) for number, entry in enumerate(entries, 1))
     place = folder_for(folder)
-    crew = _crew(jobs or os.cpu_count() or 1, dask)
-    outcomes = _run(making, students, place, crew, advance or (lambda done, whole: None))
+    outcomes = run(making, students, place, _crew(jobs, dask), advance or (lambda done, whole: None))
     done = Batch(students, outcomes)
-    for name, rows in ((MANIFEST, manifest_rows(done, lang)), (KEY, key_rows(done, lang))):
+    for name, rows in _tables(done, making.tasks, lang):
         write_whole(place / name, csv_table(list(rows), lang))
     return done
 
 
-def write_roster(task: str | os.PathLike[str] | Task, file: str | os.PathLike[str], lang: str = "uk") -> Path:
+def _tasks(said: Tasks) -> tuple[Task, ...]:
+    """Return the tasks of a class in the order in which they are said."""
+    several = said if isinstance(said, Sequence) and not isinstance(said, str) else (said,)
+    return tuple(one if isinstance(one, Task) else load_task(one) for one in several)
+
+
+def _once(tasks: Sequence[Task]) -> tuple[Task, ...]:
+    """Return each task once, as the same one may be several schemes.
+
+    Raises
+    ------
+    InputError
+        There is none, or two have the same id.
+    """
+    found: dict[str, Task] = {}
+    for task in tasks:
+        if found.setdefault(task.id, task).text != task.text:
+            raise InputError("batch-same-id", file=quote(task.file or task.id, SHOWN), id=quote(task.id))
+    if not found:
+        raise InputError("batch-nothing")
+    return tuple(found.values())
+
+
+def _usual(tasks: Sequence[Task]) -> str:
+    """Return what the last digits of a record book are usually for."""
+    return VARIANT if len(tasks) == 1 else f"{VARIANT},{SCHEME}"
+
+
+def _plans(tasks: Iterable[Task], only: str | Iterable[str] | None) -> dict[str, tuple[str, ...]]:
+    """Return the plans wanted of each task; nothing where all are."""
+    if only is None:
+        return {}
+    wanted = only if isinstance(only, str) else tuple(only)
+    return {task.id: plans_wanted(wanted, task.plans, kind_of(task.kind).plans) for task in tasks}
+
+
+def _tables(done: Batch, tasks: Sequence[Task], language: str) -> Iterator[tuple[str, Rows]]:
+    """Go through the tables of a class by the names of their files."""
+    yield MANIFEST, manifest_rows(done, tasks, language)
+    for task in tasks:
+        name = KEY if len(tasks) == 1 else f"{Path(KEY).stem}-{slug(task.id)}.csv"
+        yield name, key_rows(done, task, tasks, language)
+
+
+def write_roster(task: Tasks, file: str | os.PathLike[str], lang: str = "uk") -> Path:
     """Write a roster to fill in, .csv or .xlsx: a row for each variant. As it is, each has a sheet without a name.
+
+    Parameters
+    ----------
+    task : str, PathLike, Task, or several of them
 
     Raises
     ------
     InputError
         A kind of file that is no roster, or a place where none can be written.
     """
-    found = task if isinstance(task, Task) else load_task(task)
-    rows = list(roster_rows(found, lang))
-    return save_all((file,), SUFFIXES, lambda path: [(path, table_bytes(path, rows, lang, found.id, [0], 1))])[0]
+    tasks = _once(_tasks(task))
+    rows = list(roster_rows(tasks, lang))
+    return save_all((file,), SUFFIXES, lambda path: [(path, table_bytes(path, rows, lang, tasks[0].id, [0], 1))])[0]
 
 
 def _known(kinds: Sequence[str]) -> tuple[str, ...]:
@@ -174,67 +192,15 @@ def _refuse_early(making: Making) -> None:
     """Refuse what would be wrong for every student alike."""
     if making.format is not None:
         format_named(making.format)
-    of_kind("digits", making.digits, (int,), "int")
-    Words.of(making.language, making.task.notation if making.notation is None else making.notation)
-    making.task.resolve(next(iter(making.task.variants)), making.settings)
+    for task in making.tasks:
+        Words.of(making.language, task.notation if making.notation is None else making.notation)
+        task.resolve(None, making.settings)
 
 
-def _crew(jobs: int, dask: str | None) -> Crew:
+def _crew(jobs: int | None, dask: str | None) -> Crew:
     """Return who does the work."""
     if dask is None:
-        return lambda making, students: shared_out(making, students, jobs)
+        return lambda making, students: shared_out(making, students, jobs or os.cpu_count() or 1)
     from ..cluster import on_cluster
 
     return lambda making, students: on_cluster(making, students, dask)
-
-
-def _run(
-    making: Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance
-) -> tuple[Outcome, ...]:
-    """Make what is not there yet; write it, and note it, as it comes."""
-    journal = Journal(folder / JOURNAL, Outcome.from_json, Outcome.to_json)
-    how = making.digest()
-    digests = [digest_of(f"{how} {student!r}") for student in students]
-    found = {
-        number: outcome
-        for number, digest in enumerate(digests)
-        if (outcome := journal.found(digest)) is not None and outcome.there(folder)
-    }
-    advance(len(found), len(students))
-    # students with the same data one after another, as these share what is drawn
-    todo = sorted((n for n in range(len(students)) if n not in found), key=lambda n: students[n].data)
-    for done in crew(making, [students[number] for number in todo]):
-        for one in done:
-            number = todo[one.place]
-            found[number] = _kept(one.made, students[number], folder, making.language)
-            journal.note(digests[number], found[number])
-        advance(len(done), len(students))
-    outcomes = tuple(found[number] for number in range(len(students)))
-    _sweep(folder, journal.before.values(), outcomes)
-    journal.keep(zip(digests, outcomes, strict=True))
-    return outcomes
-
-
-def _kept(made: Made | None, student: Student, folder: Path, language: str) -> Outcome:
-    """Write what has been made for a student; nothing made means that a process has died of it."""
-    if made is None:
-        reason = InputError("process-died").text(language)
-        return Outcome.of(Made(student.entry.variant, problem=f"{student.entry.place}: {reason}"))
-    for name, data in made.files.items():
-        write_whole(folder / name, data)
-    return Outcome.of(made)
-
-
-def _sweep(folder: Path, before: Iterable[Outcome], now: Iterable[Outcome]) -> None:
-    """Remove files of earlier runs that belong to nobody any more, unless somebody has changed them since."""
-    names = {name for outcome in now for name in outcome.files}
-    for name, digest in _files(before):
-        stale = folder / Path(name).name
-        with suppress(OSError):
-            if name not in names and stale.suffix in WRITERS and digest_of(stale.read_bytes()) == digest:
-                stale.unlink()
-
-
-def _files(outcomes: Iterable[Outcome]) -> Iterator[tuple[str, str]]:
-    for outcome in outcomes:
-        yield from outcome.files.items()

@@ -14,8 +14,7 @@ from ...drawing.notes.typst import pdf_bytes
 from ...drawing.pens import Norm
 from ...drawing.writers import page_files, slug
 from ...plans.quantities import measured
-from ...scales.errors import InputError, KulmanError
-from ...scales.numbers import quote
+from ...scales.errors import KulmanError
 from ...scales.units import format_unit
 from ..case import Case, solve_case
 from ..handouts import begun_of_case, drawing_for_print
@@ -24,7 +23,6 @@ from ..notes import body_of, title_page
 from ..roster import Entry
 from ..sheet_id import sheet_id
 from ..sheets import Sheet, drawing_of, sheet_of, stamp_of
-from ..spreadsheets.grid import SHOWN
 from ..task import Task
 
 NOTE, HANDOUT = "note", "handout"
@@ -41,9 +39,8 @@ class Student:
 
     @property
     def data(self) -> tuple[str, str, tuple[tuple[str, str], ...]]:
-        """What the work depends on; of a record book the last digits decide, read from its end."""
-        entry = self.entry
-        return entry.variant, entry.who.book[::-1], tuple(sorted(entry.settings.items()))
+        """What the work depends on: task, variant, data of one's own."""
+        return self.entry.task, self.entry.variant, tuple(sorted(self.entry.settings.items()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,19 +93,21 @@ class Work:
 
 @dataclass(frozen=True, slots=True)
 class Making:
-    """What is made for every student of a class, and how; the values of a row go before `settings`."""
+    """What is made for every student of a class, and how; the values of a row go before `settings`.
 
-    task: Task
+    `tasks` are those of the class, each once, and `only` the plans wanted of each, by its id.
+    """
+
+    tasks: tuple[Task, ...]
     kinds: tuple[str, ...]
     settings: Mapping[str, str | float] = field(default_factory=dict)
-    only: tuple[str, ...] | None = None
+    only: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     scales: Mapping[str, str | float] = field(default_factory=dict)
     format: str | None = None
     norm: Norm = "gost"
     notation: str | None = None
     language: str = "uk"
     block: Mapping[str, str] = field(default_factory=dict)
-    digits: int = 1
     _works: dict[Hashable, Work] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def begin(self) -> Callable[[Student], Made]:
@@ -116,9 +115,13 @@ class Making:
         return self.make
 
     def digest(self) -> str:
-        """Return what tells this making from any that would make other files."""
-        how = (self.kinds, self.settings, self.only, self.scales, self.format, self.norm, self.notation)
-        return digest_of(repr((__version__, self.task.text, how, self.language, self.block, self.digits)))
+        """Return what tells this making from any that would make other files of the same student."""
+        how = (self.kinds, self.settings, self.scales, self.format, self.norm, self.notation, self.language, self.block)
+        return digest_of(repr((__version__, *how)))
+
+    def digest_of_task(self, task: Task) -> str:
+        """Return what tells this making of a task from any that would make other files of it."""
+        return digest_of(repr((self.digest(), task.text, self.only.get(task.id), len(self.tasks) == 1)))
 
     def make(self, student: Student) -> Made:
         """Make the files of a student; what cannot be made is told, not raised."""
@@ -129,11 +132,12 @@ class Making:
             return Made(student.entry.variant, problem=f"{place}{error.text(self.language)}")
 
     def _made(self, student: Student) -> Made:
-        who, work = student.entry.who, self._work(student.entry)
+        who, work = student.entry.who, self._work(student)
         case = work.case
         block = {**self.block, "student": who.student, "group": who.group or self.block.get("group", "")}
         drawn = sheet_of(case, work.drawing, stamp_of(case, block, self.notation, self.language))
-        stem = f"{student.number:03d}-{slug(f'{who.student} {case.variant}')}"
+        what = case.variant if len(self.tasks) == 1 else f"{case.task.id} {case.variant}"
+        stem = f"{student.number:03d}-{slug(f'{who.student} {what}')}"
         files = {name: data for kind in self.kinds for name, data in self._files(work, block, drawn, kind, stem)}
         notes = tuple(warning.text(self.language) for warning in drawn.warnings)
         return Made(case.variant, sheet_id(case.task, case.variant, case.settings), files, work.key, notes)
@@ -152,28 +156,23 @@ class Making:
             stem, kind = f"{stem}-handout", "pdf"
         yield from ((path.name, data) for path, data in page_files(drawn.pages, Path(f"{stem}.{kind}")))
 
-    def _work(self, entry: Entry) -> Work:
-        """Return what students with these data share, from the last ones where it is there."""
-        if entry.problem is not None:
-            raise entry.problem
-        data = entry.variant_of(self.task, self.digits), frozenset(entry.settings.items())
-        if data not in self._works:
-            for oldest in [*self._works][: len(self._works) + 1 - KEPT]:
-                del self._works[oldest]
-            case = self._case(entry)
-            drawing = drawing_of(case, self.format, self.norm, self.notation, self.language)
-            self._works[data] = Work(case, drawing, self.notation, self.language)
-        return self._works[data]
-
-    def _case(self, entry: Entry) -> Case:
-        """Solve the variant of a row with its data.
+    def _work(self, student: Student) -> Work:
+        """Return what students with the same data share, from the last ones where it is there.
 
         Raises
         ------
-        InputError
-            The row says no variant, or the data have no solution.
+        KulmanError
+            The row was wrong, or its data have no solution.
         """
-        variant = entry.variant_of(self.task, self.digits)
-        if not variant:
-            raise InputError("batch-no-variant", known=quote(", ".join(self.task.variants), SHOWN))
-        return solve_case(self.task, variant, {**self.settings, **entry.settings}, self.only, self.scales)
+        entry, data = student.entry, student.data
+        if entry.problem is not None:
+            raise entry.problem
+        if data not in self._works:
+            for oldest in [*self._works][: len(self._works) + 1 - KEPT]:
+                del self._works[oldest]
+            task = next(task for task in self.tasks if task.id == entry.task)
+            settings = {**self.settings, **entry.settings}
+            case = solve_case(task, entry.variant, settings, self.only.get(task.id), self.scales)
+            drawing = drawing_of(case, self.format, self.norm, self.notation, self.language)
+            self._works[data] = Work(case, drawing, self.notation, self.language)
+        return self._works[data]

@@ -86,8 +86,16 @@ def output(module: str, help: str, required: bool = False) -> Callable[[Command]
 
 def of_task(command: Command) -> Command:
     """Add what every command about a task takes."""
+    return click.argument("task")(_about_task(command))
+
+
+def of_tasks(command: Command) -> Command:
+    """Add what a command about one task or several takes."""
+    return click.argument("tasks", metavar="TASK...", nargs=-1, required=True)(_about_task(command))
+
+
+def _about_task(command: Command) -> Command:
     options = (
-        click.argument("task"),
         click.option("-v", "--variant", help="A variant of the task; without it the first one."),
         click.option(
             "--set",
@@ -190,11 +198,11 @@ def of_check(command: Command) -> Command:
         ),
         click.option(
             "--digits",
-            metavar="N",
+            metavar="N|WORD,...",
             default="1",
             show_default=True,
-            callback=count,
-            help="How many last digits of the record book give the variant, where the roster has none.",
+            help="How many last digits of the record book give the variant, where the roster has none; or what each is "
+            "for: variant, scheme, - for nothing.",
         ),
         click.option("--out", "folder", metavar="FOLDER", help="Reports on every student, .html and .txt."),
         click.option("--moodle", metavar="FILE", callback=moodle_out, help="Grades for Moodle, .csv."),

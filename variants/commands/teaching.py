@@ -21,6 +21,7 @@ from .options import (
     of_check,
     of_norm,
     of_task,
+    of_tasks,
     output,
     pairs,
     tiled,
@@ -123,13 +124,14 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     epilog=example(
         "kulman batch nau-slider-crank --form class.xlsx",
         "kulman batch nau-slider-crank --roster class.xlsx --out sheets --as pdf --teacher 'О. Коваль'",
+        "kulman batch scheme-08-planer scheme-09-shaper --roster class.xlsx --out sheets --digits scheme,variant",
     )
 )
-@of_task
+@of_tasks
 @click.option(
     "--roster",
     metavar="FILE",
-    help="A student a row: name, group, variant or record book, givens of one's own: .csv or .xlsx.",
+    help="A student a row: name, group, variant or record book, task, givens of one's own: .csv or .xlsx.",
 )
 @click.option("--form", metavar="FILE", help="Write a roster to fill in, .csv or .xlsx, a row for each variant.")
 @click.option("--out", "folder", metavar="FOLDER", help="Where the files go, manifest.csv and key.csv.")
@@ -144,11 +146,9 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 )
 @click.option(
     "--digits",
-    metavar="N",
-    default="1",
-    show_default=True,
-    callback=count,
-    help="How many last digits of the record book give the variant, where the roster has none.",
+    metavar="N|WORD,...",
+    help="How many last digits of the record book give the variant, where the roster has none; or what each is for: "
+    "variant, scheme, - for nothing. Without it the last one: variant; of several tasks the last two: variant,scheme.",
 )
 @click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything.")
 @of_norm
@@ -157,8 +157,11 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 @click.option(
     "--dask", metavar="ADDRESS", help="Work on a Dask cluster: the address of its scheduler, tcp://host:8786."
 )
-def batch(task: str, settings: dict[str, str], kinds: tuple[str, ...], **options: Any) -> int:
+def batch(tasks: tuple[str, ...], settings: dict[str, str], kinds: tuple[str, ...], **options: Any) -> int:
     """Draw the sheets of TASK for a class and write their notes, with a list of the files and the key for the teacher.
+
+    Of several tasks the first is scheme 1, the tenth has the digit 0; the roster, or a digit of the record book, says
+    which one a student has.
 
     A run that was stopped goes on where it was; one with a longer roster draws the new sheets alone. A row that is
     wrong costs no other student anything.
@@ -169,22 +172,22 @@ def batch(task: str, settings: dict[str, str], kinds: tuple[str, ...], **options
     if form is not None:
         from ..batches.batch import write_roster
 
-        click.echo(str(write_roster(task, form, language)))
+        click.echo(str(write_roster(tasks, form, language)))
     if options["roster"] is not None and options["folder"] is not None:
-        return _draw_class(task, set=settings, lang=language, kinds=kinds, **options)
+        return _draw_class(tasks, set=settings, lang=language, kinds=kinds, **options)
     if form is None:
         raise InputError("batch-nothing")
     return 0
 
 
-def _draw_class(task: str, roster: str, folder: str, jobs: int, **options: Any) -> int:
+def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **options: Any) -> int:
     """Draw the sheets of a class; a console shows how far it is."""
     from ... import variants
     from ..batches.batch import MANIFEST
 
     block = {name: text for name in BLOCK if (text := options.pop(name)) is not None}
     with progress() as advance:
-        made = variants.batch(task, roster, folder, block=block, advance=advance, jobs=jobs or None, **options)
+        made = variants.batch(tasks, roster, folder, block=block, advance=advance, jobs=jobs or None, **options)
     n, bad = len(made.students), made.problems
     click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))
     for problem in bad:

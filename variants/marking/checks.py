@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...scales.arguments import of_kind
 from ...scales.errors import KulmanError
 from ..arguments import by_name, plans_wanted
 from ..case import Settings
 from ..crew import Advance
 from ..kinds import kind_of
 from ..reader import load_task
+from ..record_book import Digits
 from ..roster import Roster, read_roster
 from ..task import Task
 from .answers import Answers, Asked
@@ -36,7 +36,7 @@ class Check:
     rubric: Rubric
     asked: Asked
     roster: Roster | None = None
-    digits: int = 1
+    digits: int | str = 1
     own: bool = False
 
     def write_form(self, file: PathLike) -> Path:
@@ -123,7 +123,7 @@ def check(
     preset: str = "normal",
     rubric: PathLike | None = None,
     roster: PathLike | None = None,
-    digits: int = 1,
+    digits: int | str = 1,
     own: bool = False,
     notation: str | None = None,
     lang: str | None = None,
@@ -141,8 +141,9 @@ def check(
         What may be missed by hand: `cad`, `careful`, `normal`, `lenient`.
     rubric, roster : str or PathLike, optional
         Files with weights, worths, tolerances; and with the students of a class.
-    digits : int
-        How many last digits of the record book give the variant, where the roster has none.
+    digits : int or str
+        How many last digits of the record book give the variant, where the roster has none; or what each of them is
+        for, such as `"variant,scheme"`.
     own : bool
         Make reports for students, in which no right number stands.
     format : str, optional
@@ -161,7 +162,7 @@ def check(
     found = task if isinstance(task, Task) else load_task(task)
     if variant is not None:
         found.variant(variant)
-    of_kind("digits", digits, (int,), "int")
+    Digits.of(digits)
     plans = None if only is None else plans_wanted(only, found.plans, kind_of(found.kind).plans)
     language = "en" if lang is None else lang
     said = by_name("set", set), plans, by_name("scales", scales), notation, language, format

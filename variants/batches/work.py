@@ -1,0 +1,77 @@
+"""The work of a batch: what is not in its folder yet is made, written whole, and noted as it comes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from ...drawing.writers import WRITERS, sweep_parts, write_whole
+from ...scales.errors import InputError
+from ..crew import Advance, Done
+from ..journal import Journal, digest_of
+from .outcome import Outcome
+from .student import Made, Making, Student
+
+JOURNAL = ".kulman-batch.jsonl"
+Crew = Callable[[Making, list[Student]], Iterator[list[Done[Made]]]]
+_OWN = re.compile(rf"[0-9]{{3,}}-.+|(?:manifest|key)\b.*\.csv|{re.escape(JOURNAL)}")  # names of files of a batch
+
+
+def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance) -> tuple[Outcome, ...]:
+    """Make what is not there yet; write it, and note it, as it comes."""
+    sweep_parts(folder, lambda name: _OWN.match(name) is not None)
+    journal = Journal(folder / JOURNAL, Outcome.from_json, Outcome.to_json)
+    digests = _digests(making, students)
+    found = {
+        number: outcome
+        for number, digest in enumerate(digests)
+        if (outcome := journal.found(digest)) is not None and outcome.there(folder)
+    }
+    advance(len(found), len(students))
+    # students with the same data one after another, as these share what is drawn
+    todo = sorted((n for n in range(len(students)) if n not in found), key=lambda n: students[n].data)
+    for done in crew(making, [students[number] for number in todo]):
+        for one in done:
+            number = todo[one.place]
+            found[number] = _kept(one.made, students[number], folder, making.language)
+            journal.note(digests[number], found[number])
+        advance(len(done), len(students))
+    outcomes = tuple(found[number] for number in range(len(students)))
+    _sweep(folder, journal.before.values(), outcomes)
+    journal.keep(zip(digests, outcomes, strict=True))
+    return outcomes
+
+
+def _digests(making: Making, students: Sequence[Student]) -> list[str]:
+    """Return what tells the work of each student from any other."""
+    of = {task.id: making.digest_of_task(task) for task in making.tasks}
+    return [digest_of(f"{of.get(student.entry.task)} {student!r}") for student in students]
+
+
+def _kept(made: Made | None, student: Student, folder: Path, language: str) -> Outcome:
+    """Write what has been made for a student, but for what is there already; nothing means that a process died."""
+    if made is None:
+        reason = InputError("process-died").text(language)
+        return Outcome.of(Made(student.entry.variant, problem=f"{student.entry.place}: {reason}"))
+    outcome = Outcome.of(made)
+    for name, data in made.files.items():
+        if not outcome.has(folder, name):
+            write_whole(folder / name, data)
+    return outcome
+
+
+def _sweep(folder: Path, before: Iterable[Outcome], now: Iterable[Outcome]) -> None:
+    """Remove files of earlier runs that belong to nobody any more, unless somebody has changed them since."""
+    names = {name for outcome in now for name in outcome.files}
+    for name, digest in _files(before):
+        stale = folder / Path(name).name
+        with suppress(OSError):
+            if name not in names and stale.suffix in WRITERS and digest_of(stale.read_bytes()) == digest:
+                stale.unlink()
+
+
+def _files(outcomes: Iterable[Outcome]) -> Iterator[tuple[str, str]]:
+    for outcome in outcomes:
+        yield from outcome.files.items()
