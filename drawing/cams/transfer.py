@@ -17,16 +17,16 @@ DECIMALS = 4
 def transfer(scene: CamScene, plan: str) -> tuple[str, ...]:
     """Return by how much the ordinates of both diagrams are multiplied, and the angle of the projecting line."""
     words = scene.words
-    ratios = [f"{words.symbol(DRAWN[mu])}: {_ratio(scene, mu, SCALES[plan])}" for mu in FROM[plan]]
+    ratios = [f"{words.symbol(DRAWN[mu])}: {ratio(scene, mu, SCALES[plan])}" for mu in FROM[plan]]
     lines = [words["said.cam_equal"], ";  ".join(ratios)]
     if plan in ANGLES:
         nu, over, under = ANGLES[plan]
         angle = scene.degrees(math.atan(scene.mu(over) / scene.mu(under)))
-        lines.append(f"tg {words.symbol(nu)} = {_ratio(scene, over, under)};  {words.symbol(nu)} = {angle}")
+        lines.append(f"tg {words.symbol(nu)} = {ratio(scene, over, under)};  {words.symbol(nu)} = {angle}")
     return tuple(lines)
 
 
-def _ratio(scene: CamScene, over: str, under: str) -> str:
+def ratio(scene: CamScene, over: str, under: str) -> str:
     """Return the ratio of two scale factors in letters and its value."""
     ratio = scene.words.short(round(scene.mu(over) / scene.mu(under), DECIMALS))
     return f"{scene.words.symbol(over)}/{scene.words.symbol(under)} = {ratio}"

@@ -20,6 +20,8 @@ from .kind import Kind, Verdicts, first_of
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
     from ...drawing.formats import Format
+    from ...drawing.handouts.begun import Shown
+    from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
     from ...drawing.words import Words
     from ...plans.cams.profile import PlateProfile, RollerProfile
@@ -58,6 +60,7 @@ UNUSUAL = {
     "m/s^2": ("acceleration-most", "m/s^2"),
 }
 AT_MOST = {"length": "length-most"}  # of a number that may also be nothing
+REDUCED_TO = 6  # decimals of the part of their lengths at which diagrams are drawn
 RULES = ("roller_of_radius", "roller_of_curvature", "gamma_rise", "gamma_fall")  # checks that are told when they fail
 
 
@@ -259,6 +262,27 @@ class Cams(Kind[Cam, "SolvedCam"]):
         said = {name: _millimetres(smaller.givens[name]) for name in REDUCED if name != "mu_phi"}
         said |= {"angle": _degrees(smaller.givens["mu_phi"]), "part": f"{drawn.reduction:g}"}
         return smaller, (InputError("cam-smaller", format=drawn.format, **said),)
+
+    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
+        """Return what the first stages of every view draw."""
+        from ...drawing.cams.begun import begun
+
+        return begun(cam(case.solved), steps)
+
+    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
+        """Tell the drawing stage by stage, with the lengths that it has on the sheet."""
+        from ...drawing.cams.scene import CamScene
+        from ...drawing.cams.steps import story
+        from ...drawing.style import STYLES
+        from ...plans.cams.integration import TRAVEL
+        from ...plans.cams.solve import reduced
+
+        solved = cam(case.solved)
+        part = round(float(solved.values["mu_s"]) / scales[TRAVEL].mu, REDUCED_TO)
+        mus = {scale.symbol: scale.mu for scale in scales.values() if scale.symbol in SYMBOLS}
+        drawn = reduced(solved, part)
+        scene = CamScene(drawn, self.lettered(words, solved), STYLES["A4"], case.givens, mus, part)
+        return story(scene, texts)
 
     def lettered(self, words: Words, solved: SolvedCam) -> Words:
         """Return the words with the letters of a cam's quantities."""

@@ -1,0 +1,186 @@
+"""The work on a cam told step by step, as an explanatory note numbers it: the stages in which its views are drawn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from ...plans.cams.integration import ACCELERATION
+from ...plans.cams.inversion import PROFILE
+from ...plans.cams.rocker_plans import ROCKER_SIZES
+from ...plans.cams.size_plans import OUTWARDS, PLATE_SIZES, SIZES
+from ..notes.blocks import Story
+from ..printed import segment_decimals
+from .conclusions import conclusions
+from .offsets import offsets_line
+from .pressing import permitted, pressed, rolls, theta
+from .scene import MU_DIGITS, CamScene
+from .sizes_view import SHOWN
+from .stages import stages
+from .transfer import ratio
+
+PAPER = 2  # decimals of segments on paper
+Said = dict[str, str]
+# choices of sizes: by view the givens that make the sentence about the centre another one
+CHOSEN = {SIZES: ("r_0", "e"), ROCKER_SIZES: ("l_OC", "r_0")}
+CENTRAL = 0.05  # mm, of a circle of the offset that is not drawn
+
+
+def story(scene: CamScene, texts: Mapping[str, str]) -> Story:
+    """Return what the note of a cam says beside its views: the stages of each, with lengths as they are drawn.
+
+    Parameters
+    ----------
+    texts : mapping of str to str
+        The sentences, by key.
+    """
+    said = _said(scene, texts)
+    told = {
+        view: [texts[_key(scene, view, part)].format(**said) for part in parts[1:]]
+        for view, parts in stages(scene.solved).items()
+    }
+    return Story(told, conclusions=tuple(conclusions(scene, texts)))
+
+
+def _key(scene: CamScene, view: str, part: str) -> str:
+    """Return the key of a sentence: it depends on what is given, and on whether the follower's line has an offset."""
+    solved = scene.solved
+    if part == "centre" and view in CHOSEN:
+        given = [name for name in CHOSEN[view] if name in solved.givens]
+        return "_".join([f"cam.{view}.{part}", *given])
+    of_rocker = view == PROFILE and solved.rocker is not None
+    central = view == PROFILE and part in ("circles", "lines") and not _is_aside(scene)
+    return f"cam.{'rocker_' * of_rocker}{view}.{part}{'_central' * central}"
+
+
+def _is_aside(scene: CamScene) -> bool:
+    roller = scene.solved.roller
+    return roller is not None and abs(roller.sizes.e) > CENTRAL * scene.mu_l
+
+
+def _said(scene: CamScene, texts: Mapping[str, str]) -> Said:
+    """Return what sentences may name: quantities with letters and units, lengths on paper."""
+    solved = scene.solved
+    found = _of_task(scene) | _of_diagrams(scene, texts)
+    if rolls(solved):
+        found |= _of_pressure(scene)
+    if solved.roller is not None:
+        found |= _of_roller(scene, texts)
+    if solved.rocker is not None:
+        found |= _of_rocker(scene)
+    if solved.plate is not None:
+        found |= _of_plate(scene)
+    return found
+
+
+def on_paper(scene: CamScene, mm: float) -> str:
+    """Return a length on paper with its unit, without zeros at the end."""
+    return f"{scene.words.short(round(mm, PAPER))} {scene.words.unit('mm')}"
+
+
+def read(scene: CamScene, plan: str, name: str, metres: float) -> str:
+    """Return a size as it is read from a plan: its millimetres times the scale factor."""
+    words, mu = scene.words, float(f"{scene.scale(plan).mu:.{MU_DIGITS}g}")
+    places, decimals = segment_decimals(metres, mu)
+    product = f"{words.number(metres / mu, places)}·{words.short(mu)} = {words.number(metres, decimals)}"
+    return f"{words.symbol(name)} = {product} {words.unit('m')} = {scene.length(metres)} {words.unit('mm')}"
+
+
+def _of_task(scene: CamScene) -> Said:
+    """Return what the task gives, and the section lines."""
+    solved, words = scene.solved, scene.words
+    division, motion = solved.layout.division, solved.motion
+    phases = [phase for phase in motion.phases[:3] if phase.lasts]
+    lengths = ((f"phi_{p.name}", p.length / scene.across.mu) for p in phases)
+    found = {"h": scene.stated("h", motion.h), "last": str(division.last), "n_rise": str(division.top)}
+    found["n_fall"] = str(division.last - division.leave)
+    found["phases"] = ", ".join(f"{words.symbol(name)} = {on_paper(scene, mm)}" for name, mm in lengths)
+    found["angles"] = ", ".join(f"{words.symbol(f'phi_{p.name}')} = {scene.degrees(p.length)}" for p in phases)
+    found["per_mm"] = words["said.cam_axis"].format(angle=scene.degrees(scene.across.mu))
+    for name in ("gamma_rise", "gamma_fall"):
+        if name in solved.givens:
+            found[name] = f"{words.symbol(name)} = {scene.degrees(solved.givens[name])}"
+    for name in ("R_roller", "l_rocker", "rho_flat", "margin", "r_0", "e", "l_OC"):
+        if name in solved.givens:
+            found[name] = scene.stated(name, solved.givens[name])
+    return found | {"scale": words.drawn_at(scene.mu_l)}
+
+
+def _of_diagrams(scene: CamScene, texts: Mapping[str, str]) -> Said:
+    """Return poles, greatest ordinates and closing errors, mm of paper."""
+    solved, words = scene.solved, scene.words
+    names = ("H_a", "H_v", "v_close", "s_close", "S_max_chord", "l_A1", "l_A2")
+    drawn = {name: scene.paper(name) for name in names if name in solved.values}
+    most = {"S_max": (0.0, solved.motion.h, "mu_s"), "V_max": (0.0, solved.motion.ds_max.value, "mu_ds")}
+    drawn |= {name: value / scene.mu(mu) for name, (_, value, mu) in most.items()}
+    found = {name: f"{words.symbol(name)} = {on_paper(scene, mm)}" for name, mm in drawn.items()}
+    for name in {"v_close", "s_close"} & drawn.keys():
+        found[name] = f"{words.symbol(name)} = {words.number(drawn[name], PAPER)} {words.unit('mm')}"
+    amplitudes = ("l_A1", "l_A2") if solved.layout.given == ACCELERATION else ("l_A1",)
+    found["amplitudes"] = ", ".join(found[name] for name in amplitudes if name in found)
+    jumps = solved.layout.division.jumps
+    lines = ", ".join(map(str, jumps))
+    return found | {"jumps": texts["cam.jumps"].format(lines=lines) if jumps else ""}
+
+
+def _of_pressure(scene: CamScene) -> Said:
+    """Return the angles of the position that is shown, the least ones of each phase, the permitted ones."""
+    solved, words = scene.solved, scene.words
+    line = pressed(scene, SHOWN)
+    angle = float(theta(solved, solved.angles[line]))
+    shown = {"theta": angle, "gamma": 0.5 * math.pi - abs(angle)}
+    found = {name: f"{words.symbol(name)}_{{{line}}} = {scene.degrees(value)}" for name, value in shown.items()}
+    for name in ("gamma_rise_min", "gamma_fall_min"):
+        found[name] = f"{words.symbol(name)} = {scene.degrees(solved.values[name])}"
+    limits = {phase: abs(limit) for phase, limit in permitted(solved)}
+    found |= {f"theta_{phase}": f"[θ] = {scene.degrees(limits[phase])}" for phase in OUTWARDS}
+    cam = solved.roller or solved.rocker
+    assert cam is not None
+    return found | {"line": str(line), "rho_min": scene.stated("rho_min", cam.profile.rho_min)}
+
+
+def _of_roller(scene: CamScene, texts: Mapping[str, str]) -> Said:
+    """Return what is read from S over ds/dphi, and what the plan of the cam begins with."""
+    solved, words, roller = scene.solved, scene.words, scene.solved.roller
+    assert roller is not None
+    sizes, sides = roller.sizes, (texts["cam.right"], texts["cam.left"])
+    found = {name: scene.stated(name, float(solved.values[name])) for name in ("r_0_tangents", "e_tangents")}
+    found |= {"r_0": scene.stated("r_0", sizes.r_0), "e": scene.stated("e", abs(sizes.e))}
+    found |= {"r_0_read": read(scene, SIZES, "r_0", sizes.r_0), "offsets": "".join(offsets_line(scene))}
+    found["rise_side"], found["fall_side"] = sides[:: solved.cam.sense]
+    found |= {"ratio_s": ratio(scene, "mu_s", "mu_s_ds"), "ratio_ds": ratio(scene, "mu_ds", "mu_s_ds")}
+    found["mu_s_ds"] = scene.factor(scene.scale(SIZES))
+    drawn = [found["r_0"], found["e"]] if _is_aside(scene) else [found["r_0"]]
+    line = pressed(scene, SHOWN)
+    ds = abs(float(solved.motion.at(float(solved.angles[line]))[1]))
+    found["OP"] = f"OP_{{{line}}} = |{words.symbol('ds')}| = {scene.length(ds)} {words.unit('mm')}"
+    return found | {"radii": ", ".join(drawn)}
+
+
+def _of_rocker(scene: CamScene) -> Said:
+    """Return what is read from the positions of a rocker, and what the plan of the cam begins with."""
+    solved, words, cam = scene.solved, scene.words, scene.solved.rocker
+    assert cam is not None
+    sizes = {"r_0": cam.sizes.r_0, "l_OC": cam.sizes.l_OC}
+    found = {name: scene.stated(name, size) for name, size in sizes.items()}
+    found |= {f"{name}_read": read(scene, ROCKER_SIZES, name, size) for name, size in sizes.items()}
+    found |= {"l_rocker": scene.stated("l_rocker", cam.sizes.l), "l_letter": words.symbol("l_rocker")}
+    found |= {"l_rocker_paper": on_paper(scene, cam.sizes.l / scene.mu_l), "l_OC_letter": words.symbol("l_OC")}
+    angles = {"psi": cam.rocker.motion.h, "psi_0": float(solved.values["psi_0"])}
+    found |= {name: f"{words.symbol(name)} = {scene.degrees(angle)}" for name, angle in angles.items()}
+    dpsi = abs(float(cam.rocker.motion.at(float(solved.angles[pressed(scene, SHOWN)]))[1]))
+    return found | {"radii": f"{found['r_0']}, {found['l_OC']}", "ratio": words.short(float(f"{dpsi:.4g}"))}
+
+
+def _of_plate(scene: CamScene) -> Said:
+    """Return what is read from S over d2s/dphi2, and the plate."""
+    solved, words, plate = scene.solved, scene.words, scene.solved.plate
+    assert plate is not None
+    sizes = plate.sizes
+    found = {"r_0_flat": scene.stated("r_0_flat", sizes.r_0), "mu_s_d2s": scene.factor(scene.scale(PLATE_SIZES))}
+    found["r_0_flat_min_read"] = read(scene, PLATE_SIZES, "r_0_flat_min", sizes.r_0_min)
+    found["r_0_flat_tangent"] = scene.stated("r_0_flat_tangent", float(solved.values["r_0_flat_tangent"]))
+    found |= {"ratio_s_d2s": ratio(scene, "mu_s", "mu_s_d2s"), "ratio_d2s": ratio(scene, "mu_d2s", "mu_s_d2s")}
+    parts = scene.length(solved.motion.ds_max.value), scene.length(solved.values["margin"])
+    total = f"{' + '.join(parts)} = {scene.length(sizes.R_plate)} {words.unit('mm')}"
+    return found | {"R_plate_sum": f"{words.symbol('R_plate')} = {total}"}
