@@ -11,7 +11,9 @@ from math import ceil, cos, pi, sin, tan
 from typing import TYPE_CHECKING, BinaryIO, assert_never
 
 from .font import font
+from .layers import Layer, layered
 from .page import Page
+from .pdf_layers import DocumentLayers, opened
 from .pens import Pens, arrow_parts, head_outline, length_of
 from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from .text import lay_out, placer
@@ -35,10 +37,13 @@ def write_pdf(pages: Sequence[Page], stream: BinaryIO) -> None:
         A coordinate is not a finite number.
     """
     canvas, out = new_canvas(pages[0])
+    document = DocumentLayers(canvas, pages[0].language)
     for page in pages:
         canvas.setPageSize((page.width * POINT, page.height * POINT))
-        draw_shapes(canvas, page.shapes, page.pens)
+        layers = draw_page(canvas, page)
         canvas.showPage()
+        document.on_page(layers)
+    document.close()
     canvas.save()
     stream.write(out.getvalue())
 
@@ -50,7 +55,15 @@ def new_canvas(page: Page) -> tuple[Canvas, BytesIO]:
     _font()
     out = BytesIO()
     size = (page.width * POINT, page.height * POINT)
-    canvas = Canvas(out, pagesize=size, invariant=1, pageCompression=1, lang=page.language, initialFontName=FONT)
+    canvas = Canvas(
+        out,
+        pagesize=size,
+        invariant=1,
+        pageCompression=1,
+        lang=page.language,
+        initialFontName=FONT,
+        pdfVersion=(1, 5),  # the first with layers
+    )
     canvas.setTitle(page.title)
     canvas.setAuthor("")
     canvas.setCreator("Kulman")
@@ -72,8 +85,22 @@ def _font() -> TTFont:
     return face
 
 
+def draw_page(canvas: Canvas, page: Page) -> list[Layer]:
+    """Draw a page layer by layer on a canvas whose unit is the point and whose y points up; return its layers."""
+    canvas.saveState()
+    writer = _Writer(canvas, page.pens)
+    parts = layered(page.shapes)
+    for layer, shapes in parts:
+        writer.put(opened(layer))
+        for shape in shapes:
+            writer.draw(shape)
+        writer.put("EMC")
+    canvas.restoreState()
+    return [layer for layer, _ in parts]
+
+
 def draw_shapes(canvas: Canvas, shapes: Sequence[Shape], pens: Pens) -> None:
-    """Draw shapes on a canvas whose unit is the point and whose y points up."""
+    """Draw shapes of no layer on a canvas whose unit is the point and whose y points up."""
     canvas.saveState()
     writer = _Writer(canvas, pens)
     for shape in shapes:

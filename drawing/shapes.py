@@ -135,12 +135,16 @@ class Arrow:
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """Shapes that belong together: a link, an arm, a dimension, a point, a curve, a view."""
+    """Shapes that belong together: a link, an arm, a dimension, a point, a curve, a view.
+
+    `layer` names the layer that they are in, whatever their roles say (`layers.py`).
+    """
 
     shapes: tuple[Shape, ...]
     role: str
     name: str = ""
     title: str = ""
+    layer: str = ""
 
 
 Shape: TypeAlias = Line | Polyline | Circle | Arc | Head | Text | Vector | Arrow | Group

@@ -12,12 +12,14 @@ from math import cos, degrees, isfinite, pi, sin
 from typing import BinaryIO, assert_never
 
 from .font import FAMILY, subset, web_subset
+from .layers import Layer, layered
 from .page import Page
 from .pens import Pens, arrow_parts, head_outline, length_of
 from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from .text import lay_out, placer
 
 BLACK = "#000"
+INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"  # which shows groups of its mode as layers
 _CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 0xFFFE, 0xFFFF), "")  # XML forbids them
 _ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"}) | _CONTROLS
 
@@ -38,17 +40,28 @@ def write_svg(page: Page, stream: BinaryIO, with_font: bool = True) -> None:
 def svg_text(page: Page, with_font: bool = True) -> str:
     """Return one page as the text of an SVG file."""
     writer = _Writer(page.height, page.pens)
-    for shape in page.shapes:
-        writer.draw(shape)
+    for layer, shapes in layered(page.shapes):
+        writer.parts.append(_opened(layer, page.language))
+        for shape in shapes:
+            writer.draw(shape)
+        writer.parts.append("</g>")
     width, height = _number(page.width), _number(page.height)
     head = (
         '<?xml version="1.0" encoding="UTF-8"?>\n'
-        f'<svg xmlns="http://www.w3.org/2000/svg" version="1.1" width="{width}mm" height="{height}mm" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="{INKSCAPE}" version="1.1" '
+        f'width="{width}mm" height="{height}mm" '
         f'viewBox="0 0 {width} {height}" xml:lang="{_quoted(page.language)}" font-family="{FAMILY}, sans-serif">\n'
         f"<title>{_quoted(page.title)}</title>\n"
     )
     characters = "".join(sorted(writer.characters)) if with_font else ""
     return head + _style(characters) + "\n".join([*writer.parts, "</svg>\n"])
+
+
+def _opened(layer: Layer, language: str) -> str:
+    """Return the beginning of the group that holds a layer."""
+    shown = ' display="none"' if layer.hidden else ""
+    label = _quoted(layer.title(language))
+    return f'<g id="layer-{layer.value}" class="layer" inkscape:groupmode="layer" inkscape:label="{label}"{shown}>'
 
 
 def _style(characters: str) -> str:

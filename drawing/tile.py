@@ -9,7 +9,8 @@ from typing import BinaryIO
 
 from ..scales.errors import InputError
 from .page import Page
-from .pdf import POINT, draw_shapes, new_canvas
+from .pdf import POINT, draw_page, draw_shapes, new_canvas
+from .pdf_layers import DocumentLayers
 from .pens import pens_for
 from .shapes import Line, Pen, Shape, Text
 from .text import Box
@@ -56,13 +57,14 @@ def _count(length: float, room: float) -> int:
 def write_tiles(pages: Sequence[Page], stream: BinaryIO, paper: str = "A4") -> None:
     """Write pages as a PDF of small sheets at full size: print it at 100 %, cut at the marks, glue."""
     canvas, out = new_canvas(pages[0])
+    document = DocumentLayers(canvas, pages[0].language)
     width, height = PAPERS.get(paper, PAPERS["A4"])
     for number, page in enumerate(pages):
         whole = f"page-{number}"
         parts = tiles(page, paper)
         canvas.beginForm(whole, 0, 0, page.width * POINT, page.height * POINT)
-        draw_shapes(canvas, page.shapes, page.pens)
-        canvas.endForm()
+        layers = draw_page(canvas, page)
+        canvas.endForm(Resources=document.resources(layers))
         for part in parts:
             canvas.setPageSize((width * POINT, height * POINT))
             x0, y0, x1, y1 = part.window
@@ -76,6 +78,7 @@ def write_tiles(pages: Sequence[Page], stream: BinaryIO, paper: str = "A4") -> N
             canvas.restoreState()
             draw_shapes(canvas, _marks(part, (left, bottom, left + x1 - x0, bottom + y1 - y0)), pens_for(width, height))
             canvas.showPage()
+    document.close()
     canvas.save()
     stream.write(out.getvalue())
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
+from ..layers import TASK_VIEWS, Layer
 from ..page import Page
 from ..shapes import Arrow, Group, Polyline, Shape, Text, Vector
 from ..shapes import Line as LineShape
@@ -14,7 +15,6 @@ from ..view import View
 
 NUMBER = re.compile(r"[−-]?\d+(?:[.,]\d+)?(?: |$)")  # what a cell of units does not begin with
 ALWAYS = ("axis", "pivot", "frame")  # roles of what the task gives, not the work
-GIVEN = ("givens", "data", "choices", "note", "structure", "scales")  # views of the task, and of how it is drawn
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,14 +38,24 @@ NOTHING = Shown(frozenset(), frozenset(), notes=False)
 
 
 def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str, Shown]) -> list[Page]:
-    """Return pages on which views show no more than is `shown` of them; tables keep their heads and first columns."""
+    """Return pages on which views show no more than is `shown` of them; tables keep their heads and first columns.
+
+    All of it is given to the student, and in that layer.
+    """
     by_name = {view.name: view for view in views}
-    return [replace(page, shapes=tuple(_page_shape(shape, by_name, shown) for shape in page.shapes)) for page in pages]
+    begun = [replace(page, shapes=tuple(_page_shape(shape, by_name, shown) for shape in page.shapes)) for page in pages]
+    return [replace(page, shapes=tuple(map(_given, page.shapes))) for page in begun]
+
+
+def _given(shape: Shape) -> Shape:
+    if isinstance(shape, Group) and shape.role == "view":
+        return replace(shape, layer=Layer.GIVEN.value)
+    return shape
 
 
 def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Shown]) -> Shape:
     view = views.get(shape.name) if isinstance(shape, Group) and shape.role == "view" else None
-    if view is None or not isinstance(shape, Group) or (view.name in GIVEN and view.name not in shown):
+    if view is None or not isinstance(shape, Group) or (view.name in TASK_VIEWS and view.name not in shown):
         return shape
     kept = shown.get(view.name, NOTHING)
     if view.rows:

@@ -233,16 +233,22 @@ def read(*svgs: str | bytes) -> Sheet:
 def _page(number: int, svg: str | bytes) -> Page:
     root = etree.fromstring(svg.encode() if isinstance(svg, str) else svg)
     _, _, width, height = map(float, root.get("viewBox").split())
-    views: list[View] = []
+    views: dict[str, View] = {}
     rest = View("", number)
-    for child in root:
+    for child in _leafed(root):
         if child.tag == f"{SVG}g" and child.get("class") == "view":
-            view = View(child.get("data-name"), number)
-            _walk(child, view, (), height)
-            views.append(view)
+            name = child.get("data-name")
+            _walk(child, views.setdefault(name, View(name, number)), (), height)
         else:
             _element(child, rest, (), height)
-    return Page(width, height, root, views, rest)
+    return Page(width, height, root, list(views.values()), rest)
+
+
+def _leafed(root: etree._Element) -> Iterator[etree._Element]:
+    """Go through what the layers hold: first what is given, where every view has its heading."""
+    layers = [child for child in root if child.get("class") == "layer"]
+    for layer in sorted(layers, key=lambda layer: layer.get("id") != "layer-given"):
+        yield from layer
 
 
 def _walk(group: etree._Element, view: View, path: tuple[tuple[str, str], ...], height: float) -> None:
