@@ -6,12 +6,14 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import ACCELERATION, VELOCITY, Coupler
 from ..shapes import Vector, shifted
 from .letters import guide_letters
 from .marks import vectors_of
 from .scene import Scene
 
+VELOCITIES, ACCELERATIONS = "compound_velocity", "compound_a_"  # names of the views
 PAST = 8.0  # mm by which a construction line runs past the point that it finds
 
 
@@ -67,6 +69,21 @@ class At:
     def poles(self) -> Sequence[str]:
         """Return the point: its vectors begin there."""
         return (self.point,)
+
+
+def figures_of(scene: Scene) -> dict[str, tuple[At, ...]]:
+    """Return the points whose vectors the figures of compound motion show, by the name of the view."""
+    solved = scene.solved
+    if not any(is_at_point(plan) and plan in scene.scales for plan in solved.program.plans):
+        return {}
+    points = [(c, point) for c in hinged(solved.mechanism, solved.structure) for point in c.letters]
+    found = {VELOCITIES: tuple(At(scene, c, point, "V") for c, point in points)}
+    return found | {f"{ACCELERATIONS}{c.letters[point]}": (At(scene, c, point, "a"),) for c, point in points}
+
+
+def is_at_point(plan: str) -> bool:
+    """Whether a plan is drawn at a point itself."""
+    return plan.startswith((VELOCITY, ACCELERATION))
 
 
 def shifted_vector(vector: Vector, by: complex) -> Vector:

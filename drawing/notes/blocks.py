@@ -94,13 +94,14 @@ class Story:
     """What a note says beside the views of the sheet, by their names.
 
     `equations` stand before the steps of a plan, and in the place of views that are `told` so; `conclusions` are
-    sentences for the end.
+    sentences for the end; the blocks `before` a view have headings of their own.
     """
 
     steps: Mapping[str, Sequence[str]] = field(default_factory=dict)
     equations: Mapping[str, Sequence[Sequence[str]]] = field(default_factory=dict)
     told: frozenset[str] = frozenset()
     conclusions: tuple[str, ...] = ()
+    before: Mapping[str, Sequence[Block]] = field(default_factory=dict)
 
 
 def blocks_of(views: Iterable[View], story: Story) -> Iterator[Block]:
@@ -108,6 +109,7 @@ def blocks_of(views: Iterable[View], story: Story) -> Iterator[Block]:
     for view in views:
         if view.name in story.told:
             continue
+        yield from story.before.get(view.name, ())
         heading = view.heading[0] if view.heading else ""
         if heading:
             yield Heading(heading)

@@ -10,9 +10,9 @@ from ....plans.linkages.mechanism import ZERO
 from ...printed import Input, calculation, ruler_decimals, segment_decimals
 from ...table import text_block
 from ...view import View
-from ..at_point import direction_words
 from ..scene import Scene
 from .equations import Factor, Product, by_direction, factor, known, sensed, worked
+from .vector_equations import line_note, line_of
 
 Line = tuple[str, ...]
 UNITS = {"V": "m/s", "a": "m/s^2", "omega": "rad/s", "epsilon": "rad/s^2"}
@@ -20,49 +20,67 @@ UNITS = {"V": "m/s", "a": "m/s^2", "omega": "rad/s", "epsilon": "rad/s^2"}
 
 def compound_block(scene: Scene, width: float, coupler: Coupler, kind: str) -> View:
     """Return the equations of the velocities (`kind` "V") or of the accelerations ("a") of one coupler."""
-    lines = list(_velocities(scene, coupler) if kind == "V" else _accelerations(scene, coupler))
     heading = scene.words[f"heading.equations_compound_{kind}"].format(link=_name(scene, coupler.number))
-    return text_block(f"equations_compound_{kind}_{coupler.number}", heading, lines, scene.style, width)
+    lines = compound_lines(scene, coupler, kind)
+    return text_block(block_name(coupler, kind), heading, lines, scene.style, width)
 
 
-def _velocities(scene: Scene, c: Coupler) -> Iterator[Line]:
-    """Go through the velocities: where the end is closed, omega_r follows from it, else it is known before."""
-    rate = f"omega_r_{c.number}"
-    yield _split(scene, c)
+def block_name(coupler: Coupler, kind: str) -> str:
+    """Return the name of the view of a coupler's equations."""
+    return f"equations_compound_{kind}_{coupler.number}"
+
+
+def compound_lines(scene: Scene, c: Coupler, kind: str, only: str = "") -> list[Line]:
+    """Return the equations of a coupler's velocities ("V") or accelerations ("a"), all or those of the point `only`.
+
+    What is said of the whole coupler stands before the first of its points.
+    """
+    points = [point for point in c.letters if only in ("", point)]
+    lines = list(_of_the_whole(scene, c, kind)) if next(iter(c.letters)) in points else []
+    told = _velocities if kind == "V" else _accelerations
+    return [*lines, *(line for point in points for line in told(scene, c, point))]
+
+
+def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Line]:
+    """Go through what is known before any point: the split, and relative rates where no end is closed."""
+    if kind == "V":
+        yield _split(scene, c)
     if c.closing is None:
-        yield _sum_of_rates(scene, rate, f"omega_{c.number}", c.omega_e, -1.0)
-        yield from _centre(scene, c)
-    for point, letter in c.letters.items():
-        distance = f"l_{c.pivot}{point}"
-        yield _vectors(scene, c, point, "V")
-        yield _measured(scene, distance, POSITION)
-        yield _product(scene, f"V_{letter}_e", factor(scene, c.omega_e), factor(scene, distance))
-        if _closing(c, point) is not None:
-            yield _measured(scene, f"V_{letter}_r", VELOCITY + letter)
-            yield _product(scene, rate, factor(scene, f"V_{letter}_r"), _arm(scene, c, point, -1))
-            yield _sum_of_rates(scene, f"omega_{c.number}", c.omega_e, rate, 1.0)
+        whole, carrier = ("omega", c.omega_e) if kind == "V" else ("epsilon", c.epsilon_e)
+        yield _sum_of_rates(scene, f"{whole}_r_{c.number}", f"{whole}_{c.number}", carrier, -1.0)
+        if kind == "V":
             yield from _centre(scene, c)
-        else:
-            yield _product(scene, f"V_{letter}_r", factor(scene, rate), _arm(scene, c, point))
-        yield _measured(scene, f"V_{point}", VELOCITY + letter)
 
 
-def _accelerations(scene: Scene, c: Coupler) -> Iterator[Line]:
-    """Go through the accelerations in the order in which they are hung."""
-    rate = f"epsilon_r_{c.number}"
-    if c.closing is None:
-        yield _sum_of_rates(scene, rate, f"epsilon_{c.number}", c.epsilon_e, -1.0)
-    for point, letter in c.letters.items():
-        closing, plan = _closing(c, point), ACCELERATION + letter
-        yield _vectors(scene, c, point, "a")
-        yield from _known_parts(scene, c, point)
-        if closing is not None:
-            yield from _closed(scene, c, closing, plan)
-            yield _product(scene, rate, factor(scene, f"a_{letter}_rt"), _arm(scene, c, point, -1))
-            yield _sum_of_rates(scene, f"epsilon_{c.number}", c.epsilon_e, rate, 1.0)
-        else:
-            yield _product(scene, f"a_{letter}_rt", factor(scene, rate), _arm(scene, c, point))
-        yield _measured(scene, f"a_{point}", plan)
+def _velocities(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
+    """Go through the velocities of a point: where the end is closed, omega_r follows from it, else it is known."""
+    rate, letter, distance = f"omega_r_{c.number}", c.letters[point], f"l_{c.pivot}{point}"
+    yield _vectors(scene, c, point, "V")
+    yield measured(scene, distance, POSITION)
+    yield _product(scene, f"V_{letter}_e", factor(scene, c.omega_e), factor(scene, distance))
+    if _closing(c, point) is not None:
+        yield measured(scene, f"V_{letter}_r", VELOCITY + letter)
+        yield _product(scene, rate, factor(scene, f"V_{letter}_r"), _arm(scene, c, point, -1))
+        yield _sum_of_rates(scene, f"omega_{c.number}", c.omega_e, rate, 1.0)
+        yield from _centre(scene, c)
+    else:
+        yield _product(scene, f"V_{letter}_r", factor(scene, rate), _arm(scene, c, point))
+    yield measured(scene, f"V_{point}", VELOCITY + letter)
+
+
+def _accelerations(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
+    """Go through the accelerations of a point in the order in which they are hung."""
+    rate, letter = f"epsilon_r_{c.number}", c.letters[point]
+    closing, plan = _closing(c, point), ACCELERATION + letter
+    yield _vectors(scene, c, point, "a")
+    yield from _known_parts(scene, c, point)
+    if closing is not None:
+        yield from _closed(scene, c, closing, plan)
+        yield _product(scene, rate, factor(scene, f"a_{letter}_rt"), _arm(scene, c, point, -1))
+        yield _sum_of_rates(scene, f"epsilon_{c.number}", c.epsilon_e, rate, 1.0)
+    else:
+        yield _product(scene, f"a_{letter}_rt", factor(scene, rate), _arm(scene, c, point))
+    yield measured(scene, f"a_{point}", plan)
 
 
 def _split(scene: Scene, c: Coupler) -> Line:
@@ -104,12 +122,13 @@ def _closed(scene: Scene, c: Coupler, closing: Closing, plan: str) -> Iterator[L
         pivot = next(point for point in link.points if point in scene.solved.mechanism.frame_points)
         rate = factor(scene, f"omega_{link.number}", 2)
         yield _product(scene, closing.normal, rate, _length(scene, pivot, c.span.end))
-    yield _measured(scene, f"a_{letter}_rt", plan)
+    yield measured(scene, f"a_{letter}_rt", plan)
     if closing.normal is not None:
-        yield _measured(scene, _tangential(closing.normal), plan)
+        yield measured(scene, tangential(closing.normal), plan)
 
 
-def _tangential(normal: str) -> str:
+def tangential(normal: str) -> str:
+    """Return the name of the tangential part that goes with a normal one."""
     return normal.removesuffix("n") + "t"
 
 
@@ -124,13 +143,13 @@ def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Line:
     whole = bar(f"{kind}_{point}")
     if closing is None:
         return _equation(whole, [*map(known, parts), known(last)], [])
-    notes = [f"{last} {direction_words(scene, c.span.n)}"]
+    notes = [f"{last} {line_of(scene, c.span.n)}"]
     if kind == "a" and closing.normal is not None:
-        tangential = bar(_tangential(closing.normal))
-        notes.append(f"{tangential} {direction_words(scene, closing.direction)}")
-        whole = f"{known(bar(closing.normal))} + {by_direction(tangential)}"
+        across = tangential(closing.normal)
+        notes.append(line_note(scene, across, closing.direction))
+        whole = f"{known(bar(closing.normal))} + {by_direction(bar(across))}"
     else:
-        notes.append(f"{whole} {direction_words(scene, closing.direction)}")
+        notes.append(f"{whole} {line_of(scene, closing.direction)}")
         whole = by_direction(whole)
     return _equation(whole, [*map(known, parts), by_direction(last)], notes)
 
@@ -180,7 +199,7 @@ def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float)
     return _listed(head, [last, sense]) if sense else (*head, last)
 
 
-def _measured(scene: Scene, name: str, plan: str) -> Line:
+def measured(scene: Scene, name: str, plan: str) -> Line:
     """Return what was measured: the segment and the scale factor."""
     words, item = scene.words, scene.solved.quantities[name]
     value, number = words.display.value(item.value or 0.0, item.unit), words.factor(scene.scales[plan])

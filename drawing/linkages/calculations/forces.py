@@ -47,10 +47,33 @@ def force_lines(scene: Scene, part: str = WHOLE) -> Lines:
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
     lines: Lines = []
     for step in scene.solved.program:
-        told = _load(scene, step) if step.law in LOADING else _force(scene, step)
-        if told and part in (WHOLE, LOADS if step.law in LOADING else _part(scene, step)):
-            lines += told
+        if step.law in LOADING:
+            lines += _load(scene, step) if part in (WHOLE, LOADS) else []
+        elif part != LOADS:
+            told = _force(scene, step)
+            lines += told if told and part in (WHOLE, _part(scene, step)) else []
     return lines
+
+
+def lines_by_plan(scene: Scene) -> dict[str, Lines]:
+    """Return the equations that stand before each force plan, by plan: moments first, then the sums that it shows.
+
+    What is found after the last plan of a group stands with that one.
+    """
+    scene = replace(scene, words=scene.words.showing(AS_INSIDE))
+    poles = [step for step in scene.solved.program if step.verb == "pole" and step.name.startswith("forces_")]
+    last = {_part(scene, step): plan_of(step.name) for step in poles}
+    found: dict[str, Lines] = {plan_of(step.name): [] for step in poles}
+    held: dict[str, Lines] = {}
+    for step in scene.solved.program:
+        told = [] if step.law in LOADING else _force(scene, step)
+        if step in poles:
+            found[plan_of(step.name)] += [*held.pop(_part(scene, step), []), *told]
+        elif told:
+            held.setdefault(_part(scene, step), []).extend(told)
+    for part, lines in held.items():
+        found[last[part]] += lines
+    return found
 
 
 def load_lines(scene: Scene) -> Lines:

@@ -229,17 +229,24 @@ def _given(scene: Scene, reading: Reading, step: Step) -> tuple[str, ...]:
     return noted((line,), line_note(scene, name, laid.operands[1]))
 
 
+def triangles(scene: Scene, step: Step) -> tuple[str, str]:
+    """Return the triangle on a plan that is similar to one of a link, and that one, by the letters of their corners."""
+    words, point, made = scene.words, step.name.rpartition(".")[2], read(scene.solved.program).made
+    ends = step.operands[:2]
+    # at the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism
+    marks = [made[point].operands[i] if mark.endswith(".p") else mark for i, mark in enumerate(ends)]
+    plan, link = (*ends, step.name), (*(mark.rpartition(".")[2] for mark in marks), point)
+    return "".join(map(words.mark, plan)), "".join(map(words.mark, link))
+
+
 def _similarity(scene: Scene, step: Step) -> Lines:
     """Return where a point of a link stands on a plan by the theorem of similarity."""
     words = scene.words
     start, end, first, second = step.operands
-    a, b, s = (words.mark(mark) for mark in (start, end, step.name))
     if step.verb == "similar":
-        point, made = step.name.rpartition(".")[2], read(scene.solved.program).made
-        # at the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism
-        marks = [made[point].operands[i] if m.endswith(".p") else m for i, m in enumerate((start, end))]
-        A, B, S = (words.mark(mark.rpartition(".")[2]) for mark in (*marks, point))
-        return [tuple(words["said.similar"].format(plan=f"{a}{b}{s}", link=f"{A}{B}{S}").split("|"))]
+        plan, link = triangles(scene, step)
+        return [tuple(words["said.similar"].format(plan=plan, link=link).split("|"))]
+    a, b, s = (words.mark(mark) for mark in (start, end, step.name))
     if size_of(scene, first) == 0.0:
         return []
     ab = segment(scene, f"{a}{b}", step.plan, abs(scene.solved.point(end) - scene.solved.point(start)))

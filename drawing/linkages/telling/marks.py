@@ -1,0 +1,191 @@
+"""Steps that make marks, told: points of the mechanism, ends of vectors, where lines and arcs meet, templates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+
+from ....plans.board import POSITION, Step
+from ..calculations.equations import size_of
+from ..calculations.kinematics import triangles
+from ..calculations.tables import printed_segment
+from .guides import GUIDES, guide_told
+from .teller import Teller
+
+LINES = ("lay", "back")
+FIRST_PATH, OF_PATH = 6, 4  # where the paths of a template's joints begin among its operands, operands of a path
+
+
+def _pole(teller: Teller, step: Step) -> Iterator[str]:
+    yield teller.say("lever" if step.plan == "lever" else "pole", point=teller.mark(step.name))
+
+
+def _place(teller: Teller, step: Step) -> Iterator[str]:
+    if step.name.startswith("_"):
+        yield from guide_told(teller, step)
+    else:
+        yield teller.say("place", point=teller.mark(step.name), place=teller.place(step.name))
+
+
+def _lay(teller: Teller, step: Step) -> Iterator[str]:
+    """Laid off along a line: a link's length, or a vector; a zero vector is a point."""
+    start, direction, _ = step.operands
+    edge = teller.reading.between(start, step.name)
+    b = teller.mark(step.name)
+    line, mm = teller.line(direction, back=step.verb == "back"), teller.distance(start, step.name)
+    if GUIDES.fullmatch(start):
+        yield teller.say("on_guide", line=line.removeprefix("∥ "), point=b, mm=mm)
+        return
+    a = teller.mark(start)
+    if edge is not None and teller.scene.vanishes(edge.name):
+        yield teller.say("zero", vector=teller.vector(edge.name), start=a, end=b)
+        return
+    parts = {"start": a, "segment": f"{a}{b}", "mm": mm}
+    if edge is None:
+        yield teller.say("lay", line=teller.angle(direction) or line, **parts)
+    else:
+        yield teller.say("vector", line=line, vector=teller.vector(edge.name), **parts)
+
+
+def _chain(teller: Teller, step: Step) -> Iterator[str]:
+    """A vector that is known in full, hung on another one."""
+    start, vector = step.operands
+    a, b = teller.mark(start), teller.mark(step.name)
+    if teller.scene.vanishes(vector):
+        yield teller.say("zero", vector=teller.vector(vector), start=a, end=b)
+        return
+    line = teller.along(vector)
+    parts = {"segment": f"{a}{b}", "mm": teller.distance(start, step.name), "vector": teller.hung(vector)}
+    if line:
+        yield teller.say("vector", start=a, line=line, **parts)
+    else:
+        yield teller.say("chain", start=a, **parts)
+
+
+def _meet(teller: Teller, step: Step) -> Iterator[str]:
+    p, u, q, w = step.operands
+    first, second = (_through(teller, mark, line) for mark, line in ((p, u), (q, w)))
+    yield teller.say("meet", first=first, second=second, point=teller.mark(step.name))
+
+
+def _through(teller: Teller, mark: str, direction: str) -> str:
+    """Return a line through a mark; one that is a guide needs no mark."""
+    line = teller.line(direction)
+    if mark.startswith("_"):
+        return teller.say("guide", line=line.removeprefix("∥ "))
+    return teller.say("through", line=line, point=teller.mark(mark))
+
+
+def _arc(teller: Teller, step: Step) -> Iterator[str]:
+    centre, radius, through, direction, _ = step.operands
+    parts = {"centre": teller.mark(centre), "mm": teller.radius(radius), "point": teller.mark(step.name)}
+    yield teller.say("arc", line=_through(teller, through, direction), **parts)
+
+
+def _arcs(teller: Teller, step: Step) -> Iterator[str]:
+    first, radius, second, other, _ = step.operands
+    yield teller.say(
+        "arcs", first=teller.mark(first), one=teller.radius(radius), second=teller.mark(second),
+        other=teller.radius(other), point=teller.mark(step.name),
+    )  # fmt: skip
+
+
+def _divide(teller: Teller, step: Step) -> Iterator[str]:
+    """A point on the line of a link: on the mechanism itself by its distance, on a plan by similarity."""
+    start, end, part, whole = step.operands
+    a, b, s = (teller.mark(mark) for mark in (start, end, step.name))
+    if step.plan == POSITION:
+        yield teller.say("on_link", point=s, link=f"{a}{b}", segment=f"{a}{s}", mm=teller.radius(part))
+        return
+    ratio = " : ".join(teller.scene.words.symbol(name.strip("_|")) for name in (part, whole))
+    yield teller.say("divide", point=s, segment=f"{a}{b}", ratio=ratio)
+
+
+def _similar(teller: Teller, step: Step) -> Iterator[str]:
+    """The third point of a link: on the mechanism by its distances from two others, on a plan by similarity."""
+    start, end, *_ = step.operands
+    a, b, s = (teller.mark(mark) for mark in (start, end, step.name))
+    if step.plan == POSITION:
+        one, other = (teller.distance(mark, step.name) for mark in (start, end))
+        yield teller.say("corner", point=s, segment=f"{a}{b}", first=f"{a}{s}", one=one, second=f"{b}{s}", other=other)
+        return
+    plan, link = triangles(teller.scene, step)
+    yield teller.say("similar", point=s, segment=f"{a}{b}", plan=plan, link=link)
+
+
+def _same(teller: Teller, step: Step) -> Iterator[str]:
+    one, other = teller.mark(step.name), teller.mark(step.operands[0])
+    if one != other and not step.name.startswith("_"):
+        yield teller.say("same", point=one, other=other)
+
+
+def _read(teller: Teller, step: Step) -> Iterator[str]:
+    """A vector that is measured, not laid off: its millimetres times the scale factor."""
+    tail, tip = step.operands
+    edge = teller.reading.between(tail, tip)
+    if edge is None or edge.name != step.name or teller.reading.is_hung(edge):
+        return
+    name = step.name.removeprefix("_")  # a force that balances has an intermediate vector
+    item = teller.scene.solved.quantities.get(name)
+    if item is None:
+        return
+    words, segment = teller.scene.words, f"{teller.mark(tail)}{teller.mark(tip)}"
+    if size_of(teller.scene, name) == 0.0:
+        yield teller.say("point", segment=segment, symbol=words.symbol(name))
+        return
+    mm, number, value = printed_segment(teller.scene, item)
+    sign = "/" if words.per_unit else "·"
+    result = f"{value} {words.unit(words.display.unit(item.unit))}"
+    shown = f"{mm} {words.unit(words.display.paper)}"
+    yield teller.say(
+        "read", segment=segment, mm=shown, symbol=words.symbol(name), sum=f"{mm}{sign}{number}", value=result
+    )
+
+
+def _tangent(teller: Teller, step: Step) -> Iterator[str]:
+    """The line of a slotted link, through the pivot and the block's pin, or past the pivot at a distance."""
+    centre, point, offset, *_ = step.operands
+    a, b = teller.mark(centre), teller.mark(point)
+    if size_of(teller.scene, offset) == 0.0:
+        yield teller.say("joined", line=f"{a}{b}", start=a, end=b)
+    else:
+        yield teller.say("tangent", line=teller.line(step.name), centre=a, mm=teller.radius(offset), point=b)
+
+
+def _template(teller: Teller, step: Step) -> Iterator[str]:
+    """A joint of a link of which a template is laid on the paths of its joints, told with the first of them."""
+    joint, where, point = step.operands[0], step.operands[1:], teller.mark(step.name)
+    laid = [other for other in teller.scene.solved.program.which(("template",)) if other.operands[1:] == where]
+    if laid[0].name != step.name:
+        yield teller.say("template_more", point=point)
+        return
+    names = {other.operands[0]: teller.mark(other.name) for other in laid}
+    legs = [step.operands[i : i + OF_PATH] for i in range(FIRST_PATH, len(step.operands), OF_PATH)]
+    paths = ", ".join(_path(teller, names[leg[0]], leg) for leg in legs)
+    yield teller.say("template", link="".join(names.values()), paths=paths, point=names[joint])
+
+
+def _path(teller: Teller, joint: str, leg: tuple[str, ...]) -> str:
+    """Return where a leg lets a joint be: on an arc, or on a line."""
+    _, start, radius, direction = leg
+    if size_of(teller.scene, radius) == 0.0:
+        return teller.say("path_line", point=joint, line=teller.line(direction).removeprefix("∥ "))
+    return teller.say("path_arc", point=joint, centre=teller.mark(start), mm=teller.radius(radius))
+
+
+TOLD: Mapping[str, Callable[[Teller, Step], Iterator[str]]] = {
+    "pole": _pole,
+    "place": _place,
+    "lay": _lay,
+    "back": _lay,
+    "chain": _chain,
+    "meet": _meet,
+    "arc": _arc,
+    "arcs": _arcs,
+    "divide": _divide,
+    "similar": _similar,
+    "same": _same,
+    "read": _read,
+    "tangent": _tangent,
+    "incline": guide_told,
+    "template": _template,
+}

@@ -1,0 +1,158 @@
+"""Who tells the steps of a linkage's plans: the words of one language for segments, lines and vectors."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ....plans.board import POSITION, Step
+from ....scales.packaged import packaged
+from ... import notes
+from ...printed import POINT
+from ..at_point import At, figures_of
+from ..calculations.equations import is_given, size_of
+from ..calculations.vector_equations import ends_of, line_of
+from ..reading import Reading, read
+from ..scene import Scene
+
+ACROSS = ("transport_speed", "transport_tangential")  # laws of vectors normal to the arm of a turn
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """A sentence, the step that it tells of, and what it draws beside the mark that the step makes.
+
+    What is not `counted` only sets a drawing up, as a pole does: a handout shows it from the start.
+    """
+
+    step: Step
+    text: str
+    counted: bool = True
+    names: frozenset[str] = frozenset()
+    letters: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class Teller:
+    """Tells steps in the words of one language."""
+
+    scene: Scene
+    reading: Reading
+    texts: Mapping[str, str]
+    figures: Mapping[str, tuple[At, ...]]  # of compound motion, by the name of the view
+
+    @classmethod
+    def of(cls, scene: Scene, texts: Mapping[str, str] | None = None) -> Teller:
+        """Return who tells the steps of a linkage; the words of the scene's language where no `texts` are said."""
+        said = packaged(notes.__name__, "texts", scene.words.language) if texts is None else texts
+        return cls(scene, read(scene.solved.program), said, figures_of(scene))
+
+    def say(self, key: str, **parts: str) -> str:
+        """Return a sentence."""
+        return self.texts[f"step.{key}"].format(**parts)
+
+    def mark(self, name: str) -> str:
+        """Return the letter of a mark."""
+        return self.scene.words.mark(name)
+
+    def vector(self, name: str) -> str:
+        """Return the letter of a vector, with its bar."""
+        return self.scene.words.symbol(name.lstrip("_"), bar=True)
+
+    def distance(self, start: str, end: str) -> str:
+        """Return the length of a segment on its plan, with its unit."""
+        scale = self.scene.scales[end.rpartition(".")[0] or POSITION]
+        size = abs(self.scene.solved.point(end) - self.scene.solved.point(start))
+        return self.on_paper(size / scale.mu if size >= POINT * scale.mu else 0.0)
+
+    def radius(self, name: str) -> str:
+        """Return a length of the mechanism as it is taken into the compass."""
+        return self.on_paper(size_of(self.scene, name) / self.scene.scales[POSITION].mu)
+
+    def on_paper(self, mm: float) -> str:
+        """Return a length on paper with its unit."""
+        words = self.scene.words
+        return f"{words.number(words.display.segment(mm), 2)} {words.unit(words.display.paper)}"
+
+    def place(self, mark: str) -> str:
+        """Return the coordinates of a mark of the mechanism on paper."""
+        words, at = self.scene.words, self.scene.mm(mark)
+        x, y = (words.short(round(words.display.segment(part), 2)) for part in (at.real, at.imag))
+        return self.say("coordinates", x=x, y=y, unit=words.unit(words.display.paper))
+
+    def line(self, direction: str, back: bool = False) -> str:
+        """Return a line by its direction, with the sense in which a normal part is laid off."""
+        text, made = line_of(self.scene, direction), self.reading.made.get(direction)
+        if back and made is not None and made.verb in ("direction", "turn") and text.startswith("∥"):
+            start, end = (self.mark(point) for point in ends_of(self.reading, direction))
+            return f"{text} ({end} → {start})"
+        return text
+
+    def angle(self, direction: str) -> str:
+        """Return the angle of the driver as the task gives it; nothing for other lines."""
+        made = self.reading.made.get(direction)
+        if made is None or made.verb != "turn" or not is_given(self.scene, name := made.operands[0]):
+            return ""
+        given = self.scene.givens.get(name)
+        if given is None or isinstance(given.value, str):
+            return ""
+        words = self.scene.words
+        value = f"{words.short(given.value)}{'°' if given.unit == 'deg' else words.unit(given.unit)}"
+        return self.say("angle", symbol=words.symbol(name), value=value)
+
+    def hung(self, vector: str) -> str:
+        """Return the letter of a vector that is hung on others; of a reaction the one that it answers, too."""
+        made, letter = self.reading.step(vector), self.vector(vector)
+        return letter if made is None or made.law != "opposite" else f"{letter} = −{self.vector(made.operands[0])}"
+
+    def along(self, vector: str) -> str:
+        """Return how a vector that is hung on others lies, by the law that gives it; nothing where that is said so."""
+        made = self.reading.step(vector)
+        if made is None:
+            return ""
+        if made.law in ACROSS or made.law == "transport_normal":
+            return self._on_arm(made)
+        if made.law in ALONG:
+            return ALONG[made.law](self, made)
+        if made.verb == "read":  # laid off along a line on another plan
+            laid = self.reading.made[made.operands[1]]
+            if laid.verb in ("lay", "back") and laid.operands[0] == made.operands[0]:
+                return self.line(laid.operands[1], back=laid.verb == "back")
+        return ""
+
+    def _on_arm(self, made: Step) -> str:
+        """Return the line of a part of a turn about a pin: normal to its arm, or along it towards the pin."""
+        arm = self.reading.made[made.operands[1]]
+        pin, point = (self.mark(mark) for mark in arm.operands)
+        if made.law not in ACROSS:
+            return f"∥ {pin}{point} ({point} → {pin})"
+        return self.say("in_sense", line=f"⊥ {pin}{point}", rate=self.scene.words.symbol(made.operands[0]))
+
+    def _against(self, made: Step) -> str:
+        return self.say("against", motion=self.vector(made.operands[1]))
+
+    def _across(self, made: Step) -> str:
+        rate, vector = made.operands
+        return self.say("turned_by", vector=self.vector(vector), rate=self.scene.words.symbol(rate))
+
+    def _down(self, made: Step) -> str:
+        return self.say("down")
+
+    def _given(self, made: Step) -> str:
+        line = self.reading.step(made.operands[1])
+        if line is not None and line.verb != "turn":
+            return self.line(made.operands[1])
+        angle = math.degrees(cmath.phase(complex(self.scene.solved.values[made.name]))) % 360.0
+        return self.say("inclined", angle=self.scene.words.short(round(angle, 2)))
+
+
+ALONG = {
+    "coriolis": Teller._across,
+    "inertia_force": Teller._against,
+    "resisting_force": Teller._against,
+    "resisting_along": Teller._against,
+    "weight": Teller._down,
+    "along": Teller._given,
+}
