@@ -14,7 +14,7 @@ from ..dimensions import linear
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import Box, box
 from ..view import Canvas, View
-from .fan import aside, fan
+from .fan import AXES, aside, fan
 from .scene import CamScene, canvas_of, pieces
 
 ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a diagram shows
@@ -45,7 +45,7 @@ def diagrams_view(scene: CamScene) -> View:
     _section_lines(canvas, scene, fields, boxes)
     away = aside([[(i, mean.imag) for i, mean in _means(scene, plan)] for plan in drawn], scene.style.text)
     for plan, field in zip(drawn, fields, strict=True):
-        canvas.part("axes")
+        canvas.part(AXES)
         axes(canvas, field, False, PAST * scene.style.label)
         given, shown = plan == solved.layout.given, plan[-1]
         canvas.part(f"law_{shown}" if given else f"chords_{shown}")

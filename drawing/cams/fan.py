@@ -15,6 +15,7 @@ from ..view import Canvas
 APART = 1.2  # heights of letters between the numbers of rays under one another
 AROUND = 0.5  # mm between a number and the broken lines beside it
 RUN = 3  # how many numbers in a row are written with a dash
+AXES = "axes"  # the part of a view that is there before the work
 PAST = 3.0  # mm of an axis beyond the pole
 
 
@@ -79,7 +80,7 @@ def fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, com
     away : float
         What `aside` has returned.
 
-    The pole with its distance is the part of the work that `pole` names.
+    The pole, and the line from which its distance counts, are there with the axes, before any ray.
     """
     style, zero = canvas.style, field.origin - away
     height = small(style.text)
@@ -96,15 +97,15 @@ def fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, com
         canvas.add(Line(at, foot, Pen.THIN, role="ray", name=" ".join(str(i) for i, _ in equal)))
         nearest = min((mean for _, mean in equal), key=lambda mean: mean.real)
         canvas.add(*_broken(nearest, foot, boxes, Pen.DASHED, "projection"))
+    rays = canvas.part(AXES)
     if len(feet) > 1:
         canvas.add(Line(min(feet[0], zero, key=_height), max(feet[-1], zero, key=_height), Pen.THIN, role="feet"))
     wide = lay_out(beyond.text, height).width + AROUND if beyond else 0.0
-    rays = canvas.part(pole.name)
     canvas.add(*_broken(field.origin, at - max(PAST, wide), boxes, Pen.THIN, "axis"))
     if beyond:
         canvas.part(rays)
         canvas.add(Text(at - wide - 1j * (height + 2.0 * AROUND), beyond.text, height, role="number"))
-        canvas.part(pole.name)
+        canvas.part(AXES)
     canvas.add(Circle(at, style.node, Pen.MAIN, fill="white", role="pole"))
     canvas.label(pole.letter, at, prefer=-1.0 + 1j, clear=1.0, height=style.text)
     _distance(canvas, pole, (at, min(feet[0], zero, key=_height)))
