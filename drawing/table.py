@@ -20,8 +20,7 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
     """Return a ruled table; the first row is its head. A cell that is None belongs to the one on its left."""
     h = style.text
     pad = 0.5 * h
-    columns = range(len(rows[0]))
-    widths = [max(lay_out(_alone(row, i), h).width for row in rows) + 2 * pad for i in columns]
+    widths = [wide + 2 * pad for wide in _widths(rows, h)]
     edges = [sum(widths[:i]) for i in range(len(widths) + 1)]
     spans = [_span(row, h) for row in rows]
     # a row of scripts above and below needs more than a row of plain words
@@ -50,9 +49,14 @@ def cells(row: Row) -> Iterator[tuple[int, int, str]]:
             yield i, next((k for k in range(i + 1, len(row)) if row[k] is not None), len(row)), cell
 
 
-def _alone(row: Row, column: int) -> str:
-    """Return the text of a cell that fills one column."""
-    return next((cell for i, end, cell in cells(row) if i == column and end == i + 1), "")
+def _widths(rows: Sequence[Row], h: float) -> list[float]:
+    """Return for every column how wide the widest text is that stands in it alone."""
+    widths = [0.0] * len(rows[0])
+    for row in rows:
+        for i, end, cell in cells(row):
+            if end == i + 1:
+                widths[i] = max(widths[i], lay_out(cell, h).width)
+    return widths
 
 
 def _ruled(rows: Sequence[Row], edge: int) -> list[tuple[int, int]]:

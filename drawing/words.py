@@ -61,6 +61,7 @@ class Words:
     frame: str = "0"
     ends: Mapping[str, str] = field(default_factory=dict)
     display: Display = AS_INSIDE
+    _symbols: dict[str, tuple[str, str]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @classmethod
     def of(cls, language: str, notation: str) -> Words:
@@ -141,7 +142,9 @@ class Words:
 
     def symbol(self, name: str, bar: bool = False) -> str:
         """Return the markup of a quantity's symbol, with a vector bar where wanted."""
-        head, rest = self._parts(name)
+        if name not in self._symbols:
+            self._symbols[name] = self._parts(name)
+        head, rest = self._symbols[name]
         return f"\\bar{{{head}}}{rest}" if bar else f"{head}{rest}"
 
     def _parts(self, name: str) -> tuple[str, str]:

@@ -54,11 +54,12 @@ def place_arcs(
     kept: list[list[tuple[float, int, Place]]] = []
     for share in wanted:
         found = []
-        for number, (ray, (places, costs)) in enumerate(zip(rays, tries, strict=True)):
-            radii, reach = np.array([place.radius for place in places]), abs(ray[1] - ray[0])
+        for number, (ray, (radii, spreads, costs)) in enumerate(zip(rays, tries, strict=True)):
+            reach, along = abs(ray[1] - ray[0]), phase(ray[1] - ray[0])
             cost = costs + AWAY * np.abs(radii - share * reach) / reach
             order = np.argsort(np.round(cost, 6), kind="stable")[:KEPT].tolist()
-            found += [(round(float(cost[k]), 6), number, places[k]) for k in order]
+            places = (Place(ray[0], along, float(radii[k]), float(spreads[k])) for k in order)
+            found += [(round(float(cost[k]), 6), number, place) for k, place in zip(order, places, strict=True)]
         kept.append(sorted(found, key=lambda one: one[:2])[:KEPT])
     return _together(kept, APART * force)
 
@@ -134,22 +135,27 @@ def _gaps(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return gaps
 
 
-def _tries(ray: Stroke, busy: Sequence[Obstacle], force: float) -> tuple[list[Place], np.ndarray]:
-    """Return the arcs that may stand about the start of a ray, and how much each is in the way of what is drawn."""
+def _tries(ray: Stroke, busy: Sequence[Obstacle], force: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return radii and spreads of arcs about the start of a ray, and how much each is in the way of what is drawn."""
     reach, along = abs(ray[1] - ray[0]), phase(ray[1] - ray[0])
-    every = np.arange(NEAREST, max(reach - CLEAR, NEAREST + 3 * APART * force), STEP).tolist()
-    # long enough to be seen as arcs
-    places = [Place(ray[0], along, r, part * min(0.9, 1.1 * force / r)) for r in every for part in LENGTHS]
-    costs = crowd(_points(places), busy)
-    costs += np.array([SHORTER * (k % len(LENGTHS)) + 10.0 * (place.radius > reach) for k, place in enumerate(places)])
-    return places, costs
+    every = np.arange(NEAREST, max(reach - CLEAR, NEAREST + 3 * APART * force), STEP)
+    radii, lengths = np.repeat(every, len(LENGTHS)), np.tile(LENGTHS, len(every))
+    spreads = lengths * np.minimum(0.9, 1.1 * force / radii)  # long enough to be seen as arcs
+    costs = crowd(_along_arcs(np.array([ray[0]]), np.array([along]), radii, spreads), busy)
+    costs += SHORTER * np.tile(range(len(LENGTHS)), len(every)) + 10.0 * (radii > reach)
+    return radii, spreads, costs
 
 
 def _points(places: Sequence[Place]) -> np.ndarray:
     """Return points along arcs, a row for each."""
-    along, spread, radius = np.array([(p.along, p.spread, p.radius) for p in places]).T[:, :, None]
-    turns = np.exp(1j * (along + spread * np.linspace(-0.5, 0.5, SAMPLES)))
-    points: np.ndarray = np.array([p.centre for p in places])[:, None] + radius * turns
+    along, spread, radius = np.array([(p.along, p.spread, p.radius) for p in places]).T
+    return _along_arcs(np.array([p.centre for p in places]), along, radius, spread)
+
+
+def _along_arcs(centres: np.ndarray, along: np.ndarray, radii: np.ndarray, spreads: np.ndarray) -> np.ndarray:
+    """Return points along arcs, a row for each, about one centre or each about its own."""
+    turns = np.exp(1j * (along[:, None] + spreads[:, None] * np.linspace(-0.5, 0.5, SAMPLES)))
+    points: np.ndarray = centres[:, None] + radii[:, None] * turns
     return points
 
 
