@@ -190,7 +190,7 @@ def shifted(view: str, tag: str, **shifts: float) -> Callable[[str], str]:
     """Add to attributes of the first element that follows `tag` in a view, mm; y runs down."""
 
     def shift(page: str) -> str:
-        found = re.compile(tag).search(page, page.index(f'class="view" data-name="{view}"'))
+        found = next(filter(None, (re.compile(tag).search(page, *span) for span in spans(page, view))), None)
         assert found, tag
         end = page.index(">", found.end())
         element = page[found.end() : end]
@@ -202,6 +202,14 @@ def shifted(view: str, tag: str, **shifts: float) -> Callable[[str], str]:
         return page[: found.end()] + element + page[end:]
 
     return shift
+
+
+def spans(page: str, view: str) -> Iterator[tuple[int, int]]:
+    """Go through where the groups of a view begin and end, one in each layer."""
+    starts = [found.start() for found in re.finditer('class="(?:view|layer)"', page)]
+    for start, end in pairwise([*starts, len(page)]):
+        if page.startswith(f'class="view" data-name="{view}"', start):
+            yield start, end
 
 
 def without(group: str) -> Callable[[str], str]:
