@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ...plans.board import POSITION, Step
 from ..handouts.begun import Shown
@@ -21,7 +21,8 @@ def begun(scene: Scene, steps: int) -> dict[str, Shown]:
 
 def _view(teller: Teller, view: str, steps: int) -> Shown:
     scene, names, letters = teller.scene, set[str](), set[str]()
-    for told in _first(teller, view, steps):
+    every = list(told_of(teller, view))
+    for told in _first(every, steps):
         names |= told.names
         letters |= told.letters
         if told.step.plan == view:
@@ -31,7 +32,8 @@ def _view(teller: Teller, view: str, steps: int) -> Shown:
         names |= {f"link:{link.number}" for link in links}
         letters |= {str(link.number) for link in links}
         letters |= {scene.words.frame, *guide_letters(scene.solved.program).values()}
-    return Shown(frozenset(names), frozenset(letters))
+    # what is zero, or too short, is told when all is drawn
+    return Shown(frozenset(names), frozenset(letters), notes=sum(told.counted for told in every) <= steps)
 
 
 def _add_mark(scene: Scene, step: Step, names: set[str], letters: set[str]) -> None:
@@ -53,10 +55,10 @@ def _laid(step: Step, tail: str) -> bool:
     return step.verb in ("lay", "back", "chain") and step.operands[0] == tail
 
 
-def _first(teller: Teller, view: str, steps: int) -> Iterator[Told]:
+def _first(every: Iterable[Told], steps: int) -> Iterator[Told]:
     """Go through the steps that are done: those that set the drawing up, and so many that the note tells."""
     done = 0
-    for told in told_of(teller, view):
+    for told in every:
         done += told.counted
         if done <= steps or not told.counted:
             yield told

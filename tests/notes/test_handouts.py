@@ -64,6 +64,10 @@ def test_a_blank_has_no_answers(task: str) -> None:
             if isinstance(view, Group) and view.role == "view" and view.name not in GIVEN:
                 numbers = [t.markup for t in leaves(view.shapes) if isinstance(t, Text) and t.role in ("cell", "line")]
                 assert not [text for text in numbers if re.search(r"\d[.,]\d", text)]
+    said = {text.markup for page in blank.pages for text in leaves(page.shapes) if isinstance(text, Text)}
+    notes = {line for view in blank.views if not (view.rows or view.lines) for line in view.notes}
+    assert said & {line for view in blank.views for line in view.heading}
+    assert not [line for line in said & notes if re.search(r"= ?\d", line)]
 
 
 def test_all_steps_of_a_plan_draw_the_plan() -> None:
