@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..drawing.formats import format_named
 from ..drawing.words import Words
+from ..plans.check import Check
 from ..plans.quantities import Quantity, measured
 from ..plans.solved import Solved
 from ..scales.errors import InputError, PositionError
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
     from ..plans.hands.hand import Hand
     from .hands import Drawing
 
-SIGNS = {"at-least": "≥", "at-most": "≤", "equal": "="}
 ROUNDING = 1e-14  # part of the largest quantity of a unit
 
 
@@ -62,7 +62,11 @@ class Solution:
 
     @property
     def checks(self) -> dict[str, dict[str, Any]]:
-        """What a second route, or a rule of good design, says, by name."""
+        """What a second route, or a rule of good design, says, by name: as JSON has it."""
+        return {check.name: check.to_json() for check in self._checks}
+
+    @property
+    def _checks(self) -> tuple[Check, ...]:
         return self.kind.checks(self.solved, self.quantities)
 
     @property
@@ -178,11 +182,11 @@ class Solution:
                 f"  {mm:{widths[4]}}  {condition:{widths[5]}}  {sine}".rstrip()
             )
         if self.kind.judged:
-            lines += ["", words[self.kind.judged], aligned(_verdicts(self.checks, words), (0, 1, 3))]
+            lines += ["", words[self.kind.judged], aligned(_judged(self._checks, words), (0, 1, 3))]
         return "\n".join(lines)
 
 
-def _verdicts(checks: Mapping[str, Mapping[str, Any]], words: Words) -> list[list[str]]:
+def _judged(checks: Iterable[Check], words: Words) -> list[list[str]]:
     """Return a row for each check: its name, the quantity and its value, how it has to stand to its limit, verdict."""
 
     def shown(value: float, si: str) -> str:
@@ -191,14 +195,14 @@ def _verdicts(checks: Mapping[str, Mapping[str, Any]], words: Words) -> list[lis
 
     return [
         [
-            name,
-            check["quantity"],
-            shown(check["value"], check["unit"]),
-            SIGNS[check["relation"]],
-            shown(check["limit"], check["unit"]),
-            words["said.ok" if check["ok"] else "said.fails"],
+            check.name,
+            check.quantity,
+            shown(check.value, check.unit),
+            check.sign,
+            shown(check.limit, check.unit),
+            words["said.ok" if check.ok else "said.fails"],
         ]
-        for name, check in checks.items()
+        for check in checks
     ]
 
 

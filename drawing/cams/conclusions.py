@@ -59,7 +59,7 @@ def _roller(scene: CamScene, texts: Texts) -> Iterator[str]:
     said = {name: scene.stated(name, size) for name, size in names.items()}
     yield texts[f"cam.conclusion.{'roller' if solved.rocker is None else 'rocker'}"].format(**said)
     for rule in rules_of(solved):
-        key = f"cam.conclusion.{rule.name}_{'kept' if rule.kept else 'broken'}"
+        key = f"cam.conclusion.{rule.name}_{'kept' if rule.ok else 'broken'}"
         yield texts[key].format(**_rule(scene, rule))
     yield from _undercuts(scene, undercut_notes(scene, cam.profile.undercuts, rocks=solved.rocker is not None))
 

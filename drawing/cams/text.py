@@ -198,7 +198,7 @@ def rules(scene: CamScene) -> Lines:
     lines: Lines = []
     for rule in rules_of(scene.solved):
         sides = _of_roller(scene, rule) if rule.of else _of_transmission(scene, rule)
-        lines.append((sides, f"({scene.words['said.ok' if rule.kept else 'said.fails']})"))
+        lines.append((sides, f"({scene.words['said.ok' if rule.ok else 'said.fails']})"))
     return lines
 
 

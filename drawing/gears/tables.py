@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from ...plans.gears.checks import AT_LEAST, AT_MOST, Check
+from ...plans.check import Check
 from ...plans.gears.gear import WHEELS
 from ...plans.gears.geometry import POINTS
 from ..table import table
@@ -26,7 +26,6 @@ OF_WHEELS = (
     *(("z", WHOLE), ("x", NUMBER), ("d", MM), ("d_w", MM), ("d_b", MM), ("d_a", MM), ("d_f", MM), ("s", MM)),
     *(("s_c", MM), ("h_c", MM), ("z_W", WHOLE), ("W", MM)),
 )
-SIGNS = {AT_LEAST: "≥", AT_MOST: "≤"}
 
 
 def data_table(scene: GearScene) -> View:
@@ -136,7 +135,7 @@ def condition(scene: GearScene, check: Check) -> str:
         limit = f"{words.short(scene.solved.pair.least_tip)}m"
     else:
         limit = words.short(check.limit)
-    return f"{words.symbol(check.quantity)} {SIGNS[check.relation]} {limit}"
+    return f"{words.symbol(check.quantity)} {check.sign} {limit}"
 
 
 def _number_of(scene: GearScene, check: Check, value: float) -> str:

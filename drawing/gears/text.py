@@ -12,8 +12,7 @@ from typing import Any
 
 from ...plans.board import Step
 from ...plans.gears.checks import CENTRES
-from ...plans.gears.gear import VALUES
-from ...plans.gears.solve import unit_of
+from ...plans.gears.gear import VALUES, unit_of
 from ...plans.laws import LAWS
 from ..printed import Formula, Terms, worked
 from ..table import text_block

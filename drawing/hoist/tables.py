@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from ...plans.hoist.checks import STRENGTH, Check
+from ...plans.check import Check
+from ...plans.hoist.checks import STRENGTH
 from ...plans.hoist.paper import SCALED
 from ...plans.hoist.sections import DRAWN, section_of
 from ...plans.hoist.solve import unit_of
@@ -16,7 +17,6 @@ from .scene import HoistScene
 USUAL = {"Pa": (1e-6, "MPa"), "m^2": (1e6, "mm^2")}
 ROUNDING = 12  # digits
 READING = 0.3  # mm by which a drawing is read
-OF_CHECK = {"rope_phase_1": "F_12_min", "rope_phase_2": "P_12_min", "support": "s_min", STRENGTH: "safety"}
 
 
 def data_table(scene: HoistScene) -> View:
@@ -58,9 +58,8 @@ def checks_table(scene: HoistScene) -> View:
 
 def _check_row(scene: HoistScene, check: Check) -> list[str]:
     words = scene.words
-    sign = "≥" if check.name != "support" else ">"
-    condition = f"{words.symbol(OF_CHECK[check.name])} {sign} {words.short(check.limit)}"
-    unit = f" {words.unit(check.unit)}" if check.unit else ""
+    condition = f"{words.symbol(check.quantity)} {check.sign} {words.short(check.limit)}"
+    unit = f" {words.unit(check.unit)}" if check.unit != "1" else ""
     verdict = words["said.ok" if check.ok else "said.fails"]
     would = scene.solved.forces.motion is not None and check.name != STRENGTH and not check.ok
     value = f"{words['hoist.would_be']} " * would + scene.value(check.value) + unit

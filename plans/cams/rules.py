@@ -6,37 +6,18 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ..check import AT_LEAST, AT_MOST, Check
 from .profile import OF_R_0, OF_RHO_MIN
 from .solve import SolvedCam
 
 ROUNDING = 1e-9  # part of a limit by which rounding may pass it
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
-    """A rule, its value beside its limit, SI: at most this, or at least.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rule(Check):
+    """A rule; its limit may be a `part` of the `size` of the quantity `of`, m."""
 
-    Parameters
-    ----------
-    name : str
-        As checks and warnings have it.
-    value, limit : float
-        m or rad.
-    unit : str
-        Of both.
-    kept : bool
-        Whether the value keeps its limit, rounding apart.
-    part, of, size : float, str, float
-        Of which size the limit is which part, where it is one.
-    """
-
-    name: str
-    value: float
-    limit: float
-    unit: str
-    kept: bool
     part: float = 1.0
-    of: str = ""
     size: float = 0.0
 
 
@@ -60,10 +41,16 @@ def rules_of(solved: SolvedCam) -> tuple[Rule, ...]:
 
 def _of_roller(name: str, R: float, part: float, of: str, size: float) -> Rule:
     limit = part * size
-    return Rule(name, R, limit, "m", limit * (1.0 + ROUNDING) >= R, part, of, size)
+    ok = limit * (1.0 + ROUNDING) >= R
+    return Rule(
+        name=name, ok=ok, value=R, unit="m", limit=limit, relation=AT_MOST, quantity="R_roller", of=of,
+        part=part, size=size,
+    )  # fmt: skip
 
 
 def _of_transmission(solved: SolvedCam) -> Iterator[Rule]:
     for name in ("gamma_rise", "gamma_fall"):
-        least, permitted = float(solved.values[f"{name}_min"]), float(solved.givens[name])
-        yield Rule(name, least, permitted, "rad", least >= permitted * (1.0 - ROUNDING))
+        quantity = f"{name}_min"
+        least, permitted = float(solved.values[quantity]), float(solved.givens[name])
+        ok = least >= permitted * (1.0 - ROUNDING)
+        yield Rule(name=name, ok=ok, value=least, unit="rad", limit=permitted, relation=AT_LEAST, quantity=quantity)

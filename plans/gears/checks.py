@@ -7,52 +7,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
-from .gear import WHEELS, GearPair
+from ..check import AT_LEAST, AT_MOST, EQUAL, Check
+from .gear import WHEELS, GearPair, unit_of
 
 EPSILON = 1.2  # the least contact ratio advised for spur gears
 ROUNDING = 1e-12  # part of a length by which two ways to it may differ, and a limit may be missed
 SAME = 1e-9  # part of the active line: flanks that touch along all of it
 CENTRES = ("a_w_rolling", "a_w_shift", "a_w_tip1", "a_w_tip2")
-AT_LEAST, AT_MOST, EQUAL = ("at-least", "at-most", "equal")
 
 
-@dataclass(frozen=True, slots=True)
-class Check:
-    """One check of a pair.
+def judged(name: str, quantity: str, value: float, limit: float, relation: str, of: str = "") -> Check:
+    """Return the check of a quantity, SI, against its limit, rounding apart; `of` is the quantity that the limit is.
 
-    Parameters
-    ----------
-    name : str
-        What is looked at: `undercut_1`, `interference_1`, `contact_ratio`, `contact_flanks`, `tip_1`,
-        `centre_a_w_shift`, ...
-    quantity : str
-        Name of the quantity that is compared.
-    value, limit : float
-        In SI.
-    relation : {"at-least", "at-most", "equal"}
-        How the value has to stand to its limit.
-    of : str
-        Name of the quantity that is the limit, if one is.
+    Names are `undercut_1`, `interference_1`, `contact_ratio`, `contact_flanks`, `tip_1`, `centre_a_w_shift`, ...
     """
-
-    name: str
-    quantity: str
-    value: float
-    limit: float
-    relation: str
-    of: str = ""
-
-    @property
-    def ok(self) -> bool:
-        """The verdict; what is undefined is not in order."""
-        room = ROUNDING * max(abs(self.value), abs(self.limit))
-        if self.relation == AT_LEAST:
-            return self.value >= self.limit - room
-        if self.relation == AT_MOST:
-            return self.value <= self.limit + room
-        return math.isclose(self.value, self.limit, rel_tol=ROUNDING)
+    room = ROUNDING * max(abs(value), abs(limit))
+    if relation == EQUAL:
+        ok = math.isclose(value, limit, rel_tol=ROUNDING)
+    else:
+        ok = value >= limit - room if relation == AT_LEAST else value <= limit + room
+    return Check(
+        name=name, ok=ok, value=value, unit=unit_of(quantity), limit=limit, relation=relation, quantity=quantity, of=of
+    )
 
 
 def checks(pair: GearPair, found: Mapping[str, float]) -> list[Check]:
@@ -65,20 +42,20 @@ def checks(pair: GearPair, found: Mapping[str, float]) -> list[Check]:
 
 
 def _centres(found: Mapping[str, float]) -> list[Check]:
-    return [Check(f"centre_{name}", name, found[name], found["a_w"], EQUAL, "a_w") for name in CENTRES]
+    return [judged(f"centre_{name}", name, found[name], found["a_w"], EQUAL, "a_w") for name in CENTRES]
 
 
 def _roots(found: Mapping[str, float]) -> list[Check]:
     undercut, interference = [], []
     for i in WHEELS:
         x, least, rho_l, rho_p = (f"{name}{i}" for name in ("x_", "x_min", "rho_l", "rho_p"))
-        undercut.append(Check(f"undercut_{i}", x, found[x], found[least], AT_LEAST, least))
-        interference.append(Check(f"interference_{i}", rho_l, found[rho_l], found[rho_p], AT_MOST, rho_p))
+        undercut.append(judged(f"undercut_{i}", x, found[x], found[least], AT_LEAST, least))
+        interference.append(judged(f"interference_{i}", rho_l, found[rho_l], found[rho_p], AT_MOST, rho_p))
     return undercut + interference
 
 
 def _contact(found: Mapping[str, float]) -> list[Check]:
-    return [Check("contact_ratio", "epsilon_alpha", found["epsilon_alpha"], EPSILON, AT_LEAST)]
+    return [judged("contact_ratio", "epsilon_alpha", found["epsilon_alpha"], EPSILON, AT_LEAST)]
 
 
 def cut(found: Mapping[str, float]) -> bool:
@@ -94,9 +71,9 @@ def on_flanks(found: Mapping[str, float], touching: tuple[float, float]) -> list
     length = max(touching[1] - touching[0], 0.0)
     if length >= found["g_alpha"] * (1.0 - SAME):
         return []
-    return [Check("contact_flanks", "epsilon_flanks", length / found["p_b"], EPSILON, AT_LEAST)]
+    return [judged("contact_flanks", "epsilon_flanks", length / found["p_b"], EPSILON, AT_LEAST)]
 
 
 def _tips(pair: GearPair, found: Mapping[str, float]) -> list[Check]:
     limit = pair.least_tip * found["m"]
-    return [Check(f"tip_{i}", f"s_a{i}", found[f"s_a{i}"], limit, AT_LEAST) for i in WHEELS]
+    return [judged(f"tip_{i}", f"s_a{i}", found[f"s_a{i}"], limit, AT_LEAST) for i in WHEELS]

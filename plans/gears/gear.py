@@ -39,6 +39,9 @@ MODULES = (
 )
 # what is not given: the basic rack of GOST 13755-81, a drawn length, a scale factor
 STANDARD = {"alpha": math.radians(20.0), "h_a": 1.0, "h_l": 2.0, "c": 0.25, "PW": 40e-3, "mu_theta": 50.0}
+# beginnings of the names of calculated quantities that are no lengths
+ANGLES = ("alpha_", "tau_", "nu_p", "phi_alpha")
+PLAIN = ("x_", "inv_", "epsilon_", "theta_", "z_W")
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,3 +73,10 @@ class GearPair:
     def least_tip(self) -> float:
         """The least thickness of a tooth at its tip, in modules."""
         return 0.4 if self.material == HARDENED else 0.3
+
+
+def unit_of(name: str) -> str:
+    """Return the SI unit of a quantity of a pair by its name."""
+    if name in ("u", "y", "delta_y") or name.startswith(PLAIN):
+        return "1"
+    return "rad" if name.startswith(ANGLES) else "m"

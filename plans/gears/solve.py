@@ -10,11 +10,12 @@ from typing import Any
 
 from ...scales.scale import steps
 from ..boards.exact import run
+from ..check import Check
 from ..quantities import Quantity, quantities, shown_on
 from ..solved import PAPER_MM, Solved
-from .checks import Check, checks, cut, on_flanks
+from .checks import checks, cut, on_flanks
 from .construction import Layout, construct
-from .gear import PLANS, WHEELS, GearPair
+from .gear import PLANS, WHEELS, GearPair, unit_of
 from .geometry import DIVISIONS, NOTHING, PARTS, POINTS, geometry
 from .givens import complete
 from .meshing import Meshing, meshing_of
@@ -35,15 +36,6 @@ SHOWN_ON = dict.fromkeys(
 LONGEST = 250.0  # mm, that N1N2 may be under the diagrams
 # the three points of the table that stand in A1, P, A2, in the order in which these follow from N1 to N2
 MARKS = tuple(POINTS[sum(n for _, n in DIVISIONS[: k + 1])] for k in range(3))
-ANGLES = ("alpha_", "tau_", "nu_p", "phi_alpha")
-PLAIN = ("x_", "inv_", "epsilon_", "theta_", "z_W")
-
-
-def unit_of(name: str) -> str:
-    """Return the SI unit of a quantity of a pair by its name."""
-    if name in ("u", "y", "delta_y") or name.startswith(PLAIN):
-        return "1"
-    return "rad" if name.startswith(ANGLES) else "m"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,13 +52,13 @@ class SolvedGear(Solved):
         return meshing_of(self.sizes, self.pair.sense)
 
     @property
-    def checks(self) -> list[Check]:
+    def checks(self) -> tuple[Check, ...]:
         """What the pair is judged by; the teeth are made where they may have lost a part of their flanks."""
         found = checks(self.pair, self.sizes)
         if not cut(self.sizes):
-            return found
+            return tuple(found)
         place = 1 + [check.name for check in found].index("contact_ratio")
-        return [*found[:place], *on_flanks(self.sizes, self.meshing.touching), *found[place:]]
+        return (*found[:place], *on_flanks(self.sizes, self.meshing.touching), *found[place:])
 
     @property
     def edges(self) -> tuple[str, ...]:

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .checks import Check, strength, valid, validity
+from ..check import Check
+from .checks import strength, valid, validity
 from .givens import complete, in_range
 from .hoist import VALUES
 from .model import model, motion_given

@@ -55,7 +55,7 @@ def test_what_a_kind_has_not_is_refused_in_one_line(asked: Callable[[Case], Any]
 def test_a_bare_kind_warns_of_nothing_checks_nothing_and_asks_everything(case: Case) -> None:
     bare = Bare()
 
-    assert (bare.warnings(case.solved), bare.checks(case.solved, {}), bare.words({})) == ((), {}, frozenset())
+    assert (bare.warnings(case.solved), bare.checks(case.solved, {}), bare.words({})) == ((), (), frozenset())
     assert bare.asks(case.solved, None) is True  # type: ignore[arg-type]
     assert bare.plan_heading(case.solved, "velocity", case.words("en")) == case.words("en")["heading.velocity"]
 

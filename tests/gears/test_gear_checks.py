@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from kulman.plans.gears.checks import CENTRES, Check, checks
+from kulman.plans.check import Check
+from kulman.plans.gears.checks import CENTRES, checks, judged
 from kulman.plans.gears.gear import HARDENED, GearPair
 from kulman.plans.gears.geometry import geometry
 from kulman.plans.gears.givens import complete
@@ -104,6 +105,6 @@ def test_value_on_its_limit_is_in_order_and_what_is_undefined_is_not() -> None:
     least = geometry(madi())["x_min1"]
 
     assert verdicts(madi(x_1=least))["undercut_1"].ok
-    assert not Check("tip_1", "s_a1", math.nan, 1e-3, "at-least").ok
-    assert not Check("interference_1", "rho_l1", math.nan, 1e-3, "at-most").ok
-    assert not Check("centre_a_w_shift", "a_w_shift", 92e-3, 92.1e-3, "equal", "a_w").ok
+    assert not judged("tip_1", "s_a1", math.nan, 1e-3, "at-least").ok
+    assert not judged("interference_1", "rho_l1", math.nan, 1e-3, "at-most").ok
+    assert not judged("centre_a_w_shift", "a_w_shift", 92e-3, 92.1e-3, "equal", "a_w").ok

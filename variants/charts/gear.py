@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...drawing.gears.letters import lettered
 from ...drawing.words import Words
+from ...plans.gears.gear import unit_of
 from ...plans.gears.scale_errors import DRAWINGS, MILLI, ScaleErrors, compared, scale_errors
-from ...plans.gears.solve import SolvedGear, unit_of
+from ...plans.gears.solve import SolvedGear
 from ...plans.hands.hand import PRESETS
 from ...scales.names import unknown
 from ..kinds.gear import gear

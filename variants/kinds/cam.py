@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ...plans.cams.cam import DIAGRAMS_PART, PLANS, PLATE, PROFILE_PART, ROCKER, Cam
+from ...plans.check import AT_LEAST, AT_MOST, Check
 from ...scales.choose import Choosers
 from ...scales.display import Display
 from ...scales.errors import InputError
@@ -15,7 +16,7 @@ from ...scales.scale import Scale
 from ...scales.units import unit
 from ..checks.cam import NUMBERS, WORDS, impossible, read_cam
 from ..task import Given, Task
-from .kind import Kind, Verdicts, first_of
+from .kind import Kind, first_of
 
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
@@ -59,7 +60,7 @@ UNUSUAL = {
     "rad/s": ("speed", "rad/s"),
     "m/s^2": ("acceleration-most", "m/s^2"),
 }
-AT_MOST = {"length": "length-most"}  # of a number that may also be nothing
+LARGE = {"length": "length-most"}  # of a number that may also be nothing
 REDUCED_TO = 6  # decimals of the part of their lengths at which diagrams are drawn
 RULES = ("roller_of_radius", "roller_of_curvature", "gamma_rise", "gamma_fall")  # checks that are told when they fail
 
@@ -159,10 +160,10 @@ class Cams(Kind[Cam, "SolvedCam"]):
         if PLATE in solved.cam.followers and solved.motion.velocity_jumps:
             found.append(InputError("cam-no-plate"))
         found += _unusual(solved)
-        for name, check in self.checks(solved, {}).items():
-            if name in RULES and not check["ok"]:
-                said = _degrees if check["unit"] == "rad" else _millimetres
-                found.append(InputError(f"cam-rule-{name}", value=said(check["value"]), limit=said(check["limit"])))
+        for check in self.checks(solved, {}):
+            if check.name in RULES and not check.ok:
+                said = _degrees if check.unit == "rad" else _millimetres
+                found.append(InputError(f"cam-rule-{check.name}", value=said(check.value), limit=said(check.limit)))
         for follower, profile in _profiles(solved):
             for undercut in profile.undercuts:
                 said_ends = {"start": _degrees(undercut.start), "end": _degrees(undercut.end)}
@@ -170,7 +171,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
                 found.append(InputError(f"cam-undercut-{follower}", lost=f"{lost:.3g}", **said_ends))
         return tuple(found)
 
-    def checks(self, solved: SolvedCam, quantities: Mapping[str, Quantity]) -> Verdicts:
+    def checks(self, solved: SolvedCam, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
         """Return what the rules of good design say, each with the value that it compares with its limit, SI.
 
         `roller_of_radius` and `roller_of_curvature` hold the roller against 0.4 r_0 and 0.7 rho_min, `gamma_rise` and
@@ -179,18 +180,16 @@ class Cams(Kind[Cam, "SolvedCam"]):
         """
         from ...plans.cams.rules import rules_of
 
-        found: Verdicts = {
-            rule.name: {"ok": rule.kept, "value": rule.value, "limit": rule.limit, "unit": rule.unit}
-            for rule in rules_of(solved)
-        }
+        found: list[Check] = [*rules_of(solved)]
         for follower, profile in _profiles(solved):
             lost = max((undercut.lost for undercut in profile.undercuts), default=0.0)
-            travel = "rad" if follower == ROCKER else "m"
-            found[f"undercut_{follower}"] = {"ok": not profile.undercuts, "value": lost, "limit": 0.0, "unit": travel}
-        if solved.plate is not None and "undercut_plate" in found:
-            rho_min = float(solved.plate.profile.rho_min)
-            found["convex"] = {"ok": rho_min >= 0.0, "value": rho_min, "limit": 0.0, "unit": "m"}
-        return found
+            ok, of_travel = not profile.undercuts, "rad" if follower == ROCKER else "m"
+            name = f"undercut_{follower}"
+            found.append(Check(name=name, ok=ok, value=lost, unit=of_travel, limit=0.0, relation=AT_MOST))
+        if solved.plate is not None and solved.draws_profiles:
+            rho, name = float(solved.plate.profile.rho_min), "convex"
+            found.append(Check(name=name, ok=rho >= 0.0, value=rho, unit="m", limit=0.0, relation=AT_LEAST))
+        return tuple(found)
 
     def as_drawn(self, solved: SolvedCam) -> SolvedCam:
         """Return the cam with chords and tangents in the place of closed forms."""
@@ -320,7 +319,7 @@ def _unusual(solved: SolvedCam) -> Iterator[InputError]:
         value, least, most = (
             f"{number if size is None else size.from_si(number):.4g}" for number in (one.value, one.least, one.most)
         )
-        end = AT_MOST.get(key, key) if one.least == 0.0 else key
+        end = LARGE.get(key, key) if one.least == 0.0 else key
         yield InputError(f"cam-unusual-{end}", name=one.name, value=value, least=least, most=most)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from ...plans.check import Check
 from ...plans.gears.gear import MODULES, PLANS, GearPair
 from ...plans.gears.limits import impossible
 from ...scales.choose import Choosers
@@ -13,7 +14,7 @@ from ...scales.errors import InputError
 from ...scales.scale import Scale
 from ..checks.gear import KNOWN, read_gear
 from ..task import Given, Task
-from .kind import Kind, Verdicts, check_scales, first_of
+from .kind import Kind, check_scales, first_of
 
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
@@ -143,21 +144,9 @@ class Gears(Kind[GearPair, "SolvedGear"]):
             found.append(InputError(key, value=said(check.value), limit=said(check.limit), wheel=wheel))
         return tuple(found)
 
-    def checks(self, solved: SolvedGear, quantities: Mapping[str, Quantity]) -> Verdicts:
+    def checks(self, solved: SolvedGear, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
         """Return what the pair is judged by: the compared value, its limit, how they have to stand, SI."""
-        from ...plans.gears.solve import unit_of
-
-        return {
-            check.name: {
-                "ok": check.ok,
-                "quantity": check.quantity,
-                "value": check.value,
-                "limit": check.limit,
-                "relation": check.relation,
-                "unit": unit_of(check.quantity),
-            }
-            for check in solved.checks
-        }
+        return solved.checks
 
     def gallery(self, task: Task) -> GearCharts:
         """Return who makes the chart of a pair."""

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from ...plans.check import Check
 from ...plans.hoist.hoist import PLANS, Hoist
 from ...scales.choose import Choosers
 from ...scales.errors import InputError
 from ...scales.scale import Scale
 from ..checks.hoist import KNOWN, read_hoist
 from ..task import Given, Task
-from .kind import Kind, Verdicts, check_scales, first_of
+from .kind import Kind, check_scales, first_of
 
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
@@ -102,16 +103,13 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
                 found.append(InputError(RULES[check.name], **said))
         return tuple(found)
 
-    def checks(self, solved: SolvedHoist, quantities: Mapping[str, Quantity]) -> Verdicts:
+    def checks(self, solved: SolvedHoist, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
         """Return what formulas and rope are judged by: the compared value and its limit, SI.
 
         `rope_phase_1` and `rope_phase_2` are the least force of the rope, `support` is the least height of the lifted
         load, `strength` the safety beside the required one.
         """
-        return {
-            check.name: {"ok": bool(check.ok), "value": check.value, "limit": check.limit, "unit": check.unit or "1"}
-            for check in solved.forces.checks
-        }
+        return solved.forces.checks
 
     def sweep(self, case: Case, words: Words, asked: Asked) -> HoistSweep:
         """Look at a hoist over time."""

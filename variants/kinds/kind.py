@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
+from ...plans.check import Check
 from ...plans.solved import Solved
 from ...scales.choose import Choosers
 from ...scales.display import AS_INSIDE, Display
@@ -34,7 +35,6 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
 
 Subject = TypeVar("Subject")  # what is described: a mechanism, a cam
 Answer = TypeVar("Answer", bound=Solved)
-Verdicts = dict[str, dict[str, Any]]
 
 
 class Kind(ABC, Generic[Subject, Answer]):
@@ -110,13 +110,13 @@ class Kind(ABC, Generic[Subject, Answer]):
         """Go through what makes a variant a poor exercise: what users are warned of, rules that it breaks."""
         yield from case.warnings
         solved: Any = case.solved
-        for name, check in self.checks(solved, solved.quantities).items():
-            if not check["ok"]:
-                yield InputError("variant-check", check=name)
+        for check in self.checks(solved, solved.quantities):
+            if not check.ok:
+                yield InputError("variant-check", check=check.name)
 
-    def checks(self, solved: Answer, quantities: Mapping[str, Quantity]) -> Verdicts:
-        """Return what a second route, or a rule of good design, says of a solution, by name."""
-        return {}
+    def checks(self, solved: Answer, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
+        """Return what a second route, or a rule of good design, says of a solution."""
+        return ()
 
     def gallery(self, task: Task) -> Gallery:
         """Return who makes the charts of a task.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...plans.board import POSITION
 from ...plans.boards.exact import SMALL
+from ...plans.check import WITHIN, Check
 from ...plans.linkages.chain import PLANS, construct, require_couplers
 from ...plans.linkages.mechanism import Mechanism
 from ...plans.linkages.solved import SolvedLinkage, disagreement, scale_symbols, solve_linkage
@@ -24,7 +25,7 @@ from ..checks.start import started
 from ..checks.structure import branched, needless_branches, place_of
 from ..marking.wording import letter, texts
 from ..task import Given, Task
-from .kind import Kind, Verdicts
+from .kind import Kind
 
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
@@ -159,20 +160,23 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             return (InputError("ill-conditioned", **said),)
         return (InputError("ill-conditioned-pins", first=pins[0], second=pins[1], **said),)
 
-    def checks(self, solved: SolvedLinkage, quantities: Mapping[str, Quantity]) -> Verdicts:
+    def checks(self, solved: SolvedLinkage, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
         """Return what a second route says.
 
         `lever` compares what balances the driver with Zhukovsky's lever, per cent; `compound` the plans of velocities
         and accelerations with the sums of compound motion, in parts of their longest vectors.
         """
-        found: Verdicts = {}
+        found: list[Check] = []
         delta = quantities.get("delta_M_bal") or quantities.get("delta_F_bal")
         if delta is not None and delta.value is not None:
-            found["lever"] = {"ok": abs(delta.value) < LEVER_AGREES, "value": delta.value, "unit": "%"}
+            agrees = abs(delta.value) < LEVER_AGREES
+            told = {"relation": WITHIN, "unit": "%", "quantity": delta.name}
+            found.append(Check(name="lever", ok=agrees, value=delta.value, limit=LEVER_AGREES, **told))
         gap = disagreement(solved)
         if gap is not None:
-            found["compound"] = {"ok": gap < COMPOUND_AGREES, "value": gap, "unit": ""}
-        return found
+            agrees = gap < COMPOUND_AGREES
+            found.append(Check(name="compound", ok=agrees, value=gap, limit=COMPOUND_AGREES, relation=WITHIN, unit=""))
+        return tuple(found)
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the plans of one position, and the cycle where the task wants it."""
