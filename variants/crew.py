@@ -43,17 +43,21 @@ Advance = Callable[[int, int], None]  # told how many more are done, and of how 
 Piece = list[tuple[int, Item]]
 
 
-def shared_out(work: Work[Item, Made], items: Sequence[Item], jobs: int) -> Iterator[list[Done[Made]]]:
+def shared_out(
+    work: Work[Item, Made], items: Sequence[Item], jobs: int, alone: int | None = None
+) -> Iterator[list[Done[Made]]]:
     """Go through what is made, in the order in which it is done.
 
     Parameters
     ----------
     jobs : int
-        Processes. With one, or few items, all is done in this one.
+        Processes. With one all is done in this one.
+    alone : int, optional
+        For so many items no process is started; then one may be the only one.
     """
     placed = list(enumerate(items))
     pieces = deque(placed[at : at + TOGETHER] for at in range(0, len(placed), TOGETHER))
-    if jobs > 1 and len(placed) > ALONE:
+    if len(placed) > ((ALONE if jobs > 1 else len(placed)) if alone is None else alone):
         yield from _in_processes(work, pieces, min(jobs, len(pieces)))
         return
     make = work.begin()

@@ -7,8 +7,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
 from xml.dom import minidom
 
@@ -178,6 +176,7 @@ main(sys.argv[2:])
 """
 
 
+@pytest.mark.soak
 @pytest.mark.skipif(sys.platform == "win32", reason="no such limit")
 def test_a_full_disk_leaves_nothing_half_written(tmp_path: Path) -> None:
     file, out = roster(tmp_path, "A;;1;", "B;;2;"), tmp_path / "out"
@@ -193,29 +192,6 @@ def test_a_full_disk_leaves_nothing_half_written(tmp_path: Path) -> None:
     assert [name for name in files(out) if name.endswith((".svg", ".pdf", ".part"))] == []
     subprocess.run([sys.executable, "-c", LIMITED, "1000000", *arguments], check=True, capture_output=True)
     assert len(files(out)) == 6
-
-
-def _killed_after(arguments: list[str], there: Callable[[], bool]) -> None:
-    """Start the program and kill it as soon as `there` is true."""
-    going = subprocess.Popen([sys.executable, "-m", "kulman", *arguments], stdout=subprocess.DEVNULL)
-    while not there() and going.poll() is None:
-        time.sleep(0.01)
-    going.kill()
-    going.wait()
-
-
-def test_a_killed_run_is_gone_on_with(tmp_path: Path, made: list[int]) -> None:
-    file, out = roster(tmp_path, *(f"S{number};;{number % 10};" for number in range(1, 13))), tmp_path / "out"
-    arguments = ["batch", TASK, "--roster", str(file), "--out", str(out), "--as", "svg", "--jobs", "1", "--lang", "en"]
-
-    _killed_after(arguments, lambda: len(list(out.glob("0*.svg"))) >= 8)
-    before = len(list(out.glob("0*.svg")))
-    batch(TASK, file, out, kinds=["svg"], lang="en", jobs=1)
-
-    assert 8 <= before <= 12
-    assert len(made) <= 13 - before  # all that is there is noted, but for the last one
-    batch(TASK, file, tmp_path / "whole", kinds=["svg"], lang="en", jobs=1)
-    assert files(out) == files(tmp_path / "whole")
 
 
 HOSTILE = (

@@ -11,7 +11,7 @@ from typing import TypeAlias
 from ...drawing.formats import format_named
 from ...drawing.pens import Norm
 from ...drawing.words import Words
-from ...drawing.writers import folder_for, save_all, slug, write_whole
+from ...drawing.writers import folder_for, save_all, slug
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
@@ -28,7 +28,7 @@ from ..task import Task
 from .outcome import Outcome
 from .student import FORMS, NOTE, Making, Student
 from .tables import Rows, key_rows, manifest_rows, roster_rows
-from .work import Crew, run
+from .work import Crew, put, run
 
 MANIFEST, KEY = "manifest.csv", "key.csv"
 One: TypeAlias = str | os.PathLike[str] | Task
@@ -92,7 +92,7 @@ def batch(
     block : mapping of str to str, optional
         What is said in every title block: `teacher`, `department`, `designation`, `date`.
     jobs : int, optional
-        Processes; as many as there are cores when left out.
+        Processes; as many as there are cores when left out. With 1 all is done in this one, and dies with it.
     dask : str, optional
         The address of a Dask scheduler, whose workers do the work in the place of processes here.
     advance : callable, optional
@@ -116,7 +116,7 @@ def batch(
     outcomes = run(making, students, place, _crew(jobs, dask), advance or (lambda done, whole: None))
     done = Batch(students, outcomes)
     for name, rows in _tables(done, making.tasks, lang):
-        write_whole(place / name, csv_table(list(rows), lang))
+        put(place / name, csv_table(list(rows), lang))
     return done
 
 
@@ -200,7 +200,10 @@ def _refuse_early(making: Making) -> None:
 def _crew(jobs: int | None, dask: str | None) -> Crew:
     """Return who does the work."""
     if dask is None:
-        return lambda making, students: shared_out(making, students, jobs or os.cpu_count() or 1)
+        # an item may kill its process, which is not this one unless that is asked for
+        return lambda making, students: shared_out(
+            making, students, jobs or os.cpu_count() or 1, 0 if jobs != 1 else None
+        )
     from ..cluster import on_cluster
 
     return lambda making, students: on_cluster(making, students, dask)

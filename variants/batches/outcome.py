@@ -31,7 +31,15 @@ class Outcome:
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Outcome:
-        """Return an outcome from plain data."""
+        """Return an outcome from plain data.
+
+        Raises
+        ------
+        TypeError
+            The data are of something else.
+        """
+        if not isinstance(data["files"], dict):
+            raise TypeError
         return cls(**{**data, "notes": tuple(data["notes"])})
 
     def to_json(self) -> dict[str, Any]:

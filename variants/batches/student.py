@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -14,7 +15,8 @@ from ...drawing.notes.typst import pdf_bytes
 from ...drawing.pens import Norm
 from ...drawing.writers import page_files, slug
 from ...plans.quantities import measured
-from ...scales.errors import KulmanError
+from ...scales.errors import InputError, KulmanError
+from ...scales.numbers import quote
 from ...scales.units import format_unit
 from ..case import Case, solve_case
 from ..handouts import begun_of_case, drawing_for_print
@@ -23,6 +25,7 @@ from ..notes import body_of, title_page
 from ..roster import Entry
 from ..sheet_id import sheet_id
 from ..sheets import Sheet, drawing_of, sheet_of, stamp_of
+from ..spreadsheets.grid import SHOWN
 from ..task import Task
 
 NOTE, HANDOUT = "note", "handout"
@@ -125,11 +128,16 @@ class Making:
 
     def make(self, student: Student) -> Made:
         """Make the files of a student; what cannot be made is told, not raised."""
+        entry = student.entry
         try:
             return self._made(student)
         except KulmanError as error:
-            place = "" if error is student.entry.problem else f"{student.entry.place}: "
-            return Made(student.entry.variant, problem=f"{place}{error.text(self.language)}")
+            place = "" if error is entry.problem else f"{entry.place}: "
+            return Made(entry.variant, problem=f"{place}{error.text(self.language)}")
+        except (KeyboardInterrupt, SystemExit):
+            raise
+        except BaseException as error:  # what typst panics with is no Exception
+            return Made(entry.variant, problem=f"{entry.place}: {_crash(error).text(self.language)}")
 
     def _made(self, student: Student) -> Made:
         who, work = student.entry.who, self._work(student)
@@ -176,3 +184,10 @@ class Making:
             drawing = drawing_of(case, self.format, self.norm, self.notation, self.language)
             self._works[data] = Work(case, drawing, self.notation, self.language)
         return self._works[data]
+
+
+def _crash(error: BaseException) -> InputError:
+    """Return what to say of an error of the program, with the place of its source."""
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    said = f"{type(error).__name__}: {error}".rstrip(": ")
+    return InputError("student-crash", error=quote(said, SHOWN), source=f"{Path(last.filename).name}:{last.lineno}")

@@ -57,9 +57,22 @@ def _kept(made: Made | None, student: Student, folder: Path, language: str) -> O
         return Outcome.of(Made(student.entry.variant, problem=f"{student.entry.place}: {reason}"))
     outcome = Outcome.of(made)
     for name, data in made.files.items():
-        if not outcome.has(folder, name):
-            write_whole(folder / name, data)
+        put(folder / name, data)
     return outcome
+
+
+def put(path: Path, data: bytes) -> None:
+    """Write a file whole, unless it is there as it should be.
+
+    Raises
+    ------
+    OutputError
+        It cannot be written.
+    """
+    with suppress(OSError):
+        if path.read_bytes() == data:
+            return
+    write_whole(path, data)
 
 
 def _sweep(folder: Path, before: Iterable[Outcome], now: Iterable[Outcome]) -> None:
