@@ -175,13 +175,19 @@ def drawing_of(
     error = case.solved.error()
     if error is not None:
         raise error
-    return case.kind.draw(case, case.words(lang, notation), norm, paper)
+    return case.kind.draw(case, _words(case, notation, lang), norm, paper)
+
+
+def _words(case: Case, notation: str | None, lang: str) -> Words:
+    """Return the words of a sheet, whose language has to be said."""
+    return Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
 
 
 def stamp_of(case: Case, block: Mapping[str, str], notation: str | None = None, lang: str = "uk") -> Stamp:
     """Return what the title block of a case says."""
     for name, text in block.items():
         of_kind(name, text, (str,), "str")
+    words = _words(case, notation, lang)
     said = {name: block.get(name, "") for name in BLOCK}
     return Stamp(
         title=case.task.title[lang],
@@ -191,7 +197,7 @@ def stamp_of(case: Case, block: Mapping[str, str], notation: str | None = None, 
         student=said["student"],
         teacher=said["teacher"],
         date=said["date"],
-        document_type=case.words(lang, notation)["sheet.document"],
+        document_type=words["sheet.document"],
         language=lang,
         identity=sheet_id(case.task, case.variant, case.settings),
     )
