@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+
 import pytest
 
 from kulman.tests.support.mechanisms import SEED, Solved, general_slider_crank, random_slider_cranks, solved
@@ -14,3 +16,9 @@ from kulman.tests.support.mechanisms import SEED, Solved, general_slider_crank, 
 def cranks(request: pytest.FixtureRequest) -> Solved:
     """Random slider-cranks: offset, oblique guide off the pivot, O off the origin, both branches, both senses."""
     return solved(general_slider_crank(), random_slider_cranks(SEED, request.param))
+
+
+def pytest_collection_finish() -> None:
+    """Spare the thousands of tests, which stay to the end, from every later search for garbage."""
+    gc.collect()
+    gc.freeze()
