@@ -24,6 +24,7 @@ from kulman.drawing.words import Words
 from kulman.plans import contest as contests
 from kulman.plans.contest import Effort
 from kulman.scales.errors import LANGUAGES
+from kulman.tests.support.documents import run_here
 from kulman.variants.charts import linkage as charts
 from kulman.variants.charts.charts import Charts, chart
 
@@ -335,7 +336,11 @@ def test_a_slider_that_drives_has_its_charts(tmp_path: Path) -> None:
     assert "mm" in found.table().split("\n")[2]
 
 
-def test_what_the_document_shows_is_what_is_printed(tmp_path: Path) -> None:
+def test_what_the_document_shows_is_what_is_printed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    run_here(monkeypatch, capsys)
     blocks = refresh.BLOCK.findall((refresh.ROOT / "docs" / "accuracy.md").read_text(encoding="utf-8"))
 
     assert len(blocks) == 2

@@ -1,4 +1,4 @@
-"""The documents about cams, gears, hoists: they show what commands print today, with the pictures that these draw."""
+"""The documents show what commands print today; those about cams, gears, hoists the pictures that these draw."""
 
 from __future__ import annotations
 
@@ -19,19 +19,26 @@ def text(name: str) -> str:
     return (DOCS / f"{name}.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("slow", [False, pytest.param(True, marks=pytest.mark.soak)])
 @pytest.mark.parametrize("name", BLOCKS)
 def test_what_a_document_shows_is_what_is_printed(
-    name: str, slow: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    if not slow:
-        run_here(monkeypatch, capsys)
-    found = blocks(text(name), slow=slow)
+    run_here(monkeypatch, capsys)
+    quick, slow = (blocks(text(name), slow=slow) for slow in (False, True))
 
-    assert len(found) == BLOCKS[name][slow]
-    for block in found:
+    assert (len(quick), len(slow)) == BLOCKS[name]
+    for block in quick:
         assert refresh.filled(block, str(tmp_path)) == block
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("document", refresh.DOCUMENTS, ids=lambda path: path.stem)
+def test_every_command_started_by_itself_prints_what_its_document_shows(document: Path, tmp_path: Path) -> None:
+    shown = document.read_text(encoding="utf-8")
+
+    assert refresh.BLOCK.search(shown)
+    assert refresh.refreshed(shown, str(tmp_path)) == shown
 
 
 @pytest.mark.parametrize("name", BLOCKS)

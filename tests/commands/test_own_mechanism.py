@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from kulman.docs import refresh
+from kulman.tests.support.documents import run_here
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled_text
 from kulman.variants.starter import template
@@ -19,7 +20,12 @@ TOML = re.compile(r"```toml\n(.*?)```", re.DOTALL)
 SECTIONS = re.split(r"^## ", OTHERS, flags=re.MULTILINE)[1:]
 
 
-def test_commands_print_what_the_document_shows(tmp_path: Path) -> None:
+def test_commands_print_what_the_document_shows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    run_here(monkeypatch, capsys)
+
     assert refresh.refreshed(TEXT, str(tmp_path)) == TEXT
 
 

@@ -15,6 +15,7 @@ import kulman
 from kulman import KulmanError, cli
 from kulman.docs import refresh
 from kulman.scales.errors import LANGUAGES
+from kulman.tests.support.documents import run_here
 from kulman.variants.sweeps.sweeps import Sweep
 
 TASK = "nau-slider-crank"
@@ -230,9 +231,12 @@ def test_no_file_of_a_sweep_is_written_when_one_cannot_be(tmp_path: Path) -> Non
     assert list(tmp_path.iterdir()) == []
 
 
-def test_what_the_document_shows_is_what_is_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_the_document_shows_is_what_is_printed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     text = (refresh.ROOT / "docs" / "cycle.md").read_text(encoding="utf-8")
     monkeypatch.chdir(tmp_path)
+    run_here(monkeypatch, capsys)
 
     assert refresh.BLOCK.search(text)
     assert refresh.refreshed(text, str(tmp_path)) == text

@@ -12,6 +12,7 @@ import pytest
 
 from kulman import cli
 from kulman.docs import refresh, seeds_tables
+from kulman.tests.support.documents import run_here
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 SEEDS = (DOCS / "seeds.md").read_text(encoding="utf-8")
@@ -25,7 +26,11 @@ def printed(capsys: pytest.CaptureFixture[str], task: str, *options: str) -> dic
     return found
 
 
-def test_commands_of_the_guide_print_what_it_shows(tmp_path: Path) -> None:
+def test_commands_of_the_guide_print_what_it_shows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    run_here(monkeypatch, capsys)
     text = (DOCS / "marking.md").read_text(encoding="utf-8")
 
     assert refresh.refreshed(text, str(tmp_path)) == text
