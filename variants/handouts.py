@@ -11,6 +11,7 @@ from ..drawing.formats import format_named
 from ..drawing.handouts.begun import begun_pages
 from ..drawing.handouts.over import over_page
 from ..drawing.handouts.print_marks import marked, printable
+from ..drawing.page import Page
 from ..drawing.pens import Norm
 from ..scales.arguments import of_kind
 from ..scales.errors import InputError
@@ -92,7 +93,11 @@ def begun_of_case(
 ) -> Sheet:
     """Return the handout of a case whose `drawing` is for print, with so many steps done."""
     drawn = sheet_of(case, drawing, stamp_of(case, block, notation, lang))
-    shown = case.kind.begun(case, drawn.scales, case.words(lang, notation), steps)
-    idle = (InputError("handout-stepless", task=case.task.id, steps=steps),) if steps and not shown else ()
-    pages = tuple(map(marked, begun_pages(drawn.pages, drawn.views, shown)))
-    return replace(drawn, pages=pages, warnings=(*drawn.warnings, *idle))
+    words = case.words(lang, notation)
+
+    def done(count: int) -> list[Page]:
+        return begun_pages(drawn.pages, drawn.views, case.kind.begun(case, drawn.scales, words, count))
+
+    begun = done(steps)
+    idle = (InputError("handout-stepless", task=case.task.id, steps=steps),) if steps and begun == done(0) else ()
+    return replace(drawn, pages=tuple(map(marked, begun)), warnings=(*drawn.warnings, *idle))

@@ -7,7 +7,7 @@ from ..handouts.begun import Shown
 from .stages import stages
 
 NOTHING = frozenset[str]()
-DIVIDED = 2  # columns of the table of the motion that are there before the work: section lines and their angles
+NUMBERED, DIVIDED = 1, 2  # columns of the table of the motion: numbers of section lines, and their angles, from step 1
 
 
 def begun(solved: SolvedCam, steps: int) -> dict[str, Shown]:
@@ -16,4 +16,4 @@ def begun(solved: SolvedCam, steps: int) -> dict[str, Shown]:
         view: Shown(NOTHING, NOTHING, notes=steps >= len(parts) - 1, parts=frozenset(parts[: steps + 1]))
         for view, parts in stages(solved).items()
     }
-    return found | {"motion": Shown(NOTHING, NOTHING, notes=False, columns=DIVIDED)}
+    return found | {"motion": Shown(NOTHING, NOTHING, notes=False, columns=DIVIDED if steps else NUMBERED)}
