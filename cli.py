@@ -178,7 +178,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
     )
 )
 @of_task
-@output(".notes", "Where to: .pdf, .md with its figures beside it; of one figure .svg, .png.", required=True)
+@output(".notes", "Where to: .pdf, .docx, .md with its figures beside it; of one figure .svg, .png.", required=True)
 @click.option("--figure", metavar="NAME", help="One figure of the note alone: position, velocity, forces_23.")
 @click.option("--format", type=Word(*SIZES), help="That of the sheet whose figures and numbers the note has.")
 @titled("student", "group", "teacher", "department", "date")

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from io import BytesIO
 from typing import BinaryIO
 
 from ..scales.errors import InputError
 from .page import Page
 from .pdf import write_pdf
+from .shapes import Group, Shape
 
 DPI = 200
 
 
-def write_png(pages: Sequence[Page], stream: BinaryIO) -> None:
-    """Write the first of `pages` as a picture of 200 dots per inch.
+def write_png(pages: Sequence[Page], stream: BinaryIO, dpi: float = DPI) -> None:
+    """Write the first of `pages` as a picture of `dpi` dots per inch.
 
     Raises
     ------
@@ -29,6 +30,11 @@ def write_png(pages: Sequence[Page], stream: BinaryIO) -> None:
     write_pdf(pages[:1], pdf)
     document = PdfDocument(pdf.getvalue())
     try:
-        document[0].render(scale=DPI / 72).to_pil().save(stream, "PNG", dpi=(DPI, DPI))
+        grey = not _coloured(pages[0].shapes)
+        document[0].render(scale=dpi / 72, grayscale=grey).to_pil().save(stream, "PNG", dpi=(dpi, dpi))
     finally:
         document.close()
+
+
+def _coloured(shapes: Iterable[Shape]) -> bool:
+    return any(_coloured(shape.shapes) if isinstance(shape, Group) else shape.colour is not None for shape in shapes)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ..drawing.compose import Drawn
 from ..drawing.notes.blocks import Block, Document, Figure, Heading, Sentences, TitlePage, blocks_of
+from ..drawing.notes.docx import docx_bytes
 from ..drawing.notes.figures import figure_page
 from ..drawing.notes.markdown import markdown
 from ..drawing.notes.typst import pdf_bytes
@@ -23,7 +24,8 @@ from .sheets import Sheet, draw_case
 from .task import Task
 
 TEXTS = "kulman.drawing.notes"
-DOCUMENTS = (".pdf", ".md")
+DOCUMENTS = (".pdf", ".docx", ".md")
+ALONE = {".pdf": pdf_bytes, ".docx": docx_bytes}  # documents that hold their figures
 SUFFIXES = (*DOCUMENTS, ".svg", ".png")
 
 
@@ -41,12 +43,12 @@ class Note:
         return {block.view.name: block for block in self.document.blocks if isinstance(block, Figure)}
 
     def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
-        """Write the note to each of `paths`, .pdf or .md with its figures beside it; a single figure to .svg or .png.
+        """Write the note to each of `paths`, .pdf, .docx, or .md with its figures beside it; a figure to .svg, .png.
 
         Raises
         ------
         InputError
-            An unknown suffix, a picture without a figure that is named, the extra `note` is missing, or a file cannot
+            An unknown suffix, a picture without a figure that is named, an extra is missing, or a file cannot
             be written: then none is.
         """
         return save_all(paths, SUFFIXES, self._files)
@@ -57,8 +59,8 @@ class Note:
             return self._picture(path)
         if self.figure is not None:
             raise InputError("note-figure-alone", file=str(path), figure=self.figure)
-        if suffix == ".pdf":
-            return [(path, pdf_bytes(self.document))]
+        if suffix in ALONE:
+            return [(path, ALONE[suffix](self.document))]
         names = [f"{path.stem}-{name}.svg" for name in self.figures]
         text = markdown(self.document, names)
         pictures = zip(names, self.figures.values(), strict=True)

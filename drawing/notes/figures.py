@@ -1,4 +1,4 @@
-"""A figure of a note as a page of its own, at its true size."""
+"""A figure of a note as a page of its own, at its true size; how much smaller it is shown."""
 
 from __future__ import annotations
 
@@ -12,3 +12,8 @@ def figure_page(figure: Figure, language: str) -> Page:
     x0, y0, x1, y1 = figure.view.box
     shapes = tuple(shifted(shape, complex(-x0, -y0)) for shape in figure.view.shapes)
     return Page(x1 - x0, y1 - y0, shapes, figure.caption, language)
+
+
+def reduced(figure: Figure, said: dict[str, str]) -> tuple[str, ...]:
+    """Say by how much a figure is smaller than on the sheet, if it is."""
+    return (said["figure.reduced"].format(part=round(100.0 * figure.share)),) if figure.share < 1.0 else ()

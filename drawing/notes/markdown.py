@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from ...scales.packaged import packaged
 from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
-from .markup import Node, Plain, Ruled, parse
+from .markup import Node, Plain, Ruled, letters, parse
 
 _SIGNS = re.compile(r"([\\`*_{}\[\]<>#|~])")
 
@@ -40,27 +40,12 @@ def _block(block: Block, said: dict[str, str], names: Iterator[str]) -> Iterator
             ruled = ["|".join(("", *row, "")) for row in (head, ["---"] * len(head), *body)]
             yield "\n".join(ruled)
         case Figure(caption=caption, under=under):
-            yield f"![{_alone(caption)}]({next(names)})"
+            yield f"![{_plain(letters(caption))}]({next(names)})"
             yield "  \n".join((f"*{said['figure']}: {_line(caption)}*", *map(_line, under)))
 
 
 def _line(markup: str) -> str:
     return "".join(map(_node, parse(markup)))
-
-
-def _alone(markup: str) -> str:
-    """Return a line without anything but its characters."""
-
-    def text(node: Node) -> str:
-        match node:
-            case Plain(text=plain):
-                return plain
-            case Ruled(parts=parts):
-                return "".join(map(text, parts))
-            case _:
-                return text(node.base) + "".join(map(text, (*node.above, *node.below)))
-
-    return _plain("".join(map(text, parse(markup))))
 
 
 def _node(node: Node) -> str:

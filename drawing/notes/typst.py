@@ -13,8 +13,8 @@ from typing import Any
 from ...scales.errors import InputError
 from ...scales.packaged import packaged
 from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
-from .figures import figure_page
-from .markup import Node, Plain, Ruled, parse
+from .figures import figure_page, reduced
+from .markup import Node, Plain, Ruled, parse, printable
 
 PREAMBLE = """\
 #set document(title: {title}, date: none)
@@ -129,11 +129,6 @@ def _block(block: Block, said: dict[str, str], numbers: Iterator[int]) -> str:
             )
 
 
-def reduced(figure: Figure, said: dict[str, str]) -> tuple[str, ...]:
-    """Say by how much a figure is smaller than on the sheet, if it is."""
-    return (said["figure.reduced"].format(part=round(100.0 * figure.share)),) if figure.share < 1.0 else ()
-
-
 def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
     cells = []
     for number, row in enumerate(rows):
@@ -179,4 +174,4 @@ def _text(plain: str) -> str:
 
 def _quoted(text: str) -> str:
     """Return a string literal."""
-    return json.dumps("".join(c if c.isprintable() else " " for c in text), ensure_ascii=False)
+    return json.dumps(printable(text), ensure_ascii=False)

@@ -14,7 +14,7 @@ from kulman.tests.support.sources import trees
 
 LAYERS = ("scales", "plans", "drawing", "variants", "cli")
 COMMAND = "import contextlib, kulman.cli\nwith contextlib.suppress(SystemExit): kulman.cli.main(['{}'])"
-HEAVY = ("numpy", "shapely", "svgwrite", "matplotlib", "reportlab", "fontTools", "pypdfium2", "mpmath")
+HEAVY = ("numpy", "shapely", "svgwrite", "matplotlib", "reportlab", "docx", "lxml", "fontTools", "pypdfium2", "mpmath")
 
 
 def imported(tree: ast.Module, path: Path) -> Iterator[tuple[str, ...]]:

@@ -1,0 +1,151 @@
+"""A note as DOCX (extra `docx`): the document for word processors with its styles, lists, page numbers, pictures."""
+
+from __future__ import annotations
+
+import zipfile
+from importlib.util import find_spec
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+from ...scales.errors import InputError
+from ...scales.packaged import home, packaged
+from .blocks import Document, Figure, Steps
+from .figures import figure_page
+from .markup import printable
+from .outlines import outlined
+from .word_blocks import LISTS, Picture, blocks_in_word
+from .word_lines import first_pages, paragraph, words
+
+if TYPE_CHECKING:
+    from docx.document import Document as Word
+
+LIBRARIES = ("docx", "fontTools", "pypdfium2")  # for the document, the letters and the dots of its pictures
+DPI = 300  # of the pictures for readers that draw no SVG, as large as they are shown
+LONGEST = 255  # characters of a property of a document
+LANGUAGES = {"uk": "uk-UA", "ru": "ru-RU", "en": "en-GB"}
+SPACES = {
+    "w": "http://schemas.openxmlformats.org/wordprocessingml/2006/main",
+    "m": "http://schemas.openxmlformats.org/officeDocument/2006/math",
+    "r": "http://schemas.openxmlformats.org/officeDocument/2006/relationships",
+    "wp": "http://schemas.openxmlformats.org/drawingml/2006/wordprocessingDrawing",
+}
+_FOOTER = paragraph("Footer", f'<w:fldSimple w:instr=" PAGE ">{words("2")}</w:fldSimple>')
+_LONG_AGO = (1980, 1, 1, 0, 0, 0)  # the first date that a file in a ZIP can have: the same note, the same bytes
+
+
+def docx_bytes(document: Document) -> bytes:
+    """Return a note as DOCX; the same note gives the same bytes.
+
+    Raises
+    ------
+    InputError
+        The extra `docx` is not installed.
+    """
+    if any(find_spec(name) is None for name in LIBRARIES):
+        raise InputError("extra-missing", extra="docx", suffix=".docx")
+    import docx
+
+    word = docx.Document()
+    _dress(word, document)
+    _pages(word)
+    _sign(word, document)
+    figures = [block for block in document.blocks if isinstance(block, Figure)]
+    pictures = [_picture(word, figure, document.language, number) for number, figure in enumerate(figures, 1)]
+    last = word.element.body[-1]  # the properties of the pages
+    for part in _parsed(f"{first_pages(document)}{blocks_in_word(document, pictures)}"):
+        last.addprevious(part)
+    stream = BytesIO()
+    word.save(stream)
+    return _undated(stream.getvalue())
+
+
+def _parsed(inside: str) -> list[Any]:
+    from docx.oxml import parse_xml
+
+    names = " ".join(f'xmlns:{short}="{name}"' for short, name in SPACES.items())
+    return list(parse_xml(f"<w:body {names}>{inside}</w:body>"))
+
+
+def _dress(word: Word, document: Document) -> None:
+    """Put the styles, lists and settings of a note in the place of those of the library."""
+    from docx.opc.constants import RELATIONSHIP_TYPE as KIND
+    from docx.oxml import parse_xml
+
+    parts: Any = word.part
+    dressed = {KIND.STYLES: "styles", KIND.NUMBERING: "numbering", KIND.SETTINGS: "settings"}
+    for rels, kept in (
+        (parts.rels, {*dressed, KIND.THEME, KIND.FONT_TABLE}),
+        (parts.package.rels, {KIND.OFFICE_DOCUMENT, KIND.CORE_PROPERTIES}),
+    ):
+        for name in [name for name, rel in rels.items() if rel.reltype not in kept]:
+            del rels[name]
+    lists = sum(isinstance(block, Steps) for block in document.blocks)
+    numbers = "".join(map(_list, range(LISTS, LISTS + lists)))
+    for kind, name in dressed.items():
+        text = (home(__package__) / "word" / f"{name}.xml").read_text(encoding="utf-8")
+        filled = parse_xml(text.format(lang=LANGUAGES[document.language], lists=numbers))
+        parts.part_related_by(kind).element[:] = list(filled)
+
+
+def _pages(word: Word) -> None:
+    """Set the pages: A4 with the margins of the PDF, a number at the foot of all but the first."""
+    from docx.shared import Mm
+
+    section = word.sections[0]
+    section.page_width, section.page_height = Mm(210), Mm(297)
+    section.left_margin, section.right_margin = Mm(20), Mm(10)
+    section.top_margin, section.bottom_margin = Mm(15), Mm(20)
+    section.header_distance = section.footer_distance = Mm(10)
+    section.different_first_page_header_footer = True
+    section.footer.is_linked_to_previous = False
+    section.footer.part.element[:] = _parsed(_FOOTER)
+
+
+def _list(number: int) -> str:
+    """Return a list of steps that begins with 1."""
+    first = '<w:lvlOverride w:ilvl="0"><w:startOverride w:val="1"/></w:lvlOverride>'
+    return f'<w:num w:numId="{number}"><w:abstractNumId w:val="2"/>{first}</w:num>'
+
+
+def _sign(word: Word, document: Document) -> None:
+    """Say in the properties what the note is and whose it is, and no date."""
+    from docx.opc.constants import RELATIONSHIP_TYPE as KIND
+
+    said, page = packaged(__package__, "texts", document.language), document.title
+    word.part.package.part_related_by(KIND.CORE_PROPERTIES).element[:] = []
+    about = word.core_properties
+    about.title = _short(f"{said['title.note']}. {page.title}")
+    about.subject = _short(said["title.variant"].format(variant=page.variant))
+    about.author, about.keywords = _short(page.student), _short(page.identity)
+    about.language = LANGUAGES[document.language]
+
+
+def _short(text: str) -> str:
+    return printable(text)[:LONGEST]
+
+
+def _picture(word: Word, figure: Figure, language: str, number: int) -> Picture:
+    """Put the picture of a figure into the document, as PNG and as SVG with outlines for letters."""
+    from docx.opc.constants import RELATIONSHIP_TYPE as KIND
+    from docx.opc.packuri import PackURI
+    from docx.opc.part import Part
+
+    from ..png import write_png
+    from ..svg import write_svg
+
+    page = figure_page(figure, language)
+    png, svg = BytesIO(), BytesIO()
+    write_png([page], png, DPI * figure.share)
+    write_svg(page, svg, with_font=False)
+    name = PackURI(f"/word/media/figure{number}.svg")
+    part = Part(name, "image/svg+xml", outlined(svg.getvalue()), word.part.package)
+    return Picture(word.part.get_or_add_image(png)[0], word.part.relate_to(part, KIND.IMAGE))
+
+
+def _undated(data: bytes) -> bytes:
+    """Return a ZIP whose files have no date of today."""
+    stream = BytesIO()
+    with zipfile.ZipFile(BytesIO(data)) as dated, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as undated:
+        for name in dated.namelist():
+            undated.writestr(zipfile.ZipInfo(name, _LONG_AGO), dated.read(name), zipfile.ZIP_DEFLATED)
+    return stream.getvalue()

@@ -1,0 +1,146 @@
+"""The blocks of a note in WordprocessingML: headings, lines, lists, equations, tables, pictures with captions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import count
+
+from ...scales.packaged import packaged
+from ..text import lay_out
+from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
+from .built_up import built_up, displayed
+from .figures import reduced
+from .markup import letters
+from .omml import quoted
+from .word_lines import HEIGHT, TWIPS, bookmark, line, numbered, paragraph, words
+
+EMU = 36000  # of a millimetre
+WIDE = 180.0  # mm of a line
+INDENT = 8.0  # mm before an equation; what goes on in another line stands in twice as far
+LISTS = 3  # the number of the first list of steps
+PAD = 4.0  # mm in a cell beside its text
+_PICTURES = "http://schemas.openxmlformats.org/drawingml/2006"
+_SVG = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """By what names a document knows the parts that hold a picture: one for any reader, one that is sharp."""
+
+    png: str
+    svg: str
+
+
+@dataclass(slots=True)
+class _Counted:
+    """What is numbered through a note."""
+
+    pictures: Iterator[tuple[int, Picture]]
+    headings: Iterator[int] = field(default_factory=lambda: count(1))
+    lists: Iterator[int] = field(default_factory=lambda: count(LISTS))
+
+
+def blocks_in_word(document: Document, pictures: Sequence[Picture]) -> str:
+    """Return all that follows the contents; `pictures` are those of the figures, in order."""
+    said = packaged(__package__, "texts", document.language)
+    counted = _Counted(iter(enumerate(pictures, 1)))
+    return "".join(part for block in document.blocks for part in _block(block, said, counted))
+
+
+def _block(block: Block, said: dict[str, str], counted: _Counted) -> Iterator[str]:
+    match block:
+        case Heading(text=text):
+            yield paragraph("Heading1", bookmark(line(text), next(counted.headings)))
+        case Sentences(texts=texts):
+            yield paragraph("", words(" ").join(map(line, texts)))
+        case Steps(texts=texts):
+            one = f'<w:numPr><w:ilvl w:val="0"/><w:numId w:val="{next(counted.lists)}"/></w:numPr>'
+            yield from (paragraph("ListNumber", line(text), one) for text in texts)
+        case Equations(lines=lines):
+            yield from (part for chunks in lines for part in _equation(chunks))
+        case Table(rows=rows):
+            yield _table(rows)
+            yield paragraph("Cell", "")
+        case Figure():
+            number, picture = next(counted.pictures)
+            yield paragraph("Figure", _drawing(block, picture, number))
+            yield paragraph("Caption", _caption(block, said, number))
+
+
+def _equation(chunks: Sequence[str]) -> Iterator[str]:
+    """Go through the lines of an equation, which is broken where it may be; words without one are a line of words."""
+    whole = " ".join(chunks)
+    if not displayed(whole):
+        yield paragraph("Equation", line(whole))
+        return
+    rows = [""]
+    for chunk in chunks:
+        longer = f"{rows[-1]} {chunk}".strip()
+        room = WIDE - INDENT * (1 if len(rows) == 1 else 2)
+        rows[-1:] = [longer] if not rows[-1] or lay_out(longer, HEIGHT).width <= room else [rows[-1], chunk]
+    for place, row in enumerate(rows):
+        further = f'<w:ind w:left="{round(2 * INDENT * TWIPS)}"/>' if place else ""
+        left = '<m:oMathParaPr><m:jc m:val="left"/></m:oMathParaPr>'
+        inside = f"<m:oMathPara>{left}<m:oMath>{built_up(row)}</m:oMath></m:oMathPara>"
+        yield paragraph("Equation", inside, further)
+
+
+def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
+    """Return a table whose first row is repeated on every page; no row is parted by the end of a page."""
+    wide = [0.0] * len(rows[0])
+    for row in rows:
+        for column, cell in enumerate(row):
+            alone = column + 1 == len(row) or row[column + 1] is not None
+            wide[column] = max(wide[column], lay_out(cell, HEIGHT).width + PAD if cell and alone else PAD)
+    share = min(1.0, WIDE / sum(wide))
+    grid = "".join(f'<w:gridCol w:w="{round(mm * share * TWIPS)}"/>' for mm in wide)
+    look = '<w:tblLook w:val="0020" w:firstRow="1" w:lastRow="0" w:firstColumn="0" w:lastColumn="0"'
+    properties = (
+        '<w:tblPr><w:tblStyle w:val="TableGrid"/><w:tblW w:w="0" w:type="auto"/><w:jc w:val="center"/>'
+        f'{look} w:noHBand="1" w:noVBand="1"/></w:tblPr>'
+    )
+    return f"<w:tbl>{properties}<w:tblGrid>{grid}</w:tblGrid>{''.join(map(_row, rows, count()))}</w:tbl>"
+
+
+def _row(row: tuple[str | None, ...], number: int) -> str:
+    head, bold = ("<w:tblHeader/>", "<w:b/><w:bCs/>") if number == 0 else ("", "")
+    cells = []
+    for column, cell in enumerate(row):
+        if cell is None and column:
+            continue
+        span = next((k for k in range(column + 1, len(row)) if row[k] is not None), len(row)) - column
+        joined = f'<w:gridSpan w:val="{span}"/>' if span > 1 else ""
+        text = paragraph("Cell", line(cell or "", bold))
+        cells.append(
+            f'<w:tc><w:tcPr><w:tcW w:w="0" w:type="auto"/>{joined}<w:vAlign w:val="center"/></w:tcPr>{text}</w:tc>'
+        )
+    return f"<w:tr><w:trPr><w:cantSplit/>{head}</w:trPr>{''.join(cells)}</w:tr>"
+
+
+def _caption(figure: Figure, said: dict[str, str], number: int) -> str:
+    lines = [line(text) for text in (figure.caption, *figure.under, *reduced(figure, said))]
+    counted = numbered(said["figure"], number)
+    return f"{words(said['figure'] + ' ')}{counted}{words(' – ')}" + "<w:r><w:br/></w:r>".join(lines)
+
+
+def _drawing(figure: Figure, picture: Picture, number: int) -> str:
+    """Return a picture as large as the figure is shown; what it shows is told to who cannot see it."""
+    cx, cy = (round(mm * figure.share * EMU) for mm in figure.view.size)
+    told = quoted("; ".join(map(letters, (figure.caption, *figure.under))))
+    size = f'cx="{cx}" cy="{cy}"'
+    name = f'id="{number}" name="{quoted(figure.view.name)}" descr="{told}"'
+    sharp = (
+        f'<a:extLst><a:ext uri="{{96DAC541-7B7A-43D3-8B79-37D633B846F1}}"><asvg:svgBlip xmlns:asvg="{_SVG}" '
+        f'r:embed="{picture.svg}"/></a:ext></a:extLst>'
+    )
+    return (
+        f'<w:r><w:drawing><wp:inline distT="0" distB="0" distL="0" distR="0"><wp:extent {size}/><wp:docPr {name}/>'
+        f'<a:graphic xmlns:a="{_PICTURES}/main"><a:graphicData uri="{_PICTURES}/picture">'
+        f'<pic:pic xmlns:pic="{_PICTURES}/picture"><pic:nvPicPr><pic:cNvPr {name}/><pic:cNvPicPr/></pic:nvPicPr>'
+        f'<pic:blipFill><a:blip r:embed="{picture.png}">{sharp}</a:blip>'
+        "<a:stretch><a:fillRect/></a:stretch></pic:blipFill>"
+        f'<pic:spPr><a:xfrm><a:off x="0" y="0"/><a:ext {size}/></a:xfrm>'
+        '<a:prstGeom prst="rect"><a:avLst/></a:prstGeom></pic:spPr></pic:pic></a:graphicData></a:graphic>'
+        "</wp:inline></w:drawing></w:r>"
+    )

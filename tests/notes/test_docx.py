@@ -1,0 +1,338 @@
+"""The note as DOCX: all that the note says, numbers and underlines as in it, pictures true to size, XML in order."""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+from io import BytesIO
+from math import sqrt
+from pathlib import Path
+from typing import Any
+
+import docx
+import pytest
+from fontTools.pens.boundsPen import BoundsPen
+from fontTools.svgLib.path import parse_path
+from lxml import etree
+from PIL import Image
+
+from kulman import cli, note
+from kulman.drawing.notes.blocks import Document, Equations, Figure, Heading, Sentences, Steps, Table
+from kulman.drawing.notes.built_up import built_up, displayed
+from kulman.drawing.notes.docx import SPACES, docx_bytes
+from kulman.drawing.notes.markdown import markdown
+from kulman.drawing.notes.markup import letters
+from kulman.drawing.notes.word_blocks import Picture, blocks_in_word
+from kulman.scales.packaged import packaged
+from kulman.tests.support.word import W, disordered, part, said
+from kulman.variants.shelf import bundled
+
+LANGUAGES = ("uk", "ru", "en")
+NUMBER = re.compile(r"\d+(?:[.,]\d+)*")
+EMU = 36000
+A = "{http://schemas.openxmlformats.org/drawingml/2006/main}"
+QUICK = "velocity"  # the only plan of the note that is written by default
+TASKS = [
+    ("nau-slider-crank", "uk", QUICK),
+    *(pytest.param(task, lang, None, marks=pytest.mark.soak) for task in bundled() for lang in LANGUAGES),
+]
+
+
+@cache
+def document_of(task: str = "nau-slider-crank", lang: str = "uk", only: str | None = QUICK) -> Document:
+    return note(task, lang=lang, only=only, student="І. Петренко", date="2026").document
+
+
+@cache
+def written(task: str = "nau-slider-crank", lang: str = "uk", only: str | None = QUICK) -> bytes:
+    return docx_bytes(document_of(task, lang, only))
+
+
+def paragraphs(root: Any) -> list[tuple[str, str]]:
+    """The paragraphs with their styles."""
+    found = []
+    for paragraph in root.iter(f"{W}p"):
+        style = paragraph.find(f"{W}pPr/{W}pStyle")
+        found.append(("" if style is None else style.get(f"{W}val"), said(paragraph)))
+    return found
+
+
+def in_word(document: Document) -> Any:
+    """The blocks of a document as elements, without its pictures."""
+    figures = sum(isinstance(block, Figure) for block in document.blocks)
+    names = " ".join(f'xmlns:{short}="{name}"' for short, name in SPACES.items())
+    text = blocks_in_word(document, [Picture("rId1", "rId2")] * figures)
+    return etree.fromstring(f"<w:body {names}>{text}</w:body>")
+
+
+def bare(text: str) -> str:
+    """A line without spaces, and without what tells scripts and bars from letters."""
+    return re.sub(r"\\bar|\\u|[\s\u200b{}_^]", "", text)
+
+
+@pytest.mark.parametrize(("task", "lang", "only"), TASKS)
+def test_the_document_says_what_the_note_says(task: str, lang: str, only: str | None) -> None:
+    document = document_of(task, lang, only)
+    body = in_word(document)
+    told = paragraphs(body)
+    text = [bare(line) for _, line in told]
+
+    assert list(disordered(body)) == []
+    headings = [bare(letters(block.text)) for block in document.blocks if isinstance(block, Heading)]
+    assert [bare(line) for style, line in told if style == "Heading1"] == headings
+    for block in document.blocks:
+        match block:
+            case Sentences(texts=texts):
+                assert bare(" ".join(map(letters, texts))) in text
+            case Steps(texts=texts):
+                assert {bare(letters(step)) for step in texts} <= set(text)
+            case Figure(caption=caption):
+                assert any(line.endswith(bare(letters(caption))) or bare(letters(caption)) in line for line in text)
+    tables = [block for block in document.blocks if isinstance(block, Table)]
+    assert len(body.findall(f"{W}tbl")) == len(tables)
+    for block, table in zip(tables, body.findall(f"{W}tbl"), strict=True):
+        assert [bare(letters(cell)) for row in block.rows for cell in row if cell] == [
+            bare(line) for _, line in paragraphs(table) if line
+        ]
+    shown = re.sub(r"^\d+\. |^!\[.*$", "", markdown(document, ["x"] * len(document.blocks)), flags=re.MULTILINE)
+    shown = re.sub(r"</?(?:sup|sub|u)>", " ", shown.partition("\n## ")[2])
+    assert Counter(NUMBER.findall(shown)) - Counter(NUMBER.findall(" ".join(line for _, line in told))) == Counter()
+
+
+def test_a_document_is_read_by_the_library_with_its_looks() -> None:
+    word = docx.Document(BytesIO(written()))
+    section = word.sections[0]
+
+    sizes = (section.page_width, section.page_height, section.left_margin, section.right_margin)
+    assert [round(size.mm) for size in sizes] == [210, 297, 20, 10]
+    assert section.different_first_page_header_footer
+    assert " PAGE " in section.footer.part.blob.decode()
+    assert {"Heading 1", "Heading 2", "Title", "toc 1", "Caption", "List Number"} <= {
+        style.name for style in word.styles
+    }
+    assert word.core_properties.title.startswith("Пояснювальна записка. ")
+    assert (word.core_properties.author, word.core_properties.language) == ("І. Петренко", "uk-UA")
+    assert all(table.rows[0]._tr.find(f"{W}trPr/{W}tblHeader") is not None for table in word.tables)
+
+
+def test_parts_are_in_the_order_that_word_processors_demand() -> None:
+    for name in ("document", "styles", "numbering", "settings", "footer1"):
+        assert list(disordered(part(written(), f"word/{name}.xml"))) == []
+
+
+def test_what_leads_somewhere_leads_there() -> None:
+    body = part(written(), "word/document.xml")
+
+    marks = {mark.get(f"{W}name") for mark in body.iter(f"{W}bookmarkStart")}
+    assert {link.get(f"{W}anchor") for link in body.iter(f"{W}hyperlink")} == marks
+    assert len(marks) == sum(isinstance(block, Heading) for block in document_of().blocks)
+    styles = {style.get(f"{W}styleId") for style in part(written(), "word/styles.xml").iter(f"{W}style")}
+    assert {style for style, _ in paragraphs(body)} - {""} <= styles
+    lists = {item.get(f"{W}numId") for item in part(written(), "word/numbering.xml").iter(f"{W}num")}
+    used = [item.get(f"{W}val") for item in body.iter(f"{W}numId")]
+    assert set(used) <= lists
+    assert len(set(used)) == sum(isinstance(block, Steps) for block in document_of().blocks)
+
+
+def test_a_contents_has_every_heading_with_its_number() -> None:
+    told = paragraphs(part(written(), "word/document.xml"))
+    headings = [letters(block.text) for block in document_of().blocks if isinstance(block, Heading)]
+
+    entries = [line.strip() for style, line in told if style == "TOC1" and line.strip()]
+    assert entries == [f"{number} {heading}" for number, heading in enumerate(headings, 1)]
+
+
+@pytest.mark.parametrize(
+    ("markup", "shown"),
+    [
+        (r"\u{\bar{V}_{B}} = \uu{\bar{V}_{A}} + \bar{V}_{BA}", r"\u{\bar{V}_{B}}=\u{\u{\bar{V}_{A}}}+\bar{V}_{BA}"),
+        ("a^{n}_{BA} = V^{2}_{BA}/l_{AB}", "a^{n}_{BA}=((V^{2}_{BA})/(l_{AB}))"),
+        ("π·2000/30 = 209,4 рад/с", "((π·2000)/(30))=209,4 рад/с"),
+        ("(a + b)/c·d", "((a+b)/(c))·d"),
+        ("(a + b)^{2}/(c·d)", "(((a+b)^{2})/(c·d))"),
+        ("a/b/c", "((((a)/(b)))/(c))"),
+        ("√((C_{1} + C_{2})/m)", "√(((C_{1}+C_{2})/(m)))"),
+        ("π/2·cos^{2} α", "((π)/(2))·cos^{2} α"),
+        ("tg α/sin 20°", "((tg α)/(sin 20°))"),
+        ("+ M_{i2})/l_{AB} =", "+M_{i2})/l_{AB}="),
+        ("0,0654 (м/с^{2})/мм", "0,0654 (м/с^{2})/мм"),
+        ("10^{11}/6^{3}", "((10^{11})/(6^{3}))"),
+        ("= 0.1745 rad/s, clockwise", "=0.1745 rad/s, clockwise"),
+        ("ω·(ds/dφ)_{max}", "ω·(((ds)/(dφ)))_{max}"),
+        ("a < b & c", "a<b&c"),
+    ],
+)
+def test_an_equation_is_built_up(markup: str, shown: str) -> None:
+    found = etree.fromstring(f'<x xmlns:m="{SPACES["m"]}">{built_up(markup)}</x>')
+
+    assert said(found) == shown
+
+
+ARITHMETIC = re.compile(r"[\d.,()·/+−√^{} ]+")
+
+
+def value(text: str) -> float:
+    """What arithmetic comes to; a script is a power."""
+    for one, other in (("√", "sqrt"), ("^{", "**("), ("}", ")"), ("·", "*"), ("−", "-"), (",", "."), ("\u200b", "")):
+        text = text.replace(one, other)
+    return float(eval(text, {"sqrt": sqrt}))
+
+
+def sides(markup: str) -> Iterator[tuple[str, str]]:
+    """The sides of an equation that are arithmetic: as the note has them, and as they are built up."""
+    found = said(etree.fromstring(f'<x xmlns:m="{SPACES["m"]}">{built_up(markup)}</x>')).split("=")
+    for plain, built in zip(markup.split("="), found, strict=True):
+        if ARITHMETIC.fullmatch(plain) and "/" in plain and plain.count("(") == plain.count(")"):
+            yield plain, built
+
+
+@pytest.mark.parametrize(("task", "lang", "only"), TASKS)
+def test_equations_built_up_come_to_what_stood_in_line(task: str, lang: str, only: str | None) -> None:
+    blocks = [block for block in document_of(task, lang, only).blocks if isinstance(block, Equations)]
+    lines = [" ".join(chunks) for block in blocks for chunks in block.lines]
+    compared = [side for line in lines if displayed(line) for side in sides(line)]
+
+    assert len(compared) >= 1
+    for plain, built in compared:
+        assert value(built) == pytest.approx(value(plain), rel=1e-12)
+
+
+def outlines(path: Any) -> tuple[float, float, float, float]:
+    pen = BoundsPen(None)
+    parse_path(path.get("d"), pen)
+    return pen.bounds
+
+
+def test_pictures_are_as_large_as_the_figures() -> None:
+    figures = [block for block in document_of().blocks if isinstance(block, Figure)]
+    shapes = docx.Document(BytesIO(written())).inline_shapes
+    word = docx.Document(BytesIO(written())).part
+
+    assert len(shapes) == len(figures)
+    for figure, shape in zip(figures, shapes, strict=True):
+        size = [mm * figure.share for mm in figure.view.size]
+        assert (shape.width, shape.height) == tuple(round(mm * EMU) for mm in size)
+        assert letters(figure.caption) in shape._inline.docPr.get("descr")
+        blip = next(shape._inline.iter(f"{A}blip"))
+        png = Image.open(BytesIO(word.related_parts[blip.embed].blob))
+        assert [n / 300 * 25.4 for n in png.size] == pytest.approx(size, abs=25.4 / 300)
+        sharp = next(element for element in blip.iter() if element.tag.endswith("svgBlip"))
+        svg = etree.fromstring(word.related_parts[sharp.get(f"{{{SPACES['r']}}}embed")].blob)
+        assert [float(svg.get(name).removesuffix("mm")) for name in ("width", "height")] == pytest.approx(
+            figure.view.size, abs=1e-6
+        )
+        assert {etree.QName(element).localname for element in svg.iter()} & {"text", "style", "image"} == set()
+
+
+def test_letters_of_a_picture_stand_where_they_were() -> None:
+    from kulman.drawing.notes.outlines import outlined
+
+    svg = (
+        b'<svg xmlns="http://www.w3.org/2000/svg"><text x="10" y="20" font-size="4" fill="#123">HH</text>'
+        b'<text x="1" y="2" font-size="2" transform="rotate(30 1 2)">\xd0\xb9</text></svg>'
+    )
+
+    plain, turned = etree.fromstring(outlined(svg))
+
+    assert (plain.get("fill"), turned.get("transform").partition(" translate(1 2)")[0]) == ("#123", "rotate(30 1 2)")
+    assert plain.get("transform") == f"translate(10 20) scale({4 / 2048:.8f} {-4 / 2048:.8f})"
+    assert outlines(plain) == (201, 0, 1540 + 1339, 1493)  # H of DejaVu Sans, which is 1540 wide
+
+
+def test_the_same_note_has_the_same_bytes() -> None:
+    again = docx_bytes(note("nau-slider-crank", only=QUICK, student="І. Петренко", date="2026").document)
+
+    assert again == written()
+    assert {entry.date_time[:3] for entry in zipfile.ZipFile(BytesIO(again)).infolist()} == {(1980, 1, 1)}
+    assert "created" not in part(again, "docProps/core.xml").tag + "".join(map(str, part(again, "docProps/core.xml")))
+
+
+@cache
+def few_words() -> Document:
+    document = document_of()
+    return replace(document, blocks=document.blocks[:2])
+
+
+HOSTILE = (
+    "</w:t><w:br/>",
+    "<!--",
+    "]]>",
+    "&amp;",
+    "\x00\x07\x1b",
+    "\u202eab\u2066",
+    "שלום",
+    "\ufffe",
+    "\ud800",
+    "😀",
+    "a" * 300,
+    "{lang}",
+)
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_name_is_never_taken_for_a_sign(name: str) -> None:
+    document = few_words()
+    document = replace(document, title=replace(document.title, student=name, teacher=name, date=name, title=name))
+
+    data = docx_bytes(document)
+
+    word = docx.Document(BytesIO(data))
+    plain = "".join(c if c.isprintable() else " " for c in name)
+    texts = [paragraph.text for paragraph in word.paragraphs]
+    assert texts.count(plain) == 2
+    assert sum(text.endswith(f"\t{plain}") for text in texts) == 2
+    assert word.core_properties.author == plain[:255]
+    assert list(disordered(part(data, "word/document.xml"))) == []
+
+
+@pytest.mark.parametrize("library", ["docx", "fontTools", "pypdfium2"])
+def test_without_the_extra_a_line_says_so_and_nothing_is_written(
+    library: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(__import__("sys").modules, library, None)
+
+    with pytest.raises(SystemExit) as left:
+        cli.main(
+            [
+                "note",
+                "nau-slider-crank",
+                "--only",
+                "structure",
+                "-o",
+                str(tmp_path / "a.md"),
+                "-o",
+                str(tmp_path / "a.docx"),
+            ]
+        )
+
+    out, err = capsys.readouterr()
+    assert (left.value.code, out, err.count("\n")) == (2, "", 1)
+    assert "kulman[docx]" in err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_a_word_processor_is_told_the_language(lang: str) -> None:
+    document = replace(few_words(), language=lang)
+
+    styles = part(docx_bytes(document), "word/styles.xml")
+
+    assert next(styles.iter(f"{W}lang")).get(f"{W}val").startswith(lang)
+    assert packaged("kulman.drawing.notes", "texts", lang)["contents"] in " ".join(
+        paragraph.text for paragraph in docx.Document(BytesIO(docx_bytes(document))).paragraphs
+    )
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(("task", "lang"), [(task, LANGUAGES[i % 3]) for i, task in enumerate(bundled())])
+def test_every_task_becomes_a_document(task: str, lang: str) -> None:
+    data = written(task, lang, None)
+
+    assert len(docx.Document(BytesIO(data)).inline_shapes) == sum(
+        isinstance(block, Figure) for block in document_of(task, lang, None).blocks
+    )
+    assert list(disordered(part(data, "word/document.xml"))) == []
