@@ -1,0 +1,237 @@
+"""The work on a cam step by step: stages are those of the construction and of the sheet, sentences have its numbers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from kulman import note
+from kulman.drawing.cams.stages import family, stages, tables
+from kulman.drawing.handouts.begun import begun_pages
+from kulman.drawing.notes.blocks import Sentences, Steps, Story
+from kulman.drawing.page import Page
+from kulman.drawing.shapes import Group, Shape, Text
+from kulman.plans.cams.cam import LAWS
+from kulman.plans.cams.rules import rules_of
+from kulman.plans.cams.solve import SolvedCam
+from kulman.scales.errors import LANGUAGES
+from kulman.scales.packaged import packaged
+from kulman.variants.case import Case, solve_case
+from kulman.variants.sheets import Sheet, draw_case
+
+TASK = "madi-cam"
+ROCKER = str(Path(__file__).parents[2] / "docs" / "examples" / "rocker-cam.toml")
+Settings = tuple[tuple[str, str], ...]
+CASES: tuple[tuple[str, str, Settings], ...] = (
+    (TASK, "17", ()),
+    (TASK, "17", (("law", "uniform"), ("limits", "two-sided"))),
+    (TASK, "17", (("e", "0"), ("rotation", "cw"))),
+    (TASK, "17", (("r_0", "50"), ("law", "sine"))),
+    (TASK, "17", (("r_0", "50"), ("e", "3"))),
+    (ROCKER, "1", ()),
+    (ROCKER, "2", ()),
+)
+DRAWN = [CASES[0], *(pytest.param(case, marks=pytest.mark.soak) for case in CASES[1:])]
+# marks that are drawn along with those of a stage
+BESIDE = (
+    (r"diagram_[av]\.#", "axes"),
+    (r"diagram_[av]\.O", "axes"),
+    (r"diagram_[av]\.f#", "sections"),
+    (r"sizes\.#_fall", "points"),
+    (r"plate_sizes\.#_after", "points"),
+)
+PRODUCT = re.compile(r"= ([\d.]+)·([\d.]+) = ([\d.]+) m\b")
+
+
+@cache
+def solved(task: str, variant: str, settings: Settings) -> Case:
+    return solve_case(task, variant, dict(settings), None, None)
+
+
+@cache
+def drawn(task: str, variant: str, settings: Settings) -> Sheet:
+    return draw_case(solved(task, variant, settings), {}, lang="en")
+
+
+def cam(case: Case) -> SolvedCam:
+    assert isinstance(case.solved, SolvedCam)
+    return case.solved
+
+
+def told(case: Case, lang: str = "en") -> Story:
+    scales = case.kind.first_scales(case.solved, case.choosers)
+    return case.kind.story(case, scales, case.words(lang), packaged("kulman.drawing.notes", "texts", lang))
+
+
+def said(story: Story) -> str:
+    return " ".join([*(text for steps in story.steps.values() for text in steps), *story.conclusions])
+
+
+@pytest.mark.parametrize("case", DRAWN)
+def test_views_are_drawn_in_the_stages_that_are_told(case: tuple[str, str, Settings]) -> None:
+    known = stages(cam(solved(*case)))
+    figures = [view for view in drawn(*case).views if not (view.rows or view.lines)]
+
+    assert {view.name for view in figures} == known.keys()
+    for view in figures:
+        assert {*view.parts} - {""} == {*known[view.name]}, view.name
+        apart = [shape for shape, part in zip(view.shapes, view.parts, strict=True) if not part]
+        assert all(isinstance(shape, Text) and shape.role == "heading" for shape in apart), view.name
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_every_mark_of_the_construction_has_its_stage(case: tuple[str, str, Settings]) -> None:
+    own = cam(solved(*case))
+    found = {stage.family for table in tables(own).values() for stage in table}
+
+    marks = {family(step.name) for step in own.program if "." in step.name}
+    assert len(marks) >= 15
+    assert not [mark for mark in marks if mark not in found and not any(re.fullmatch(p, mark) for p, _ in BESIDE)]
+    known = {part for parts in stages(own).values() for part in parts}
+    assert {part for _, part in BESIDE} <= known | {"points"}
+
+
+def test_stages_follow_the_construction() -> None:
+    first = stages(cam(solved(*CASES[0])))
+    once = stages(cam(solved(*CASES[1])))
+    rocks = stages(cam(solved(*CASES[5])))
+
+    assert first["diagrams"] == (
+        "axes", "sections", "law_a", "rays_a", "chords_v", "means_v", "rays_v", "chords_s", "scales",
+    )  # fmt: skip
+    assert first["sizes"] == ("axes", "points", "tangent_rise", "tangent_fall", "permitted", "centre", "pressure")
+    assert once["diagrams"] == ("axes", "sections", "law_v", "rays_v", "chords_s", "scales")
+    assert {"tangent_rise_back", "tangent_fall_back"} <= {*once["sizes"]}
+    assert "plate_sizes" not in once
+    assert rocks["rocker_sizes"] == ("pivot", "positions", "analogues", "limits", "centre", "pressure")
+    assert rocks["profile"] == ("shaft", "pivots", "pitch", "normal", "profile", "sharpest", "follower")
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("case", CASES)
+def test_a_note_tells_every_stage_but_the_first(case: tuple[str, str, Settings], lang: str) -> None:
+    story = told(solved(*case), lang)
+
+    known = stages(cam(solved(*case)))
+    assert {view: len(steps) + 1 for view, steps in story.steps.items()} == {v: len(p) for v, p in known.items()}
+    text = said(story)
+    assert not re.search(r"(?<![_^])(?<!bar)\{[a-z]\w+\}|\b(nan|inf|None)\b|  ", text), text
+    assert bool(re.search("[іїєґ]", text)) == (lang == "uk")
+    assert bool(re.search("[ыэъ]", text)) == (lang == "ru")
+    assert all(step.endswith((".", ". ")) for steps in story.steps.values() for step in steps)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_what_is_read_from_a_plan_recomputes(case: tuple[str, str, Settings]) -> None:
+    products = PRODUCT.findall(said(told(solved(*case))))
+
+    assert products or {"r_0", "l_OC"} & dict(case[2]).keys()
+    for segment, mu, value in products:
+        half = 0.5 * 10.0 ** -len(value.partition(".")[2])
+        assert float(segment) * float(mu) == pytest.approx(float(value), abs=1.001 * half)
+
+
+def test_sizes_that_are_all_given_are_marked_and_not_sought(tmp_path: Path) -> None:
+    text = Path(ROCKER).read_text(encoding="utf-8").replace("[givens]\n", '[givens]\nr_0 = { unit = "mm" }\n')
+    (tmp_path / "all.toml").write_text(text, encoding="utf-8")
+
+    sentences = told(solve_case(tmp_path / "all.toml", "2", {"r_0": "60"}, None, None)).steps["rocker_sizes"]
+    assert any("given sizes l_{OC} = 130 mm, r_{0} = 60 mm" in sentence for sentence in sentences)
+
+
+def test_sentences_have_the_numbers_of_the_solution() -> None:
+    case = solved(*CASES[0])
+    values, text = case.solved.values, said(told(case))
+
+    for name in ("r_0", "r_0_tangents", "r_0_flat", "r_0_flat_min", "r_0_flat_tangent", "rho_min", "R_plate", "e"):
+        assert f"{1e3 * float(values[name]):.2f} mm" in text, name
+    for name, most in (("l_A1", "110"), ("l_A2", "55"), ("H_a", "30"), ("S_max_chord", "80.44")):
+        assert f"{case.words('en').symbol(name)[0]}" in text
+        assert f"= {most} mm" in text
+    assert "4.138 m/s" in text
+    assert "2634 m/s" in text
+    assert "on the lines 4, 21" in text
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "key"),
+    [
+        ("roller_of_radius", {"R_roller": "19"}, "larger than 0.4"),
+        ("roller_of_curvature", {"R_roller": "21"}, "larger than 0.7"),
+        ("gamma_rise", {"r_0": "40", "e": "0"}, "less than the permitted [γ_{r}]"),
+    ],
+)
+def test_conclusions_judge_as_the_checks_do(name: str, settings: dict[str, str], key: str) -> None:
+    for given, ok in (({}, True), (settings, False)):
+        case = solved(TASK, "17", tuple(given.items()))
+        sentence = next(text for text in told(case).conclusions if key in text)
+
+        assert next(rule.ok for rule in rules_of(cam(case)) if rule.name == name) is ok
+        assert ("not " + key in sentence) is ok
+        assert (" is " + key in sentence) is not ok
+
+
+def test_conclusions_tell_what_a_profile_loses() -> None:
+    case = solved(TASK, "17", (("gamma_rise", "40"), ("gamma_fall", "40"), ("R_roller", "13")))
+
+    sentence = next(text for text in told(case).conclusions if "undercut" in text)
+    assert re.search(r"from φ = 34\.03° to 72\.91°", sentence)
+    assert "0.28" in sentence
+
+
+def test_a_law_that_no_plate_can_follow_is_told() -> None:
+    assert any("flat face cannot" in text for text in told(solved(*CASES[1])).conclusions)
+    assert not any("flat face cannot" in text for text in told(solved(*CASES[0])).conclusions)
+
+
+def parts(shapes: Iterable[Shape]) -> Iterator[Shape]:
+    for shape in shapes:
+        yield shape
+        if isinstance(shape, Group):
+            yield from parts(shape.shapes)
+
+
+def figures(pages: Iterable[Page]) -> list[Shape]:
+    """Return all parts of the figures of pages: what stages build up."""
+    own = {"diagrams", "sizes", "rocker_sizes", "plate_sizes", "profile", "plate_profile", "pressure"}
+    views = [shape for page in pages for shape in page.shapes if isinstance(shape, Group) and shape.role == "view"]
+    return [part for view in views if view.name in own for part in parts(view.shapes)]
+
+
+@pytest.mark.parametrize("case", DRAWN)
+def test_handouts_grow_from_axes_to_the_whole_drawing(case: tuple[str, str, Settings]) -> None:
+    own, sheet = solved(*case), drawn(*case)
+    most = max(len(names) for names in stages(cam(own)).values())
+
+    def begun(steps: int) -> list[Shape]:
+        shown = own.kind.begun(own, sheet.scales, own.words("en"), steps)
+        return figures(begun_pages(sheet.pages, sheet.views, shown))
+
+    counts = [len(begun(steps)) for steps in range(most)]
+    assert all(a < b for a, b in pairwise(counts))
+    assert begun(most - 1) == figures(sheet.pages)
+    blank = [text for text in begun(0) if isinstance(text, Text)]
+    numbers = [text.markup for text in blank if text.role != "heading" and re.search(r"\d", text.markup)]
+    assert all(re.match(r"H_|−?\d+°$|d\^\{2\}s", text) for text in numbers), numbers
+    assert not any(re.search(r"(ρ|θ|γ|e|h)\S* = ", text.markup) for text in blank if "μ" not in text.markup)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize(
+    "case", [*CASES, *((TASK, "17", (("law", law), ("R_roller", "3"))) for law in LAWS), (TASK, "17", (("h", "20"),))]
+)
+def test_notes_of_all_cams_say_what_their_sheets_show(case: tuple[str, str, Settings], lang: str) -> None:
+    task, variant, settings = case
+    written = note(task, variant, set=dict(settings), lang=lang)
+    found = [block for block in written.document.blocks if isinstance(block, (Steps, Sentences))]
+
+    text = " ".join(text for block in found for text in block.texts)
+    assert len(text) > 3000
+    assert not re.search(r"(?<![_^])(?<!bar)\{[a-z]\w+\}|\b(nan|inf|None)\b", text)
+    assert bool(re.search("[а-яА-Я]{3}", text)) == (lang != "en")
