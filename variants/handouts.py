@@ -9,6 +9,8 @@ from dataclasses import replace
 from ..drawing.compose import Drawn
 from ..drawing.formats import format_named
 from ..drawing.handouts.begun import begun_pages
+from ..drawing.handouts.grid import gridded
+from ..drawing.handouts.hidden_key import keyed
 from ..drawing.handouts.over import over_page
 from ..drawing.handouts.print_marks import marked, printable
 from ..drawing.page import Page
@@ -17,10 +19,11 @@ from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from .case import Case, Settings, solve_case
-from .sheets import Sheet, draw_case, drawing_of, sheet_of, stamp_of
+from .sheets import Sheet, drawing_of, sheet_of, stamp_of
 from .task import Task
 
 PAPER = "A4"
+APART = (("--hidden-key", "--key"), ("--hidden-key", "--over"), ("--grid", "--over"))  # what is not asked for together
 
 
 def handout(
@@ -29,7 +32,9 @@ def handout(
     *,
     steps: int = 0,
     key: bool = False,
+    hidden_key: bool = False,
     over: str | None = None,
+    grid: bool = False,
     set: Settings | None = None,
     only: str | Iterable[str] | None = None,
     scales: Settings | None = None,
@@ -50,30 +55,53 @@ def handout(
         nothing that is drawn has steps, a warning says so.
     key : bool
         Draw the whole work, to be laid on the blank.
+    hidden_key : bool
+        Add what the handout leaves out as a layer that SVG and PDF open without: for the teacher, never for students.
     over : str, optional
         The view that is drawn alone on its page, to be printed on a transparency and laid over a student's plan.
+    grid : bool
+        Lay a light grid of 5 mm under the drawing.
     block : mapping of str to str, optional
         What the title block says, as for `sheet`.
 
     Raises
     ------
     InputError, PositionError
-        As for `sheet`; a number of steps below zero; no such view.
+        As for `sheet`; a number of steps below zero; no such view; a hidden key beside the key, or a grid or hidden
+        key with one view alone.
     """
     of_kind("steps", steps, (int,), "int")
     if steps < 0:
         raise InputError("handout-steps", text=str(steps))
+    asked = {"--key": key, "--over": over is not None, "--hidden-key": hidden_key, "--grid": grid}
+    for first, second in APART:
+        if asked[first] and asked[second]:
+            raise InputError("handout-apart", first=first, second=second)
     case = solve_case(task, variant, set, only, scales)
+    drawing = drawing_for_print(case, format, norm, notation, lang)
     if over is None and not key:
-        drawing = drawing_for_print(case, format, norm, notation, lang)
-        return begun_of_case(case, drawing, block or {}, steps, notation, lang)
-    drawn = draw_case(case, block or {}, printable(format_named(format)), norm, notation, lang)
-    if over is not None:
-        figures = {view.name: view for view in drawn.views if not (view.rows or view.lines)}
-        if over not in figures:
-            raise unknown("figure-unknown", over, figures)
-        return replace(drawn, pages=(marked(over_page(figures[over], drawn.pages[0])),))
-    return replace(drawn, pages=tuple(map(marked, drawn.pages)))
+        drawn = begun_of_case(case, drawing, block or {}, steps, notation, lang)
+    else:
+        drawn = sheet_of(case, drawing, stamp_of(case, block or {}, notation, lang))
+        pages = drawn.pages if over is None else (_alone(drawn, over),)
+        drawn = replace(drawn, pages=tuple(map(marked, pages)))
+    if hidden_key:
+        drawn = replace(drawn, pages=tuple(map(keyed, drawn.pages, drawing.placed)))
+    return _on_grid(drawn, drawing) if grid else drawn
+
+
+def _alone(drawn: Sheet, over: str) -> Page:
+    """Return a page with one view."""
+    figures = {view.name: view for view in drawn.views if not (view.rows or view.lines)}
+    if over not in figures:
+        raise unknown("figure-unknown", over, figures)
+    return over_page(figures[over], drawn.pages[0])
+
+
+def _on_grid(drawn: Sheet, drawing: Drawn) -> Sheet:
+    sheet, norm = drawing.sheet, drawing.norm
+    pages = (gridded(page, sheet, norm, number == 0) for number, page in enumerate(drawn.pages))
+    return replace(drawn, pages=tuple(pages))
 
 
 def drawing_for_print(

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
         "kulman handout nau-slider-crank -v 3 -o blank.pdf",
         "kulman handout nau-slider-crank -v 3 --steps 3 --format A3 -o begun.pdf",
         "kulman handout nau-slider-crank -v 3 --key -o key.pdf",
+        "kulman handout nau-slider-crank -v 3 --grid --hidden-key -o teacher.svg",
         "kulman handout nau-slider-crank -v 3 --over velocity -o transparency.pdf",
     )
 )
@@ -48,7 +49,13 @@ if TYPE_CHECKING:
     "--steps", metavar="K", default="0", show_default=True, callback=count, help="So many steps of each plan."
 )
 @click.option("--key", is_flag=True, help="The whole work, at the same places.")
+@click.option(
+    "--hidden-key",
+    is_flag=True,
+    help="The answers as a layer of SVG or PDF that is switched off: for the teacher, never for students.",
+)
 @click.option("--over", metavar="PLAN", help="One plan alone, for a transparency to lay over a student's drawing.")
+@click.option("--grid", is_flag=True, help="A light grid of 5 mm under the drawing.")
 @click.option("--format", type=Word(*SIZES), default="A4", show_default=True, help="The paper that is printed on.")
 @of_norm
 @tiled

@@ -1,0 +1,274 @@
+"""Layers: each thing in one of them, the same in SVG and PDF; a blank without answers, a key that lies on it."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from functools import cache
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lxml import etree
+from numpy.typing import NDArray
+from pdfminer.pdfdocument import PDFDocument
+from pdfminer.pdfpage import PDFPage
+from pdfminer.pdfparser import PDFParser
+from pdfminer.pdftypes import resolve1
+from pdfminer.utils import decode_text
+from pypdfium2 import PdfDocument
+
+from kulman import cli, handout, sheet
+from kulman.drawing.formats import FORMATS, drawing_area, reserved_boxes
+from kulman.drawing.handouts.print_marks import printable
+from kulman.drawing.layers import Layer, layered
+from kulman.drawing.page import Page
+from kulman.drawing.pdf import write_pdf
+from kulman.drawing.shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
+from kulman.drawing.svg import svg_text
+from kulman.drawing.tile import write_tiles
+from kulman.scales.errors import LANGUAGES
+from kulman.tests.support.readback import SVG, read
+from kulman.variants.sheets import Sheet
+from kulman.variants.shelf import bundled
+
+INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
+DRAWN = {f"{SVG}{kind}" for kind in ("line", "polyline", "polygon", "circle", "path", "text")}
+PAINTING = re.compile(rb"\b(?:S|s|B|b|f|Tj)$", re.MULTILINE)
+TASK, FEW = "nau-slider-crank", ("nau-slider-crank",)
+TASKS = [task if task in FEW else pytest.param(task, marks=pytest.mark.soak) for task in bundled()]
+PLANS = "position,velocity"
+DPI = 60
+
+
+@cache
+def printed(task: str = TASK, **how: object) -> Sheet:
+    return handout(task, only=PLANS if task == TASK else None, format="A3", **how)  # type: ignore[arg-type]
+
+
+def leaves(shapes: Iterable[Shape]) -> Iterator[Shape]:
+    for shape in shapes:
+        if isinstance(shape, Group):
+            yield from leaves(shape.shapes)
+        else:
+            yield shape
+
+
+def layers_of(page: Page) -> list[etree._Element]:
+    return [child for child in etree.fromstring(svg_text(page).encode()) if child.get("class") == "layer"]
+
+
+def names(page: Page) -> list[str]:
+    return [layer.get("id").removeprefix("layer-") for layer in layers_of(page)]
+
+
+def pdf(*pages: Page) -> bytes:
+    stream = BytesIO()
+    write_pdf(pages, stream)
+    return stream.getvalue()
+
+
+def picture(data: bytes) -> NDArray[np.uint8]:
+    """Return all pages side by side."""
+    document = PdfDocument(data)
+    try:
+        return np.hstack([np.asarray(page.render(scale=DPI / 72).to_pil().convert("L")) for page in document])
+    finally:
+        document.close()
+
+
+def shown(data: bytes) -> bytes:
+    """Switch every layer of a PDF on."""
+    changed, count = re.subn(rb"/OFF \[ \d+ 0 R \]", lambda was: b"/OFF [".ljust(len(was[0]) - 1) + b"]", data)
+    assert count == 1
+    return changed
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_each_thing_is_in_one_layer(task: str) -> None:
+    for page in sheet(task, only=PLANS if task == TASK else None).pages:
+        parts = layered(page.shapes)
+
+        assert Counter(leaves(shape for _, own in parts for shape in own)) == Counter(leaves(page.shapes))
+        assert [layer for layer, _ in parts] == [layer for layer in Layer if layer in dict(parts)]
+        assert Layer.KEY not in dict(parts)
+        root = etree.fromstring(svg_text(page).encode())
+        for element in root.iter(*DRAWN):
+            assert sum(above.get("class") == "layer" for above in element.iterancestors()) == 1
+
+
+@pytest.mark.parametrize(
+    ("shape", "layer"),
+    [
+        (Polyline((0j, 1 + 0j), role="frame"), Layer.FRAME),
+        (Group((Line(0j, 1j),), "titleblock"), Layer.FRAME),
+        (Group((Circle(0j, 1.0, fill="white"),), "pivot", "O"), Layer.GIVEN),
+        (Text(0j, "План", role="heading"), Layer.GIVEN),
+        (Line(0j, 1j, Pen.AXIS), Layer.GIVEN),
+        (Line(0j, 1j, Pen.DASHED, role="construction"), Layer.CONSTRUCTION),
+        (Line(0j, 1j, Pen.THIN, role="some ray"), Layer.CONSTRUCTION),
+        (Vector(0j, 1j, "V_B", 1.0, "m/s", 1.0), Layer.RESULT),
+        (Group((Line(0j, 1j, Pen.MAIN),), "link", "2"), Layer.RESULT),
+        (Group((Line(0j, 1j, Pen.THIN), Head(1j, 1j)), "dimension", "r_0"), Layer.LABELS),
+        (Text(0j, "B"), Layer.LABELS),
+        (Group((Group((Text(0j, "5"),), "table"),), "view", "givens"), Layer.GIVEN),
+        (Group((Group((Text(0j, "5"),), "table"),), "view", "results"), Layer.RESULT),
+    ],
+)
+def test_a_shape_tells_its_layer_by_what_it_is(shape: Shape, layer: Layer) -> None:
+    assert [found for found, _ in layered([shape])] == [layer]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_readers_name_the_layers_in_the_language_of_the_sheet(language: str) -> None:
+    everything = (Group((Line(0j, 1j),), "view", str(k), layer=layer.value) for k, layer in enumerate(Layer))
+    page = Page(100, 100, tuple(everything), "x", language)
+    titles = [layer.title(language) for layer in Layer]
+
+    groups = layers_of(page)
+    catalog = PDFDocument(PDFParser(BytesIO(pdf(page)))).catalog["OCProperties"]
+
+    assert len(set(titles)) == len(Layer)
+    assert names(page) == [layer.value for layer in Layer]
+    assert [group.get(f"{INKSCAPE}label") for group in groups] == titles
+    assert {group.get(f"{INKSCAPE}groupmode") for group in groups} == {"layer"}
+    assert [group.get("display") for group in groups] == ["none" if layer is Layer.KEY else None for layer in Layer]
+    assert [decode_text(resolve1(group)["Name"]) for group in catalog["D"]["Order"]] == titles
+    assert [decode_text(resolve1(group)["Name"]) for group in catalog["D"]["OFF"]] == titles[-1:]
+    assert [group.objid for group in catalog["OCGs"]] == [group.objid for group in catalog["D"]["Order"]]
+
+
+def test_all_that_a_pdf_paints_is_in_a_layer_that_its_page_knows() -> None:
+    pages = printed(hidden_key=True).pages
+    document = PDFDocument(PDFParser(BytesIO(pdf(*pages))))
+    groups = {group.objid for group in document.catalog["OCProperties"]["OCGs"]}
+
+    for page, drawn in zip(PDFPage.create_pages(document), pages, strict=True):
+        known = page.resources["Properties"]
+        stream = b"\n".join(resolve1(content).get_data() for content in page.contents)
+        runs = re.findall(rb"^/OC /(\w+) BDC$(.*?)^EMC$", stream, re.MULTILINE | re.DOTALL)
+        assert [name.decode() for name, _ in runs] == names(drawn)
+        assert set(known) == set(names(drawn))
+        assert {reference.objid for reference in known.values()} <= groups
+        assert all(PAINTING.search(inside) and b" BDC" not in inside for _, inside in runs)
+        assert len(PAINTING.findall(stream)) == sum(len(PAINTING.findall(inside)) for _, inside in runs)
+
+
+def test_layers_change_nothing_that_is_seen() -> None:
+    """Where white covers lines, it covers them in layers too, but for lines that end in the circle of a node."""
+    (page,) = sheet(TASK, only="position,velocity,forces", format="A2").pages
+    one = Group(tuple(part for shape in page.shapes for part in _parts(shape)), "view", layer="result")
+
+    apart, whole = (picture(pdf(drawn)) for drawn in (page, replace(page, shapes=(one,))))
+
+    assert np.mean(np.abs(apart.astype(int) - whole) > 32) < 2e-5
+
+
+def _parts(shape: Shape) -> tuple[Shape, ...]:
+    return shape.shapes if isinstance(shape, Group) and shape.role == "view" else (shape,)
+
+
+@pytest.mark.parametrize("how", [{}, {"grid": True}, {"steps": 2}], ids=str)
+def test_what_students_get_is_given_and_nothing_else(how: dict[str, object]) -> None:
+    for page in printed(**how).pages:
+        assert set(names(page)) == {"frame", "given"} | ({"grid"} if "grid" in how else set())
+        assert b"layer-key" not in svg_text(page).encode()
+    document = PDFDocument(PDFParser(BytesIO(pdf(*printed(**how).pages))))
+    assert document.catalog["OCProperties"]["D"]["OFF"] == []
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_blank_and_hidden_key_are_the_key_to_the_last_bit(task: str) -> None:
+    teacher, blank, key = (printed(task, **how) for how in ({"hidden_key": True}, {}, {"key": True}))
+
+    for apart, empty, whole in zip(teacher.pages, blank.pages, key.pages, strict=True):
+        answers = [shape for shape in apart.shapes if isinstance(shape, Group) and shape.layer == "key"]
+        assert [shape for shape in apart.shapes if shape not in answers] == list(empty.shapes)
+        together = Counter(plain(shape) for shape in leaves(apart.shapes))
+        assert together == Counter(plain(shape) for shape in leaves(whole.shapes))
+
+
+def plain(shape: Shape) -> Shape:
+    return shape if isinstance(shape, Group) else replace(shape, colour=None)
+
+
+def test_the_key_lies_on_the_blank_to_a_hundredth_of_a_millimetre() -> None:
+    blank, key = (read(*map(svg_text, printed(**how).pages)) for how in ({}, {"key": True}))
+
+    for empty, whole in zip(blank.pages, key.pages, strict=True):
+        for role in ("strokes", "rings"):
+            drawn = [np.array(marks(one)) for view in whole.all for one in getattr(view, role)]
+            for one in (one for view in empty.all for one in getattr(view, role)):
+                own = np.array(marks(one))
+                assert any(len(own) == len(other) and np.abs(own - other).max() <= 0.01 for other in drawn)
+        texts = {(text.string, text.runs[0].at) for view in whole.all for text in view.texts}
+        assert {(text.string, text.runs[0].at) for view in empty.all for text in view.texts} <= texts
+
+
+def marks(one: object) -> tuple[complex, ...]:
+    return getattr(one, "points", None) or (one.centre, complex(one.radius))  # type: ignore[attr-defined]
+
+
+def test_a_hidden_key_is_not_seen_until_it_is_switched_on() -> None:
+    blank, teacher = (pdf(*sheet.pages) for sheet in (printed(), printed(hidden_key=True)))
+
+    assert np.array_equal(picture(teacher), picture(blank))
+    assert not np.array_equal(picture(shown(teacher)), picture(blank))
+
+
+def test_a_key_stays_hidden_on_tiles() -> None:
+    tiled = []
+    for drawn in (printed(), printed(hidden_key=True)):
+        stream = BytesIO()
+        write_tiles(drawn.pages, stream)
+        tiled.append(stream.getvalue())
+
+    assert np.array_equal(picture(tiled[1]), picture(tiled[0]))
+    assert not np.array_equal(picture(shown(tiled[1])), picture(tiled[0]))
+
+
+@pytest.mark.parametrize("name", ["A4", "A3", "A1"])
+def test_a_grid_has_squares_of_5_mm_that_keep_clear_of_the_title_block(name: str) -> None:
+    page = handout(TASK, only="structure", format=name, grid=True).pages[0]
+    paper = printable(FORMATS[name])
+    x0, y0, x1, y1 = drawing_area(paper)
+
+    (grid,) = (shape for shape in page.shapes if isinstance(shape, Group) and shape.role == "grid")
+    lines = [line for line in grid.shapes if isinstance(line, Line)]
+
+    assert page.shapes[0] is grid
+    assert {line.colour for line in lines} == {"#d9d9d9"}
+    for along, start, end in ((1.0, x0, x1), (1j, y0, y1)):
+        across = [line for line in lines if ((line.b - line.a) / along).real == 0.0]
+        places = sorted({round((line.a / along).real - start, 6) for line in across})
+        first = 5.0 if along == 1.0 or name != "A4" else 55.0  # there the title block is as wide as the frame
+        assert places == [first + 5.0 * k for k in range(len(places))]
+        assert 0.0 < end - start - places[-1] <= 5.0
+    for line in lines:
+        middle = (line.a + line.b) / 2
+        assert x0 < middle.real < x1
+        assert y0 < middle.imag < y1
+        for a, b, c, d in reserved_boxes(paper):
+            assert (
+                max(line.a.real, line.b.real) <= a
+                or min(line.a.real, line.b.real) >= c
+                or (max(line.a.imag, line.b.imag) <= b or min(line.a.imag, line.b.imag) >= d)
+            )
+
+
+@pytest.mark.parametrize("clash", [["--hidden-key", "--key"], ["--hidden-key", "--over"], ["--grid", "--over"]])
+def test_what_does_not_go_together_is_said_in_a_line(
+    clash: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = [*clash, "velocity"] if "--over" in clash else clash
+
+    with pytest.raises(SystemExit) as left:
+        cli.main(["handout", TASK, *words, "-o", str(tmp_path / "h.pdf")])
+
+    out, err = capsys.readouterr()
+    assert (left.value.code, out, err.count("\n")) == (2, "", 1)
+    assert all(option in err for option in clash)
+    assert list(tmp_path.iterdir()) == []
