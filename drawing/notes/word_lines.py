@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from itertools import groupby
 
 from ...scales.packaged import packaged
+from .atoms import whole
 from .blocks import Document, Heading
-from .built_up import whole
 from .markup import Node, Plain, Scripted, letters, parse
 from .omml import node, quoted
 
