@@ -21,7 +21,7 @@ from ...boards.exact import STATUSES
 from ...extremes import Extreme, extremes
 from ...laws import TURN, dot
 from ...quantities import quantities
-from ..chain import USUAL, construct
+from ..chain import USUAL, constructed
 from ..mechanism import Mechanism
 from ..structure import Structure
 from .limits import Arc, Reach, reach_of
@@ -181,7 +181,7 @@ def cycle(
     reach, between = _reach(drive, values, start, end)
     motions = output_motions(drive, values, reach)
     zero = between.low if between else zero_position(drive, values, motions) if reach.stretches else 0.0
-    structure, program = construct(drive.mechanism, plans)
+    structure, program = constructed(drive.mechanism, plans)
     program = measured(program, outputs(drive.mechanism, structure))
     places = _places(drive, zero if start is None else start, between, positions)
     wanted = _wanted(mechanism, program, motions)

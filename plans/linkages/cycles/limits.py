@@ -22,7 +22,7 @@ from ...boards.exact import TANGENT
 from ...laws import TURN
 from ...zeros import Stretch, zeros
 from ..bare import without_loads
-from ..chain import construct
+from ..chain import constructed
 from ..givens import board_givens
 from ..mechanism import FRAME, Mechanism, Prismatic, Revolute
 from .swept import Swept, swept
@@ -146,7 +146,7 @@ def reach(mechanism: Mechanism, values: Mapping[str, float], between: Arc | None
 def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = None) -> Reach:
     """Find the reach of a mechanism that is ready for a sweep."""
     free = without_loads(drive.mechanism)
-    _, program = construct(free, ("position",))
+    _, program = constructed(free, ("position",))
     position = drive.along(program, values, program.names, MarginBoard, free)
     whole = _range(drive, values, between)
     if position.status in ("no-assembly", "singular"):

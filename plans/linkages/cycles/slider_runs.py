@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...laws import TURN, dot
 from ..bare import without_loads
-from ..chain import construct
+from ..chain import constructed
 from ..mechanism import FRAME, Driver, Prismatic
 from ..solved import SolvedLinkage
 from .swept import swept
@@ -30,7 +30,7 @@ def slider_runs(solved: SolvedLinkage) -> Runs:
         return {}
     drive = swept(solved.mechanism, solved.givens)
     free = without_loads(drive.mechanism)
-    _, program = construct(free, ("position",))
+    _, program = constructed(free, ("position",))
     marks = {solved.guide_name(pair): (pair.point, _beside(solved, pair)) for pair in pairs}
     wanted = sorted({mark for u, (point, at) in marks.items() for mark in (u, point, at) if mark})
     steps = np.arange(-POSITIONS // 2, POSITIONS // 2 + 1) * (1.0 / POSITIONS)
