@@ -20,7 +20,7 @@ from fontTools.svgLib.path import parse_path
 from lxml import etree
 from PIL import Image
 
-from kulman import cli, note
+from kulman import batch, cli, note
 from kulman.drawing.notes.blocks import Document, Equations, Figure, Heading, Sentences, Steps, Table
 from kulman.drawing.notes.built_up import built_up, displayed
 from kulman.drawing.notes.docx import SPACES, docx_bytes
@@ -336,3 +336,14 @@ def test_every_task_becomes_a_document(task: str, lang: str) -> None:
         isinstance(block, Figure) for block in document_of(task, lang, None).blocks
     )
     assert list(disordered(part(data, "word/document.xml"))) == []
+
+
+def test_a_class_may_have_its_notes_so(tmp_path: Path) -> None:
+    (tmp_path / "class.csv").write_text("student;group;variant\nІ. Петренко;ММ-31;3\n", encoding="utf-8")
+
+    batch("nau-slider-crank", tmp_path / "class.csv", tmp_path / "out", kinds=["docx"], only="structure", jobs=1)
+
+    alone = note("nau-slider-crank", "3", only="structure", student="І. Петренко", group="ММ-31").document
+    (file,) = (tmp_path / "out").glob("*.docx")
+    assert file.name == "001-І-Петренко-3-note.docx"
+    assert file.read_bytes() == docx_bytes(alone)

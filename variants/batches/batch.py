@@ -85,7 +85,7 @@ def batch(
     folder : str or PathLike
         Where the files go; it is made where it is missing.
     kinds : sequence of str
-        What each student gets: the sheet as `svg`, `pdf`, `png`, the explanatory `note`, a blank `handout`.
+        What each student gets: the sheet as `svg`, `pdf`, `png`, the `note`, also as `docx`, a blank `handout`.
     digits : int or str, optional
         How many last digits of the record book give the variant, where the roster has none; or what each of them is
         for, from left to right: `"variant,scheme"`, which is usual for several tasks.

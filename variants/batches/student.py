@@ -11,9 +11,8 @@ from pathlib import Path
 from ... import __version__
 from ...drawing.compose import Drawn
 from ...drawing.notes.blocks import Block, Document
-from ...drawing.notes.typst import pdf_bytes
 from ...drawing.pens import Norm
-from ...drawing.writers import page_files, slug
+from ...drawing.writers import WRITERS, page_files, slug
 from ...plans.quantities import measured
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
@@ -21,7 +20,7 @@ from ...scales.units import format_unit
 from ..case import Case, solve_case
 from ..handouts import begun_of_case, drawing_for_print
 from ..journal import digest_of
-from ..notes import body_of, title_page
+from ..notes import ALONE, body_of, title_page
 from ..roster import Entry
 from ..sheet_id import sheet_id
 from ..sheets import Sheet, drawing_of, sheet_of, stamp_of
@@ -30,7 +29,9 @@ from ..task import Task
 
 NOTE, HANDOUT = "note", "handout"
 KEPT = 32  # variants whose drawings a process keeps for the next students that have them
-FORMS = ("svg", "pdf", "png", NOTE, HANDOUT)
+NOTES = {NOTE: ".pdf", "docx": ".docx"}
+FORMS = ("svg", "pdf", "png", *NOTES, HANDOUT)
+SUFFIXES = {*WRITERS, *NOTES.values()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,10 +155,10 @@ class Making:
         self, work: Work, block: dict[str, str], drawn: Sheet, kind: str, stem: str
     ) -> Iterator[tuple[str, bytes]]:
         """Go through the files of one kind: their names and what they hold."""
-        if kind == NOTE:
+        if kind in NOTES:
             page = {name: text for name, text in block.items() if name != "designation"}
             document = Document(title_page(work.case, page, self.language), work.body, self.language)
-            yield f"{stem}-note.pdf", pdf_bytes(document)
+            yield f"{stem}-note{NOTES[kind]}", ALONE[NOTES[kind]](document)
             return
         if kind == HANDOUT:
             drawn = begun_of_case(work.case, work.blank, block, notation=self.notation, lang=self.language)

@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from ...drawing.writers import WRITERS, sweep_parts, write_whole
+from ...drawing.writers import sweep_parts, write_whole
 from ...scales.errors import InputError
 from ..crew import Advance, Done
 from ..journal import Journal, digest_of
 from .outcome import Outcome
-from .student import Made, Making, Student
+from .student import SUFFIXES, Made, Making, Student
 
 JOURNAL = ".kulman-batch.jsonl"
 Crew = Callable[[Making, list[Student]], Iterator[list[Done[Made]]]]
@@ -81,7 +81,7 @@ def _sweep(folder: Path, before: Iterable[Outcome], now: Iterable[Outcome]) -> N
     for name, digest in _files(before):
         stale = folder / Path(name).name
         with suppress(OSError):
-            if name not in names and stale.suffix in WRITERS and digest_of(stale.read_bytes()) == digest:
+            if name not in names and stale.suffix in SUFFIXES and digest_of(stale.read_bytes()) == digest:
                 stale.unlink()
 
 

@@ -145,11 +145,11 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 @click.option(
     "--as",
     "kinds",
-    type=Word("svg", "pdf", "png", "note", "handout"),
+    type=Word("svg", "pdf", "png", "note", "docx", "handout"),
     multiple=True,
     default=("svg", "pdf", "note"),
     show_default=True,
-    help="What each student gets: the sheet, the explanatory note, a blank handout. Repeatable.",
+    help="What each student gets: the sheet, the explanatory note (PDF or DOCX), a blank handout. Repeatable.",
 )
 @click.option(
     "--digits",
