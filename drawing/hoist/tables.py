@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import math
-
 from ...plans.check import Check
-from ...plans.hoist.checks import STRENGTH
+from ...plans.hoist.checks import STRENGTH, strength
 from ...plans.hoist.paper import SCALED
 from ...plans.hoist.sections import DRAWN, section_of
 from ...plans.hoist.solve import unit_of
@@ -98,14 +96,9 @@ def strength_lines(scene: HoistScene) -> list[tuple[str, ...]]:
             f"{'≥' if scene.solved.forces.ok[STRENGTH] else '<'} K = {words.short(found['K'])}",
         ),
         (words["hoist.strong" if scene.solved.forces.ok[STRENGTH] else "hoist.weak"],),
-        (scene_factor(scene),),
+        (f"{words.symbol('dynamic_factor')} = {scene.value(scene.size('dynamic_factor'))}",),
     ]
-    printed = found["sigma"] * found["S"] / max(found["P_12_max_printed"], math.nextafter(0.0, 1.0))
-    if (printed >= found["K"]) != scene.solved.forces.ok[STRENGTH]:
-        lines.append((words["hoist.disagrees"].format(safety=scene.value(printed)),))
+    printed = strength({"safety": scene.solved.size("_safety_printed"), "K": found["K"]})
+    if printed.ok != scene.solved.forces.ok[STRENGTH]:
+        lines.append((words["hoist.disagrees"].format(safety=scene.value(printed.value)),))
     return lines
-
-
-def scene_factor(scene: HoistScene) -> str:
-    """Return the dynamic factor."""
-    return f"{scene.words.symbol('dynamic_factor')} = {scene.value(scene.size('dynamic_factor'))}"

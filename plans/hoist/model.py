@@ -71,6 +71,8 @@ def printed(board: Board) -> None:
     board.calc("_V_printed", "article_speed", "V_0", "a", "slack", "P_st", "C_12")
     board.calc("P_12_max_printed", "article_maximum", "m", "g", "a", "_V_printed", "C_12")
     board.calc("T_1_printed", "article_time", "_V_printed", "k_1", "a")
+    board.calc("_stress_printed", "stress", "P_12_max_printed", "S")
+    board.calc("_safety_printed", "ratio", "sigma", "_stress_printed")
 
 
 def strength(board: Board) -> None:
