@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, Generic, TypeVar
@@ -70,6 +70,27 @@ class Journal(Generic[Result]):
         """Forget: all is done."""
         with suppress(OSError):
             self.path.unlink()
+
+
+def remove_stale(
+    folder: Path, before: Iterable[tuple[str, str]], names: Container[str], suffixes: Container[str]
+) -> None:
+    """Remove files of earlier runs that belong to nobody any more.
+
+    Parameters
+    ----------
+    before : iterable of (str, str)
+        Names and digests of the files that earlier runs have noted as their own: what somebody has changed stays.
+    names : container of str
+        Files of this run.
+    suffixes : container of str
+        What kinds of files such runs write.
+    """
+    for name, digest in before:
+        stale = folder / Path(name).name
+        with suppress(OSError):
+            if name not in names and stale.suffix in suffixes and digest_of(stale.read_bytes()) == digest:
+                stale.unlink()
 
 
 def digest_of(data: str | bytes) -> str:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 
 from ...drawing.writers import sweep_parts, write_whole
 from ...scales.errors import InputError
 from ..crew import Advance, Done
-from ..journal import Journal, digest_of
+from ..journal import Journal, digest_of, remove_stale
 from .outcome import Outcome
 from .student import SUFFIXES, Made, Making, Student
 
@@ -39,7 +39,8 @@ def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, a
             journal.note(digests[number], found[number])
         advance(len(done), len(students))
     outcomes = tuple(found[number] for number in range(len(students)))
-    _sweep(folder, journal.before.values(), outcomes)
+    before = (item for outcome in journal.before.values() for item in outcome.files.items())
+    remove_stale(folder, before, {name for outcome in outcomes for name in outcome.files}, SUFFIXES)
     journal.keep(zip(digests, outcomes, strict=True))
     return outcomes
 
@@ -73,18 +74,3 @@ def put(path: Path, data: bytes) -> None:
         if path.read_bytes() == data:
             return
     write_whole(path, data)
-
-
-def _sweep(folder: Path, before: Iterable[Outcome], now: Iterable[Outcome]) -> None:
-    """Remove files of earlier runs that belong to nobody any more, unless somebody has changed them since."""
-    names = {name for outcome in now for name in outcome.files}
-    for name, digest in _files(before):
-        stale = folder / Path(name).name
-        with suppress(OSError):
-            if name not in names and stale.suffix in SUFFIXES and digest_of(stale.read_bytes()) == digest:
-                stale.unlink()
-
-
-def _files(outcomes: Iterable[Outcome]) -> Iterator[tuple[str, str]]:
-    for outcome in outcomes:
-        yield from outcome.files.items()

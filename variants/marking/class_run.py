@@ -13,7 +13,7 @@ from ... import __version__
 from ...drawing.writers import slug, write_whole
 from ...scales.errors import InputError, KulmanError
 from ..crew import Advance, shared_out
-from ..journal import Journal, digest_of
+from ..journal import Journal, digest_of, remove_stale
 from .answers import Answers
 from .checks import Check
 from .marked import Desk
@@ -94,7 +94,7 @@ def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     return replace(result, reports=names)
 
 
-def sweep(folder: Path, results: Sequence[Result]) -> None:
+def tidy(folder: Path, results: Sequence[Result]) -> None:
     """Remove the reports that the run before has written there and this one has not; note those of this one.
 
     Only what the note names, and only if nobody has changed it since, is removed: it is the program's own.
@@ -104,11 +104,7 @@ def sweep(folder: Path, results: Sequence[Result]) -> None:
     with suppress(OSError, ValueError, TypeError):
         before = dict(json.loads(noted.read_text(encoding="utf-8")))
     names = {name for result in results for name in result.reports}
-    for name, digest in before.items():
-        stale = folder / Path(name).name
-        with suppress(OSError):
-            if name not in names and stale.suffix in REPORTS and digest_of(stale.read_bytes()) == digest:
-                stale.unlink()
+    remove_stale(folder, before.items(), names, REPORTS)
     with suppress(OSError):  # a folder that takes no note keeps its reports
         now = {name: digest_of((folder / name).read_bytes()) for name in sorted(names)}
         write_whole(noted, (json.dumps(now, indent=0) + "\n").encode("ascii"))
@@ -152,4 +148,4 @@ class _Marked:
         """Tidy the folder: all is done."""
         if self.journal is not None and self.folder is not None:
             self.journal.finish()
-            sweep(self.folder, results)
+            tidy(self.folder, results)
