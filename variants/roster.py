@@ -113,7 +113,7 @@ class _Columns:
 
     def said(self, row: int) -> dict[str, str]:
         """Return what a row says of the student."""
-        return {kind: self.grid.text(row, column) for kind, column in self.about.items()}
+        return {kind: self.grid.shared(row, column) for kind, column in self.about.items()}
 
     def other(self, row: int) -> bool:
         """Whether a row names a task that is none of these; a number may stand for any."""
@@ -202,7 +202,7 @@ def _located(columns: _Columns, row: int, kind: str) -> Iterator[None]:
     try:
         yield
     except InputError as problem:
-        column = next((about[one] for one in (kind, "book") if grid.text(row, about.get(one))), None)
+        column = next((about[one] for one in (kind, "book") if columns.said(row).get(one)), None)
         raise LocatedError(grid.place(row, column), problem) from problem
 
 

@@ -110,9 +110,15 @@ def _judged(task: Task, read: Read) -> tuple[tuple[KulmanError, ...], KulmanErro
     try:
         alone = _task_with(task, {read.id: read.row}).task
     except TaskFileError as error:
-        return tuple(fault.cause if isinstance(fault, LocatedError) else fault for fault in error.faults), None
+        return tuple(map(_plainly, error.faults)), None
     reason, remark = looked_at(alone, read.id, {})
     return (() if reason is None else (reason,)), remark
+
+
+def _plainly(fault: InputError) -> KulmanError:
+    """Return a fault of a task file as one of a spreadsheet, which has no lines and keys."""
+    cause = fault.cause if isinstance(fault, LocatedError) else fault
+    return InputError("variants-missing", name=cause.data["name"]) if cause.key == "key-missing" else cause
 
 
 def _at(read: Read, error: KulmanError) -> KulmanError:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -10,14 +11,19 @@ from ...drawing.writers import slug
 from ...scales.errors import InputError
 from ...scales.names import latin
 from ...scales.numbers import quote
+from ...scales.units import parse
 from ..spreadsheets.cells_in import read_grid
 from ..spreadsheets.grid import SHOWN, Grid
-from ..spreadsheets.headers import about_kind, column_kind, split_unit
-from ..task import LocatedError, Task
+from ..spreadsheets.headers import about_kind, column_kind
+from ..task import Given, LocatedError, Task
 
 _WORD = re.compile(r"^\s*(?:варіант|вариант|variant|вар\.?|var\.?|№)\s*(?:№)?\s*", re.IGNORECASE)
 _NUMBER = re.compile(r"[-−+0-9.,\s]+(?:[eE][-+]?\d+)?")
+_BETWEEN = re.compile(r"[,:;()\[\]]")  # parts of a header: what it is, its symbol, its unit
+_ORNAMENT = re.compile(r"[\s_{}$\\.^]")  # of a symbol: l_OA, l_{OA} and lOA are one
+_GREEK = re.compile(r"GREEK (?:SMALL LETTER |CAPITAL LETTER )?(\w+)")
 PLAIN = "1"  # a unit of numbers that have none
+NOTHING = ("", "-", "–", "—")  # in the place of a unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +51,9 @@ class _Table:
         return (columns, rows) if self.turned else (rows, columns)
 
     def text(self, row: int, column: int) -> str:
-        """Return what a cell shows."""
+        """Return what a cell shows, in merged ones that of all."""
         row, column = (column, row) if self.turned else (row, column)
-        return self.grid.text(row, column).strip()
+        return self.grid.shared(row, column).strip()
 
     def place(self, row: int, column: int) -> str:
         """Return the address of a cell."""
@@ -55,10 +61,19 @@ class _Table:
 
     @property
     def id_column(self) -> int:
-        """Where the ids of the variants stand: under such a word, else before the first given."""
+        """Where the ids of the variants stand: under such a word, else before the first given where all differ."""
         columns = range(self._size[1])
         said = (column for column in columns if about_kind(self.text(self.head, column)) == "variant")
-        return next(said, max(min(self.names) - 1, 0))
+        before = range(min(self.names) - 1, -1, -1)
+        return next(said, next(filter(self._tells, before), max(min(self.names) - 1, 0)))
+
+    def _tells(self, column: int) -> bool:
+        """Whether a column tells the rows that have numbers apart."""
+        found = [self.text(row, column) for row in self.rows if self._is_data(row)]
+        return "" not in found and len(set(found)) == len(found) > 0
+
+    def _is_data(self, row: int) -> bool:
+        return any(_NUMBER.fullmatch(text) for column in self.names if (text := self.text(row, column)))
 
     @property
     def rows(self) -> Iterator[int]:
@@ -85,12 +100,31 @@ def read_variants(file: str, task: Task) -> list[Read]:
     for row in table.rows:
         if not any(table.text(row, at) for at in table.names):
             continue
-        if column_kind(table.text(row, column)) == "unit":
-            units = {at: table.text(row, at) for at in table.names}
+        if _is_units(table, row, column, task):
+            units = {at: table.text(row, at) for at in table.names if table.text(row, at) not in NOTHING}
             continue
         name = slug(_WORD.sub("", table.text(row, column))) if column not in table.names else ""
         found.append(_read(table, row, name if name not in ("", "x") else str(len(found) + 1), units, task))
     return found
+
+
+def _is_units(table: _Table, row: int, column: int, task: Task) -> bool:
+    """Whether a row holds the units of the givens: it says so, or units of theirs stand there, and no number."""
+    if column_kind(table.text(row, column)) == "unit":
+        return True
+    said = [(table.text(row, at), task.givens[name]) for at, (name, _) in table.names.items()]
+    return any(_is_unit(*one) for one in said) and not any(re.match(r"[-−+]?[0-9]", text) for text, _ in said)
+
+
+def _is_unit(text: str, given: Given) -> bool:
+    """Whether a text is a unit in which a given can be written."""
+    if given.unit is None or not text or text[0].isdigit():
+        return False
+    try:
+        parse(f"1 {text}", given.unit)
+    except InputError:
+        return False
+    return True
 
 
 def _seen(grid: Grid, task: Task, turned: bool) -> _Table:
@@ -99,20 +133,58 @@ def _seen(grid: Grid, task: Task, turned: bool) -> _Table:
     if turned:
         width = max(map(len, rows), default=0)
         rows = [[row[at] if at < len(row) else "" for row in rows] for at in range(width)]
-    heads = [_names(row, task) for row in rows]
+    known = _by_symbol(task)
+    heads = [_names(row, task, known) for row in rows]
     best = max(range(len(heads)), key=lambda at: (len(heads[at]), -at), default=0)
     return _Table(grid, turned, best, heads[best] if heads else {})
 
 
-def _names(cells: list[str], task: Task) -> dict[int, tuple[str, str]]:
+def _symbol(text: str) -> str:
+    """Return a symbol as plain letters and digits, however it is written.
+
+    >>> _symbol("l_{OA}"), _symbol("φ"), _symbol("J_{S_2}"), _symbol("n₁")
+    ('lOA', 'phi', 'JS2', 'n1')
+    """
+    plain = latin(_ORNAMENT.sub("", unicodedata.normalize("NFKC", text)))
+    found = ((sign, _GREEK.match(unicodedata.name(sign, ""))) for sign in plain)
+    return "".join(sign if greek is None else greek[1].lower().replace("lamda", "lambda") for sign, greek in found)
+
+
+def _by_symbol(task: Task) -> dict[str, str]:
+    """Return the givens of a task by their symbols, and in small letters where these tell them apart."""
+    found = {_symbol(name): name for name in task.givens}
+    small = [symbol.lower() for symbol in found]
+    return {symbol.lower(): name for symbol, name in found.items() if small.count(symbol.lower()) == 1} | found
+
+
+def _names(cells: list[str], task: Task, known: Mapping[str, str]) -> dict[int, tuple[str, str]]:
     """Return the givens that cells name, with the units that stand beside them."""
     found: dict[int, tuple[str, str]] = {}
     for column, text in enumerate(cells):
-        name, unit = split_unit(text)
-        name = latin(name.replace(" ", ""))
-        if name in task.givens and name not in (given for given, _ in found.values()):
-            found[column] = (name, unit)
+        parts = [part.strip() for part in _BETWEEN.split(text) if part.strip()]
+        named = ((at, name) for at, part in enumerate(parts) if (name := _named(part, at == 0, known)))
+        at, name = next(named, (0, ""))
+        if name and name not in (given for given, _ in found.values()):
+            found[column] = (name, _unit_beside(parts, at, task.givens[name]))
     return found
+
+
+def _named(part: str, first: bool, known: Mapping[str, str]) -> str:
+    """Return the given that a part of a header names: as a whole, or as one of its words, `Маса шатуна m_2`."""
+    whole = _symbol(part)
+    if len(whole) > 1 or first:
+        name = known.get(whole) or known.get(whole.lower())
+        if name:
+            return name
+    words = {known[symbol] for word in part.split() if len(symbol := _symbol(word)) > 1 and symbol in known}
+    return words.pop() if len(words) == 1 else ""
+
+
+def _unit_beside(parts: list[str], at: int, given: Given) -> str:
+    """Return the unit in a header: a part that is one, else what stands behind the name, to be refused with a value."""
+    others = [*parts[at + 1 :], *parts[:at]]
+    behind = parts[-1] if at < len(parts) - 1 else ""
+    return next((part for part in others if _is_unit(part, given)), behind)
 
 
 def _read(table: _Table, row: int, number: str, units: Mapping[int, str], task: Task) -> Read:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import codecs
 import csv
 import io
+from collections import Counter
 
 from ...scales.errors import InputError
 from ...scales.numbers import quote
@@ -18,6 +19,8 @@ _ZIP = b"PK\x03\x04"
 def grid_of_csv(file: str, data: bytes) -> Grid:
     """Return the cells of a CSV file; the separator is the one at which most header words are found.
 
+    Where hardly any are, it is the one that cuts most rows into as many cells.
+
     Raises
     ------
     InputError
@@ -30,8 +33,15 @@ def grid_of_csv(file: str, data: bytes) -> Grid:
     if first.strip().lower().startswith("sep=") and len(first.strip()) == 5:
         return Grid(file, bounded(file, _rows(file, rest, first.strip()[-1])))
     head = "\n".join(text.splitlines()[:LOOKED_AT])
-    best = max(SEPARATORS, key=lambda separator: recognised(_rows(file, head, separator)))
+    best = max(SEPARATORS, key=lambda separator: _told(_rows(file, head, separator)))
     return Grid(file, bounded(file, _rows(file, text, best)))
+
+
+def _told(rows: list[tuple[str, ...]]) -> tuple[int, int, int]:
+    """Return how well a separator tells cells apart: by header words, by rows of one width."""
+    widths = Counter(len(row) for row in rows if len(row) > 1)
+    words = recognised(rows)
+    return max(words, 1), max(widths.values(), default=0), words
 
 
 def _decoded(file: str, data: bytes) -> str:

@@ -15,10 +15,11 @@ from xml.parsers import expat
 
 from ...scales.errors import InputError
 from ...scales.numbers import quote
-from .grid import LARGEST, MOST_CELLS, MOST_COLUMNS, MOST_ROWS, SHOWN, Grid, bounded, too_many_cells
+from .grid import LARGEST, MOST_CELLS, MOST_COLUMNS, MOST_MERGED, MOST_ROWS, SHOWN, Grid, bounded, too_many_cells
 
 MOST_PARTS = 2_000
 _ADDRESS = re.compile(r"([A-Z]{1,3})([0-9]{1,7})")
+_RANGE = re.compile(rf"{_ADDRESS.pattern}:{_ADDRESS.pattern}")
 # number formats of dates and times that have no code of their own in the file (ECMA-376, part 1, 18.8.30)
 _DATES = frozenset((*range(14, 23), *range(27, 37), *range(45, 48), *range(50, 59)))
 _QUOTED = re.compile(r'"[^"]*"|\[[^\]]*\]|\\.')
@@ -104,7 +105,8 @@ def _grid(file: str, parts: _Parts) -> Grid:
     for number in range(max(sheet.cells, default=-1) + 1):
         row = sheet.cells.get(number, {})
         rows.append(tuple(row.get(column, "") for column in range(max(row, default=-1) + 1)))
-    return Grid(file, bounded(file, rows), frozenset(sheet.formulas), frozenset(sheet.dates))
+    merged = tuple(sheet.merged[:MOST_MERGED])
+    return Grid(file, bounded(file, rows), frozenset(sheet.formulas), frozenset(sheet.dates), merged)
 
 
 def _first_sheet(parts: _Parts) -> str:
@@ -179,6 +181,7 @@ class _Sheet:
         self.cells: dict[int, dict[int, str]] = {}
         self.formulas: set[tuple[int, int]] = set()
         self.dates: set[tuple[int, int]] = set()
+        self.merged: list[tuple[tuple[int, int], tuple[int, int]]] = []
         self._row, self._column, self._kind, self._style = -1, -1, "", 0
         self._inside: list[str] = []
         self._pieces: list[str] = []
@@ -198,6 +201,9 @@ class _Sheet:
             self._pieces, self._formula = [], False
         elif tag == "f":
             self._formula = True
+        elif tag == "mergeCell" and (range_ := _RANGE.fullmatch(given.get("ref", ""))):
+            first, last = ((int(range_[at + 1]) - 1, _column(range_[at])) for at in (1, 3))
+            self.merged.append((first, last))
 
     def text(self, piece: str) -> None:
         """Take a piece of what a cell shows."""
