@@ -5,8 +5,10 @@ from __future__ import annotations
 import importlib.util
 import io
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -31,8 +33,29 @@ PREAMBLE = """\
 """
 
 
-def pdf_bytes(document: Document) -> bytes:
+@dataclass(frozen=True, slots=True)
+class Body:
+    """What follows the first page: its text in the language of typst, its figures by file."""
+
+    text: str
+    figures: Mapping[str, bytes]
+
+    @classmethod
+    def of(cls, blocks: Sequence[Block], language: str) -> Body:
+        """Write the blocks of a note."""
+        said, numbers = packaged(__package__, "texts", language), count()
+        text = "\n".join(_block(block, said, numbers) for block in blocks)
+        figures = (block for block in blocks if isinstance(block, Figure))
+        return cls(text, {f"{number}.svg": _svg(figure, language) for number, figure in enumerate(figures)})
+
+
+def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
     """Return a note as PDF; the same note gives the same bytes.
+
+    Parameters
+    ----------
+    body : Body, optional
+        That of the document, where it is written already for another with the same blocks.
 
     Raises
     ------
@@ -43,13 +66,9 @@ def pdf_bytes(document: Document) -> bytes:
         import typst
     except ImportError:
         raise InputError("note-extra") from None
-    files: Any = {"main.typ": source(document).encode("utf-8")}
-    files |= {f"{number}.svg": _svg(figure, document) for number, figure in enumerate(_figures(document.blocks))}
+    body = body or Body.of(document.blocks, document.language)
+    files: Any = {"main.typ": source(document, body).encode("utf-8"), **body.figures}
     return bytes(typst.compile(files, font_paths=_fonts()))
-
-
-def _figures(blocks: Iterable[Block]) -> Iterator[Figure]:
-    return (block for block in blocks if isinstance(block, Figure))
 
 
 @cache
@@ -64,21 +83,18 @@ def _fonts() -> Any:
     return typst.Fonts(include_system_fonts=False, include_embedded_fonts=True, font_paths=[str(folder)])
 
 
-def _svg(figure: Figure, document: Document) -> bytes:
+def _svg(figure: Figure, language: str) -> bytes:
     from ..svg import write_svg
 
     stream = io.BytesIO()
-    write_svg(figure_page(figure, document.language), stream, with_font=False)
+    write_svg(figure_page(figure, language), stream, with_font=False)
     return stream.getvalue()
 
 
-def source(document: Document) -> str:
+def source(document: Document, body: Body) -> str:
     """Return a note in the language of typst."""
-    said = packaged(__package__, "texts", document.language)
-    numbers = iter(range(len(document.blocks)))
-    parts = [PREAMBLE.format(title=_quoted(document.title.title), lang=_quoted(document.language)), _title(document)]
-    parts += [_block(block, said, numbers) for block in document.blocks]
-    return "\n".join(parts)
+    preamble = PREAMBLE.format(title=_quoted(document.title.title), lang=_quoted(document.language))
+    return "\n".join((preamble, _title(document), body.text))
 
 
 def _title(document: Document) -> str:

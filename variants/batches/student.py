@@ -11,6 +11,7 @@ from pathlib import Path
 from ... import __version__
 from ...drawing.compose import Drawn
 from ...drawing.notes.blocks import Block, Document
+from ...drawing.notes.typst import Body, pdf_bytes
 from ...drawing.pens import Norm
 from ...drawing.writers import WRITERS, page_files, slug
 from ...plans.quantities import measured
@@ -72,6 +73,11 @@ class Work:
     def body(self) -> tuple[Block, ...]:
         """The note after its first page."""
         return body_of(self.case, self.drawing, self.notation, self.language)
+
+    @cached_property
+    def written(self) -> Body:
+        """The same for a note as PDF."""
+        return Body.of(self.body, self.language)
 
     @cached_property
     def blank(self) -> Drawn:
@@ -158,7 +164,8 @@ class Making:
         if kind in NOTES:
             page = {name: text for name, text in block.items() if name != "designation"}
             document = Document(title_page(work.case, page, self.language), work.body, self.language)
-            yield f"{stem}-note{NOTES[kind]}", ALONE[NOTES[kind]](document)
+            written = pdf_bytes(document, work.written) if kind == NOTE else ALONE[NOTES[kind]](document)
+            yield f"{stem}-note{NOTES[kind]}", written
             return
         if kind == HANDOUT:
             drawn = begun_of_case(work.case, work.blank, block, notation=self.notation, lang=self.language)
