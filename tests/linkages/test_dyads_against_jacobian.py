@@ -112,7 +112,7 @@ def wrong(results: Mapping[str, Any], expected: Mapping[str, Any], kinds: tuple[
 
 
 def test_positions_motion_and_forces_agree(both: Both) -> None:
-    expected = both.second.expected()
+    expected = both.second.expected
 
     unnamed = {name for name in expected if name not in both.results}
 
@@ -129,7 +129,7 @@ def test_points_of_one_link_under_a_point_of_another_agree(both: Both) -> None:
         letters = re.fullmatch("V_([A-Z])([1-5])", name)
         if letters and name[2:] not in both.results:
             point, number = letters[1], int(letters[2])
-            v, a = both.second.under(number, both.second.expected()[point])
+            v, a = both.second.under(number, both.second.expected[point])
             found |= {name: both.results[name], f"a_{name[2:]}": both.results[f"a_{name[2:]}"]}
             expected |= {name: v, f"a_{name[2:]}": a}
 
@@ -140,7 +140,7 @@ def test_points_of_one_link_under_a_point_of_another_agree(both: Both) -> None:
 def test_reactions_of_guides_stand_where_their_moments_say(both: Both) -> None:
     """The arm of a guide's reaction is its moment about the pin over the force."""
     results, second = both.results, both.second
-    points = second.expected()
+    points = second.expected
     largest = np.max([np.abs(points[p]) for p in "ABC"], axis=0)
     for pair in both.mechanism.pairs:
         if isinstance(pair, Prismatic):
@@ -198,4 +198,4 @@ def test_three_dyads_agree(middle: str, last: str, before: tuple[tuple[int, int]
 
     assert max(both.codes) == STATUSES.index("ok")
     assert len(both.codes) == count
-    assert wrong(both.results, both.second.expected(), ALL_KINDS) == {}
+    assert wrong(both.results, both.second.expected, ALL_KINDS) == {}

@@ -205,7 +205,7 @@ def both(request: pytest.FixtureRequest) -> Both:
 
 
 def test_every_load_and_reaction_agrees(both: Both) -> None:
-    expected = both.second.expected()
+    expected = both.second.expected
     forces = {name for name in expected if name.partition("_")[0] in ("F", "R", "G")}
     moments = {name for name in expected if name.startswith("M")}
 

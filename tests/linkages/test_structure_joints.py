@@ -83,7 +83,7 @@ def test_forces_between_links_that_a_task_joins_agree_with_a_solver_that_takes_t
         for i, p in corner.items()
     ]
 
-    expected = JacobianSolver(mechanism, VALUES, np.array([places])).expected()
+    expected = JacobianSolver(mechanism, VALUES, np.array([places])).expected
 
     assert found.values["M_bal"] == pytest.approx(float(expected["M_bal"][0]), rel=1e-10)
     for i, j in ((1, 2), (0, 3), (5, 4), (0, 5)):

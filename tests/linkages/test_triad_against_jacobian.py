@@ -63,7 +63,7 @@ def both(request: pytest.FixtureRequest) -> Both:
 
 
 def test_positions_motion_and_forces_agree(both: Both) -> None:
-    expected = both.second.expected()
+    expected = both.second.expected
 
     unnamed = {name for name in expected if name not in both.results}
 
@@ -81,7 +81,7 @@ def still(mechanism: Mechanism) -> set[str]:
 
 
 def test_every_two_legs_give_the_same(both: Both) -> None:
-    expected = both.second.expected()
+    expected = both.second.expected
 
     for legs in PAIRS if len(both.codes) == MANY else PAIRS[::2]:  # two of three by default
         other = solve_by(both, legs)
@@ -94,7 +94,7 @@ def solve_by(both: Both, legs: tuple[int, int]) -> Mapping[str, Any]:
     (start,) = both.mechanism.starts
     mechanism = replace(both.mechanism, starts=(replace(start, legs=legs),))
     program = construct(mechanism)[1]
-    given = {name: value for name, value in both.second.expected().items() if name in program.names}
+    given = {name: value for name, value in both.second.expected.items() if name in program.names}
     return batch(program, board_givens(mechanism, both.values), [*given, "A", "O"])[0]
 
 
@@ -114,7 +114,7 @@ def test_legs_are_rigid_and_sliders_in_their_guides(both: Both) -> None:
 
 def test_reactions_of_guides_stand_where_their_moments_say(both: Both) -> None:
     results, second = both.results, both.second
-    points = second.expected()
+    points = second.expected
     for pair in both.mechanism.pairs:
         if isinstance(pair, Prismatic):
             own = next(n for n in pair.links if n > 3)

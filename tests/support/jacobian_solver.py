@@ -8,6 +8,7 @@ Residuals are taken in extended precision, so that the double-precision solution
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -34,24 +35,23 @@ ROUNDS = 4
 CLOSE = 1e-12  # parts of a step of Newton's method that leaves its square
 
 
-def turned(angle: Array, x: Array, y: Array) -> tuple[Array, Array]:
-    """Turn a vector by an angle."""
-    c, s = np.cos(angle), np.sin(angle)
-    return c * x - s * y, s * x + c * y
+class Refined:
+    """Many linear systems, rows and columns scaled, the residual refined in extended precision."""
 
+    def __init__(self, matrix: Array) -> None:
+        self.rows = np.abs(matrix).max(axis=2)
+        scaled = matrix / self.rows[:, :, None]
+        self.columns = np.abs(scaled).max(axis=1)
+        self.scaled = scaled / self.columns[:, None, :]
+        self.inverse = np.linalg.inv(self.scaled.astype(float)).astype(LONG)
 
-def refined(matrix: Array, right: Array) -> Array:
-    """Solve many linear systems, rows and columns scaled, the residual refined in extended precision."""
-    rows = np.abs(matrix).max(axis=2)
-    scaled = matrix / rows[:, :, None]
-    columns = np.abs(scaled).max(axis=1)
-    scaled = scaled / columns[:, None, :]
-    inverse, right = np.linalg.inv(scaled.astype(float)).astype(LONG), right / rows
-    found = np.zeros_like(right)
-    for _ in range(ROUNDS):
-        left = right - np.einsum("nij,nj->ni", scaled, found)
-        found = found + np.einsum("nij,nj->ni", inverse, left)
-    return found / columns
+    def solve(self, right: Array) -> Array:
+        right = right / self.rows
+        found = np.einsum("nij,nj->ni", self.inverse, right)
+        for _ in range(ROUNDS - 1):
+            left = right - np.einsum("nij,nj->ni", self.scaled, found)
+            found = found + np.einsum("nij,nj->ni", self.inverse, left)
+        return found / self.columns
 
 
 class JacobianSolver:
@@ -63,14 +63,19 @@ class JacobianSolver:
         self.v = {name: np.broadcast_to(np.asarray(value, LONG), self.size) for name, value in values.items()}
         self.v |= {"zero": np.zeros(self.size, LONG), "one": np.ones(self.size, LONG)}
         self.index = {link.number: i for i, link in enumerate(mechanism.links)}
-        self.q = start.astype(LONG)
+        self._stand(start.astype(LONG))
         for _ in range(8):
-            step = refined(self.jacobian(), self.residual()).reshape(self.q.shape)
-            self.q = self.q - step
+            step = Refined(self.jacobian()).solve(self.residual()).reshape(self.q.shape)
+            self._stand(self.q - step)
             if np.all(np.abs(step) <= CLOSE * self._sizes()):
                 break
         self._move()
         self._balance()
+
+    def _stand(self, q: Array) -> None:
+        """Put the links there."""
+        self.q = q
+        self.cosines, self.sines = np.cos(q[:, :, 2]), np.sin(q[:, :, 2])
 
     def _sizes(self) -> Array:
         """Return what a step is small beside: the largest coordinate of each mechanism, and of angles a radian."""
@@ -83,7 +88,11 @@ class JacobianSolver:
 
     def arm(self, number: int, xy: tuple[Array, Array]) -> tuple[Array, Array]:
         """Vector from a link's origin to a place on it."""
-        return turned(self.angle(number), *xy)
+        if number == FRAME:
+            return xy
+        (x, y), i = xy, self.index[number]
+        c, s = self.cosines[:, i], self.sines[:, i]
+        return c * x - s * y, s * x + c * y
 
     def angle(self, number: int) -> Array:
         return np.zeros(self.size, LONG) if number == FRAME else self.q[:, self.index[number], 2]
@@ -190,18 +199,18 @@ class JacobianSolver:
 
     def _move(self) -> None:
         """Velocities and accelerations of the links."""
-        driver, matrix = self.m.driver, self.jacobian()
+        driver, system = self.m.driver, Refined(self.jacobian())
         right = np.zeros((self.size, 3 * self.count), LONG)
         sense = self.v[driver.sense] if isinstance(driver, Driver) else self.v["one"]
         right[:, -1] = self.v[driver.speed] * sense
-        self.dq = refined(matrix, right).reshape(self.q.shape)
+        self.dq = system.solve(right).reshape(self.q.shape)
         right = np.zeros((self.size, 3 * self.count), LONG)
         if driver.acceleration:
             right[:, -1] = self.v[driver.acceleration] * sense
         for i, pair in enumerate(self.m.pairs):
             rows = slice(2 * i, 2 * i + 2)
             right[:, rows] = self._pinned_rate(pair) if isinstance(pair, Revolute) else self._guided_rate(pair)
-        self.ddq = refined(matrix, right).reshape(self.q.shape)
+        self.ddq = system.solve(right).reshape(self.q.shape)
 
     def rate(self, number: int) -> Array:
         return np.zeros(self.size, LONG) if number == FRAME else self.dq[:, self.index[number], 2]
@@ -274,7 +283,7 @@ class JacobianSolver:
         matrix[:, -1] = 0
         row = 3 * self.index[self.m.driver.link]
         matrix[:, -1, row : row + 3] = np.stack(self.balancing(), axis=1)
-        self._read_reactions(refined(matrix.transpose(0, 2, 1), right.reshape(self.size, -1)))
+        self._read_reactions(Refined(matrix.transpose(0, 2, 1)).solve(right.reshape(self.size, -1)))
 
     def inertia(self, link: Link) -> tuple[Array, Array]:
         """Mass and moment of inertia of a link, given or by its length."""
@@ -371,6 +380,7 @@ class JacobianSolver:
             self.reactions |= {on_first: force, on_second: -force}
         self.balance = solved[:, -1]
 
+    @cached_property
     def expected(self) -> dict[str, Array]:
         """Everything that has a name of its own: points, their motion, links, forces."""
         name = "M_bal" if getattr(self.m.driver, "balance", "force") == MOMENT else "F_bal"

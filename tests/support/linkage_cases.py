@@ -72,7 +72,7 @@ class Oracle:
         values |= solution.task.values(solution.variant)
         values["output_angle"] = _output_angle(solution)
         self.solver = JacobianSolver(self.m, values, _rough_places(solution))
-        self.known = {name: complex(value[0]) for name, value in self.solver.expected().items()}
+        self.known = {name: complex(value[0]) for name, value in self.solver.expected.items()}
         self.values = values
         # a special point stands on two legs; how it moves as a point of its link is not taken from the plan
         self.special = {name: solved.point(name) for name in solved.values if re.fullmatch(r"X\d+", name)}
