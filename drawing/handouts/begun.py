@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from ..layers import TASK_VIEWS, Layer
@@ -89,16 +89,23 @@ def _table(shape: Shape, view: View, shown: Shown) -> Shape:
         return shape
     places = [(row, column, end) for row, line in enumerate(view.rows) for column, end, _ in cells(line)]
     texts = iter(places)
-    last = -1 if any(NUMBER.match(row[-1] or "") for row in view.rows[1:]) else len(view.rows[0])
+    width = _width(view.rows[0])
+    last = -1 if any(NUMBER.match(row[-1] or "") for row in view.rows[1:]) else width
     kept = []
     for part in shape.shapes:
         if isinstance(part, Text):
             row, column, end = next(texts)
-            given = end == last if shown.rows is None else view.rows[row][0] in shown.rows
-            if row and column >= shown.columns and not given:
+            given = (end - 1) % width + 1 == last if shown.rows is None else view.rows[row][0] in shown.rows
+            if row and column % width >= shown.columns and not given:
                 continue
         kept.append(part)
     return replace(shape, shapes=tuple(kept))
+
+
+def _width(head: Sequence[str | None]) -> int:
+    """Return the columns of a table, or of each half of one whose halves stand side by side under the same head."""
+    half, odd = divmod(len(head), 2)
+    return half if half and not odd and head[:half] == head[half:] else len(head)
 
 
 def _is_shown(shape: Shape, shown: Shown) -> bool:

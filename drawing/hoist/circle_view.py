@@ -9,6 +9,7 @@ from ...plans.hoist.model import CIRCLE
 from ..shapes import Arc, Group, Head, Line, Pen
 from ..symbols import angle_dimension
 from ..view import Canvas, View
+from .axes import AXES
 from .scene import HoistScene, canvas_of
 
 PAST = 14.0  # mm by which the axis runs past the circle
@@ -22,23 +23,28 @@ def circle_view(scene: HoistScene) -> View:
     centre, start = (scene.mm(f"{CIRCLE}.{mark}") for mark in ("C", "1"))
     start -= centre
     radius = abs(start)
+    canvas.part(AXES)
     left, right, top = complex(-radius - PAST), complex(radius + PAST), complex(0.0, radius + PAST)
     for a, b in ((left, right), (-top, top)):
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
     canvas.label(f"{words.symbol('P_12')}, {words.unit('N')}", right, prefer=-1j, clear=1.2)
     canvas.label(f"P′_{{12}}/k_{{1}}, {words.unit('N')}", top, prefer=1.0 + 0j, clear=1.2)
+    canvas.part("circle")
     _circle(canvas, scene, radius)
     canvas.add(Line(0j, start, Pen.MAIN, role="radius", name="R"))
+    canvas.part("ends")
     run = phase(start) % (2.0 * pi)
     canvas.add(angle_dimension(0j, max(ANGLE * radius, 8.0), run, -run, "phi_1", scene.style))
     middle = max(ANGLE * radius, 8.0) * complex(*_unit(0.5 * run))
     canvas.label(scene.stated("phi_1", unit="rad"), middle, prefer=middle, clear=1.0, height=scene.style.text)
+    canvas.part("circle")
     canvas.label(words.symbol("R"), (0j, start), clear=1.0, height=scene.style.text)
     marks = {"P_m": 0j, "F_12_t1": start, "P_12_max": complex(radius), "P_12_min": complex(-radius)}
     reached = {"P_12_max": scene.size("P_m") + scene.size("R"), "P_12_min": scene.size("P_m") - scene.size("R")}
     for name, at in marks.items():
         if abs(reached.get(name, scene.size(name)) - scene.size(name)) > SAME * scene.size("R"):
             continue  # the rope goes slack before, or the load comes back
+        canvas.part("ends" if name in reached else "start")
         canvas.add(scene.node(at, name, filled=True))
         canvas.label(scene.stated(name), at, prefer=(at or -1j) - 0.6j, clear=1.2, height=scene.style.text)
     notes = (scene.stated("R"), *([words["hoist.slack"]] if scene.size("P_m") < scene.size("R") else []))

@@ -11,10 +11,11 @@ from ...plans.laws import TURN
 from ..diagram import Axis, Field, curve, divisions
 from ..shapes import Line, Pen, Text
 from ..view import Canvas, View
-from .axes import ruled
+from .axes import AXES, ruled
 from .scene import POINTS, HoistScene, canvas_of
 
 TALLEST = 1.05
+RESTING, HANGING = "resting", "hanging"  # parts of the work: until the lift-off, after it
 ROW = 1.7  # heights of letters from time to time above the diagram
 
 
@@ -22,7 +23,9 @@ def forces_view(scene: HoistScene) -> View:
     """Draw the forces over time."""
     canvas, words = canvas_of(scene), scene.words
     field = _field(scene)
+    canvas.part(AXES)
     ruled(canvas, field)
+    canvas.part("levels")
     _levels(canvas, scene, field)
     _curves(canvas, scene, field)
     _times(canvas, scene, field)
@@ -61,18 +64,23 @@ def _curves(canvas: Canvas, scene: HoistScene, field: Field) -> None:
     before = np.linspace(0.0, t_1 * (1.0 - 1e-12), POINTS)
     after = np.linspace(t_1, _end(scene) * (1.0 - 1e-12), POINTS)
     first, second = (course(forces.found, forces.motion, t).columns for t in (before, after))
+    canvas.part(RESTING)
     curve(canvas, field, zip(before.tolist(), first["F_01"].tolist(), strict=True), "F_01")
     curve(canvas, field, zip(before.tolist(), first["F_12"].tolist(), strict=True), "F_12")
+    canvas.part(HANGING)
     curve(canvas, field, zip(after.tolist(), second["F_12"].tolist(), strict=True), "P_12")
     printed = np.asarray(article_force(forces.found, after - t_1))
     swing = after <= t_1 + TURN / scene.size("k_1")
     within = np.where(printed >= field.y.low, printed, np.nan)[swing]
+    canvas.part("article")
     curve(canvas, field, zip(after[swing].tolist(), within.tolist(), strict=True), "printed", Pen.DASHED)
     jump = field.at(t_1, float(second["F_12"][0])), field.at(t_1, float(printed[0]))
     canvas.add(Line(*jump, Pen.DASHED, role="jump", name="printed"))
+    canvas.part(RESTING)
     for name, t, column in (("F_01", before[POINTS // 3], first["F_01"]), ("F_12", before[POINTS // 3], first["F_12"])):
         canvas.label(scene.words.symbol(name), field.at(float(t), float(column[POINTS // 3])), prefer=1j, clear=1.5)
     k = 3 * POINTS // 5
+    canvas.part(HANGING)
     canvas.label(scene.words.symbol("P_12"), field.at(float(after[k]), float(second["F_12"][k])), prefer=1j, clear=1.5)
 
 
@@ -97,6 +105,7 @@ def _times(canvas: Canvas, scene: HoistScene, field: Field) -> None:
         if t > field.x.high:
             continue
         level = top + ROW * height * (rows + 1)
+        canvas.part(HANGING if name == "t_P12_max" else RESTING)
         foot, end = field.at(t, field.y.low), complex(field.at(t, 0.0).real, level + height)
         canvas.add(Line(foot, end, Pen.THIN, role="time", name=name))
         canvas.add(Text(complex(end.real + 0.5, level), scene.stated(name, t, "s"), height, "left", role="time"))
@@ -108,11 +117,13 @@ def _values(canvas: Canvas, scene: HoistScene, field: Field) -> None:
     shown = {"P_12_max": f"{FORCES}.T", "F_12_t1": f"{FORCES}.R{scene.solved.layout.resting}"}
     for name, mark in shown.items():
         at = field.origin + scene.mm(mark)
+        canvas.part(HANGING if name == "P_12_max" else RESTING)
         canvas.add(scene.node(at, name, filled=True))
         canvas.label(scene.stated(name), at, prefer=1.0 + 1j, clear=1.2, height=scene.style.text)
     extra = {"F_12_max": scene.size("t_F12_max")} if scene.size("t_F12_max") != scene.size("t_1") else {}
     extra |= {"P_12_min": marks(scene.solved.forces.found, scene.solved.forces.motion)["P_12_min"]}
     for name, t in extra.items():
         at = field.at(t, scene.size(name))
+        canvas.part(HANGING if name == "P_12_min" else RESTING)
         canvas.add(scene.node(at, name, filled=True))
         canvas.label(scene.stated(name), at, prefer=1j if "max" in name else -1j, clear=1.2, height=scene.style.text)

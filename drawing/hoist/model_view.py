@@ -16,6 +16,7 @@ FORCE = 13.0  # mm, an arrow
 def model_view(scene: HoistScene) -> View:
     """Draw the model with its axis, springs, forces."""
     canvas, words = canvas_of(scene), scene.words
+    canvas.part("model")
     half, tall = MASS
     bottom = 1j * SPRING
     top = bottom + 1j * tall

@@ -12,13 +12,14 @@ from ...plans.laws import LAWS
 from ..diagram import Axis, Field, curve, divisions
 from ..shapes import Line, Pen
 from ..view import Canvas, View
-from .axes import ruled
+from .axes import AXES, ruled
 from .magnified import magnified
 from .scene import POINTS, HoistScene, canvas_of
 
 MANY, BESIDE_CROSSING = 48, 4  # section lines
 BELOW = 1.08  # times the least ordinate, the foot of the diagram
 FEW = 4  # crossings with their times beside them, and times in a line
+CROSSING = "crossing"  # the part of the work in which times are read
 BESIDE = 24.0  # mm from a diagram to what is magnified of it
 
 
@@ -57,16 +58,21 @@ def lift_off_view(scene: HoistScene) -> View:
     parabola = np.asarray(LAWS["wound"](V, a, roots.begin + t)) - found["P_st"] / found["C"]
     low, high = float(min(parabola.min(), wave.min())), float(max(parabola.max(), wave.max()))
     field = _field(scene, f"y, {words.unit('m')}", "mu_y", (low, high))
+    canvas.part(AXES)
     ruled(canvas, field)
+    canvas.part("curves")
     for name, ordinates in (("parabola", parabola), ("sinusoid", wave)):
         curve(canvas, field, zip(t.tolist(), ordinates.tolist(), strict=True), name)
+    canvas.part("points")
     for letter in "YO":
         canvas.add(*(_node(scene, LIFT_OFF, f"{letter}{i}") for i in _shown(roots, (roots.lift_off,))))
+    canvas.part("curves")
     at = POINTS // 4
     canvas.label(
         "y − mg/C", field.at(float(t[at]), float(parabola[at])), prefer=-1j, clear=1.5, height=scene.style.text
     )
     canvas.label("osc", field.at(float(t[at]), float(wave[at])), prefer=1j, clear=1.5, height=scene.style.text)
+    canvas.part(CROSSING)
     _crossing(canvas, scene, LIFT_OFF, "X", "t_1_drawn")
     magnified(canvas, scene, complex(field.at(field.x.high, 0.0).real + BESIDE, field.at(0.0, field.y.low).imag))
     heading = (words["heading.hoist_lift_off"], scene.factors("mu_y", "mu_t1"))
@@ -83,7 +89,9 @@ def extremes_view(scene: HoistScene) -> View:
     mu = scene.scale("mu_v").mu
     levels = [end.imag * mu for end in ends]
     field = _field(scene, words.unit("m/s"), "mu_v", (BELOW * min(*levels, float(wave.min())), float(wave.max())))
+    canvas.part(AXES)
     ruled(canvas, field)
+    canvas.part("curves")
     curve(canvas, field, zip(t.tolist(), wave.tolist(), strict=True), "sinusoid")
     canvas.add(Line(ends[0], ends[1], Pen.MAIN, role="curve", name="line"))
     canvas.add(*(_node(scene, EXTREMES, f"W{i}") for i in _shown(roots, roots.extremes)))
@@ -98,6 +106,7 @@ def extremes_view(scene: HoistScene) -> View:
     )
     name = f"−({words.symbol('C_01')}/{words.symbol('C_12')})({speed} + at)"
     canvas.label(name, (ends[0], ends[1]), prefer=-1j, clear=1.5, height=scene.style.text)
+    canvas.part(CROSSING)
     for n in range(1, len(roots.times) + 1):
         number = f"({n})" if len(roots.times) > FEW else ""
         _crossing(canvas, scene, EXTREMES, f"X{n}", f"t_2_{n}_drawn", number)

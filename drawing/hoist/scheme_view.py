@@ -13,6 +13,7 @@ from .scene import HoistScene, canvas_of
 LOAD = 0.45  # of the rope's length, the height of the load at most
 BOX = 12.0  # mm, the load's height at most
 DRUM = 3.0  # mm, radius
+BEAMS = {"0": "support", "2": "bridge"}  # parts of the work
 
 
 def scheme_view(scene: HoistScene) -> View:
@@ -20,17 +21,22 @@ def scheme_view(scene: HoistScene) -> View:
     canvas, words, style = canvas_of(scene), scene.words, scene.style
     at = {mark: scene.mm(f"{SCHEME}.{mark}") for mark in ("O1", "O2", "A0", "A2", "B1", "B2")}
     rope = abs(at["A2"] - at["A0"])
+    canvas.part("support")
     tall = min(BOX, LOAD * rope)
     corners = tuple(at["A0"] + complex(x * 0.8 * tall, y * tall) for x, y in ((-1, 0), (1, 0), (1, 1), (-1, 1)))
     canvas.add(Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "link", "1"))
+    canvas.part("rope")
     canvas.add(Line(at["A0"] + 1j * tall, at["A2"], Pen.MAIN, role="rope", name="L"))
     canvas.add(Group((Circle(at["A2"], DRUM, Pen.MAIN, fill="white"),), "drum", "A2"))
     for left, right, number in (("O1", "O2", "0"), ("B1", "B2", "2")):
+        canvas.part(BEAMS[number])
         canvas.add(Group((Line(at[left], at[right]),), "link", number))
         canvas.add(fixed_pivot(at[left], left, style), rolling_support(at[right], right, scene))
     for mark, letter in (("A0", "A_{0}"), ("A2", "A_{2}")):
+        canvas.part("support" if mark == "A0" else "rope")
         canvas.label(letter, at[mark], prefer=(1.0 + 1j) if mark == "A2" else (1.0 - 1j), clear=DRUM)
     canvas.keep_clear(*corners)
+    canvas.part("support")
     h, name = style.label, words.symbol("G_1")
     if tall > 1.5 * h and 1.6 * tall > lay_out(name, h).width + 1.0:
         canvas.add(Text(at["A0"] + complex(0.0, 0.5 * (tall - h) + 0.1 * h), name, h, "middle", role="label"))
@@ -46,10 +52,12 @@ def _dimensions(canvas: Canvas, scene: HoistScene, at: dict[str, complex]) -> No
     layout, drop = scene.solved.layout, -1j * (scene.style.pivot[1] + 2.0 * scene.style.pair + 8.0)
     step = -1j * 3.2 * scene.style.text
     for i, ends, mark in ((0, ("O1", "O2"), "A0"), (2, ("B1", "B2"), "A2")):
+        canvas.part(BEAMS[str(i)])
         near = ends[0] if layout.near[i // 2] == "left" else ends[1]
         pair = tuple(sorted((at[near], at[mark]), key=lambda p: p.real))
         linear(canvas, (pair[0], pair[1]), drop, scene.stated(f"b_{i}", unit="m"), f"b_{i}")
         linear(canvas, (at[ends[0]], at[ends[1]]), drop + step, scene.stated(f"l_{i}", unit="m"), f"l_{i}")
+    canvas.part("rope")
     far = max(at["O2"].real, at["B2"].real) + scene.style.pivot[2]
     linear(canvas, (at["A0"], at["A2"]), complex(far - at["A0"].real), scene.stated("L", unit="m"), "L")
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from ...plans.hoist.model import CIRCLE
 from ...scales.scale import Scale
 from ..notes.blocks import Story
+from .begun import STAGES
 from .scene import HoistScene
 
 LARGE, SMALL, DIGITS, PAPER = 1e8, 1e-3, 4, 1  # sizes from which on a number has a power of ten; decimals
@@ -61,7 +62,7 @@ BENT = tuple(
         Formula(f"x_w{i}", f"sqrt((l_{i}**2 - b_{i}**2)/3)", "m"),
     )
 )
-TOLD = {"scheme": 3, "model": 1, "forces": 4, "lift_off": 3, "extremes": 2, "circle": 3, "beams": 2}  # sentences
+TOLD = {view: len(table) - 1 for view, table in STAGES.items()}  # sentences
 
 
 def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, str]) -> Story:

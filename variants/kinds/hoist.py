@@ -17,6 +17,8 @@ from .kind import Kind, check_scales, first_of
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
     from ...drawing.formats import Format
+    from ...drawing.handouts.begun import Shown
+    from ...drawing.hoist.scene import HoistScene
     from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
     from ...drawing.words import Words
@@ -165,15 +167,25 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
         return lettered(words, len(solved.layout.roots.times) if solved.layout.roots else 0)
 
+    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
+        """Return what the first steps of every drawing draw."""
+        from ...drawing.hoist.begun import begun
+
+        return begun(self._scene(case, words), steps)
+
     def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
         """Tell formulas with their numbers, and the drawings step by step."""
-        from ...drawing.hoist.scene import HoistScene
         from ...drawing.hoist.steps import story
+
+        return story(self._scene(case, words), scales, texts)
+
+    def _scene(self, case: Case, words: Words) -> HoistScene:
+        """Return the hoist with its letters, for what is said of it: no scale factor counts there."""
+        from ...drawing.hoist.scene import HoistScene
         from ...drawing.style import STYLES
 
         solved = hoist(case.solved)
-        scene = HoistScene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, {})
-        return story(scene, scales, texts)
+        return HoistScene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, {})
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a hoist."""
