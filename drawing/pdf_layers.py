@@ -28,10 +28,6 @@ class DocumentLayers:
         found.basicFonts()
         return found
 
-    def on_page(self, layers: Iterable[Layer]) -> None:
-        """Give the page that was shown last its layers."""
-        self.document.Pages.pages[-1].Resources = self.resources(layers)
-
     def close(self) -> None:
         """Tell the catalog of the layers of all pages."""
         from reportlab.pdfbase.pdfdoc import PDFArray, PDFDictionary

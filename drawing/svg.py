@@ -75,6 +75,7 @@ def _style(characters: str) -> str:
     return f"<style>\n{face}text{{font-kerning:none;font-variant-ligatures:none;white-space:pre}}\n</style>\n"
 
 
+@lru_cache(maxsize=8192)
 def _number(value: float) -> str:
     """Return a length in mm to 1e-6 mm, without an exponent."""
     text = f"{value:.6f}"
