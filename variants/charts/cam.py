@@ -14,7 +14,7 @@ from ..kinds.cam import cam
 from .accuracy import AccuracyChart
 from .cam_stability import cam_stability_chart
 from .data import Scene
-from .gallery import Asked, Chart
+from .gallery import Chart, ChartRequest
 from .sections import sections_chart
 
 
@@ -24,7 +24,7 @@ class CamCharts:
     charts: ClassVar[tuple[str, ...]] = ("sections", "accuracy", "stability")
     used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {"quantities": ("sections",), "hand": ("accuracy",)}
 
-    def make(self, name: str, scene: Scene, asked: Asked) -> Chart:
+    def make(self, name: str, scene: Scene, asked: ChartRequest) -> Chart:
         """Make one of the charts.
 
         Raises

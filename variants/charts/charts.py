@@ -23,7 +23,7 @@ from ..arguments import names_of, positions_of
 from ..case import Case, Settings, solve_case
 from ..task import LocatedError, Task
 from .data import Scene
-from .gallery import Asked, Chart, Gallery
+from .gallery import Chart, ChartRequest, Gallery
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -169,7 +169,7 @@ def chart(
     changed = {"quantities": bool(wanted), "hand": hand != HAND, "tolerance": most != TOLERANCE}
     changed["positions"] = positions is not None
     unused = tuple(_unused(gallery, names, changed))
-    found = _made(gallery, scene, names, Asked(wanted, positions, most))
+    found = _made(gallery, scene, names, ChartRequest(wanted, positions, most))
     return replace(found, warnings=unused + found.warnings)
 
 
@@ -194,7 +194,7 @@ def _per_cent(tolerance: str | float) -> float:
     return most
 
 
-def _made(gallery: Gallery, scene: Scene, names: tuple[str, ...], asked: Asked) -> Charts:
+def _made(gallery: Gallery, scene: Scene, names: tuple[str, ...], asked: ChartRequest) -> Charts:
     """Make the charts; of all of them one that the task cannot have is left out."""
     charts: dict[str, Chart] = {}
     warnings: list[KulmanError] = []

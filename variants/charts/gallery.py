@@ -32,7 +32,7 @@ class Chart(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class ChartRequest:
     """What is asked of charts: quantities (none: all), positions of the cycle (None: the chart's own), per cent."""
 
     quantities: tuple[str, ...]
@@ -46,7 +46,7 @@ class Gallery(Protocol):
     charts: ClassVar[tuple[str, ...]]
     used_by: ClassVar[Mapping[str, tuple[str, ...]]]
 
-    def make(self, name: str, scene: Scene, asked: Asked) -> Chart:
+    def make(self, name: str, scene: Scene, asked: ChartRequest) -> Chart:
         """Make the chart `name`.
 
         Raises

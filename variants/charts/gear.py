@@ -17,7 +17,7 @@ from ..kinds.gear import gear
 from ..spreadsheets.csv_write import Cell
 from ..tables import aligned
 from .data import Scene, as_csv, finite, short, wrapped
-from .gallery import Asked
+from .gallery import ChartRequest
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -31,7 +31,7 @@ class GearCharts:
     charts: ClassVar[tuple[str, ...]] = ("scale",)
     used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {"quantities": ("scale",)}
 
-    def make(self, name: str, scene: Scene, asked: Asked) -> ScaleChart:
+    def make(self, name: str, scene: Scene, asked: ChartRequest) -> ScaleChart:
         """Make the chart.
 
         Raises

@@ -22,7 +22,7 @@ from ...scales.errors import InputError
 from ..kinds.hoist import hoist
 from .accuracy import AccuracyChart
 from .data import Scene
-from .gallery import Asked, Chart
+from .gallery import Chart, ChartRequest
 from .hoist_choice import HoistChoiceChart
 from .hoist_depth import HoistDepthChart
 from .hoist_roots import HoistRootsChart
@@ -37,7 +37,7 @@ class HoistCharts:
     charts: ClassVar[tuple[str, ...]] = (ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE)
     used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {"tolerance": (DEPTH,), "hand": (ACCURACY,)}
 
-    def make(self, name: str, scene: Scene, asked: Asked) -> Chart:
+    def make(self, name: str, scene: Scene, asked: ChartRequest) -> Chart:
         """Make one of the charts.
 
         Raises

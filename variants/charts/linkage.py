@@ -24,7 +24,7 @@ from ..sheets import scales_of
 from .accuracy import AccuracyChart
 from .data import Scene, driver_unit
 from .depth import depth_chart
-from .gallery import Asked, Chart
+from .gallery import Chart, ChartRequest
 from .stability import stability_chart
 
 POSITIONS = {"accuracy": 36, "stability": 360, "depth": 360}
@@ -44,7 +44,7 @@ class LinkageCharts:
     def __init__(self) -> None:
         self._cycles: dict[int, Cycle] = {}
 
-    def make(self, name: str, scene: Scene, asked: Asked) -> Chart:
+    def make(self, name: str, scene: Scene, asked: ChartRequest) -> Chart:
         """Make one of the charts.
 
         Raises

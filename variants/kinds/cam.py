@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from ..charts.cam import CamCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
-    from ..sweeps.asked import Asked
+    from ..sweeps.asked import SweepRequest
     from ..sweeps.cam import CamSweep
 
 SYMBOLS = ("mu_l", "mu_s_ds", "mu_s_d2s")  # the others follow from the drawn amplitude and the pole distances
@@ -136,7 +136,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
         return first_scales(solved, choosers)
 
-    def sweep(self, case: Case, words: Words, asked: Asked) -> CamSweep:
+    def sweep(self, case: Case, words: Words, asked: SweepRequest) -> CamSweep:
         """Look at a cam over its turn."""
         from ..sweeps.cam import cam_sweep
 

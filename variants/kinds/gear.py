@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from ..charts.gear import GearCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
-    from ..sweeps.asked import Asked
+    from ..sweeps.asked import SweepRequest
     from ..sweeps.gear import GearSweep
 
 RULES = {  # checks that are told when they fail
@@ -154,7 +154,7 @@ class Gears(Kind[GearPair, "SolvedGear"]):
 
         return GearCharts()
 
-    def sweep(self, case: Case, words: Words, asked: Asked) -> GearSweep:
+    def sweep(self, case: Case, words: Words, asked: SweepRequest) -> GearSweep:
         """Look at a pair over the contact of one pair of teeth."""
         from ..sweeps.gear import gear_sweep
 

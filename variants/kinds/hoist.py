@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..charts.hoist import HoistCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
-    from ..sweeps.asked import Asked
+    from ..sweeps.asked import SweepRequest
     from ..sweeps.hoist import HoistSweep
 
 DRAWN = "_drawn"  # what the name of a quantity ends with that is drawn
@@ -113,7 +113,7 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         """
         return solved.forces.checks
 
-    def sweep(self, case: Case, words: Words, asked: Asked) -> HoistSweep:
+    def sweep(self, case: Case, words: Words, asked: SweepRequest) -> HoistSweep:
         """Look at a hoist over time."""
         from ..sweeps.hoist import hoist_sweep
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..charts.gallery import Gallery
     from ..checks.basics import Checker
     from ..checks.names import Names
-    from ..sweeps.asked import Asked, Swept
+    from ..sweeps.asked import SweepRequest, Swept
 
 Subject = TypeVar("Subject")  # what is described: a mechanism, a cam
 Answer = TypeVar("Answer", bound=Solved)
@@ -128,7 +128,7 @@ class Kind(ABC, Generic[Subject, Answer]):
         """
         raise InputError("kind-without", task=task.id, text="chart")
 
-    def sweep(self, case: Case, words: Words, asked: Asked) -> Swept:
+    def sweep(self, case: Case, words: Words, asked: SweepRequest) -> Swept:
         """Look at a case over its whole cycle.
 
         Raises

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from ..charts.linkage import LinkageCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
-    from ..sweeps.asked import Asked
+    from ..sweeps.asked import SweepRequest
     from ..sweeps.sweeps import Sweep
 
 LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
@@ -128,7 +128,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
         return conditions_of(linkage(case.solved))
 
-    def sweep(self, case: Case, words: Words, asked: Asked) -> Sweep:
+    def sweep(self, case: Case, words: Words, asked: SweepRequest) -> Sweep:
         """Solve a linkage over its whole cycle."""
         from ..sweeps.sweeps import linkage_sweep
 

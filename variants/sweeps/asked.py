@@ -16,7 +16,7 @@ from ..task import Task
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class SweepRequest:
     """Positions, points, where a driver begins and ends, what is compared with chords; None for what is not said."""
 
     positions: int | None

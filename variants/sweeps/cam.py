@@ -15,7 +15,7 @@ from ...plans.columned import Columned
 from ...scales.units import format_unit, unit
 from ..case import Case
 from ..kinds.cam import cam
-from .asked import Asked
+from .asked import SweepRequest
 from .sized import (
     DIGITS,
     OK,
@@ -105,7 +105,7 @@ def _profiles(case: Case, solved: SolvedCam, words: Words) -> str:
     return "\n".join((*said, *(warning.text(words.language) for warning in case.warnings)))
 
 
-def cam_sweep(case: Case, words: Words, asked: Asked) -> CamSweep:
+def cam_sweep(case: Case, words: Words, asked: SweepRequest) -> CamSweep:
     """Look at a cam over its turn.
 
     Raises

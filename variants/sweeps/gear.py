@@ -13,7 +13,7 @@ from ...plans.gears.solve import SolvedGear
 from ...scales.units import format_unit, unit
 from ..case import Case
 from ..kinds.gear import gear
-from .asked import Asked
+from .asked import SweepRequest
 from .sized import (
     DIGITS,
     SizedSweep,
@@ -85,7 +85,7 @@ class GearSweep(SizedSweep):
         return np.linspace(*self.solved.meshing.touching, self.count)
 
 
-def gear_sweep(case: Case, words: Words, asked: Asked) -> GearSweep:
+def gear_sweep(case: Case, words: Words, asked: SweepRequest) -> GearSweep:
     """Look at a pair over the contact of one pair of teeth.
 
     Raises

@@ -14,7 +14,7 @@ from ...plans.hoist.course import Course, course, end_of, marks
 from ...plans.hoist.forces import Forces
 from ..case import Case
 from ..kinds.hoist import hoist
-from .asked import Asked
+from .asked import SweepRequest
 from .sized import SizedSweep, column_table, columns_csv, columns_json, refuse_unused
 
 TABLED = 25  # times in the table, beside the marks
@@ -71,7 +71,7 @@ class HoistSweep(SizedSweep):
         return np.linspace(0.0, end_of(self.solved.found, self.solved.motion), count)
 
 
-def hoist_sweep(case: Case, words: Words, asked: Asked) -> HoistSweep:
+def hoist_sweep(case: Case, words: Words, asked: SweepRequest) -> HoistSweep:
     """Look at a hoist over time.
 
     Raises

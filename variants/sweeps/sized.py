@@ -22,7 +22,7 @@ from ...scales.units import format_unit, unit
 from ..case import Case
 from ..spreadsheets.csv_write import csv_bytes, csv_text
 from ..tables import aligned
-from .asked import Asked, OfCase
+from .asked import OfCase, SweepRequest
 from .data import numbers
 
 SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}
@@ -92,7 +92,7 @@ class SizedSweep(OfCase):
         return f"<{type(self).__name__} {self.task.id} {self.variant}: {self.count} {self.places}>"
 
 
-def refuse_unused(case: Case, asked: Asked) -> None:
+def refuse_unused(case: Case, asked: SweepRequest) -> None:
     """Refuse what only the cycle of a linkage has.
 
     Raises

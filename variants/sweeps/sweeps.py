@@ -27,7 +27,7 @@ from ..kinds.linkage import mechanism_of
 from ..sheets import Sheet
 from ..spreadsheets.csv_write import csv_bytes
 from ..task import LocatedError, Task
-from .asked import Asked, OfCase, Swept
+from .asked import OfCase, SweepRequest, Swept
 from .columns import letters
 from .data import as_json
 from .sheet import cycle_sheet
@@ -190,12 +190,12 @@ def sweep(
     if positions is not None:
         positions_of("positions", positions)
     case = solve_case(task, variant, set, only, scales)
-    asked = Asked(positions, points, start, end, chords)
+    asked = SweepRequest(positions, points, start, end, chords)
     found: Swept = case.kind.sweep(case, case.words(lang, notation), asked)
     return found
 
 
-def linkage_sweep(case: Case, words: Words, asked: Asked) -> Sweep:
+def linkage_sweep(case: Case, words: Words, asked: SweepRequest) -> Sweep:
     """Solve a linkage over its whole cycle.
 
     Raises
