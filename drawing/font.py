@@ -282,22 +282,28 @@ def _complete(tables: dict[str, bytes]) -> dict[str, bytes]:
     return tables | {"head": bytes(head)}
 
 
+@lru_cache(maxsize=4)
+def _tables(characters: str) -> tuple[dict[str, bytes], dict[str, bytes]]:
+    """Return the tables of a subset without and with the sum of the whole file, which both forms are made of."""
+    plain = _subset_tables(font(), characters)
+    return plain, _complete(plain)
+
+
 @lru_cache(maxsize=64)
 def subset(characters: str) -> bytes:
     """Return a TrueType font with the glyphs of `characters` only: the same outlines and advances, no hinting."""
-    plain = _subset_tables(font(), characters)
-    tables = _complete(plain)
+    plain, tables = _tables(characters)
     return _directory(plain) + b"".join(data + b"\0" * (-len(data) % 4) for data in tables.values())
 
 
 @lru_cache(maxsize=64)
 def web_subset(characters: str) -> bytes:
     """Return the same subset in the compressed form of web pages (WOFF 1)."""
-    plain = _subset_tables(font(), characters)
+    plain, whole = _tables(characters)
     sums = {tag: _checksum(data) for tag, data in plain.items()}
     size = 12 + sum(16 + len(data) + -len(data) % 4 for data in plain.values())
     at, entries, body = 44 + 20 * len(plain), b"", b""
-    for tag, data in _complete(plain).items():
+    for tag, data in whole.items():
         packed = min(zlib.compress(data, 9), data, key=len)
         entries += struct.pack(">4sLLLL", tag.encode(), at + len(body), len(packed), len(data), sums[tag])
         body += packed + b"\0" * (-len(packed) % 4)
