@@ -35,7 +35,7 @@ def _motion(scene: CamScene, texts: Texts) -> str:
         for name, unit in units.items()
         if name in values
     }
-    moved = texts["cam.follower" if scene.solved.rocker is None else "cam.roller_centre"]
+    moved = texts["cam.roller_centre" if scene.solved.layout.rocks else "cam.follower"]
     return texts[f"cam.conclusion.{'motions' if 'a_max' in said else 'motion'}"].format(of=moved, **said)
 
 

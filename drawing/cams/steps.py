@@ -70,7 +70,7 @@ def _said(scene: CamScene, texts: Mapping[str, str]) -> Said:
         found |= _of_rocker(scene)
     if solved.plate is not None:
         found |= _of_plate(scene)
-    return found
+    return found | _of_profiles(scene) if solved.draws_profiles else found
 
 
 def on_paper(scene: CamScene, mm: float) -> str:
@@ -103,7 +103,7 @@ def _of_task(scene: CamScene) -> Said:
     for name in ("R_roller", "l_rocker", "rho_flat", "margin", "r_0", "e", "l_OC"):
         if name in solved.givens:
             found[name] = scene.stated(name, solved.givens[name])
-    return found | {"scale": words.drawn_at(scene.mu_l)}
+    return found
 
 
 def _of_diagrams(scene: CamScene, texts: Mapping[str, str]) -> Said:
@@ -150,11 +150,24 @@ def _of_roller(scene: CamScene, texts: Mapping[str, str]) -> Said:
     found["rise_side"], found["fall_side"] = sides[:: solved.cam.sense]
     found |= {"ratio_s": ratio(scene, "mu_s", "mu_s_ds"), "ratio_ds": ratio(scene, "mu_ds", "mu_s_ds")}
     found["mu_s_ds"] = scene.factor(scene.scale(SIZES))
-    drawn = [found["r_0"], found["e"]] if _is_aside(scene) else [found["r_0"]]
     line = pressed(scene, SHOWN)
     ds = abs(float(solved.motion.at(float(solved.angles[line]))[1]))
     found["OP"] = f"OP_{{{line}}} = |{words.symbol('ds')}| = {scene.length(ds)} {words.unit('mm')}"
-    return found | {"radii": ", ".join(drawn)}
+    return found
+
+
+def _of_profiles(scene: CamScene) -> Said:
+    """Return what the plans of the cam begin with: their scale, the radii of the first circles."""
+    solved = scene.solved
+    radii: dict[str, float] = {}
+    if solved.rocker is not None:
+        radii = {"r_0": solved.rocker.sizes.r_0, "l_OC": solved.rocker.sizes.l_OC}
+    elif solved.roller is not None:
+        radii = {"r_0": solved.roller.sizes.r_0}
+        if _is_aside(scene):
+            radii["e"] = abs(solved.roller.sizes.e)
+    drawn = ", ".join(scene.stated(name, radius) for name, radius in radii.items())
+    return {"scale": scene.words.drawn_at(scene.mu_l), "radii": drawn}
 
 
 def _of_rocker(scene: CamScene) -> Said:
@@ -169,7 +182,7 @@ def _of_rocker(scene: CamScene) -> Said:
     angles = {"psi": cam.rocker.motion.h, "psi_0": float(solved.values["psi_0"])}
     found |= {name: f"{words.symbol(name)} = {scene.degrees(angle)}" for name, angle in angles.items()}
     dpsi = abs(float(cam.rocker.motion.at(float(solved.angles[pressed(scene, SHOWN)]))[1]))
-    return found | {"radii": f"{found['r_0']}, {found['l_OC']}", "ratio": words.short(float(f"{dpsi:.4g}"))}
+    return found | {"ratio": words.short(float(f"{dpsi:.4g}"))}
 
 
 def _of_plate(scene: CamScene) -> Said:

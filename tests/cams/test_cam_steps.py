@@ -16,7 +16,7 @@ from kulman.drawing.handouts.begun import begun_pages
 from kulman.drawing.notes.blocks import Sentences, Steps, Story
 from kulman.drawing.page import Page
 from kulman.drawing.shapes import Group, Shape, Text
-from kulman.plans.cams.cam import LAWS
+from kulman.plans.cams.cam import LAWS, PLANS
 from kulman.plans.cams.rules import rules_of
 from kulman.plans.cams.solve import SolvedCam
 from kulman.scales.errors import LANGUAGES
@@ -134,6 +134,19 @@ def test_what_is_read_from_a_plan_recomputes(case: tuple[str, str, Settings]) ->
     for segment, mu, value in products:
         half = 0.5 * 10.0 ** -len(value.partition(".")[2])
         assert float(segment) * float(mu) == pytest.approx(float(value), abs=1.001 * half)
+
+
+@pytest.mark.parametrize("task", [TASK, pytest.param(ROCKER, marks=pytest.mark.soak)])
+def test_parts_of_the_work_are_told_alone(task: str) -> None:
+    whole = told(solve_case(task, None, None, None, None))
+
+    for only in PLANS:
+        case = solve_case(task, None, None, only, None)
+        story = told(case)
+
+        assert story.steps.keys() == stages(cam(case)).keys() <= whole.steps.keys()
+        assert all(steps == whole.steps[view] for view, steps in story.steps.items())
+        assert {*story.conclusions} <= {*whole.conclusions}
 
 
 def test_sizes_that_are_all_given_are_marked_and_not_sought(tmp_path: Path) -> None:
