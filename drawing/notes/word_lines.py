@@ -38,7 +38,7 @@ def line(markup: str, properties: str = "") -> str:
 
 def _parted(parts: tuple[Node, ...]) -> Iterator[tuple[bool, list[Node]]]:
     """Part a line into formulas and what is text: words, and units with their powers."""
-    before = ""
+    before = "m/" if len(parts) == 1 else ""  # a power of m alone is a unit
     told = []
     for part in parts:
         told.append((not isinstance(part, Plain) and not _is_unit(part, before), part))
@@ -51,7 +51,8 @@ def _is_unit(part: Node, before: str) -> bool:
     if not isinstance(part, Scripted) or not isinstance(part.base, Plain) or part.below:
         return False
     cyrillic = "а" <= part.base.text[:1].lower() <= "ґ"
-    return (cyrillic or _UNITS.search(before) is not None) and all(isinstance(up, Plain) for up in part.above)
+    powers = all(isinstance(up, Plain) for up in part.above)
+    return powers and (cyrillic or (part.base.text in ("m", "s") and _UNITS.search(before) is not None))
 
 
 def _part(parts: list[Node], formula: bool, properties: str) -> str:

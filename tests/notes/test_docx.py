@@ -27,8 +27,9 @@ from kulman.drawing.notes.docx import SPACES, docx_bytes
 from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.markup import letters
 from kulman.drawing.notes.word_blocks import Picture, blocks_in_word
+from kulman.drawing.notes.word_lines import line
 from kulman.scales.packaged import packaged
-from kulman.tests.support.word import W, disordered, part, said
+from kulman.tests.support.word import M, W, disordered, part, said
 from kulman.variants.shelf import bundled
 
 LANGUAGES = ("uk", "ru", "en")
@@ -349,3 +350,22 @@ def test_a_class_may_have_its_notes_so(tmp_path: Path) -> None:
     (file,) = (tmp_path / "out").glob("*.docx")
     assert file.name == "001-І-Петренко-3-note.docx"
     assert file.read_bytes() == docx_bytes(alone)
+
+
+@pytest.mark.parametrize(
+    ("markup", "formulas"),
+    [
+        ("M_{a} = 0.05 (cm/s^{2})/cm", ["M_{a}"]),
+        ("23,95 (м/с^{2})/мм", []),
+        ("mm^{2}", []),
+        ("m^{4}", []),
+        ("kg·m^{2}", []),
+        ("вектор \\bar{V}_{B}, k^{2}", ["\\bar{V}_{B}", "k^{2}"]),
+        ("O_{1}A_{1}", ["O_{1}A_{1}"]),
+    ],
+)
+def test_units_are_words_and_symbols_formulas(markup: str, formulas: list[str]) -> None:
+    found = etree.fromstring(f'<x xmlns:m="{SPACES["m"]}" xmlns:w="{SPACES["w"]}">{line(markup)}</x>')
+
+    assert [said(formula) for formula in found.iter(f"{M}oMath")] == formulas
+    assert bare(said(found)) == bare(letters(markup))
