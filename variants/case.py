@@ -95,7 +95,7 @@ def solve_case(
     changed = by_name("set", settings)
     kind = kind_of(found.kind)
     plans = plans_wanted(only, found.plans, kind.plans)
-    solved = kind.solve(found.mechanism, found.values(row.id, changed), found.words(row.id, changed), plans)
+    solved = kind.solve(found.subject, found.values(row.id, changed), found.words(row.id, changed), plans)
     return Case(found, row.id, changed, plans, solved, _choosers(found, by_name("scales", scales), solved))
 
 

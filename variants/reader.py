@@ -238,16 +238,16 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
     givens = read_givens(checker, raw["givens"]) if "givens" in raw else {}
     choices = read_choices(checker, raw.get("choices", {}), givens, kind.words(raw.get(table)))
     names = _names(checker, givens, choices)
-    mechanism = kind.read(checker, raw[table], names, givens) if table in raw else None
+    subject = kind.read(checker, raw[table], names, givens) if table in raw else None
     givens = {key: _bounded(given, names) for key, given in givens.items()}
     variants = read_variants(checker, raw["variant"], givens, names.optional) if "variant" in raw else {}
     _signs(checker, names, choices)
     display = _units(kind.display, head.get("display", {}))
     if display.length != METRE and WITH_FORCES.intersection(head.get("plans", ())):
         checker.fault(("display", "length"), InputError("display-forces"))
-    if mechanism is not None and "plans" in head:
-        kind.fits(checker, mechanism, head)
-    if checker.faults or mechanism is None:
+    if subject is not None and "plans" in head:
+        kind.fits(checker, subject, head)
+    if checker.faults or subject is None:
         return None
     task = Task(
         id=head["id"],
@@ -261,7 +261,7 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
             for key, words in choices.items()
         },
         constants=names.constants,
-        mechanism=mechanism,
+        subject=subject,
         scales=head.get("scales", {}),
         display=display,
         variants=variants,
@@ -275,7 +275,7 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
 
 
 def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Names:
-    """Return the values that the mechanism may name: givens and what choices set, no name twice."""
+    """Return the values that the subject may name: givens and what choices set, no name twice."""
     names = Names({key: given.unit.dimension for key, given in givens.items() if given.unit is not None})
     names.dimensions.update(dict.fromkeys(checker.unread))
     names.stated.update({key: ("givens", key) for key in names.dimensions})

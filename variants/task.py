@@ -146,9 +146,9 @@ class Variant:
 class Task:
     """A task of a textbook as data.
 
-    `mechanism` is what it is about: a linkage, a cam, a gear pair, a hoist; `kind` is the table that describes it, and
+    `subject` is what it is about: a linkage, a cam, a gear pair, a hoist; `kind` is the table that describes it, and
     names its kind.
-    `choices` says which values each word of a choice sets, `constants` holds the literals of the mechanism;
+    `choices` says which values each word of a choice sets, `constants` holds the literals of the subject;
     `file` is what was read, as the user named it, `None` for a bundled task; `display` are the units of results.
     `note` is what a user should know of the data, by language;
     `instead` says of which givens, once a user has set them, others of the variant no longer hold.
@@ -162,7 +162,7 @@ class Task:
     givens: Mapping[str, Given]
     choices: Mapping[str, Mapping[str, Mapping[str, float]]]
     constants: Mapping[str, float]
-    mechanism: Mechanism | Cam | GearPair | Hoist
+    subject: Mechanism | Cam | GearPair | Hoist
     scales: Mapping[str, str]
     variants: Mapping[str, Variant]
     file: str | None = None
@@ -174,6 +174,19 @@ class Task:
     def note_in(self, language: str) -> str:
         """Return what a user should know of the data, in a language; nothing where the task says nothing."""
         return self.note.get(language, "")
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism that the task of a linkage is about.
+
+        Raises
+        ------
+        InputError
+            The task is of another kind.
+        """
+        if not isinstance(self.subject, Mechanism):
+            raise InputError("kind-without", task=self.id, text="mechanism")
+        return self.subject
 
     @property
     def text(self) -> str:
@@ -232,7 +245,7 @@ class Task:
     def values(
         self, variant_id: str | None = None, settings: Mapping[str, str | float] | None = None
     ) -> dict[str, float]:
-        """Return every number that the mechanism names, in SI: givens, what the choices set, and constants."""
+        """Return every number that the subject names, in SI: givens, what the choices set, and constants."""
         values = {ZERO: 0.0, **self.constants}
         for name, value in self.resolve(variant_id, settings).items():
             if isinstance(value, str):

@@ -57,9 +57,9 @@ def test_a_file_without_any_table_lacks_the_first_one() -> None:
 
 def test_words_of_a_variant_stand_in_the_place_of_the_names_of_choices() -> None:
     task = load_task(TASK)
-    assert isinstance(task.mechanism, Cam)
+    assert isinstance(task.subject, Cam)
 
-    cam = task.mechanism.chosen(task.words("17", {"law": "cosine", "rotation": "cw", "limits": "two-sided"}))
+    cam = task.subject.chosen(task.words("17", {"law": "cosine", "rotation": "cw", "limits": "two-sided"}))
 
     assert (cam.law, cam.falls_by, cam.fall, cam.sense, cam.two_sided) == ("cosine", "cosine", "mirror", -1, True)
     assert (cam.followers, cam.sections) == (("roller", "plate"), 12)

@@ -27,9 +27,9 @@ edited = partial(with_changes, TEXT)
 
 def test_words_of_a_variant_stand_in_the_place_of_the_names_of_choices() -> None:
     task = load_task(TASK)
-    assert isinstance(task.mechanism, GearPair)
+    assert isinstance(task.subject, GearPair)
 
-    pair = task.mechanism.chosen(task.words("17", {"rotation": "cw", "material": "hardened"}))
+    pair = task.subject.chosen(task.words("17", {"rotation": "cw", "material": "hardened"}))
 
     assert (pair.sense, pair.least_tip) == (-1, 0.4)
 

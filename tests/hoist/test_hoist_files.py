@@ -130,9 +130,9 @@ def test_faults_of_a_file_are_told_with_their_places(old: str, new: str, place: 
 
 def test_sides_may_be_chosen() -> None:
     task = load_task(TASK)
-    assert isinstance(task.mechanism, Hoist)
+    assert isinstance(task.subject, Hoist)
 
-    assert task.mechanism.chosen(task.words("V01", {"near_2": "right"})) == Hoist("left", "right")
+    assert task.subject.chosen(task.words("V01", {"near_2": "right"})) == Hoist("left", "right")
     assert solve(TASK, set={"near_0": "right"})["t_1"].value == solve(TASK)["t_1"].value
 
 

@@ -19,7 +19,7 @@ from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
 from ...scales.names import unknown
 from ..case import Case
-from ..kinds.linkage import linkage, mechanism_of
+from ..kinds.linkage import linkage
 from ..sheets import scales_of
 from .accuracy import AccuracyChart
 from .data import Scene, driver_unit
@@ -72,7 +72,7 @@ def _cycle(case: Case, positions: int) -> Cycle:
     """Return the cycle with the plans of the case."""
     wanted = with_needs((*case.plans, "position"), NEEDS)
     plans = tuple(plan for plan in wanted if plan not in ("cycle", "compound"))
-    found = cycle(mechanism_of(case.task), case.task.values(case.variant, case.settings), plans, positions)
+    found = cycle(case.task.mechanism, case.task.values(case.variant, case.settings), plans, positions)
     if not found.reach.stretches:
         raise case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
     return found

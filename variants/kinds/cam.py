@@ -99,9 +99,9 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def _refused(self, task: Task, variant: str) -> list[InputError]:
         """Return why a variant has no cam: sizes that are given, and permit none, are found out by looking for one."""
-        assert isinstance(task.mechanism, Cam)
+        assert isinstance(task.subject, Cam)
         try:
-            self.solve(task.mechanism, task.values(variant), task.words(variant), task.plans)
+            self.solve(task.subject, task.values(variant), task.words(variant), task.plans)
         except InputError as error:
             return [error]
         return []

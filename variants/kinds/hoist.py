@@ -67,8 +67,8 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
             try:
                 complete(task.values(variant))
                 if thorough:
-                    assert isinstance(task.mechanism, Hoist)
-                    self.solve(task.mechanism, task.values(variant), task.words(variant), task.plans)
+                    assert isinstance(task.subject, Hoist)
+                    self.solve(task.subject, task.values(variant), task.words(variant), task.plans)
             except InputError as error:
                 checker.fault(("variant", row), error)
 

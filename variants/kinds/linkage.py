@@ -90,7 +90,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
         """Check the load diagrams of every variant."""
-        diagrams_in_order(checker, mechanism_of(task), [task.values(variant) for variant in task.variants])
+        diagrams_in_order(checker, task.mechanism, [task.values(variant) for variant in task.variants])
 
     def solve(
         self, subject: Mechanism, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
@@ -118,7 +118,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
         yield from super().unfit(case)
         values = case.task.values(case.variant, case.settings)
-        drive = swept(mechanism_of(case.task), values)
+        drive = swept(case.task.mechanism, values)
         for arc in reach_of(drive, values).apart if drive.turns else ():
             yield InputError("variant-apart", low=_degrees(arc.low), high=_degrees(arc.high))
 
@@ -188,7 +188,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             from ...plans.linkages.cycles.cycle import cycle
 
             values = case.task.values(case.variant, case.settings)
-            whole = cycle(mechanism_of(case.task), values, ("position", "velocity", "acceleration"))
+            whole = cycle(case.task.mechanism, values, ("position", "velocity", "acceleration"))
         solved = _placed(case)
         plans = case.plans if solved is case.solved else (*case.plans, POSITION)
         note = case.task.note_in(words.language)
@@ -282,12 +282,6 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 KIND = Linkages()
 
 
-def mechanism_of(task: Task) -> Mechanism:
-    """Return the mechanism of a task about a linkage."""
-    assert isinstance(task.mechanism, Mechanism)
-    return task.mechanism
-
-
 def linkage(solved: Any) -> SolvedLinkage:
     """Return what has been solved as the linkage that it is."""
     assert isinstance(solved, SolvedLinkage)
@@ -315,7 +309,7 @@ def _placed(case: Case) -> SolvedLinkage:
     if POSITION in solved.program.plans:
         return solved
     values, words = case.task.values(case.variant, case.settings), case.task.words(case.variant, case.settings)
-    placed = KIND.solve(mechanism_of(case.task), values, words, (*case.plans, POSITION))
+    placed = KIND.solve(case.task.mechanism, values, words, (*case.plans, POSITION))
     error = placed.error()
     if error is not None:
         raise error

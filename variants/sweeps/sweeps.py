@@ -23,7 +23,6 @@ from ...scales.numbers import quote
 from ...scales.units import Unit, parse, unit
 from ..arguments import names_of, positions_of
 from ..case import Case, Settings, solve_case
-from ..kinds.linkage import mechanism_of
 from ..sheets import Sheet
 from ..spreadsheets.csv_write import csv_bytes
 from ..task import LocatedError, Task
@@ -203,7 +202,7 @@ def linkage_sweep(case: Case, words: Words, asked: SweepRequest) -> Sweep:
     InputError
         An unknown point, a place of the driver that is none, an end where a crank goes round.
     """
-    mechanism = mechanism_of(case.task)
+    mechanism = case.task.mechanism
     chosen = _chosen(mechanism, asked.points)
     first, last = (_place(case.task, *item) for item in (("start", asked.start), ("end", asked.end)))
     if last is not None and isinstance(mechanism.driver, Driver):
@@ -242,7 +241,7 @@ def _place(task: Task, name: str, value: str | float | None) -> float | None:
 
 def _own_unit(task: Task) -> Unit:
     """Return the unit of the given that says where the driver stands."""
-    driver = mechanism_of(task).driver
+    driver = task.mechanism.driver
     given = task.givens.get(driver.coordinate)
     if given is not None and given.unit is not None:
         return given.unit
