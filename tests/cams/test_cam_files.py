@@ -74,7 +74,7 @@ def test_words_may_stand_in_the_table_itself() -> None:
         ('reconstructed = ["law", "fall", ', "reconstructed = ["),
     )
 
-    cam = task_of(text).mechanism
+    cam = task_of(text).subject
 
     assert isinstance(cam, Cam)
     assert (cam.law, cam.falls_by, cam.fall, cam.sections) == ("sine", "cosine", "same", 15)
@@ -97,7 +97,7 @@ def test_a_law_of_ones_own_is_chosen_like_the_others() -> None:
 
     mine, usual = (solve(task_of(text), set={"law": law}) for law in ("mine", "sawtooth"))
 
-    cam = task_of(text).mechanism
+    cam = task_of(text).subject
     assert isinstance(cam, Cam)
     assert cam.curves == (Curve("mine", "pieces", (0.0, 1 / 3, 1 / 3, 1.0), (0.0, 2.0, -1.0, 0.0)),)
     assert mine["r_0"].value == pytest.approx(usual["r_0"].value, rel=1e-12)

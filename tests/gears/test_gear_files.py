@@ -42,7 +42,7 @@ def test_words_may_stand_in_the_table_itself_or_be_left_out() -> None:
         ('"rotation", "material", ', ""),
     )
 
-    assert task_of(said).mechanism == GearPair("cw", "homogeneous")
+    assert task_of(said).subject == GearPair("cw", "homogeneous")
 
 
 def test_numbers_of_the_standard_rack_need_not_be_given_and_may_be_set() -> None:
