@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import gc
 from functools import cache
 from pathlib import Path
 
@@ -15,7 +16,14 @@ OUTSIDE = ("tests", "benchmarks", "docs", ".venv", ".typing", ".ci", "build")
 @cache
 def trees() -> dict[Path, ast.Module]:
     """Return the files of the package by their paths from its root."""
-    paths = [path.relative_to(ROOT) for path in sorted(ROOT.rglob("*.py"))]
-    return {
-        path: ast.parse((ROOT / path).read_text(encoding="utf-8")) for path in paths if path.parts[0] not in OUTSIDE
-    }
+    gc.disable()  # half a million nodes, none of them garbage
+    try:
+        return {path.relative_to(ROOT): ast.parse(path.read_text(encoding="utf-8")) for path in _files()}
+    finally:
+        gc.freeze()
+        gc.enable()
+
+
+def _files() -> list[Path]:
+    inside = [path for path in ROOT.iterdir() if path.name not in OUTSIDE]
+    return sorted(file for path in inside for file in ([path] if path.suffix == ".py" else path.rglob("*.py")))
