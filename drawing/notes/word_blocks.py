@@ -75,15 +75,30 @@ def _equation(chunks: Sequence[str]) -> Iterator[str]:
         yield paragraph("Equation", line(whole))
         return
     rows = [""]
-    for chunk in chunks:
-        longer = f"{rows[-1]} {chunk}".strip()
-        room = WIDE - INDENT * (1 if len(rows) == 1 else 2)
-        rows[-1:] = [longer] if not rows[-1] or lay_out(longer, HEIGHT).width <= room else [rows[-1], chunk]
+    for part in _unbroken(chunks):
+        longer = f"{rows[-1]} {part}".strip()
+        rows[-1:] = [longer] if not rows[-1] or _fits(longer, 1 if len(rows) == 1 else 2) else [rows[-1], part]
     for place, row in enumerate(rows):
         further = f'<w:ind w:left="{round(2 * INDENT * TWIPS)}"/>' if place else ""
         left = '<m:oMathParaPr><m:jc m:val="left"/></m:oMathParaPr>'
         inside = f"<m:oMathPara>{left}<m:oMath>{built_up(row)}</m:oMath></m:oMathPara>"
         yield paragraph("Equation", inside, further)
+
+
+def _unbroken(chunks: Sequence[str]) -> Iterator[str]:
+    """Go through what is not broken: all that stands in brackets, unless it is longer than a line."""
+    some: list[str] = []
+    for chunk in chunks:
+        some.append(chunk)
+        depth = sum((c in "([") - (c in ")]") for part in some for c in part)
+        if depth <= 0:
+            yield from [joined] if _fits(joined := " ".join(some), 2) else some
+            some = []
+    yield from some
+
+
+def _fits(markup: str, indents: int) -> bool:
+    return lay_out(markup, HEIGHT).width <= WIDE - indents * INDENT
 
 
 def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
