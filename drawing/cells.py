@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ..scales.errors import InputError
+from ..scales.numbers import quote
 from .shapes import Anchor, Text
 from .text import Box, escape, lay_out
 
@@ -13,6 +14,7 @@ SIDE, EDGE = 1.0, 0.65  # clear of the lines of the cell, mm; half of the widest
 CLEAR = 0.45  # what the ink of a high or deep letter may leave of it
 PITCH = 1.5  # from baseline to baseline, in heights of a capital
 FALL = 0.3  # of p and y below the baseline, in heights of a capital
+SHOWN = 60  # characters of a text in a message
 NARROWEST = 40  # per cent of a letter's own width
 
 
@@ -37,7 +39,7 @@ def fitted(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor = "mi
         lines = _wrapped(words, height, wide * 100 / percent)
         if lines and (len(lines) == 1 or _fits(lines, height, high)):
             return [replace(line, squeeze=percent / 100) for line in _placed(lines, cell, height, anchor, name)]
-    raise InputError("stamp-too-long", field=name, text=" ".join(words))
+    raise InputError("stamp-too-long", field=name, text=quote(" ".join(words), SHOWN))
 
 
 def _depth(lines: int, height: float) -> float:

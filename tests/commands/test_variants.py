@@ -125,7 +125,7 @@ def test_other_variants_leave_everything_else_as_it_is(name: str) -> None:
     assert found is not None
     assert list(found.variants) == ["one", "two"]
     assert found.resolve("two") == pytest.approx(task.resolve(first.id))
-    assert (found.givens, found.mechanism, found.scales) == (task.givens, task.mechanism, task.scales)
+    assert (found.givens, found.subject, found.scales) == (task.givens, task.subject, task.scales)
 
 
 def turned(text: str) -> str:
@@ -163,7 +163,9 @@ def test_questions_for_moodle_hold_the_right_values(tmp_path: Path) -> None:
     xml, gift = found.save(tmp_path / "q.xml", tmp_path / "q.gift")
 
     questions = minidom.parse(str(xml)).getElementsByTagName("question")[1:]
-    asked = re.findall(r"^::(.+?):: (.+) \{#=(\S+?):(\S+) =%50%(\S+?):(\S+)\}$", gift.read_text("utf-8"), re.MULTILINE)
+    asked = re.findall(
+        r"^::(.+?)::\[plain\](.+) \{#=(\S+?):(\S+) =%50%(\S+?):(\S+)\}$", gift.read_text("utf-8"), re.MULTILINE
+    )
     assert len(questions) == len(asked) == 2 * len(load_task(TASK).variants)
     for question, (name, text, value, within, half, wider) in zip(questions, asked, strict=True):
         variant, quantity = name.split("-", 1)

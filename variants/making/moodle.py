@@ -26,7 +26,7 @@ def gift_bytes(category: str, questions: Iterable[Question]) -> bytes:
     for asked in questions:
         right = f"={asked.value:.10g}:{asked.tolerance:.3g}"
         half = f"=%50%{asked.value:.10g}:{HALF * asked.tolerance:.3g}"
-        lines += [f"::{_gift(asked.name)}:: {_gift(asked.text)} {{#{right} {half}}}", ""]
+        lines += [f"::{_gift(asked.name)}::[plain]{_gift(asked.text)} {{#{right} {half}}}", ""]
     return "\n".join(lines).encode("utf-8")
 
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import TypeAlias
 
 Cell: TypeAlias = str | float | int | None
 Rows: TypeAlias = Sequence[Sequence[Cell]]
-DANGEROUS = ("=", "+", "-", "@", "\t", "\r", "\n", "|", "%")  # with which programs begin a formula or a command
+DANGEROUS = tuple("=+-@|%\t\r\n＝＋－＠")  # with which programs begin a formula or a command
+# the same behind what another program, or one of another country, takes for the end of a cell; -5 mm is no formula
+_INSIDE = re.compile(r"([,;\t\r\n][^\S\r\n]*)(?=[=@|%＝＠]|[-+－＋][^,;\t\r\n]*[(|!=@])")
 
 
 def csv_text(
@@ -50,8 +53,12 @@ def harmless(text: str) -> str:
 
     >>> harmless("=1+1"), harmless("V_B"), harmless("-5 mm")
     ("'=1+1", 'V_B', "'-5 mm")
+    >>> harmless("x,=1+1"), harmless("2, -5 mm")
+    ("x,'=1+1", '2, -5 mm')
     """
-    return f"'{text}" if text.lstrip(" ").startswith(DANGEROUS) else text
+    within = _INSIDE.sub(r"\1'", text)
+    seen = next((sign for sign in text if sign in DANGEROUS or (sign.isprintable() and sign != " ")), "")
+    return f"'{within}" if seen in DANGEROUS else within
 
 
 def exact(value: float) -> str:

@@ -19,6 +19,7 @@ from .grid import LARGEST, MOST_CELLS, MOST_COLUMNS, MOST_MERGED, MOST_ROWS, SHO
 
 MOST_PARTS = 2_000
 _ADDRESS = re.compile(r"([A-Z]{1,3})([0-9]{1,7})")
+_ESCAPED = re.compile("_x((?!D[89A-Fa-f])[0-9A-Fa-f]{4})_", re.IGNORECASE)
 _RANGE = re.compile(rf"{_ADDRESS.pattern}:{_ADDRESS.pattern}")
 # number formats of dates and times that have no code of their own in the file (ECMA-376, part 1, 18.8.30)
 _DATES = frozenset((*range(14, 23), *range(27, 37), *range(45, 48), *range(50, 59)))
@@ -215,9 +216,9 @@ class _Sheet:
         self._inside.pop()
         if tag != "c":
             return
-        text = "".join(self._pieces)
+        text = _unescaped("".join(self._pieces))
         if self._kind == "s" and text:
-            text = self.strings[int(text)] if int(text) < len(self.strings) else ""
+            text = _unescaped(self.strings[int(text)]) if int(text) < len(self.strings) else ""
         at = (self._row, self._column)
         if self._formula and not text:
             self.formulas.add(at)
@@ -231,6 +232,11 @@ class _Sheet:
         if self._row >= MOST_ROWS or self._column >= MOST_COLUMNS:
             raise too_many_cells(self.file)
         self.cells.setdefault(self._row, {})[self._column] = text.strip()
+
+
+def _unescaped(text: str) -> str:
+    """Return a text with the signs for which their numbers stand (ECMA-376, part 1, 22.9.2.19)."""
+    return _ESCAPED.sub(lambda found: chr(int(found[1], 16)), text)
 
 
 def _column(name: str) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import zipfile
 from collections.abc import Iterable, Sequence
 from xml.sax.saxutils import escape
@@ -12,6 +13,8 @@ from .grid import letters
 
 _DATE = (2000, 1, 1, 0, 0, 0)
 _WIDEST = 60
+_ESCAPE = re.compile("_(?=x[0-9A-Fa-f]{4}_)")  # what would be read as a sign by its number
+LONGEST = 32_000  # characters of a cell: programs take 32,767
 _MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
 _OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006"
@@ -119,6 +122,7 @@ def _cell(address: str, cell: Cell, bold: bool) -> str:
     if cell is None or cell == "":
         return ""
     if isinstance(cell, str):
-        text = escape("".join(c if c.isprintable() or c == "\n" else " " for c in cell))
+        plain = "".join(c if c.isprintable() or c == "\n" else " " for c in cell[:LONGEST])
+        text = escape(_ESCAPE.sub("_x005F_", plain))
         return f'<c r="{address}"{style} t="inlineStr"><is><t xml:space="preserve">{text}</t></is></c>'
     return f'<c r="{address}"{style}><v>{rounded(cell)}</v></c>'
