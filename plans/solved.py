@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 from ..scales.errors import PositionError
 from .board import Program
@@ -31,6 +31,12 @@ class Solved:
     shown_on: Mapping[str, str]  # the first plan that shows each quantity as a segment
     scale_of_plan: Mapping[str, str]  # symbol of the scale factor of every plan
     givens: Mapping[str, Any]  # what the board began with, to run the program again
+
+    @classmethod
+    def of(cls, solved: Solved) -> Self:
+        """Return what has been solved as what it is known to be: a cam, a linkage."""
+        assert isinstance(solved, cls)
+        return solved
 
     def point(self, mark: str) -> complex:
         """Return a mark of any plan, SI."""

@@ -10,7 +10,6 @@ from ...plans.cams.rivals import rivals
 from ...plans.cams.solve import SolvedCam
 from ...plans.contest import FULL, Effort
 from ...plans.hands.hand import preset
-from ..kinds.cam import cam
 from .accuracy import AccuracyChart
 from .cam_stability import cam_stability_chart
 from .data import Scene
@@ -32,7 +31,7 @@ class CamCharts:
         InputError
             An unknown quantity, or diagrams that have no errors.
         """
-        solved = cam(scene.case.solved)
+        solved = SolvedCam.of(scene.case.solved)
         if name == "accuracy":
             return cam_accuracy_chart(scene, solved)
         if name == "stability":

@@ -13,7 +13,6 @@ from ...plans.gears.scale_errors import DRAWINGS, MILLI, ScaleErrors, compared, 
 from ...plans.gears.solve import SolvedGear
 from ...plans.hands.hand import PRESETS
 from ...scales.names import unknown
-from ..kinds.gear import gear
 from ..spreadsheets.csv_write import Cell
 from ..tables import aligned
 from .data import Scene, as_csv, finite, short, wrapped
@@ -39,7 +38,7 @@ class GearCharts:
         InputError
             An unknown quantity, or no meshing to draw.
         """
-        return scale_chart(scene, gear(scene.case.solved), asked.quantities)
+        return scale_chart(scene, SolvedGear.of(scene.case.solved), asked.quantities)
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

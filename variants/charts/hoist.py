@@ -19,7 +19,6 @@ from ...plans.hoist.root_race import root_race
 from ...plans.hoist.solve import SolvedHoist
 from ...plans.hoist.step_limits import step_limits
 from ...scales.errors import InputError
-from ..kinds.hoist import hoist
 from .accuracy import AccuracyChart
 from .data import Scene
 from .gallery import Chart, ChartRequest
@@ -50,7 +49,7 @@ class HoistCharts:
 
 def hoist_chart(name: str, scene: Scene, tolerance: float, effort: Effort = FULL) -> Chart:
     """Make a chart of a hoist; the tolerance of a simpler model is in per cent."""
-    solved = hoist(scene.case.solved)
+    solved = SolvedHoist.of(scene.case.solved)
     givens = complete(solved.givens)
     if name == DEPTH:
         return HoistDepthChart(scene, depth(givens, 0.01 * tolerance))

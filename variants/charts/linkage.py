@@ -15,11 +15,11 @@ from ...plans.linkages.accuracy.comparison import contest
 from ...plans.linkages.accuracy.hand_drawn import DrawnSheet, by_hand
 from ...plans.linkages.chain import NEEDS
 from ...plans.linkages.cycles.cycle import Cycle, cycle
+from ...plans.linkages.solved import SolvedLinkage
 from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
 from ...scales.names import unknown
 from ..case import Case
-from ..kinds.linkage import linkage
 from ..sheets import scales_of
 from .accuracy import AccuracyChart
 from .data import Scene, driver_unit
@@ -98,7 +98,7 @@ def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
     for name in SIZES:
         mus = _mus(scene, name)
         if mus is not None:
-            drawn = DrawnSheet(name, linkage(scene.case.solved), mus)
+            drawn = DrawnSheet(name, SolvedLinkage.of(scene.case.solved), mus)
             yield from by_hand(cycle, drawn, preset(scene.hand).hand, found.kinds)
 
 

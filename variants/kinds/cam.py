@@ -297,8 +297,7 @@ def cam(solved: Any) -> SolvedCam:
     """Return what has been solved as the cam that it is."""
     from ...plans.cams.solve import SolvedCam
 
-    assert isinstance(solved, SolvedCam)
-    return solved
+    return SolvedCam.of(solved)
 
 
 def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlateProfile]]:

@@ -229,8 +229,7 @@ def gear(solved: Any) -> SolvedGear:
     """Return what has been solved as the pair that it is."""
     from ...plans.gears.solve import SolvedGear
 
-    assert isinstance(solved, SolvedGear)
-    return solved
+    return SolvedGear.of(solved)
 
 
 def _millimetres(length: float) -> str:

@@ -203,5 +203,4 @@ def hoist(solved: Any) -> SolvedHoist:
     """Return what has been solved as the hoist that it is."""
     from ...plans.hoist.solve import SolvedHoist
 
-    assert isinstance(solved, SolvedHoist)
-    return solved
+    return SolvedHoist.of(solved)

@@ -126,7 +126,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         """Return the condition of every quantity."""
         from ...plans.linkages.accuracy.conditions import conditions_of  # needs numpy, which plain solutions do without
 
-        return conditions_of(linkage(case.solved))
+        return conditions_of(SolvedLinkage.of(case.solved))
 
     def sweep(self, case: Case, words: Words, asked: SweepRequest) -> Sweep:
         """Solve a linkage over its whole cycle."""
@@ -282,12 +282,6 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 KIND = Linkages()
 
 
-def linkage(solved: Any) -> SolvedLinkage:
-    """Return what has been solved as the linkage that it is."""
-    assert isinstance(solved, SolvedLinkage)
-    return solved
-
-
 def _short(value: float) -> str:
     """Return a number with three digits, a large one with a power of ten."""
     return f"{float(f'{value:.3g}'):g}" if value < 1e6 else f"{value:.1e}".replace("e+0", "e").replace("e+", "e")
@@ -305,7 +299,7 @@ def _placed(case: Case) -> SolvedLinkage:
     PositionError
         There is none.
     """
-    solved = linkage(case.solved)
+    solved = SolvedLinkage.of(case.solved)
     if POSITION in solved.program.plans:
         return solved
     values, words = case.task.values(case.variant, case.settings), case.task.words(case.variant, case.settings)

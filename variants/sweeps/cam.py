@@ -14,7 +14,6 @@ from ...plans.cams.solve import SolvedCam
 from ...plans.columned import Columned
 from ...scales.units import format_unit, unit
 from ..case import Case
-from ..kinds.cam import cam
 from .asked import SweepRequest
 from .sized import (
     DIGITS,
@@ -42,7 +41,7 @@ class CamSweep(SizedSweep):
     @property
     def solved(self) -> SolvedCam:
         """The cam."""
-        return cam(self.case.solved)
+        return SolvedCam.of(self.case.solved)
 
     def table(self, language: str | None = None) -> str:
         """Return the motion on the section lines, both limits at jumps, then extremes and the least radii."""

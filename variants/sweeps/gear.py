@@ -12,7 +12,6 @@ from ...plans.gears.course import columns, extremes, marks, zones
 from ...plans.gears.solve import SolvedGear
 from ...scales.units import format_unit, unit
 from ..case import Case
-from ..kinds.gear import gear
 from .asked import SweepRequest
 from .sized import (
     DIGITS,
@@ -39,7 +38,7 @@ class GearSweep(SizedSweep):
     @property
     def solved(self) -> SolvedGear:
         """The pair."""
-        return gear(self.case.solved)
+        return SolvedGear.of(self.case.solved)
 
     def table(self, language: str | None = None) -> str:
         """Return the contact at its marks, or at the positions asked for; extremes of sliding; zones of contact."""

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from ...drawing.words import Words
 from ...plans.hoist.course import Course, course, end_of, marks
 from ...plans.hoist.forces import Forces
+from ...plans.hoist.solve import SolvedHoist
 from ..case import Case
-from ..kinds.hoist import hoist
 from .asked import SweepRequest
 from .sized import SizedSweep, column_table, columns_csv, columns_json, refuse_unused
 
@@ -29,7 +29,7 @@ class HoistSweep(SizedSweep):
     @property
     def solved(self) -> Forces:
         """The forces, and the motion where the formulas are not valid."""
-        return hoist(self.case.solved).forces
+        return SolvedHoist.of(self.case.solved).forces
 
     @property
     def marks(self) -> Mapping[str, float]:
