@@ -10,11 +10,14 @@ from pathlib import Path
 import pytest
 
 from kulman import cli, handout, note
+from kulman.drawing.compose import Drawn
 from kulman.drawing.formats import BLOCK, FORMATS, drawing_area
 from kulman.drawing.handouts.print_marks import printable
 from kulman.drawing.notes.blocks import Figure, Steps
 from kulman.drawing.shapes import Group, Line, Shape, Text, Vector
 from kulman.scales.errors import LANGUAGES
+from kulman.variants.case import Case
+from kulman.variants.handouts import drawing_for_print
 from kulman.variants.sheets import Sheet
 from kulman.variants.shelf import bundled
 
@@ -42,9 +45,24 @@ def vectors(sheet: Sheet) -> list[str]:
     return [shape.quantity for page in sheet.pages for shape in leaves(page.shapes) if isinstance(shape, Vector)]
 
 
+def draw_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let handouts of one case share their drawing from here on."""
+    kept: dict[object, Drawn] = {}
+
+    def drawing(case: Case, *how: object) -> Drawn:
+        asked = (case.task.id, case.variant, *how)
+        if asked not in kept:
+            kept[asked] = drawing_for_print(case, *how)  # type: ignore[arg-type]
+        return kept[asked]
+
+    monkeypatch.setattr("kulman.variants.handouts.drawing_for_print", drawing)
+
+
 @pytest.mark.parametrize("task", tasks())
-def test_a_handout_grows_step_by_step_into_the_key(task: str) -> None:
+def test_a_handout_grows_step_by_step_into_the_key(task: str, monkeypatch: pytest.MonkeyPatch) -> None:
     key = drawn(handout(task, key=True))
+    draw_once(monkeypatch)
+
     before: list[set[Shape]] = [set() for _ in key]
     for steps in (0, 1, 2, 5, 1000):
         now = drawn(handout(task, steps=steps))
