@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
 
@@ -25,7 +24,7 @@ from ..roster import read_roster
 from ..spreadsheets.cells_out import csv_table, table_bytes
 from ..spreadsheets.grid import SHOWN, SUFFIXES
 from ..task import Task
-from .outcome import Outcome
+from .outcome import Batch
 from .student import FORMS, NOTE, Making, Student
 from .tables import Rows, key_rows, manifest_rows, roster_rows
 from .work import Crew, put, run
@@ -33,19 +32,6 @@ from .work import Crew, put, run
 MANIFEST, KEY = "manifest.csv", "key.csv"
 One: TypeAlias = str | os.PathLike[str] | Task
 Tasks: TypeAlias = One | Sequence[One]
-
-
-@dataclass(frozen=True, slots=True)
-class Batch:
-    """The students of a class with what each has got, in the order of the roster."""
-
-    students: tuple[Student, ...]
-    outcomes: tuple[Outcome, ...]
-
-    @property
-    def problems(self) -> list[str]:
-        """Why students have got nothing, a line each."""
-        return [outcome.problem for outcome in self.outcomes if outcome.problem]
 
 
 def batch(

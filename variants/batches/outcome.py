@@ -1,4 +1,4 @@
-"""What a student of a class has got: which files, the key, or why there is nothing."""
+"""What students of a class have got: which files, the key, or why there is nothing."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..journal import digest_of
-from .student import Made
+from .student import Made, Student
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,3 +55,16 @@ class Outcome:
         with suppress(OSError):
             return digest_of((folder / name).read_bytes()) == self.files[name]
         return False
+
+
+@dataclass(frozen=True, slots=True)
+class Batch:
+    """The students of a class with what each has got, in the order of the roster."""
+
+    students: tuple[Student, ...]
+    outcomes: tuple[Outcome, ...]
+
+    @property
+    def problems(self) -> list[str]:
+        """Why students have got nothing, a line each."""
+        return [outcome.problem for outcome in self.outcomes if outcome.problem]

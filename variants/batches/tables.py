@@ -12,8 +12,7 @@ from ..spreadsheets.csv_write import Cell
 
 if TYPE_CHECKING:
     from ..task import Task
-    from .batch import Batch
-    from .outcome import Outcome
+    from .outcome import Batch, Outcome
     from .student import Student
 
 Rows = Iterator[tuple[Cell, ...]]
