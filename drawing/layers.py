@@ -37,8 +37,8 @@ class Layer(Enum):
 _ROLES = {
     Layer.FRAME: "edge titleblock margin ruler",
     Layer.GIVEN: "heading axis pivot guide ground support shaft pole",
-    Layer.RESULT: "link pair centre node curve mean contact rigid spring arrow arm line-of-action enlarged magnified "
-    "table text",
+    Layer.RESULT: "link pair centre node curve mean contact touch sharpest extreme rigid spring arrow arm "
+    "line-of-action enlarged magnified table text",
     Layer.LABELS: "dimension extension leader point ordinate",
 }
 _LAYERS = {role: layer for layer, roles in _ROLES.items() for role in roles.split()}

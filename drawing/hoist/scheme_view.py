@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ...plans.hoist.beam_plans import SCHEME
 from ..dimensions import linear
+from ..layers import Layer
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..symbols import fixed_pivot, hatching
 from ..text import lay_out
@@ -31,7 +34,8 @@ def scheme_view(scene: HoistScene) -> View:
     for left, right, number in (("O1", "O2", "0"), ("B1", "B2", "2")):
         canvas.part(BEAMS[number])
         canvas.add(Group((Line(at[left], at[right]),), "link", number))
-        canvas.add(fixed_pivot(at[left], left, style), rolling_support(at[right], right, scene))
+        supports = fixed_pivot(at[left], left, style), rolling_support(at[right], right, scene)
+        canvas.add(*(replace(one, layer=Layer.RESULT.value) for one in supports))  # they cover the ends of the beam
     for mark, letter in (("A0", "A_{0}"), ("A2", "A_{2}")):
         canvas.part("support" if mark == "A0" else "rope")
         canvas.label(letter, at[mark], prefer=(1.0 + 1j) if mark == "A2" else (1.0 - 1j), clear=DRUM)
