@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..drawing.compose import Drawn
-from ..drawing.notes.blocks import Block, Document, Figure, Heading, Sentences, TitlePage, blocks_of
+from ..drawing.notes.blocks import Block, Document, Figure, Heading, Sentences, Steps, TitlePage, blocks_of
 from ..drawing.notes.docx import docx_bytes
 from ..drawing.notes.figures import figure_page
 from ..drawing.notes.markdown import markdown
@@ -129,5 +129,5 @@ def body_of(case: Case, drawn: Drawn | Sheet, notation: str | None = None, lang:
     said = packaged(TEXTS, "texts", lang)
     story = case.kind.story(case, drawn.scales, case.words(lang, notation), said)
     about = Sentences((said["note.about"].format(sheet=sheet_id(case.task, case.variant, case.settings)),))
-    end = (Heading(said["note.conclusions"]), Sentences(story.conclusions)) if story.conclusions else ()
+    end = (Heading(said["note.conclusions"]), Steps(story.conclusions)) if story.conclusions else ()
     return about, *blocks_of(drawn.views, story), *end

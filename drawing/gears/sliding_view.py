@@ -14,7 +14,7 @@ from ..text import lay_out
 from ..view import Canvas, View
 from .marks import along, letter
 from .scene import GearScene
-from .theta_diagram import cut_of, place, theta_diagram, theta_field, widest
+from .theta_diagram import cut_of, place, theta_diagram, theta_field, theta_said, widest
 
 REDUCTIONS = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02, 0.01)  # of the ordinates of velocities
 TALLEST = {5.0: 130.0, 3.5: 75.0}  # mm of the highest ordinate, by the height of letters
@@ -54,7 +54,7 @@ def sliding_view(scene: GearScene) -> View:
         said.insert(0, words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / ordinates.reduction)}"))
     said.insert(0, words["gear.speeds"].format(length=words.short(scene.solved.values["PW"] * 1e3)))
     notes = [f"{words['gear.hatched']}; {cut}", "; ".join(said)]
-    theta = f"{words.symbol('mu_theta')} = {words.short(below.y.scale.mu)} {words.unit('mm')}^{{−1}}"
+    theta = theta_said(words, below.y.scale.mu)
     heading = words["heading.gear_sliding"], f"{words.scale(above.x.scale)};  {theta}"
     return canvas.finish("sliding", heading, tuple(notes))
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ...plans.gears.gear import WHEELS
+from ...plans.gears.sliding_plan import THETA
 from ...scales.scale import Scale
 from ..notes.blocks import Story
 from .begun import STAGES
+from .conclusions import conclusions
 from .scene import MESHING, GearScene
+from .theta_diagram import theta_said
 
-PAPER, NUMBERS = 1, 3  # decimals of segments on paper, of plain numbers
+PAPER = 1  # decimals of segments on paper
 SIZES = ("g_alpha", "p", "p_b", "rho_f", "l_N1N2", "PW", *(f"s_{i}" for i in WHEELS))
 ANGLES = ("alpha_w", *(f"phi_alpha{i}" for i in WHEELS))
 RADII = tuple(f"{circle}{i}" for circle in ("w", "b", "a", "f", "") for i in WHEELS)
@@ -27,13 +30,13 @@ def story(scene: GearScene, scales: Mapping[str, Scale], texts: Mapping[str, str
     texts : mapping of str to str
         The sentences, by key.
     """
-    said = _said(scene, scales[MESHING].mu if MESHING in scales else 1e-3)
-    return Story(
-        {view: [texts[f"gear.{view}.{k}"].format(**said) for k in range(1, len(STAGES[view]))] for view in TOLD}
-    )
+    theta = scales[THETA].mu if THETA in scales else scene.size("mu_theta") * 1e-3
+    said = _said(scene, scales[MESHING].mu if MESHING in scales else 1e-3, theta)
+    steps = {view: [texts[f"gear.{view}.{k}"].format(**said) for k in range(1, len(STAGES[view]))] for view in TOLD}
+    return Story(steps, conclusions=tuple(conclusions(scene, texts)))
 
 
-def _said(scene: GearScene, mu: float) -> dict[str, str]:
+def _said(scene: GearScene, mu: float, mu_theta: float) -> dict[str, str]:
     """Return what sentences may name: sizes with letters and units, angles, radii and segments on paper."""
     words, sizes = scene.words, scene.solved.sizes
     mm = words.unit("mm")
@@ -44,5 +47,5 @@ def _said(scene: GearScene, mu: float) -> dict[str, str]:
         found[f"{name}_drawn"] = f"{words.number(sizes[name] / mu, PAPER)} {mm}"
     for i, rolled in zip(WHEELS, scene.solved.layout.rollings, strict=True):
         found[f"parts_{i}"] = str(rolled.parts)
-    found["mu_theta"] = words.short(sizes["mu_theta"] * 1e-3, NUMBERS)
+    found["mu_theta"] = theta_said(words, mu_theta)
     return found

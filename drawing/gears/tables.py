@@ -119,7 +119,7 @@ def _check_row(scene: GearScene, check: Check) -> list[str]:
     about = words[f"gear.check.{kind}"]
     if wheel.isdigit():
         about += f", {words.symbol(f'z_{wheel}')}"
-    sides = _number_of(scene, check, check.value), _number_of(scene, check, check.limit)
+    sides = number_of(scene, check, check.value), number_of(scene, check, check.limit)
     verdict = words["said.ok" if check.ok else "said.fails"]
     return [about, condition(scene, check), *sides, verdict]
 
@@ -138,7 +138,7 @@ def condition(scene: GearScene, check: Check) -> str:
     return f"{words.symbol(check.quantity)} {check.sign} {limit}"
 
 
-def _number_of(scene: GearScene, check: Check, value: float) -> str:
+def number_of(scene: GearScene, check: Check, value: float) -> str:
     """Return one side of a check, lengths in mm."""
     words = scene.words
     if check.quantity.startswith(("epsilon_", "x_")):

@@ -16,6 +16,7 @@ from ..areas import strokes
 from ..diagram import Axis, Field, curve, divisions
 from ..shapes import Circle, Group, Line, Pen, Text
 from ..view import Canvas
+from ..words import Words
 from .scene import GearScene
 
 CURVES = {1: "theta_12", 2: "theta_21"}
@@ -48,6 +49,11 @@ def theta_scale(scene: GearScene) -> Scale:
     least = (1.0 - cut_of(scene)) / (TALL[scene.style.label] * scene.part)
     mu = next(step for step in steps(min(wanted, least)) if step >= least and step >= wanted * (1.0 - 1e-9))
     return Scale("mu_theta", mu, "1")
+
+
+def theta_said(words: Words, mu: float) -> str:
+    """Return the scale factor of specific sliding, which has no unit of its own."""
+    return f"{words.symbol('mu_theta')} = {words.short(mu)} {words.unit('mm')}^{{−1}}"
 
 
 def theta_field(scene: GearScene, above: Field, apart: float) -> Field:

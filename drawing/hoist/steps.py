@@ -14,6 +14,7 @@ from ...plans.hoist.model import CIRCLE
 from ...scales.scale import Scale
 from ..notes.blocks import Story
 from .begun import STAGES
+from .conclusions import conclusions
 from .scene import HoistScene
 
 LARGE, SMALL, DIGITS, PAPER = 1e8, 1e-3, 4, 1  # sizes from which on a number has a power of ten; decimals
@@ -90,7 +91,7 @@ def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, st
         "circle": circle if moved else (*circle, *_lines(scene, HANGING)),
         "beams": _lines(scene, BENT),
     }
-    return Story(steps, equations)
+    return Story(steps, equations, conclusions=tuple(conclusions(scene, texts)))
 
 
 def formula(scene: HoistScene, told: Formula) -> tuple[str, ...]:
