@@ -14,16 +14,15 @@ from ...scales.numbers import quote
 from ...scales.units import parse
 from ..spreadsheets.cells_in import read_grid
 from ..spreadsheets.grid import SHOWN, Grid
-from ..spreadsheets.headers import about_kind, column_kind
+from ..spreadsheets.headers import UNDERSTOOD, about_kind, column_kind, variant_said
 from ..task import Given, LocatedError, Task
 
-_WORD = re.compile(r"^\s*(?:варіант|вариант|variant|вар\.?|var\.?|№)\s*(?:№)?\s*", re.IGNORECASE)
 _NUMBER = re.compile(r"[-−+0-9.,\s]+(?:[eE][-+]?\d+)?")
 _BETWEEN = re.compile(r"[,:;()\[\]]")  # parts of a header: what it is, its symbol, its unit
 _ORNAMENT = re.compile(r"[\s_{}$\\.^]")  # of a symbol: l_OA, l_{OA} and lOA are one
 _GREEK = re.compile(r"GREEK (?:SMALL LETTER |CAPITAL LETTER )?(\w+)")
 PLAIN = "1"  # a unit of numbers that have none
-NOTHING = ("", "-", "–", "—")  # in the place of a unit
+NOTHING = frozenset(UNDERSTOOD["none"])  # in the place of a unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +102,7 @@ def read_variants(file: str, task: Task) -> list[Read]:
         if _is_units(table, row, column, task):
             units = {at: table.text(row, at) for at in table.names if table.text(row, at) not in NOTHING}
             continue
-        name = slug(_WORD.sub("", table.text(row, column))) if column not in table.names else ""
+        name = slug(variant_said(table.text(row, column))) if column not in table.names else ""
         found.append(_read(table, row, name if name not in ("", "x") else str(len(found) + 1), units, task))
     return found
 

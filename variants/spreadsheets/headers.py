@@ -16,6 +16,8 @@ _ABOUT_OF = {word: kind for kind, words in UNDERSTOOD["about"].items() for word 
 _UNIT = re.compile(r"\s*(?:[,:]\s*(?P<plain>[^\[(]+)|\[(?P<square>[^\]]*)\]|\((?P<round>.*)\))\s*$")
 # a column of a class: a quantity, a part of its answer, a unit
 _QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|mu))?")
+_BEFORE = sorted((*UNDERSTOOD["about"]["variant"], *UNDERSTOOD["numbered"]["variant"]), key=len, reverse=True)
+_NUMBERED = re.compile(rf"\s*(?:{'|'.join(map(re.escape, _BEFORE))})\.?\s*№?\s*", re.IGNORECASE)
 MIXED = re.compile(r"[A-Za-z]+_\w+")
 
 
@@ -56,6 +58,16 @@ def quantity_part(text: str) -> tuple[str, str, str] | None:
     head, unit = split_unit(text)
     found = _QUANTITY.fullmatch(latin(head))
     return None if found is None else (found["name"], found["part"] or "", unit)
+
+
+def variant_said(text: str) -> str:
+    """Return the id of a variant without the words before it.
+
+    >>> variant_said("Варіант № 7"), variant_said("var. 12"), variant_said("А3")
+    ('7', '12', 'А3')
+    """
+    before = _NUMBERED.match(text)
+    return text if before is None else text[before.end() :]
 
 
 def recognised(rows: Sequence[Sequence[str]]) -> int:
