@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from ..scales.packaged import packaged
 from .cells import fitted
+from .people import named
 from .shapes import Line, Pen, Shape, Text
 
 T, t = Pen.MAIN, Pen.THIN
@@ -113,7 +114,7 @@ def _people(caption: dict[str, str], stamp: Stamp) -> list[Text]:
     for key, y in ROLES:
         texts += fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
     for key, plain, level in (("student", stamp.student, 25.0), ("teacher", stamp.teacher, 20.0)):
-        texts += fitted(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
+        texts += named(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
     return texts + fitted(stamp.date, (55.0, 25.0, 65.0, 30.0), CAPTION, name="date_value")
 
 

@@ -13,6 +13,7 @@ from kulman.drawing.frame import frame_shapes
 from kulman.drawing.page import Page
 from kulman.drawing.pdf import write_pdf
 from kulman.drawing.pens import pens_for
+from kulman.drawing.people import named
 from kulman.drawing.shapes import Group, Line, Pen, Polyline, Text
 from kulman.drawing.svg import svg_text
 from kulman.drawing.text import box
@@ -240,3 +241,28 @@ def test_pens_of_the_block_are_those_of_the_format():
     widths = {float(element.get("stroke-width")) for element in root.iter() if element.get("stroke-width")}
 
     assert widths == {pens_for(841, 594).main, pens_for(841, 594).thin}
+
+
+CELL = (17.0, 25.0, 40.0, 30.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        ("Студент 0001", "Студент 0001"),
+        ("Коваль Іван Петрович", "Коваль Іван Петрович"),
+        ("Заболотна Олександра Володимирівна", "Заболотна О. В."),
+        ("Олександра Володимирівна Заболотна", "О. В. Заболотна"),
+        ("Oleksandra Volodymyrivna Zabolotna", "O. V. Zabolotna"),
+        ("доц. Заболотна Олександра Володимирівна", "доц. Заболотна О. В."),
+        ("Кропивницька-Заболотна Олександра-Вікторія Олегівна", "Кропивницька-Заболотна"),
+        ("Maximiliana Konstantinopolskaya-Smith", "M. Konstantinopolskaya-Smith"),
+    ],
+)
+def test_a_long_name_is_shown_with_initials_before_it_is_refused(name: str, shown: str) -> None:
+    [text] = named(name, CELL, (2.5,), "left", "student")
+
+    assert text.markup == shown
+    assert box(text)[2] <= CELL[2]
+    with pytest.raises(InputError, match="too long"):
+        named("щ" * 60, CELL, (2.5,), "left", "student")
