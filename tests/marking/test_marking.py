@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import cmath
-import doctest
 import math
 from dataclasses import replace
-from types import ModuleType
 
 import numpy as np
 import pytest
 
-import kulman.plans.marking
-import kulman.plans.mistakes
 from kulman.plans.hands.hand import preset
 from kulman.plans.marking.answers import Answer
 from kulman.plans.marking.key import Key, answer_key
@@ -91,14 +87,6 @@ def test_a_weight_that_is_measured_may_miss_what_two_marks_do() -> None:
 
     found = [verdicts(mark(of, [one]), name)[0] for one in (*measured, calculated)]
     assert found == ["right", "wrong", "wrong"]
-
-
-@pytest.mark.parametrize("package", [kulman.plans.marking, kulman.plans.mistakes], ids=["marking", "mistakes"])
-def test_the_example_of_a_package_says_what_comes_out(package: ModuleType) -> None:
-    example = doctest.DocTestParser().get_doctest(package.__doc__ or "", {}, package.__name__, None, 0)
-
-    assert example.examples
-    assert doctest.DocTestRunner().run(example).failed == 0
 
 
 def test_right_answers_are_right_in_every_line() -> None:

@@ -18,12 +18,13 @@ def trees() -> dict[Path, ast.Module]:
     """Return the files of the package by their paths from its root."""
     gc.disable()  # half a million nodes, none of them garbage
     try:
-        return {path.relative_to(ROOT): ast.parse(path.read_text(encoding="utf-8")) for path in _files()}
+        return {path.relative_to(ROOT): ast.parse(path.read_text(encoding="utf-8")) for path in files()}
     finally:
         gc.freeze()
         gc.enable()
 
 
-def _files() -> list[Path]:
+def files() -> list[Path]:
+    """Return the files of the package."""
     inside = [path for path in ROOT.iterdir() if path.name not in OUTSIDE]
     return sorted(file for path in inside for file in ([path] if path.suffix == ".py" else path.rglob("*.py")))
