@@ -11,6 +11,7 @@ from .shapes import Group, Line, Pen, Shape, Text
 from .style import Style
 from .text import Box, lay_out
 from .view import View, heading_shapes
+from .words import Words
 
 Row: TypeAlias = Sequence[str | None]
 INDENT = "    "
@@ -85,6 +86,11 @@ def text_block(name: str, heading: str, lines: Sequence[Sequence[str]], style: S
         widest = max(widest, layout.width)
     view = _view(name, heading, shapes, (0.0, y, widest, 0.0), style, role="text")
     return replace(view, lines=tuple(tuple(line) for line in lines))
+
+
+def note_block(words: Words, note: str, style: Style, width: float) -> View:
+    """Return what the task says of its data as a block of text."""
+    return text_block("note", words["heading.note"], [words_of(note)], style, width)
 
 
 def words_of(sentence: str) -> tuple[str, ...]:

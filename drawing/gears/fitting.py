@@ -15,6 +15,7 @@ from ..contents import SheetContents
 from ..formats import Format
 from ..rungs import Figure, Kept
 from ..style import STYLES
+from ..table import note_block
 from ..view import View
 from ..words import Words
 from .ladders import mu_ladder, near_ladder, rolled_ladder
@@ -109,6 +110,8 @@ def figures(contents: Contents, scene: GearScene, width: float) -> Iterator[tupl
         (GEOMETRY_PART, partial(_quality, width)),
         (SLIDING_PART, _sliding),
     )
+    if contents.note:
+        yield "note", Figure(lambda scene: note_block(scene.words, contents.note, scene.style, width))
     for part, figures_of in made:
         if part in contents.plans:
             yield from figures_of()

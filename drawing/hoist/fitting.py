@@ -12,7 +12,7 @@ from ..contents import SheetContents
 from ..formats import Format
 from ..rungs import Figure, Kept
 from ..style import STYLES
-from ..table import text_block
+from ..table import note_block, text_block
 from ..view import View
 from ..words import Words
 from .ladders import circle_ladder, scheme_ladder
@@ -90,6 +90,8 @@ def figures(contents: Contents) -> Iterator[tuple[str, HoistFigure]]:
 
     layout, plans = contents.solved.layout, contents.plans
     yield "givens", Figure(data_table)
+    if contents.note:
+        yield "note", Figure(lambda scene: note_block(scene.words, contents.note, scene.style, TEXT_WIDTH))
     if SCHEME_PART in plans:
         from .scheme_view import scheme_view
 

@@ -11,7 +11,7 @@ from ...plans.linkages.compound import ACCELERATION, Coupler, scale_symbol
 from ...plans.linkages.mechanism import Diagram, Prismatic
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group
-from ..table import text_block, words_of
+from ..table import note_block
 from ..view import View
 from .calculations.forces import LOADS, WHOLE, force_parts, forces_block
 from .calculations.kinematics import KinematicsPart, kinematics_block, kinematics_parts
@@ -56,8 +56,7 @@ def figures(solved: SolvedLinkage, plans: tuple[str, ...], width: float, cycle: 
 def noted(note: str, width: float) -> Iterator[Figure]:
     """Return the figure of what the task says of its data; none where it says nothing."""
     if note:
-        line = words_of(note)
-        yield Figure(lambda scene: text_block("note", scene.words["heading.note"], [line], scene.style, width))
+        yield Figure(lambda scene: note_block(scene.words, note, scene.style, width))
 
 
 def _kinematics(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Iterator[Figure]:

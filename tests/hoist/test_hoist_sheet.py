@@ -301,4 +301,4 @@ def test_pages_of_a_small_format_have_smaller_diagrams_and_say_so() -> None:
 def test_a_sheet_has_what_belongs_to_the_parts_wanted(only: str, own: set[str]) -> None:
     names = {view.name for view in sheet(TASK, only=only).views}
 
-    assert names == own | {"givens", "results", "scales"}
+    assert names == own | {"givens", "note", "results", "scales"}

@@ -172,7 +172,8 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         from ...drawing.gears.fitting import Contents
         from ...drawing.gears.sheet import draw
 
-        contents = Contents(gear(case.solved), case.plans, case.choosers, case.givens, words, norm)
+        note = case.task.note_in(words.language)
+        contents = Contents(gear(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
         return draw(contents, paper)
 
     def asks(self, solved: SolvedGear, question: Question) -> bool:

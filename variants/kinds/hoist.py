@@ -192,7 +192,8 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         from ...drawing.hoist.fitting import Contents
         from ...drawing.hoist.sheet import draw
 
-        contents = Contents(hoist(case.solved), case.plans, case.choosers, case.givens, words, norm)
+        note = case.task.note_in(words.language)
+        contents = Contents(hoist(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
         return draw(contents, paper)
 
 
