@@ -1,4 +1,4 @@
-"""The explanatory note: every task in every language, numbers that recompute and are those of the solution."""
+"""The explanatory note: all is said in every language, numbers recompute and are those of the solution."""
 
 from __future__ import annotations
 
@@ -22,6 +22,11 @@ from kulman.variants.notes import Note
 LANGUAGES = ("uk", "ru", "en")
 TASK = "nau-slider-crank"
 MEASURED = re.compile(r"= ([\d.,]+) [^:=]+: ([^=]+) = ([\d.,]+)([·/])([\d.,]+) = ([\d.,]+) (\S+)\.$")
+
+
+@cache
+def note_of(lang: str = "uk") -> Note:
+    return note(TASK, lang=lang, student="І. Петренко")
 
 
 def texts(written: Note) -> Iterator[str]:
@@ -69,7 +74,7 @@ def assert_everything_is_said(written: Note, lang: str) -> None:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_a_note_says_everything_in_its_language(lang: str) -> None:
-    assert_everything_is_said(note(TASK, lang=lang), lang)
+    assert_everything_is_said(note_of(lang), lang)
 
 
 def assert_measured_as_solved(written: Note, task: str) -> None:
@@ -94,7 +99,7 @@ def assert_measured_as_solved(written: Note, task: str) -> None:
 
 
 def test_what_is_measured_recomputes_and_is_what_is_solved() -> None:
-    assert_measured_as_solved(note(TASK, lang="en"), TASK)
+    assert_measured_as_solved(note_of("en"), TASK)
 
 
 def test_steps_and_equations_stand_before_their_figure() -> None:
@@ -121,11 +126,11 @@ def assert_it_becomes_a_document(written: Note, folder: Path) -> None:
 
 
 def test_a_note_becomes_a_document(tmp_path: Path) -> None:
-    assert_it_becomes_a_document(note(TASK, student="І. Петренко"), tmp_path)
+    assert_it_becomes_a_document(note_of(), tmp_path)
 
 
 def test_the_same_note_has_the_same_bytes() -> None:
-    assert pdf_bytes(note("nau-slider-crank").document) == pdf_bytes(note("nau-slider-crank").document)
+    assert pdf_bytes(note(TASK, student="І. Петренко").document) == pdf_bytes(note_of().document)
 
 
 @cache
