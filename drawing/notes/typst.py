@@ -5,7 +5,8 @@ from __future__ import annotations
 import importlib.util
 import io
 import json
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import count
@@ -18,6 +19,8 @@ from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Step
 from .figures import figure_page, reduced
 from .markup import Node, Plain, Ruled, parse, printable
 
+TIE = r"\\u{a0}"  # a space at which no line ends, in a string of typst
+BEFORE_SIGN, AFTER_NUMBER = re.compile(r" (?=[=≤≥<>] )"), re.compile(r"(?<=\d) (?=\w)")
 PREAMBLE = """\
 #set document(title: {title}, date: none)
 #set page(paper: "a4", margin: (left: 20mm, right: 10mm, top: 15mm, bottom: 20mm), numbering: "1", number-align: center)
@@ -128,9 +131,9 @@ def _block(block: Block, said: dict[str, str], numbers: Iterator[int]) -> str:
         case Heading(text=text):
             return f"= {_line(text)}"
         case Sentences(texts=texts):
-            return " ".join(map(_line, texts)) + "\n"
+            return " ".join(map(_sentence, texts)) + "\n"
         case Steps(texts=texts):
-            return "\n".join(f"+ {_line(text)}" for text in texts) + "\n"
+            return "\n".join(f"+ {_sentence(text)}" for text in texts) + "\n"
         case Equations(lines=lines):
             return "\n".join(f"#equation[{_line(' '.join(chunks))}]" for chunks in lines) + "\n"
         case Table(rows=rows):
@@ -146,41 +149,60 @@ def _block(block: Block, said: dict[str, str], numbers: Iterator[int]) -> str:
 
 
 def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
-    cells = []
+    cells: tuple[list[str], list[str]] = [], []  # of the head, which stands on every page, and of what follows
     for number, row in enumerate(rows):
         for column, cell in enumerate(row):
             if cell is None and column:
                 continue
             span = next((k for k in range(column + 1, len(row)) if row[k] is not None), len(row)) - column
             text = f"*{_line(cell or '')}*" if number == 0 and cell else _line(cell or "")
-            cells.append(f"table.cell(colspan: {span})[{text}]")
-    return f"#align(center)[#table(columns: {len(rows[0])}, align: center + horizon,\n{', '.join(cells)})]\n"
+            cells[number > 0].append(f"table.cell(colspan: {span})[{text}]")
+    head, body = (", ".join(side) for side in cells)
+    shape = f"columns: {len(rows[0])}, align: center + horizon"
+    return f"#align(center)[#table({shape}, table.header({head}),\n{body})]\n"
 
 
-def _line(markup: str) -> str:
-    """Return a line of markup: words as text, symbols with scripts and bars as formulas."""
-    return "".join(_text(node.text) if isinstance(node, Plain) else f"${_formula(node)}$" for node in parse(markup))
+def _line(markup: str, plain: Callable[[str], str] | None = None) -> str:
+    """Return a line of markup: words as text, or as `plain` has them, symbols with scripts and bars as formulas."""
+    said, nodes = plain or _text, parse(markup)
+    return "".join(
+        said(node.text) if isinstance(node, Plain) else f"${_formula(node, _is_joined(nodes, k))}$"
+        for k, node in enumerate(nodes)
+    )
 
 
-def _formula(node: Node) -> str:
-    """Return a node within a formula."""
+def _is_joined(nodes: Sequence[Node], k: int) -> bool:
+    """Whether a node stands in one word with plain letters, which are upright: the d and the φ of d²s/dφ²."""
+    before, after = (nodes[i] if 0 <= i < len(nodes) else None for i in (k - 1, k + 1))
+    joined = isinstance(before, Plain) and before.text[-1:].isalpha()
+    return joined or (isinstance(after, Plain) and after.text[:1].isalpha())
+
+
+def _sentence(markup: str) -> str:
+    """Return a sentence in which no line ends between a letter and what it is equal to, a number and its unit."""
+    return _line(markup, lambda plain: BEFORE_SIGN.sub(TIE, AFTER_NUMBER.sub(TIE, _text(plain))))
+
+
+def _formula(node: Node, upright: bool = False) -> str:
+    """Return a node within a formula; a letter alone is slanted, unless it is `upright`."""
     if isinstance(node, Plain):
-        return f"italic({_quoted(node.text)})" if len(node.text) == 1 and node.text.isalpha() else _quoted(node.text)
+        slanted = len(node.text) == 1 and node.text.isalpha() and not upright
+        return f"italic({_quoted(node.text)})" if slanted else _quoted(node.text)
     if isinstance(node, Ruled):
         inner = " ".join(map(_formula, node.parts)) or '""'
         return {"bar": f"overline({inner})", "u": f"underline({inner})", "uu": f"underline(underline({inner}))"}[
             node.kind
         ]
     scripts = "".join(
-        f", {place}: {' '.join(map(_script, parts))}"
+        f", {place}: {''.join(_script(part, _is_joined(parts, k)) for k, part in enumerate(parts))}"
         for place, parts in (("t", node.above), ("b", node.below))
         if parts
     )
-    return f"attach({_formula(node.base)}{scripts})"
+    return f"attach({_formula(node.base, upright)}{scripts})"
 
 
-def _script(node: Node) -> str:
-    return _quoted(node.text) if isinstance(node, Plain) else _formula(node)
+def _script(node: Node, upright: bool) -> str:
+    return _quoted(node.text) if isinstance(node, Plain) else _formula(node, upright)
 
 
 def _text(plain: str) -> str:

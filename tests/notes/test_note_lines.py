@@ -1,0 +1,58 @@
+"""Lines of a note in typst: where they may end, which letters are slanted, what stands on every page of a table."""
+
+from __future__ import annotations
+
+import pytest
+
+from kulman.drawing.notes.blocks import Block, Equations, Sentences, Steps, Table
+from kulman.drawing.notes.typst import Body
+
+TIE = r"\u{a0}"
+
+
+def written(*blocks: Block) -> str:
+    return Body.of(blocks, "en").text
+
+
+@pytest.mark.parametrize("block", [Steps(("r_{0} = 45.26 mm and more",)), Sentences(("r_{0} = 45.26 mm and more",))])
+def test_no_line_ends_between_a_letter_its_number_and_the_unit(block: Block) -> None:
+    text = written(block)
+
+    assert f"{TIE}= 45.26{TIE}mm and more" in text
+
+
+def test_equations_may_end_a_line_before_a_sign() -> None:
+    assert TIE not in written(Equations((("a = 2·3", "= 6 mm"),)))
+
+
+@pytest.mark.parametrize(
+    ("markup", "slanted", "upright"),
+    [
+        ("d^{2}s/dφ^{2}", "", "dφ"),
+        ("μ_{d^{2}s/dφ^{2}}", "μ", "dφ"),
+        ("ω^{2}·r_{0}", "ωr", ""),
+        ("P_{1}B_{1}", "PB", ""),
+        ("OP_{1} = 2", "", "P"),
+    ],
+)
+def test_letters_of_one_word_are_all_upright(markup: str, slanted: str, upright: str) -> None:
+    text = written(Sentences((markup,)))
+
+    assert all(f'attach(italic("{letter}")' in text for letter in slanted)
+    assert all(f'attach("{letter}"' in text for letter in upright)
+    assert text.count("italic") == len(slanted)
+
+
+def test_scripts_of_a_script_stand_close() -> None:
+    assert 't: "2")"s/d"attach(' in written(Sentences(("μ_{d^{2}s/dφ^{2}}",)))
+
+
+def test_the_head_of_a_table_stands_on_every_page() -> None:
+    text = written(Table((("i", "φ"), ("0", "0.00"), ("1", None))))
+
+    head, body = text.split("\n")[0], text.split("\n")[1]
+    assert "table.header(" in head
+    assert "φ" in head
+    assert "0.00" not in head
+    assert "0.00" in body
+    assert "colspan: 2" in body
