@@ -86,7 +86,7 @@ def _curves(canvas: Canvas, scene: HoistScene, field: Field) -> None:
 
 def _levels(canvas: Canvas, scene: HoistScene, field: Field) -> None:
     """Draw the levels m g and m (g + a)."""
-    for name in dict.fromkeys(("P_st", "P_m")):
+    for name in ("P_st", "P_m"):
         ends = field.at(0.0, scene.size(name)), field.at(field.x.high, scene.size(name))
         canvas.add(Line(*ends, Pen.AXIS, role="level", name=name))
         if name == "P_m" and scene.size("P_m") == scene.size("P_st"):

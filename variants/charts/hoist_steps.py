@@ -70,7 +70,7 @@ class HoistStepsChart:
     def csv(self, words: Words) -> bytes:
         """Return a row for every method and step; no error where a run is refused."""
         rows: list[list[Cell]] = [
-            [method, z, error, _shown(grown), int(error is None), order, _shown(limit)]
+            [method, z, error, finite(grown), int(error is None), order, finite(limit)]
             for method, z, error, grown, order, limit in self._items()
         ]
         return as_csv(HEAD, rows, words)
@@ -99,7 +99,3 @@ class HoistStepsChart:
         from ...drawing.charts.hoist_steps import steps_page
 
         return steps_page(self.found, words, self.scene.title(self.heading), self.note(words))
-
-
-def _shown(value: float) -> float | None:
-    return finite(value)
