@@ -22,9 +22,13 @@ from .scene import CamScene
 
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
 REDUCTIONS = (1.0, 0.8, 0.5, 0.4, 0.25, 0.2, 0.1)  # of the lengths that the task has on the diagrams
-Contents = SheetContents[SolvedCam]
 CamFigure = Figure[CamScene]
 NARROW = 0.65  # part of the width of lines that those on the sizes of a cam may have
+
+
+@dataclass(frozen=True, slots=True)
+class Contents(SheetContents[SolvedCam]):
+    """What the sheet of a cam shows."""
 
 
 @dataclass(frozen=True, slots=True)

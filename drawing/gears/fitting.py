@@ -24,8 +24,12 @@ from .scene import MESHING, GearScene
 
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
 PARTS = 1.0, 0.8, 0.6, 0.5  # of the usual size of the diagrams of sliding
-Contents = SheetContents[SolvedGear]
 GearFigure = Figure[GearScene]
+
+
+@dataclass(frozen=True, slots=True)
+class Contents(SheetContents[SolvedGear]):
+    """What the sheet of a gear pair shows."""
 
 
 @dataclass(frozen=True, slots=True)

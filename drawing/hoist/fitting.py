@@ -21,8 +21,12 @@ from .scene import HoistScene
 
 TEXT_WIDTH = 120.0
 PARTS = 1.0, 0.8, 0.63, 0.5, 0.4  # of the usual size of diagrams
-Contents = SheetContents[SolvedHoist]
 HoistFigure = Figure[HoistScene]
+
+
+@dataclass(frozen=True, slots=True)
+class Contents(SheetContents[SolvedHoist]):
+    """What the sheet of a hoist shows."""
 
 
 @dataclass(frozen=True, slots=True)
