@@ -58,8 +58,12 @@ class Figure:
     @property
     def share(self) -> float:
         """The part of its size on the sheet at which it has room on a page of the note."""
+        return self.share_of(ROOM)
+
+    def share_of(self, room: tuple[float, float]) -> float:
+        """Return the part of its size at which it has a room of this width and height, mm."""
         width, height = self.view.size
-        return min(1.0, ROOM[0] / width, ROOM[1] / height)
+        return min(1.0, room[0] / width, room[1] / height)
 
 
 Block = Heading | Sentences | Steps | Equations | Table | Figure

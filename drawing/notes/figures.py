@@ -14,6 +14,6 @@ def figure_page(figure: Figure, language: str) -> Page:
     return Page(x1 - x0, y1 - y0, shapes, figure.caption, language)
 
 
-def reduced(figure: Figure, said: dict[str, str]) -> tuple[str, ...]:
-    """Say by how much a figure is smaller than on the sheet, if it is."""
-    return (said["figure.reduced"].format(part=round(100.0 * figure.share)),) if figure.share < 1.0 else ()
+def reduced(said: dict[str, str], share: float) -> tuple[str, ...]:
+    """Say by how much a figure that has this share of its size is smaller than on the sheet, if it is."""
+    return (said["figure.reduced"].format(part=round(100.0 * share)),) if share < 1.0 else ()

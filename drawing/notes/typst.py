@@ -19,6 +19,8 @@ from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Step
 from .figures import figure_page, reduced
 from .markup import Node, Plain, Ruled, parse, printable
 
+FOLDED, FOLDED_ROOM = "a3", (267.0, 340.0)  # the sheet of a figure that is too large, and its room there, mm
+LEGIBLE = 0.5  # the part of its size below which the letters of a figure are too small
 TIE = r"\\u{a0}"  # a space at which no line ends, in a string of typst
 BEFORE_SIGN, AFTER_NUMBER = re.compile(r" (?=[=≤≥<>] )"), re.compile(r"(?<=\d) (?=\w)")
 PREAMBLE = """\
@@ -46,10 +48,11 @@ class Body:
     @classmethod
     def of(cls, blocks: Sequence[Block], language: str) -> Body:
         """Write the blocks of a note."""
-        said, numbers = packaged(__package__, "texts", language), count()
-        text = "\n".join(_block(block, said, numbers) for block in blocks)
-        figures = (block for block in blocks if isinstance(block, Figure))
-        return cls(text, {f"{number}.svg": _svg(figure, language) for number, figure in enumerate(figures)})
+        said, numbers = packaged(__package__, "texts", language), count(1)
+        figures = dict(enumerate((block for block in blocks if isinstance(block, Figure)), 1))
+        texts = [_block(block, said, numbers) for block in blocks]
+        texts += [_sheet(figure, said, number) for number, figure in figures.items() if _is_folded(figure)]
+        return cls("\n".join(texts), {f"{number}.svg": _svg(figure, language) for number, figure in figures.items()})
 
 
 def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
@@ -138,14 +141,37 @@ def _block(block: Block, said: dict[str, str], numbers: Iterator[int]) -> str:
             return "\n".join(f"#equation[{_line(' '.join(chunks))}]" for chunks in lines) + "\n"
         case Table(rows=rows):
             return _table(rows)
-        case Figure(view=view, caption=caption, under=under):
-            below = (*under, *reduced(block, said))
-            note = "".join(f" #linebreak() {_line(text)}" for text in below)
-            shown = f'image("{next(numbers)}.svg", width: {view.size[0] * block.share:.4f}mm)'
-            return (
-                f"#figure({shown}, kind: image, supplement: {_quoted(said['figure'])}, "
-                f"caption: [{_line(caption)}{note}])\n"
-            )
+        case Figure():
+            number = next(numbers)
+            return _announced(said, number) if _is_folded(block) else _figure(block, said, number, block.share)
+
+
+def _figure(figure: Figure, said: dict[str, str], number: int, share: float, more: str = "") -> str:
+    """Return a figure at a share of its size."""
+    below = (*figure.under, *reduced(said, share))
+    note = "".join(f" #linebreak() {_line(text)}" for text in below)
+    shown = f'image("{number}.svg", width: {figure.view.size[0] * share:.4f}mm)'
+    return (
+        f"#figure({shown}, kind: image, {more}supplement: {_quoted(said['figure'])}, "
+        f"caption: [{_line(figure.caption)}{note}])\n"
+    )
+
+
+def _is_folded(figure: Figure) -> bool:
+    """Whether a figure stands on a larger sheet at the end of the note, because its letters would be too small."""
+    return figure.share < LEGIBLE
+
+
+def _announced(said: dict[str, str], number: int) -> str:
+    """Say where a folded figure is; it counts here."""
+    text = _text(said["figure.folded"].format(number=number, format=FOLDED.upper()))
+    return f"#counter(figure.where(kind: image)).step()\n{text}\n"
+
+
+def _sheet(figure: Figure, said: dict[str, str], number: int) -> str:
+    """Return a folded figure on its sheet, with its number."""
+    text = _figure(figure, said, number, figure.share_of(FOLDED_ROOM), f'numbering: _ => "{number}", ')
+    return f'#page(paper: "{FOLDED}")[{text}]\n'
 
 
 def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:

@@ -134,7 +134,7 @@ def _row(row: tuple[str | None, ...], number: int) -> str:
 
 
 def _caption(figure: Figure, said: dict[str, str], number: int) -> str:
-    lines = [line(text) for text in (figure.caption, *figure.under, *reduced(figure, said))]
+    lines = [line(text) for text in (figure.caption, *figure.under, *reduced(said, figure.share))]
     counted = numbered(said["figure"], number)
     return f"{words(said['figure'] + ' ')}{counted}{words(' – ')}" + "<w:r><w:br/></w:r>".join(lines)
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from kulman.drawing.notes.blocks import Block, Equations, Sentences, Steps, Table
+from kulman.drawing.notes.blocks import Block, Equations, Figure, Heading, Sentences, Steps, Table
 from kulman.drawing.notes.typst import Body
+from kulman.drawing.shapes import Line
+from kulman.drawing.view import View
 
 TIE = r"\u{a0}"
 
@@ -56,3 +58,20 @@ def test_the_head_of_a_table_stands_on_every_page() -> None:
     assert "0.00" not in head
     assert "0.00" in body
     assert "colspan: 2" in body
+
+
+def figure(width: float, height: float) -> Figure:
+    return Figure(View("plan", (Line(0j, complex(width, height)),), (0.0, 0.0, width, height)), "Plan", ())
+
+
+def test_a_figure_that_would_be_too_small_stands_on_a_larger_sheet_at_the_end() -> None:
+    body = Body.of((figure(90.0, 90.0), figure(300.0, 500.0), figure(200.0, 90.0), Heading("End")), "en")
+
+    assert body.figures.keys() == {"1.svg", "2.svg", "3.svg"}
+    shown, folded = body.text.split("= ")[0], body.text.split('#page(paper: "a3")')[1]
+    assert [name in shown for name in ('"1.svg"', '"2.svg"', '"3.svg"')] == [True, False, True]
+    assert "Figure 2 stands on a sheet A3" in shown
+    assert "counter(figure.where(kind: image)).step()" in shown  # so that the next one is the third
+    assert 'image("2.svg", width: 204.0000mm)' in folded
+    assert 'numbering: _ => "2"' in folded
+    assert "reduced to 68 %" in folded
