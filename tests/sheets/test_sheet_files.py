@@ -10,17 +10,16 @@ import time
 from pathlib import Path
 
 import pytest
-from pdfminer.high_level import extract_pages, extract_text
-from pdfminer.layout import LTLine
+from pdfminer.high_level import extract_pages
+from pdfminer.layout import LTLine, LTTextContainer
 from pdfminer.pdfdocument import PDFDocument
 from pdfminer.pdfparser import PDFParser
 from pdfminer.pdftypes import resolve1
 
-from kulman import sheet
 from kulman.drawing.pdf import write_pdf
 from kulman.tests.sheets.test_sheet_points import SAMPLE
 from kulman.tests.support.mechanisms import NAU_VARIANTS
-from kulman.tests.support.sheet_cases import TASK, Case, drawn, solved
+from kulman.tests.support.sheet_cases import TASK, Case, drawn, sheet_of, solved
 
 MM = 25.4 / 72
 
@@ -43,19 +42,11 @@ def test_length_times_mu_is_the_value(case: Case) -> None:
     assert scale_faults(case) == []
 
 
-def pdf_of(variant: str, name: str | None, side: str = "left") -> tuple[bytes, str]:
-    found = sheet(TASK, variant, format=name, set={"side": side})
-    stream = io.BytesIO()
-    write_pdf(found.pages, stream)
-    return stream.getvalue(), found.format
-
-
-def pdf_faults(variant: str, name: str | None, side: str = "left") -> list[str]:
+def pdf_faults(case: Case) -> list[str]:
     """PDF against SVG: size of the pages, every vector's shaft, selectable words, embedded fonts."""
-    data, _ = pdf_of(variant, name, side)
-    read = drawn(Case(variant, name, side=side))
-    faults = []
-    pages = list(extract_pages(io.BytesIO(data)))
+    read, stream, faults = drawn(case), io.BytesIO(), []
+    write_pdf(sheet_of(case).pages, stream)
+    pages = list(extract_pages(stream))
     for page, same in zip(pages, read.pages, strict=True):
         if abs(page.width * MM - same.width) > 0.01 or abs(page.height * MM - same.height) > 0.01:
             faults.append(f"page of {page.width * MM} x {page.height * MM}")
@@ -67,11 +58,11 @@ def pdf_faults(variant: str, name: str | None, side: str = "left") -> list[str]:
                     abs(x - near[0]) < 0.1 and abs(y - near[1]) < 0.1 for x, y, *_ in lines
                 ):
                     faults.append(f"no {vector.quantity} in the PDF")
-    text = extract_text(io.BytesIO(data))
+    text = "".join(item.get_text() for page in pages for item in page if isinstance(item, LTTextContainer))
     for heading in ("План швидкостей", "План прискорень", "Структура механізму", "Вихідні дані"):
         if heading not in text:
             faults.append(f"{heading!r} cannot be searched")
-    document = PDFDocument(PDFParser(io.BytesIO(data)))
+    document = PDFDocument(PDFParser(stream))
     for number in (number for xref in document.xrefs for number in xref.get_objids()):
         item = resolve1(document.getobj(number))
         if (
@@ -80,12 +71,12 @@ def pdf_faults(variant: str, name: str | None, side: str = "left") -> list[str]:
             and "FontFile2" not in item
         ):
             faults.append(f"a font is not embedded: {item}")
-    return [f"{variant} {name} {side}: {fault}" for fault in faults]
+    return [f"{case}: {fault}" for fault in faults]
 
 
-@pytest.mark.parametrize(("variant", "name"), [("3", "A4"), ("8", "A3")])
-def test_the_pdf_is_the_same_sheet_with_letters_that_can_be_searched(variant: str, name: str | None) -> None:
-    assert pdf_faults(variant, name) == []
+@pytest.mark.parametrize("case", [Case("3", "A4"), Case("8", "A3")], ids=str)
+def test_the_pdf_is_the_same_sheet_with_letters_that_can_be_searched(case: Case) -> None:
+    assert pdf_faults(case) == []
 
 
 def test_the_same_command_gives_the_same_bytes_later(tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ from functools import lru_cache
 from kulman import sheet, solve
 from kulman.tests.support.mechanisms import NAU_VARIANTS
 from kulman.tests.support.readback import Sheet, read
+from kulman.variants.sheets import Sheet as DrawnSheet
 from kulman.variants.solution import Solution
 
 TASK = "nau-slider-crank"
@@ -64,10 +65,10 @@ class Case:
         return {"O": 0j, "A": a, "B": b, "S2": a + (b - a) * self.given("l_AS2") / self.given("l_AB")}
 
 
-@lru_cache(maxsize=64)
-def pages(case: Case) -> tuple[str, ...]:
-    """Return the SVG of every page."""
-    drawn = sheet(
+@lru_cache(maxsize=2)
+def sheet_of(case: Case) -> DrawnSheet:
+    """Draw the sheet of a case."""
+    return sheet(
         TASK,
         case.variant,
         set=case.settings,
@@ -83,6 +84,12 @@ def pages(case: Case) -> tuple[str, ...]:
         department={"en": "NAU"}.get(case.lang, "НАУ"),
         designation={"en": "TMM.03.01"}.get(case.lang, "ТММ.РГР.03.01"),
     )
+
+
+@lru_cache(maxsize=64)
+def pages(case: Case) -> tuple[str, ...]:
+    """Return the SVG of every page."""
+    drawn = sheet_of(case)
     return tuple(drawn.svg(number) for number in range(1, len(drawn.pages) + 1))
 
 
