@@ -9,7 +9,7 @@ from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.inversion import PROFILE
 from ...plans.cams.rocker_plans import ROCKER_SIZES
 from ...plans.cams.size_plans import OUTWARDS, PLATE_SIZES, SIZES
-from ..notes.blocks import Story
+from ..notes.blocks import Sentences, Story
 from ..printed import segment_decimals
 from .conclusions import conclusions
 from .offsets import offsets_line
@@ -39,7 +39,16 @@ def story(scene: CamScene, texts: Mapping[str, str]) -> Story:
         view: [texts[_key(scene, view, part)].format(**said) for part in parts[1:]]
         for view, parts in stages(scene.solved).items()
     }
-    return Story(told, conclusions=tuple(conclusions(scene, texts)))
+    return Story(
+        told, conclusions=tuple(conclusions(scene, texts)), before={"givens": (Sentences((_aim(scene, texts),)),)}
+    )
+
+
+def _aim(scene: CamScene, texts: Mapping[str, str]) -> str:
+    """Return for which followers cams are designed."""
+    followers = scene.solved.cam.followers
+    named = texts["cam.and"].join(texts[f"cam.for.{follower}"] for follower in followers)
+    return texts["cam.aims" if len(followers) > 1 else "cam.aim"].format(followers=named)
 
 
 def _key(scene: CamScene, view: str, part: str) -> str:

@@ -69,7 +69,8 @@ def told(case: Case, lang: str = "en") -> Story:
 
 
 def said(story: Story) -> str:
-    return " ".join([*(text for steps in story.steps.values() for text in steps), *story.conclusions])
+    aims = [text for block in story.before["givens"] if isinstance(block, Sentences) for text in block.texts]
+    return " ".join([*aims, *(text for steps in story.steps.values() for text in steps), *story.conclusions])
 
 
 @pytest.mark.parametrize("case", DRAWN)
