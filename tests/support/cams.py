@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
@@ -10,7 +11,9 @@ import numpy as np
 from kulman.plans.cams.cam import LAWS, ORDERS
 from kulman.plans.cams.laws_of_motion import UNIFORM, law_of_motion
 from kulman.plans.cams.motion import Motion
-from kulman.plans.cams.sizes import Limits
+from kulman.plans.cams.profile import RollerProfile, StraightPath
+from kulman.plans.cams.rocker import Rocker, RockerPath, RockerSizes, smallest_rocker
+from kulman.plans.cams.sizes import Limits, smallest_roller, wedge
 
 SEED = 1868
 SMOOTH = tuple(law for law in LAWS if law != UNIFORM)
@@ -50,3 +53,21 @@ def dense(motion: Motion, name: str, cells: int) -> tuple[np.ndarray, ...]:
         left, right = motion.at(phi, -1), motion.at(phi, 1)
         found.append((phi, *(np.append(b[:-1], a[-1:]) for a, b in zip(left, right, strict=True))))
     return tuple(np.concatenate(parts) for parts in zip(*found, strict=True))
+
+
+def random_profiles(count: int, seed: int, part: float) -> Iterator[RollerProfile]:
+    """Go through cams with rollers on lines and on rockers, the roller's radius a part of the least radius."""
+    random = np.random.default_rng([SEED, seed])
+    for k in range(count):
+        limits, sense = random_limits(random), int(random.choice((-1, 1)))
+        if k % 3 == 2:
+            motion = random_motion(random, SMOOTH, random.uniform(0.1, 0.4))
+            sizes = smallest_rocker(Rocker(motion, 0.1, sense), limits)
+            if not isinstance(sizes, RockerSizes):
+                continue
+            path = RockerPath(motion, sizes)
+        else:
+            motion = random_motion(random, SMOOTH)
+            path = StraightPath(motion, smallest_roller(wedge(motion, limits, sense)))
+        sharpest = RollerProfile(path, 0.0, sense).rho_min
+        yield RollerProfile(path, part * min(sharpest, 0.9 * path.sizes.r_0), sense)

@@ -1,0 +1,292 @@
+"""Undercutting: what a cutter leaves of a cam, where it is found, how much travel that costs."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from shapely import Point, Polygon
+from shapely.affinity import rotate
+
+from kulman.plans.cams.cam import LAWS
+from kulman.plans.cams.envelopes import Undercut, backward
+from kulman.plans.cams.laws_of_motion import UNIFORM, law_of_motion
+from kulman.plans.cams.motion import Motion
+from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath
+from kulman.plans.cams.sizes import Limits, RollerSizes, smallest_plate, smallest_roller, wedge
+from kulman.tests.support.cams import (
+    MADI_LIMITS,
+    SEED,
+    SMOOTH,
+    madi_motion,
+    random_limits,
+    random_motion,
+    random_profiles,
+)
+
+EIGHTH = [0, 3, *(pytest.param(k, marks=pytest.mark.soak) for k in (1, 2, 4, 5, 6, 7))]
+TURN = 2.0 * math.pi
+MM = 1e-3
+
+
+def seat(profile: RollerProfile | PlateProfile, points: np.ndarray, phi: float) -> float:
+    """Return the travel at which the follower rests on the highest of points of a profile."""
+    heights = profile.seat(points, phi)
+    return float(np.nanmax(heights))
+
+
+@cache
+def undercut_cams() -> tuple[RollerProfile, ...]:
+    """Return undercut cams: of the project at three radii of the roller, of laws that jump in velocity, random ones."""
+    motion = madi_motion()
+    sizes = smallest_roller(wedge(motion, MADI_LIMITS))
+    path, turned = StraightPath(motion, sizes), StraightPath(motion, RollerSizes(sizes.r_0, -sizes.e, sizes.s_0))
+    uniform = Motion(0.01, 2.0, 0.5, 2.0, law_of_motion("uniform"))
+    found = [RollerProfile(path, R, 1) for R in (0.0293, 0.032, 0.04)] + [RollerProfile(turned, 0.034, -1)]
+    found.append(RollerProfile(StraightPath(uniform, RollerSizes(0.05, 0.0, 0.05)), 0.02, 1))
+    for profile in random_profiles(4, 5, 1.0):
+        R = min(1.15 * profile.rho_min, 0.98 * profile.path.sizes.r_0)
+        found.append(RollerProfile(profile.path, R, profile.sense))
+    return tuple(found)
+
+
+def eroded(profile: RollerProfile) -> Polygon:
+    """Return the cam that a milling cutter of the roller's radius leaves: what is R inside the pitch curve.
+
+    The library simplifies what it offsets: the result is right to 1e-4 R.
+    """
+    pitch = profile.pitch(profile.motion.samples(math.radians(0.05))[:-1])
+    cam = Polygon(np.column_stack((pitch.real, pitch.imag))).buffer(-profile.R, quad_segs=400)
+    return cam if cam.geom_type == "Polygon" else next(part for part in cam.geoms if part.contains(Point(0.0, 0.0)))
+
+
+def off_the_envelope(profile: RollerProfile | PlateProfile, cut: Undercut, end: float) -> float:
+    """Return how far the corner of an undercut is from the envelope at one of its ends.
+
+    Where the velocity jumps up, that is the roller's arc between the two limits.
+    """
+    jumps = [jump for jump in profile.motion.leaps if abs((end - jump + 1.0) % TURN - 1.0) < 1e-9]
+    if not jumps or isinstance(profile, PlateProfile):
+        return min(abs(complex(profile.practical(end, side)) - cut.corner) for side in (-1, 1))
+    before, after = ((complex(profile.practical(end, side)) - complex(profile.pitch(end))) for side in (-1, 1))
+    spoke = cut.corner - complex(profile.pitch(end))
+    apart = abs(np.angle(spoke / before)) + abs(np.angle(after / spoke)) - abs(np.angle(after / before))
+    return max(abs(abs(spoke) - profile.R), profile.R * float(apart))
+
+
+@pytest.mark.parametrize("k", EIGHTH)
+def test_undercut_is_found_and_the_lost_travel_is_that_of_the_cut_cam(k: int) -> None:
+    profile = undercut_cams()[k]
+    ring = np.array(eroded(profile).exterior.coords) @ np.array([1.0, 1.0j])
+    ring = np.concatenate([ring[:-1] + part * np.diff(ring) for part in np.linspace(0.0, 1.0, 8, endpoint=False)])
+
+    cuts = profile.undercuts
+
+    assert cuts
+    unit = 1.0 if isinstance(profile.path, StraightPath) else profile.path.sizes.l
+    for phi in np.linspace(0.0, TURN, 61):
+        inside = next((cut for cut in cuts if (phi - cut.start) % TURN < cut.end - cut.start), None)
+        travel = float(profile.motion.at(phi)[0])
+        resting = float(profile.seat(inside.corner, phi)) if inside else travel
+        assert seat(profile, ring, phi) * unit == pytest.approx(resting * unit, abs=1e-4 * profile.R)
+        if inside:
+            assert resting <= travel + 1e-12
+    for cut in cuts:
+        lost = float(profile.motion.at(cut.phi_lost)[0]) - seat(profile, ring, cut.phi_lost)
+        assert cut.lost * unit == pytest.approx(lost * unit, abs=1e-4 * profile.R)
+        assert cut.lost > 0.0
+        for end in (cut.start, cut.end):  # both branches run through the corner
+            assert off_the_envelope(profile, cut, end) < 1e-12
+
+
+@pytest.mark.parametrize("k", EIGHTH)
+def test_outline_is_the_cut_cam_without_loops(k: int) -> None:
+    profile = undercut_cams()[k]
+
+    points = profile.outline(math.radians(0.05))
+
+    outline, cam = Polygon(np.column_stack((points.real, points.imag))), eroded(profile)
+    pitch = profile.pitch(profile.motion.samples(math.radians(0.1)))
+    away = [np.min(np.abs(point - pitch)) for point in points[:: max(1, len(points) // 500)]]
+    assert outline.is_valid
+    assert outline.symmetric_difference(cam).area < 1e-4 * cam.area
+    assert away == pytest.approx([profile.R] * len(away), abs=1e-7)  # 0.1 deg of the pitch curve between its points
+
+
+def cut_by(
+    law: str, stroke: float, phases: tuple[float, float], gamma: tuple[float, float], roller: tuple[float, int]
+) -> RollerProfile:
+    """Return the smallest cam without an upper dwell for a radius of the roller and a sense; mm and degrees."""
+    R, sense = roller
+    motion = Motion(stroke * MM, math.radians(phases[0]), 0.0, math.radians(phases[1]), law_of_motion(law))
+    limits = Limits(math.radians(gamma[0]), math.radians(gamma[1]))
+    return RollerProfile(StraightPath(motion, smallest_roller(wedge(motion, limits, sense))), R * MM, sense)
+
+
+WIDE_CUTTERS = {  # the cam, and its undercuts: from, to, deg, the travel that is lost, mm, and where
+    "arc of the start": (
+        cut_by("uniform", 13.0, (60.0, 150.0), (40.0, 40.0), (7.0, 1)),
+        [(0.0, 8.106, 0.00282, 2.681), (44.579, 73.699, 1.1174, 60.0)],
+    ),
+    "arc of the end": (
+        cut_by("uniform", 48.0, (140.0, 56.0), (33.0, 72.0), (47.5, -1)),
+        [(101.121, 196.0, 16.408, 140.0)],
+    ),
+    "lobe cut off": (cut_by("cosine", 30.0, (64.0, 64.0), (33.0, 33.0), (14.5, 1)), [(2.972, 125.028, 25.927, 64.0)]),
+}
+
+
+@pytest.mark.parametrize("name", WIDE_CUTTERS)
+def test_undercuts_of_wide_cutters_are_those_of_the_cut_cam(name: str) -> None:
+    profile, expected = WIDE_CUTTERS[name]
+
+    found = [
+        (*np.degrees((cut.start, cut.end)), cut.lost / MM, math.degrees(cut.phi_lost)) for cut in profile.undercuts
+    ]
+
+    assert found == [pytest.approx(one, rel=1e-3, abs=1e-4) for one in expected]
+    assert_left_by_the_cutter(profile)
+
+
+def test_a_neck_narrower_than_the_cutter_cuts_the_lobe_off_where_nothing_runs_backwards() -> None:
+    motion = Motion(287.0 * MM, *np.radians((51.34, 26.21, 41.19)), law_of_motion("sine"))
+    sizes = RollerSizes(math.hypot(5.0, 33.9) * MM, -5.0 * MM, 33.9 * MM)
+    profile = RollerProfile(StraightPath(motion, sizes), 33.2 * MM)
+
+    (cut,) = profile.undercuts
+
+    assert not backward(profile)
+    assert cut.lost > 0.99 * motion.h
+    assert_left_by_the_cutter(profile)
+
+
+@pytest.mark.parametrize("wider", [1e-9, 1e-6, 1e-3, 0.02])
+def test_a_neck_hardly_narrower_than_the_cutter_is_found(wider: float) -> None:
+    motion = Motion(287.0 * MM, *np.radians((51.34, 26.21, 41.19)), law_of_motion("sine"))
+    path = StraightPath(motion, RollerSizes(math.hypot(5.0, 33.9) * MM, -5.0 * MM, 33.9 * MM))
+    width, ends = neck(RollerProfile(path, 1.0 * MM), math.radians(20.0), math.radians(105.0))
+
+    narrower, (cut,) = (RollerProfile(path, 0.5 * width * (1.0 + w)).undercuts for w in (-1e-9, wider))
+
+    assert narrower == []
+    assert cut.lost > 0.95 * motion.h
+    assert (cut.start, cut.end) == pytest.approx(ends, abs=2.0 * math.sqrt(wider))
+    outline = RollerProfile(path, 0.5 * width * (1.0 + wider)).outline(math.radians(0.1))
+    assert Polygon(np.column_stack((outline.real, outline.imag))).is_valid
+
+
+def neck(profile: RollerProfile, first: float, second: float) -> tuple[float, tuple[float, float]]:
+    """Least distance of the pitch curve's two branches around two angles, and the angles, by ever finer grids."""
+    ends, room = np.array([first, second]), math.radians(15.0)
+    for _ in range(40):
+        a, b = ends[:, np.newaxis] + room * np.linspace(-1.0, 1.0, 41)
+        away = np.abs(np.asarray(profile.pitch(a))[:, np.newaxis] - np.asarray(profile.pitch(b)))
+        i, j = np.unravel_index(int(np.argmin(away)), away.shape)
+        ends, room = np.array([a[i], b[j]]), 0.5 * room
+    return float(away[i, j]), (float(ends[0]), float(ends[1]))
+
+
+def assert_left_by_the_cutter(profile: RollerProfile) -> None:
+    """Assert that outline and travel are those of what the cutter leaves round the cam's centre."""
+    points, cam = profile.outline(math.radians(0.1)), eroded(profile)
+    ring = np.array(cam.exterior.coords) @ np.array([1.0, 1.0j])
+    ring = np.concatenate([ring[:-1] + part * np.diff(ring) for part in np.linspace(0.0, 1.0, 8, endpoint=False)])
+    outline = Polygon(np.column_stack((points.real, points.imag)))
+    assert outline.is_valid
+    assert outline.symmetric_difference(cam).area < 2e-4 * profile.R * cam.length
+    for phi in [*np.linspace(0.0, TURN, 61), *(cut.phi_lost for cut in profile.undercuts)]:
+        travel, within = float(profile.motion.at(phi)[0]), 1e-4 * profile.R
+        inside = next((cut for cut in profile.undercuts if (phi - cut.start) % TURN < cut.end - cut.start), None)
+        resting = float(profile.seat(inside.corner, phi)) if inside else travel
+        assert seat(profile, ring, phi) == pytest.approx(resting, abs=within)
+        assert travel - resting <= (inside.lost if inside else 0.0) + 1e-12
+        if inside and phi == inside.phi_lost:
+            assert travel - resting == pytest.approx(inside.lost, abs=1e-12)
+
+
+@pytest.mark.parametrize("count", [pytest.param(8, id="8"), pytest.param(150, id="150", marks=pytest.mark.soak)])
+def test_wide_cutters_leave_what_is_round_the_centre(count: int) -> None:
+    random = np.random.default_rng(SEED + 14)
+
+    for k in range(count):
+        motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
+        if k % 2:  # a narrow lobe, or a velocity that jumps
+            law = law_of_motion(str(random.choice(LAWS)) if k % 4 == 1 else UNIFORM)
+            phases = np.radians(random.uniform(30.0, 110.0, 2))
+            motion = Motion(motion.h, phases[0], 0.0, phases[1], law)
+        sizes = smallest_roller(wedge(motion, limits, sense))
+        profile = RollerProfile(StraightPath(motion, sizes), sizes.r_0 * random.uniform(0.4, 0.97), sense)
+        if profile.undercuts:
+            assert_left_by_the_cutter(profile)
+
+
+def test_roller_just_smaller_than_the_least_radius_undercuts_nothing() -> None:
+    motion = madi_motion()
+    path = StraightPath(motion, smallest_roller(wedge(motion, MADI_LIMITS)))
+    rho = RollerProfile(path, 0.0).rho_min
+
+    below, above = (RollerProfile(path, rho * part) for part in (1.0 - 1e-9, 1.0 + 1e-3))
+
+    assert below.undercuts == []
+    assert [math.degrees(cut.start) for cut in above.undercuts] == pytest.approx([36.0], abs=0.1)
+    assert 0.0 < above.undercuts[0].lost < 1e-6
+
+
+def test_velocity_that_drops_undercuts_at_any_radius() -> None:
+    motion = Motion(0.01, 2.0, 0.5, 2.0, law_of_motion("uniform"))
+    path = StraightPath(motion, RollerSizes(0.05, 0.0, 0.05))
+
+    profile = RollerProfile(path, 1e-3)
+
+    assert profile.rho_min == 0.0
+    starts = [(cut.start, cut.end) for cut in profile.undercuts]
+    assert all(any(start < phi < end for start, end in starts) for phi in (2.0, 2.5))
+
+
+@pytest.mark.parametrize(("r_0", "sense"), [(0.028, 1), (0.022, -1), (0.014, 1)])
+def test_plate_that_is_too_low_cuts_its_own_profile(r_0: float, sense: int) -> None:
+    profile = PlateProfile(madi_motion(), r_0, sense)
+    reach, cam = 0.2, Polygon([(-0.2, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.2, 0.2)])
+    for phi in np.linspace(0.0, TURN, 480, endpoint=False):
+        height = r_0 + float(profile.motion.at(phi)[0])
+        below = Polygon([(-reach, -reach), (reach, -reach), (reach, height), (-reach, height)])
+        cam = cam.intersection(rotate(below, -sense * phi, origin=(0.0, 0.0), use_radians=True))
+    ring = np.array(cam.exterior.coords) @ np.array([1.0, 1.0j])
+
+    cuts = profile.undercuts
+
+    assert len(cuts) == 2
+    assert profile.rho_min < 0.0
+    for cut in cuts:
+        lost = float(profile.motion.at(cut.phi_lost)[0]) - seat(profile, ring, cut.phi_lost)
+        assert cut.lost == pytest.approx(lost, abs=2e-3 * MM)
+        assert cut.lost > 0.0
+    points = profile.outline()
+    assert Polygon(np.column_stack((points.real, points.imag))).area == pytest.approx(cam.area, rel=1e-4)
+
+
+@pytest.mark.parametrize("count", [pytest.param(5, id="5"), pytest.param(100, id="100", marks=pytest.mark.soak)])
+def test_cams_are_undercut_exactly_when_a_radius_is_too_small(count: int) -> None:
+    random = np.random.default_rng(SEED + 13)
+
+    for k in range(count):
+        motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
+        if k % 3:
+            sizes = smallest_roller(wedge(motion, limits, sense))
+            rho = RollerProfile(path := StraightPath(motion, sizes), 0.0, sense).rho_min
+            R = min(max(rho, 0.1 * sizes.r_0) * math.exp(random.uniform(-0.3, 0.7)), 0.97 * sizes.r_0)
+            profile: RollerProfile | PlateProfile = RollerProfile(path, R, sense)
+            expected = rho < R
+        else:
+            motion = random_motion(random, SMOOTH)
+            profile = PlateProfile(motion, (r_0 := smallest_plate(motion, 0.0, 0.0).r_0_min) * 0.8 + 1e-3, sense)
+            expected = r_0 * 0.8 + 1e-3 < r_0
+        cuts, points = profile.undercuts, profile.outline()
+        assert bool(cuts) == expected
+        assert Polygon(np.column_stack((points.real, points.imag))).is_valid
+        for cut in cuts:
+            assert cut.lost > 0.0
+            for end in (cut.start, cut.end):
+                assert off_the_envelope(profile, cut, end) < 1e-12
