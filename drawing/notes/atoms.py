@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import groupby
+from itertools import groupby, pairwise
 
 from .markup import Node, Plain, Scripted, parse
 from .omml import node, run, scripted, scripts
@@ -41,7 +41,7 @@ class Atom:
 
 def atoms_of(markup: str) -> list[Atom]:
     """Return the atoms of a line of markup."""
-    return _told(_units(list(_atoms(whole(parse(markup))))))
+    return _told(_joined(_units(list(_atoms(whole(parse(markup)))))))
 
 
 def whole(parts: Iterable[Node]) -> tuple[Node, ...]:
@@ -120,6 +120,20 @@ def _unit_end(atoms: list[Atom], at: int) -> int:
 
 def _upright(atom: Atom) -> str:
     return scripted(run(atom.text, "nor"), atom.above, atom.below) if atom.kind in ("word", "name") else atom.shown
+
+
+def _joined(atoms: list[Atom]) -> list[Atom]:
+    """Set letters upright that stand in one word with others."""
+    found = list(atoms)
+    for place, (one, other) in enumerate(pairwise(atoms)):
+        both = (one, other)
+        if {one.kind, other.kind} == {"word", "name"} and not any(atom.text in ("", *_NAMED) for atom in both):
+            found[place : place + 2] = [_straight(atom) for atom in both]
+    return found
+
+
+def _straight(atom: Atom) -> Atom:
+    return replace(atom, shown=scripted(run(atom.text, "p"), atom.above, atom.below))
 
 
 def _told(atoms: list[Atom]) -> list[Atom]:

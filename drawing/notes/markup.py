@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..text import ESCAPED, RULES
 
 _PLAIN = re.compile(r"(?:[^\\{}_^]|\\[\\{}_^]|[_^](?!\{))+")
 _ESCAPE = re.compile(r"\\([\\{}_^])")
+
+
+TIE = "\u00a0"  # a space at which no line ends
+_BEFORE_SIGN, _AFTER_NUMBER = re.compile(r" (?=[=≤≥<>] )"), re.compile(r"(?<=\d) (?=\w)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,9 +114,22 @@ def letters(markup: str) -> str:
 
 
 def printable(text: str) -> str:
-    """Return characters that can be seen; others, which may turn a line about or end a file, are spaces.
+    """Return characters that can be seen, and spaces for others, which may turn a line about or end a file.
 
     >>> printable("a\\u202eb\\x07")
     'a b '
     """
-    return "".join(c if c.isprintable() else " " for c in text)
+    return "".join(c if c.isprintable() or c == TIE else " " for c in text)
+
+
+def tied(text: str) -> str:
+    """Return words of which no line ends between a letter and what it is equal to, a number and its unit."""
+    return _BEFORE_SIGN.sub(TIE, _AFTER_NUMBER.sub(TIE, text))
+
+
+def joined(parts: Sequence[Node], place: int) -> bool:
+    """Whether a part stands in one word with plain letters, which are upright: the d and the φ of d²s/dφ²."""
+    before, after = (parts[near] if 0 <= near < len(parts) else None for near in (place - 1, place + 1))
+    if isinstance(before, Plain) and before.text[-1:].isalpha():
+        return True
+    return isinstance(after, Plain) and after.text[:1].isalpha()

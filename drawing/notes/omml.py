@@ -26,14 +26,14 @@ def letters(text: str) -> str:
     return run(text, "nor" if any(c.isspace() for c in text) else "p")
 
 
-def node(found: Node) -> str:
-    """Return a part of a formula."""
+def node(found: Node, upright: bool = False) -> str:
+    """Return a part of a formula; a letter alone is slanted, unless it is `upright`."""
     if isinstance(found, Plain):
-        return letters(found.text) if found.text else run(_EMPTY, "p")
+        return (run(found.text, "p") if upright else letters(found.text)) if found.text else run(_EMPTY, "p")
     if isinstance(found, Ruled):
         inner = "".join(map(node, found.parts)) or run(_EMPTY, "p")
         return {"bar": bar(inner, "top"), "u": bar(inner, "bot"), "uu": bar(bar(inner, "bot"), "bot")}[found.kind]
-    return scripted(node(found.base), *scripts(found))
+    return scripted(node(found.base, upright), *scripts(found))
 
 
 def scripts(found: Scripted) -> tuple[str, str]:

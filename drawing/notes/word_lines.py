@@ -9,7 +9,7 @@ from itertools import groupby
 from ...scales.packaged import packaged
 from .atoms import whole
 from .blocks import Document, Heading
-from .markup import Node, Plain, Scripted, letters, parse
+from .markup import Node, Plain, Scripted, joined, letters, parse, tied
 from .omml import node, quoted
 
 TWIPS = 1440 / 25.4  # of a millimetre
@@ -33,18 +33,15 @@ def words(text: str, properties: str = "") -> str:
 
 def line(markup: str, properties: str = "") -> str:
     """Return a line of markup: words as text with `properties`, symbols with scripts and bars as formulas."""
-    return "".join(_part(some, formula, properties) for formula, some in _parted(whole(parse(markup))))
-
-
-def _parted(parts: tuple[Node, ...]) -> Iterator[tuple[bool, list[Node]]]:
-    """Part a line into formulas and what is text: words, and units with their powers."""
+    parts = whole(parse(markup))
     before = "m/" if len(parts) == 1 else ""  # a power of m alone is a unit
-    told = []
-    for part in parts:
-        told.append((not isinstance(part, Plain) and not _is_unit(part, before), part))
+    told: list[tuple[bool, str]] = []
+    for place, part in enumerate(parts):
+        formula = not isinstance(part, Plain) and not _is_unit(part, before)
+        told.append((formula, node(part, joined(parts, place)) if formula else _text(part, properties)))
         before = part.text if isinstance(part, Plain) else ""
-    for formula, group in groupby(told, lambda pair: pair[0]):
-        yield formula, [part for _, part in group]
+    shown = ((formula, "".join(text for _, text in some)) for formula, some in groupby(told, lambda pair: pair[0]))
+    return "".join(f"<m:oMath>{text}</m:oMath>" if formula else text for formula, text in shown)
 
 
 def _is_unit(part: Node, before: str) -> bool:
@@ -55,20 +52,15 @@ def _is_unit(part: Node, before: str) -> bool:
     return powers and (cyrillic or (part.base.text in ("m", "s") and _UNITS.search(before) is not None))
 
 
-def _part(parts: list[Node], formula: bool, properties: str) -> str:
-    if formula:
-        return f"<m:oMath>{''.join(map(node, parts))}</m:oMath>"
-    found = []
-    for part in parts:
-        if isinstance(part, Plain):
-            found.append(words(part.text, properties))
-        elif isinstance(part, Scripted) and isinstance(part.base, Plain):
-            power = "".join(up.text for up in part.above if isinstance(up, Plain))
-            found += [
-                words(part.base.text, properties),
-                words(power, f'{properties}<w:vertAlign w:val="superscript"/>'),
-            ]
-    return "".join(found)
+def _text(part: Node, properties: str) -> str:
+    """Return words, or a unit with its power."""
+    if isinstance(part, Plain):
+        return words(tied(part.text), properties)
+    assert isinstance(part, Scripted)
+    assert isinstance(part.base, Plain)
+    power = "".join(up.text for up in part.above if isinstance(up, Plain))
+    raised = words(power, f'{properties}<w:vertAlign w:val="superscript"/>')
+    return words(part.base.text, properties) + raised
 
 
 def _sign(kind: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import zipfile
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
 from io import BytesIO
@@ -363,3 +363,21 @@ def test_units_are_words_and_symbols_formulas(markup: str, formulas: list[str]) 
 
     assert [said(formula) for formula in found.iter(f"{M}oMath")] == formulas
     assert bare(said(found)) == bare(letters(markup))
+
+
+def test_no_line_ends_between_a_letter_its_number_and_the_unit() -> None:
+    found = etree.fromstring(f'<x xmlns:m="{SPACES["m"]}" xmlns:w="{SPACES["w"]}">{line("r_{0} = 45.26 mm, more")}</x>')
+
+    assert said(found) == "r_{0}\u00a0= 45.26\u00a0mm, more"
+
+
+@pytest.mark.parametrize("write", [line, built_up])
+@pytest.mark.parametrize(
+    ("markup", "slanted"),
+    [("d^{2}s/dφ^{2}", ""), ("O_{1}B", ""), ("ω^{2}·r_{0}", "ωr"), ("P_{1}B_{1}", "PB"), ("II_{2}(2, 3)", "")],
+)
+def test_letters_of_one_word_are_all_upright(markup: str, slanted: str, write: Callable[[str], str]) -> None:
+    found = etree.fromstring(f'<x xmlns:m="{SPACES["m"]}" xmlns:w="{SPACES["w"]}">{write(markup)}</x>')
+
+    letter = "".join(said(run) for run in found.iter(f"{M}r") if run.find(f"{M}rPr") is None)
+    assert "".join(c for c in letter if c.isalpha()) == slanted
