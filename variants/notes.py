@@ -127,7 +127,9 @@ def title_page(case: Case, block: Mapping[str, str], lang: str) -> TitlePage:
 def body_of(case: Case, drawn: Drawn | Sheet, notation: str | None = None, lang: str = "uk") -> tuple[Block, ...]:
     """Return what follows the first page: who the author is changes nothing of it."""
     said = packaged(TEXTS, "texts", lang)
-    story = case.kind.story(case, drawn.scales, case.words(lang, notation), said)
-    about = Sentences((said["note.about"].format(sheet=sheet_id(case.task, case.variant, case.settings)),))
+    words = case.words(lang, notation)
+    story = case.kind.story(case, drawn.scales, words, said)
+    by = said["note.over" if words.per_unit else "note.times"]
+    about = Sentences((said["note.about"].format(sheet=sheet_id(case.task, case.variant, case.settings), by=by),))
     end = (Heading(said["note.conclusions"]), Steps(story.conclusions)) if story.conclusions else ()
     return about, *blocks_of(drawn.views, story), *end

@@ -53,14 +53,22 @@ def _node(node: Node) -> str:
         return _plain(node.text)
     if isinstance(node, Ruled):
         inner = "".join(map(_node, node.parts))
-        return _barred(inner) if node.kind == "bar" else f"<u>{inner}</u>"
+        return RULED[node.kind](inner)
     above, below = ("".join(map(_node, parts)) for parts in (node.above, node.below))
     return _node(node.base) + (f"<sup>{above}</sup>" if above else "") + (f"<sub>{below}</sub>" if below else "")
+
+
+def _twice(text: str) -> str:
+    """Put two lines under the first letter: tags know one line only."""
+    return re.sub(r"(\w\u0305?)", "\\1\u0333", text, count=1)
 
 
 def _barred(text: str) -> str:
     """Put a bar over every letter."""
     return re.sub(r"(\w)", "\\1\u0305", text)
+
+
+RULED = {"bar": _barred, "u": "<u>{}</u>".format, "uu": _twice}
 
 
 def _plain(text: str) -> str:

@@ -155,6 +155,22 @@ def test_a_name_is_never_taken_for_a_sign(name: str) -> None:
     assert all(word in said for word in re.findall(r"\w+", name, re.ASCII))
 
 
+def test_markdown_tells_one_line_under_a_vector_from_two() -> None:
+    document = few_words()
+    lines = Equations(((r"\uu{\bar{V}_{B}} = \u{\bar{V}_{BA}}",),))
+
+    said = markdown(replace(document, blocks=(lines,)), [])
+    assert "V\u0305\u0333<sub>B</sub> = <u>V\u0305<sub>BA</sub></u>" in said
+
+
+@pytest.mark.parametrize(("notation", "by"), [("nau", "times its"), ("bauman", "over its")])
+def test_a_note_says_what_scale_factors_are_for(notation: str, by: str) -> None:
+    about = note("nau-slider-crank", only="structure", notation=notation, lang="en").document.blocks[0]
+
+    assert isinstance(about, Sentences)
+    assert f"segment {by} scale factor is the quantity" in about.texts[0]
+
+
 def test_texts_have_the_same_keys() -> None:
     keys = [packaged(notes.__name__, "texts", lang).keys() for lang in LANGUAGES]
 
