@@ -19,7 +19,8 @@ PAPER_MM = 1e-3  # metres of paper in a millimetre: diagrams are drawn in these
 class Solved:
     """A solved construction; `values` holds every name of it, `quantities` the results in SI.
 
-    A linkage, a cam add what they are solved from, and say in their own words why there is no plan.
+    A linkage, a cam, a gear pair, a hoist add what they are solved from, and may say in their own words why there is no
+    plan.
     """
 
     program: Program

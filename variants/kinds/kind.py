@@ -33,7 +33,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..checks.names import Names
     from ..sweeps.asked import SweepRequest, Swept
 
-Subject = TypeVar("Subject")  # what is described: a mechanism, a cam
+Subject = TypeVar("Subject")  # what is described: a mechanism, a cam, a gear pair, a hoist
 Answer = TypeVar("Answer", bound=Solved)
 
 

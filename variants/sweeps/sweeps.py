@@ -173,7 +173,8 @@ def sweep(
 
     Returns
     -------
-    Sweep, or CamSweep of a cam
+    Swept
+        `Sweep` of a linkage, `CamSweep`, `GearSweep`, `HoistSweep`.
         Also when some positions, or all, have no plan: each has its status.
 
     Raises
