@@ -138,6 +138,7 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
     middle = pivot + cmath.rect(radius, low + 0.5 * swing)
     canvas.label(words.symbol("psi"), middle, prefer=middle - pivot, clear=0.8, height=style.text)
     zero, start = scene.mm(f"{PROFILE}.A0"), scene.mm(f"{PROFILE}.B0")
+    canvas.part("follower")
     canvas.label(words.symbol("l_rocker"), (zero, start), prefer=1j, clear=0.8, height=style.text)
     return [text for text in left if text]
 
