@@ -9,6 +9,8 @@ from ..page import extent
 from ..shapes import Text
 from ..view import View
 
+FOLDED, FOLDED_ROOM = "A3", (267.0, 340.0)  # the sheet of a figure that is too large, and its room there, mm
+LEGIBLE = 0.5  # the part of its size below which the letters of a figure are too small
 ROOM = (180.0, 215.0)  # mm of a page of A4 for a figure, its caption under it
 
 
@@ -59,6 +61,11 @@ class Figure:
     def share(self) -> float:
         """The part of its size on the sheet at which it has room on a page of the note."""
         return self.share_of(ROOM)
+
+    @property
+    def folded(self) -> bool:
+        """Whether it stands on a larger sheet at the end of the note, because its letters would be too small."""
+        return self.share < LEGIBLE
 
     def share_of(self, room: tuple[float, float]) -> float:
         """Return the part of its size at which it has a room of this width and height, mm."""

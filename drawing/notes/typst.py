@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib.util
 import io
 import json
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -15,14 +14,10 @@ from typing import Any
 
 from ...scales.errors import InputError
 from ...scales.packaged import packaged
-from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
+from .blocks import FOLDED, FOLDED_ROOM, Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
 from .figures import figure_page, reduced
-from .markup import Node, Plain, Ruled, parse, printable
+from .markup import Node, Plain, Ruled, joined, parse, printable, tied
 
-FOLDED, FOLDED_ROOM = "a3", (267.0, 340.0)  # the sheet of a figure that is too large, and its room there, mm
-LEGIBLE = 0.5  # the part of its size below which the letters of a figure are too small
-TIE = r"\\u{a0}"  # a space at which no line ends, in a string of typst
-BEFORE_SIGN, AFTER_NUMBER = re.compile(r" (?=[=≤≥<>] )"), re.compile(r"(?<=\d) (?=\w)")
 PREAMBLE = """\
 #set document(title: {title}, date: none)
 #set page(paper: "a4", margin: (left: 20mm, right: 10mm, top: 15mm, bottom: 20mm), numbering: "1", number-align: center)
@@ -51,7 +46,7 @@ class Body:
         said, numbers = packaged(__package__, "texts", language), count(1)
         figures = dict(enumerate((block for block in blocks if isinstance(block, Figure)), 1))
         texts = [_block(block, said, numbers) for block in blocks]
-        texts += [_sheet(figure, said, number) for number, figure in figures.items() if _is_folded(figure)]
+        texts += [_sheet(figure, said, number) for number, figure in figures.items() if figure.folded]
         return cls("\n".join(texts), {f"{number}.svg": _svg(figure, language) for number, figure in figures.items()})
 
 
@@ -143,7 +138,7 @@ def _block(block: Block, said: dict[str, str], numbers: Iterator[int]) -> str:
             return _table(rows)
         case Figure():
             number = next(numbers)
-            return _announced(said, number) if _is_folded(block) else _figure(block, said, number, block.share)
+            return _announced(said, number) if block.folded else _figure(block, said, number, block.share)
 
 
 def _figure(figure: Figure, said: dict[str, str], number: int, share: float, more: str = "") -> str:
@@ -157,21 +152,16 @@ def _figure(figure: Figure, said: dict[str, str], number: int, share: float, mor
     )
 
 
-def _is_folded(figure: Figure) -> bool:
-    """Whether a figure stands on a larger sheet at the end of the note, because its letters would be too small."""
-    return figure.share < LEGIBLE
-
-
 def _announced(said: dict[str, str], number: int) -> str:
     """Say where a folded figure is; it counts here."""
-    text = _text(said["figure.folded"].format(number=number, format=FOLDED.upper()))
+    text = _text(said["figure.folded"].format(number=number, format=FOLDED))
     return f"#counter(figure.where(kind: image)).step()\n{text}\n"
 
 
 def _sheet(figure: Figure, said: dict[str, str], number: int) -> str:
     """Return a folded figure on its sheet, with its number."""
     text = _figure(figure, said, number, figure.share_of(FOLDED_ROOM), f'numbering: _ => "{number}", ')
-    return f'#page(paper: "{FOLDED}")[{text}]\n'
+    return f'#page(paper: "{FOLDED.lower()}")[{text}]\n'
 
 
 def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
@@ -192,21 +182,14 @@ def _line(markup: str, plain: Callable[[str], str] | None = None) -> str:
     """Return a line of markup: words as text, or as `plain` has them, symbols with scripts and bars as formulas."""
     said, nodes = plain or _text, parse(markup)
     return "".join(
-        said(node.text) if isinstance(node, Plain) else f"${_formula(node, _is_joined(nodes, k))}$"
+        said(node.text) if isinstance(node, Plain) else f"${_formula(node, joined(nodes, k))}$"
         for k, node in enumerate(nodes)
     )
 
 
-def _is_joined(nodes: Sequence[Node], k: int) -> bool:
-    """Whether a node stands in one word with plain letters, which are upright: the d and the φ of d²s/dφ²."""
-    before, after = (nodes[i] if 0 <= i < len(nodes) else None for i in (k - 1, k + 1))
-    joined = isinstance(before, Plain) and before.text[-1:].isalpha()
-    return joined or (isinstance(after, Plain) and after.text[:1].isalpha())
-
-
 def _sentence(markup: str) -> str:
     """Return a sentence in which no line ends between a letter and what it is equal to, a number and its unit."""
-    return _line(markup, lambda plain: BEFORE_SIGN.sub(TIE, AFTER_NUMBER.sub(TIE, _text(plain))))
+    return _line(markup, lambda plain: _text(tied(plain)))
 
 
 def _formula(node: Node, upright: bool = False) -> str:
@@ -220,7 +203,7 @@ def _formula(node: Node, upright: bool = False) -> str:
             node.kind
         ]
     scripts = "".join(
-        f", {place}: {''.join(_script(part, _is_joined(parts, k)) for k, part in enumerate(parts))}"
+        f", {place}: {''.join(_script(part, joined(parts, k)) for k, part in enumerate(parts))}"
         for place, parts in (("t", node.above), ("b", node.below))
         if parts
     )

@@ -9,7 +9,7 @@ from kulman.drawing.notes.typst import Body
 from kulman.drawing.shapes import Line
 from kulman.drawing.view import View
 
-TIE = r"\u{a0}"
+TIE = "\u00a0"
 
 
 def written(*blocks: Block) -> str:
