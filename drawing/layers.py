@@ -8,6 +8,7 @@ from enum import Enum
 from ..scales.packaged import packaged
 from .shapes import Arrow, Group, Head, Pen, Shape, Text, Vector
 
+NOTE = "note"  # the name of lines under a heading, which may hold results
 TASK_VIEWS = ("givens", "data", "choices", "note", "structure", "scales")  # of the task, and of how it is drawn
 
 
@@ -82,6 +83,8 @@ def layer_of(shape: Shape) -> Layer:
         return Layer.RESULT
     if isinstance(shape, Head):
         return Layer.CONSTRUCTION
+    if shape.name == NOTE and isinstance(shape, Text):
+        return Layer.LABELS
     known = _LAYERS.get(shape.role)
     if known is not None:
         return known

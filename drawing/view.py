@@ -11,6 +11,7 @@ from typing import assert_never
 
 from .clearings import first_clear
 from .labels import Labels, Obstacles, Request, place
+from .layers import NOTE
 from .page import extent
 from .pens import HEAD_HALF_WIDTH
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
@@ -140,11 +141,7 @@ class Canvas:
         for label, ends in placed.leaders.items():
             self.shapes.append(Line(*ends, Pen.THIN, role="leader", name=self._markup[int(label)][0]))
             parts.append(self._lettered[int(label)])
-        x0, y0, x1, y1 = extent(self.shapes)
-        for texts, height in ((notes, self.style.text), (heading, self.style.heading)):
-            lines, y1 = heading_shapes(texts, height, (x0 + x1) / 2, y1)
-            self.shapes += lines
-        x0, _, x1, _ = extent(self.shapes)
+        x0, y0, x1, y1 = write_above(self.shapes, heading, notes, self.style)
         box = x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
         every = (*parts, *("" for _ in self.shapes[len(parts) :])) if self._parts else ()
         return View(name, tuple(self.shapes), box, heading, tuple(notes), parts=every)
@@ -189,14 +186,26 @@ def _joined(markups: list[str], each: int = 4) -> list[str]:
     return ["; ".join(markups[i : i + each]) for i in range(0, len(markups), each)]
 
 
-def heading_shapes(lines: tuple[str, ...], height: float, middle: float, top: float) -> tuple[list[Shape], float]:
+def write_above(shapes: list[Shape], heading: tuple[str, ...], notes: tuple[str, ...], style: Style) -> Box:
+    """Write heading lines over shapes, and smaller notes between; return the box of all, with the top of the lines."""
+    x0, y0, x1, y1 = extent(shapes)
+    for texts, height, name in ((notes, style.text, NOTE), (heading, style.heading, "")):
+        lines, y1 = heading_shapes(texts, height, (x0 + x1) / 2, y1, name)
+        shapes += lines
+    x0, _, x1, _ = extent(shapes)
+    return x0, y0, x1, y1
+
+
+def heading_shapes(
+    lines: tuple[str, ...], height: float, middle: float, top: float, name: str = ""
+) -> tuple[list[Shape], float]:
     """Write centred lines above `top`; return them and the new top."""
     texts: list[Shape] = []
     y = top + 0.7 * height if lines else top
     for line in reversed(lines):
         layout = lay_out(line, height)
         y -= layout.bottom
-        texts.append(Text(complex(middle, y), line, height, "middle", role="heading"))
+        texts.append(Text(complex(middle, y), line, height, "middle", role="heading", name=name))
         y += layout.top + 0.35 * height
     return texts, y
 

@@ -106,6 +106,7 @@ def test_each_thing_is_in_one_layer(task: str) -> None:
         (Group((Line(0j, 1j),), "titleblock"), Layer.FRAME),
         (Group((Circle(0j, 1.0, fill="white"),), "pivot", "O"), Layer.GIVEN),
         (Text(0j, "План", role="heading"), Layer.GIVEN),
+        (Text(0j, "r_{0} = 29,24", role="heading", name="note"), Layer.LABELS),
         (Line(0j, 1j, Pen.AXIS), Layer.GIVEN),
         (Line(0j, 1j, Pen.DASHED, role="construction"), Layer.CONSTRUCTION),
         (Line(0j, 1j, Pen.THIN, role="some ray"), Layer.CONSTRUCTION),

@@ -11,7 +11,7 @@ from ...page import extent
 from ...shapes import Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
 from ...style import Style
 from ...text import Box
-from ...view import Canvas, View, heading_shapes
+from ...view import Canvas, View, write_above
 from ..marks import letter_marks, symbol
 from ..scene import Scene
 
@@ -235,11 +235,7 @@ def _together(
     """Put the insets to the right of a figure, or under it, whichever takes less room; the heading over all."""
     beside, under = (list(_shapes(figure, insets, right)) for right in (True, False))
     shapes = min((beside, under), key=lambda shapes: _area(extent(shapes)))
-    x0, y0, x1, y1 = extent(shapes)
-    for texts, height in ((notes, style.text), (heading, style.heading)):
-        lines, y1 = heading_shapes(texts, height, (x0 + x1) / 2, y1)
-        shapes += lines
-    x0, y0, x1, _ = extent(shapes)
+    x0, y0, x1, y1 = write_above(shapes, heading, notes, style)
     return View(figure.name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes)
 
 
