@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 from ...scales.errors import InputError
 from ...scales.packaged import home, packaged
-from .blocks import Document, Figure, Steps
+from ..formats import FORMATS
+from .blocks import FOLDED, Document, Figure, Steps
 from .figures import figure_page
 from .markup import printable
 from .outlines import outlined
-from .word_blocks import LISTS, Picture, blocks_in_word
+from .word_blocks import LISTS, Picture, blocks_in_word, folded_in_word, shown_share
 from .word_lines import first_pages, paragraph, words
 
 if TYPE_CHECKING:
@@ -51,12 +52,19 @@ def docx_bytes(document: Document) -> bytes:
     _sign(word, document)
     figures = [block for block in document.blocks if isinstance(block, Figure)]
     pictures = [_picture(word, figure, document.language, number) for number, figure in enumerate(figures, 1)]
-    last = word.element.body[-1]  # the properties of the pages
-    for part in _parsed(f"{first_pages(document)}{blocks_in_word(document, pictures)}"):
-        last.addprevious(part)
+    _append(word, f"{first_pages(document)}{blocks_in_word(document, pictures)}")
+    if any(figure.folded for figure in figures):
+        _larger_sheets(word)
+        _append(word, folded_in_word(document, pictures))
     stream = BytesIO()
     word.save(stream)
     return _undated(stream.getvalue())
+
+
+def _append(word: Word, inside: str) -> None:
+    last = word.element.body[-1]  # the properties of the last pages
+    for part in _parsed(inside):
+        last.addprevious(part)
 
 
 def _parsed(inside: str) -> list[Any]:
@@ -101,6 +109,15 @@ def _pages(word: Word) -> None:
     section.footer.part.element[:] = _parsed(_FOOTER)
 
 
+def _larger_sheets(word: Word) -> None:
+    """Begin sheets for what is too large for a page; their numbers go on."""
+    from docx.shared import Mm
+
+    section, sheet = word.add_section(), FORMATS[f"{FOLDED}-portrait"]
+    section.page_width, section.page_height = Mm(sheet.width), Mm(sheet.height)
+    section.different_first_page_header_footer = False
+
+
 def _list(number: int) -> str:
     """Return a list of steps that begins with 1."""
     first = '<w:lvlOverride w:ilvl="0"><w:startOverride w:val="1"/></w:lvlOverride>'
@@ -135,7 +152,7 @@ def _picture(word: Word, figure: Figure, language: str, number: int) -> Picture:
 
     page = figure_page(figure, language)
     png, svg = BytesIO(), BytesIO()
-    write_png([page], png, DPI * figure.share)
+    write_png([page], png, DPI * shown_share(figure))
     write_svg(page, svg, with_font=False)
     name = PackURI(f"/word/media/figure{number}.svg")
     part = Part(name, "image/svg+xml", outlined(svg.getvalue()), word.part.package)

@@ -8,16 +8,17 @@ from itertools import count
 
 from ...scales.packaged import packaged
 from ..text import lay_out
-from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
+from .blocks import FOLDED, FOLDED_ROOM, Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
 from .built_up import built_up, displayed
 from .figures import reduced
 from .markup import letters
 from .omml import quoted
-from .word_lines import HEIGHT, TWIPS, bookmark, line, numbered, paragraph, words
+from .word_lines import HEIGHT, TWIPS, bookmark, headed, line, numbered, paragraph, referred, words
 
 EMU = 36000  # of a millimetre
 WIDE = 180.0  # mm of a line
 INDENT = 8.0  # mm before an equation; what goes on in another line stands in twice as far
+FIGURES = 1000  # before the number of a figure to which something refers, among those of headings
 LISTS = 3  # the number of the first list of steps
 PAD = 4.0  # mm in a cell beside its text
 _PICTURES = "http://schemas.openxmlformats.org/drawingml/2006"
@@ -48,10 +49,22 @@ def blocks_in_word(document: Document, pictures: Sequence[Picture]) -> str:
     return "".join(part for block in document.blocks for part in _block(block, said, counted))
 
 
+def folded_in_word(document: Document, pictures: Sequence[Picture]) -> str:
+    """Return the figures that stand on larger sheets at the end."""
+    said = packaged(__package__, "texts", document.language)
+    figures = zip((block for block in document.blocks if isinstance(block, Figure)), pictures, count(1), strict=False)
+    found = [(figure, picture, number) for figure, picture, number in figures if figure.folded]
+    return "".join(
+        paragraph("Figure", _drawing(figure, picture, number), "<w:pageBreakBefore/>" if place else "")
+        + paragraph("Caption", _caption(figure, said, referred(_figure_mark(number), number)))
+        for place, (figure, picture, number) in enumerate(found)
+    )
+
+
 def _block(block: Block, said: dict[str, str], counted: _Counted) -> Iterator[str]:
     match block:
         case Heading(text=text):
-            yield paragraph("Heading1", bookmark(line(text), next(counted.headings)))
+            yield paragraph("Heading1", headed(line(text), next(counted.headings)))
         case Sentences(texts=texts):
             yield paragraph("", words(" ").join(map(line, texts)))
         case Steps(texts=texts):
@@ -64,8 +77,14 @@ def _block(block: Block, said: dict[str, str], counted: _Counted) -> Iterator[st
             yield paragraph("Cell", "")
         case Figure():
             number, picture = next(counted.pictures)
+            here = numbered(said["figure"], number)
+            if block.folded:
+                before, _, after = said["figure.folded"].format(number="\0", format=FOLDED).partition("\0")
+                marked = bookmark(here, _figure_mark(number), FIGURES + number)
+                yield paragraph("", words(before) + marked + words(after))
+                return
             yield paragraph("Figure", _drawing(block, picture, number))
-            yield paragraph("Caption", _caption(block, said, number))
+            yield paragraph("Caption", _caption(block, said, here))
 
 
 def _equation(chunks: Sequence[str]) -> Iterator[str]:
@@ -133,15 +152,23 @@ def _row(row: tuple[str | None, ...], number: int) -> str:
     return f"<w:tr><w:trPr><w:cantSplit/>{head}</w:trPr>{''.join(cells)}</w:tr>"
 
 
-def _caption(figure: Figure, said: dict[str, str], number: int) -> str:
-    lines = [line(text) for text in (figure.caption, *figure.under, *reduced(said, figure.share))]
-    counted = numbered(said["figure"], number)
-    return f"{words(said['figure'] + ' ')}{counted}{words(' – ')}" + "<w:r><w:br/></w:r>".join(lines)
+def _caption(figure: Figure, said: dict[str, str], number: str) -> str:
+    lines = [line(text) for text in (figure.caption, *figure.under, *reduced(said, shown_share(figure)))]
+    return f"{words(said['figure'] + ' ')}{number}{words(' – ')}" + "<w:r><w:br/></w:r>".join(lines)
+
+
+def shown_share(figure: Figure) -> float:
+    """Return the part of its size at which a figure is shown."""
+    return figure.share_of(FOLDED_ROOM) if figure.folded else figure.share
+
+
+def _figure_mark(number: int) -> str:
+    return f"_Figure{number}"
 
 
 def _drawing(figure: Figure, picture: Picture, number: int) -> str:
     """Return a picture as large as the figure is shown; what it shows is told to who cannot see it."""
-    cx, cy = (round(mm * figure.share * EMU) for mm in figure.view.size)
+    cx, cy = (round(mm * shown_share(figure) * EMU) for mm in figure.view.size)
     told = quoted("; ".join(map(letters, (figure.caption, *figure.under))))
     size = f'cx="{cx}" cy="{cy}"'
     name = f'id="{number}" name="{quoted(figure.view.name)}" descr="{told}"'

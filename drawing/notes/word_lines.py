@@ -77,10 +77,19 @@ def numbered(name: str, number: int) -> str:
     return _begun(rf"SEQ {name} \* ARABIC") + words(str(number)) + _sign("end")
 
 
-def bookmark(inside: str, number: int) -> str:
+def referred(mark: str, number: int) -> str:
+    """Return a number that stands at a mark, a field that repeats it."""
+    return _begun(rf"REF {mark} \h") + words(str(number)) + _sign("end")
+
+
+def bookmark(inside: str, mark: str, number: int) -> str:
+    """Return what others refer to by a mark."""
+    return f'<w:bookmarkStart w:id="{number}" w:name="{mark}"/>{inside}<w:bookmarkEnd w:id="{number}"/>'
+
+
+def headed(inside: str, number: int) -> str:
     """Return a heading to which the contents lead."""
-    start = f'<w:bookmarkStart w:id="{number}" w:name="{_mark(number)}"/>'
-    return f'{start}{inside}<w:bookmarkEnd w:id="{number}"/>'
+    return bookmark(inside, _mark(number), number)
 
 
 def _mark(number: int) -> str:

@@ -26,7 +26,7 @@ from kulman.drawing.notes.built_up import built_up, displayed
 from kulman.drawing.notes.docx import SPACES, docx_bytes
 from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.markup import letters
-from kulman.drawing.notes.word_blocks import Picture, blocks_in_word
+from kulman.drawing.notes.word_blocks import Picture, blocks_in_word, folded_in_word
 from kulman.drawing.notes.word_lines import line
 from kulman.scales.packaged import packaged
 from kulman.tests.support.word import M, W, disordered, part, said
@@ -61,7 +61,8 @@ def in_word(document: Document) -> Any:
     """The blocks of a document as elements, without its pictures."""
     figures = sum(isinstance(block, Figure) for block in document.blocks)
     names = " ".join(f'xmlns:{short}="{name}"' for short, name in SPACES.items())
-    text = blocks_in_word(document, [Picture("rId1", "rId2")] * figures)
+    pictures = [Picture("rId1", "rId2")] * figures
+    text = blocks_in_word(document, pictures) + folded_in_word(document, pictures)
     return etree.fromstring(f"<w:body {names}>{text}</w:body>")
 
 
@@ -226,6 +227,28 @@ def test_pictures_are_as_large_as_the_figures() -> None:
             figure.view.size, abs=1e-6
         )
         assert {etree.QName(element).localname for element in svg.iter()} & {"text", "style", "image"} == set()
+
+
+def test_a_figure_too_large_for_a_page_stands_on_a_larger_one() -> None:
+    document = document_of()
+    place = next(place for place, block in enumerate(document.blocks) if isinstance(block, Figure))
+    figure = document.blocks[place]
+    large = replace(figure, view=replace(figure.view, box=(-200.0, -250.0, 200.0, 250.0)))
+
+    data = docx_bytes(replace(document, blocks=(large, *document.blocks[place:])))
+
+    word = docx.Document(BytesIO(data))
+    assert [round(section.page_width.mm) for section in word.sections] == [210, 297]
+    assert [section.different_first_page_header_footer for section in word.sections] == [True, False]
+    last = word.inline_shapes[len(word.inline_shapes) - 1]
+    assert (last.width.mm, last.height.mm) == pytest.approx((267.0, 267.0 * 500 / 400), abs=1e-4)
+    told = [line for _, line in paragraphs(part(data, "word/document.xml"))]
+    assert any(line.startswith("Рисунок 1 вміщено на аркуші A3") for line in told)
+    assert told[-1].startswith("Рисунок 1 – ")
+    body = part(data, "word/document.xml")
+    assert list(disordered(body)) == []
+    (mark,) = (m.get(f"{W}name") for m in body.iter(f"{W}bookmarkStart") if m.get(f"{W}name").startswith("_Figure"))
+    assert f" REF {mark} \\h " in [order.text for order in body.iter(f"{W}instrText")]
 
 
 def test_letters_of_a_picture_stand_where_they_were() -> None:
