@@ -45,6 +45,7 @@ from kulman.tests.support.cams import (
 )
 
 COUNTS = [pytest.param(5, id="5"), pytest.param(250, id="250", marks=pytest.mark.soak)]
+GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 FEW = [pytest.param(2, id="2"), pytest.param(30, id="30", marks=pytest.mark.soak)]
 
 
@@ -63,12 +64,18 @@ class Positions:
         return float(max(np.max(way * (x - e) / tan - s) for way, x, s, tan in self._rows))
 
     def smallest(self, reach: float) -> float:
-        """Return the least r_0 of all offsets: r_0(e) has one minimum, found by golden section."""
+        """Return the least r_0 of all offsets: r_0(e) has one minimum, found by golden section to 1e-12 of `reach`."""
         low, high = -reach, reach
-        for _ in range(70):
-            a, b = high - 0.618 * (high - low), low + 0.618 * (high - low)
-            low, high = (low, b) if math.hypot(a, self.s_0(a)) < math.hypot(b, self.s_0(b)) else (a, high)
-        return math.hypot(low, self.s_0(low))
+        inner = [(math.hypot(e, self.s_0(e)), e) for e in (high - GOLDEN * (high - low), low + GOLDEN * (high - low))]
+        while high - low > 1e-12 * reach:
+            (left, a), (right, b) = inner
+            if left < right:
+                high, e = b, b - GOLDEN * (b - low)
+                inner = [(math.hypot(e, self.s_0(e)), e), inner[0]]
+            else:
+                low, e = a, a + GOLDEN * (high - a)
+                inner = [inner[1], (math.hypot(e, self.s_0(e)), e)]
+        return min(inner)[0]
 
 
 @pytest.mark.parametrize("count", COUNTS)
