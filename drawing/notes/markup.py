@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from ..text import ESCAPED, RULES
 
 _PLAIN = re.compile(r"(?:[^\\{}_^]|\\[\\{}_^]|[_^](?!\{))+")
+_WORD = re.compile(r"[^\W\d_]$|(?:^|\d |, )\(?[^\W\d_]+/$")  # a letter at the end, or a unit: 2 m/s²
 _ESCAPE = re.compile(r"\\([\\{}_^])")
 
 
@@ -130,6 +131,6 @@ def tied(text: str) -> str:
 def joined(parts: Sequence[Node], place: int) -> bool:
     """Whether a part stands in one word with plain letters, which are upright: the d and the φ of d²s/dφ²."""
     before, after = (parts[near] if 0 <= near < len(parts) else None for near in (place - 1, place + 1))
-    if isinstance(before, Plain) and before.text[-1:].isalpha():
+    if isinstance(before, Plain) and _WORD.search(before.text):
         return True
     return isinstance(after, Plain) and after.text[:1].isalpha()

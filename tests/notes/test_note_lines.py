@@ -35,6 +35,10 @@ def test_equations_may_end_a_line_before_a_sign() -> None:
         ("ω^{2}·r_{0}", "ωr", ""),
         ("P_{1}B_{1}", "PB", ""),
         ("OP_{1} = 2", "", "P"),
+        ("a_{B} = 2 m/s^{2}", "a", "s"),
+        ("V_{A}^{2}/l_{OA}", "Vl", ""),
+        ("μ_{s} = h/S_{max}", "μS", ""),
+        ("m/s^{2}", "", "s"),
     ],
 )
 def test_letters_of_one_word_are_all_upright(markup: str, slanted: str, upright: str) -> None:
