@@ -81,8 +81,8 @@ def layer_of(shape: Shape) -> Layer:
         return Layer(shape.layer)
     if isinstance(shape, Vector | Arrow):
         return Layer.RESULT
-    if isinstance(shape, Head):
-        return Layer.CONSTRUCTION
+    if isinstance(shape, Head):  # of an axis: others are in groups
+        return Layer.GIVEN
     if shape.name == NOTE and isinstance(shape, Text):
         return Layer.LABELS
     known = _LAYERS.get(shape.role)

@@ -147,7 +147,8 @@ def radius_at(canvas: Canvas, scene: CamScene, name: str, value: float, angle: f
     wide = lay_out(text, style.text).width
     inside, small = wide < high - low, size < SMALLEST * style.label
     tip = size if inside or small else free[2] + wide + 1.5
-    canvas.add(Line(0j, ray * tip, Pen.THIN, role="radius", name=name), Head(ray * size, ray))
+    line = Line(0j, ray * tip, Pen.THIN, role="radius", name=name)
+    canvas.add(Group((line, Head(ray * size, ray)), "dimension", name))
     if small:
         canvas.label(text, (0.5 * ray * size, ray * size), prefer=ray, clear=0.8, height=style.text)
         return left
