@@ -1,7 +1,7 @@
 """What `kulman batch` takes for a student, sheet as SVG and PDF and the note: `make speed` shows it.
 
-Alone it draws a whole class, on one core and on two: `python benchmarks/batches.py 1000`; `... 1000 own`, where everybody
-has data of one's own.
+Alone it draws a whole class, on one core and on two: `python benchmarks/batches.py 1000`; with `own` behind it
+everybody has other data.
 """
 
 from __future__ import annotations

@@ -28,7 +28,8 @@ PATHS = (
 MARKUP = (
     "<script>alert(1)</script>", "&amp;<b>", "]]>", "<!-- x", "<!ENTITY x>", "&#x202e;", "%s%n", "{names}", "{0}",
     "$HOME", "`id`", "'; DROP TABLE x", '"quoted"', "name;semicolon", "name,comma", "#hash", "#sys.inputs",
-    "$x^2$ *b* _i_", "@cite <label>", '#include "/etc/passwd"', "[link](http://x)", "![x](http://x/y.png)", "// c", "~=:{}", "_x0041_",
+    "$x^2$ *b* _i_", "@cite <label>", '#include "/etc/passwd"', "[link](http://x)", "![x](http://x/y.png)", "// c", "~=:{}",
+    "_x0041_",
 )  # fmt: skip
 FORMULAS = (
     "=1+1", "+cmd", "-2", "@SUM(A1)", "\tTab", "|x", "%0A", "x,=1+1,y", "x;=1+1;y", "x\n=1+1,y", "x\t=1+1", "\u200b=1",
