@@ -14,7 +14,7 @@ from . import __version__
 from .scales.choices import HANDS, SIZES
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import system_language
-from .variants.commands.console import lost_output, note_of, print_json, refuse, warn
+from .variants.commands.console import hand_over, lost_output, note_of, print_json, refuse, warn
 from .variants.commands.options import (
     BLOCK,
     Word,
@@ -225,12 +225,7 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 
     language = options.pop("lang") or system_language()
     swept = variants.sweep(task, set=settings, lang=language, **options)
-    for path in swept.save(*files):
-        click.echo(str(path))
-    if as_json:
-        print_json(swept.to_json())
-    elif swept.reason is None and not files:
-        click.echo(swept.table())
+    hand_over(swept, files, as_json, tabled=swept.reason is None)
     return refuse(swept.reason) if swept.reason is not None else 0
 
 
@@ -265,12 +260,7 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 
     language = options.pop("lang") or system_language()
     found = measured(task, set=settings, lang=language, **options)
-    for path in found.save(*files):
-        click.echo(str(path))
-    if as_json:
-        print_json(found.to_json())
-    elif not files:
-        click.echo(found.table())
+    hand_over(found, files, as_json)
     warn(found.warnings)
 
 

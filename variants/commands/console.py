@@ -7,7 +7,8 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
 
 import click
 
@@ -54,6 +55,29 @@ def print_json(data: Mapping[str, Any]) -> None:
     import json
 
     click.echo(json.dumps(data, ensure_ascii=True, allow_nan=False, indent=2))
+
+
+class Found(Protocol):
+    """What a command has found."""
+
+    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
+        """Write it to each of `paths`."""
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as plain data."""
+
+    def table(self) -> str:
+        """Return it as a readable table."""
+
+
+def hand_over(found: Found, files: Sequence[Path], as_json: bool, tabled: bool = True) -> None:
+    """Write what has been found to files and name these; print it as JSON, or as a table where no file is wanted."""
+    for path in found.save(*files):
+        click.echo(str(path))
+    if as_json:
+        print_json(found.to_json())
+    elif tabled and not files:
+        click.echo(found.table())
 
 
 @contextmanager

@@ -10,7 +10,7 @@ import click
 from ...scales.choices import HANDS, SIZES
 from ...scales.errors import InputError, messages
 from ...scales.language import system_language
-from .console import print_json, progress, refuse, warn
+from .console import hand_over, print_json, progress, refuse, warn
 from .options import (
     BLOCK,
     Word,
@@ -117,12 +117,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     language = options.pop("lang") or "uk"
     with progress() as advance:
         found = variants.all_variants(task, set=settings, lang=language, advance=advance, **options)
-    for path in found.save(*files):
-        click.echo(str(path))
-    if as_json:
-        print_json(found.to_json())
-    elif not files:
-        click.echo(found.table())
+    hand_over(found, files, as_json)
     warn(found.warnings)
     return refuse(InputError("variants-problems", n=len(found.left_out))) if found.left_out else 0
 
@@ -131,7 +126,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     epilog=example(
         "kulman batch nau-slider-crank --form class.xlsx",
         "kulman batch nau-slider-crank --roster class.xlsx --out sheets --as pdf --teacher 'О. Коваль'",
-        "kulman batch scheme-08-planer scheme-09-shaper --roster class.xlsx --out sheets --digits scheme,variant",
+        "kulman batch scheme-08-planer scheme-09-shaper --form schemes.xlsx",
     )
 )
 @of_tasks
