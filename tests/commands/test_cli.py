@@ -51,16 +51,29 @@ def examples(*command: str) -> list[list[str]]:
     return [shlex.split(line)[1:] for line in shown.splitlines() if line.strip().startswith("kulman ")]
 
 
-@pytest.mark.parametrize("command", [(), *((name,) for name in cli.commands.commands)])
-def test_the_help_of_every_command_shows_an_example_that_runs(
-    command: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+LONG = ("chart", "sweep")  # whose first example runs by default, all in the soak
+
+
+@pytest.mark.parametrize(
+    ("command", "count"),
+    [
+        *(pytest.param(name, 1 if name in LONG else None, id=name) for name in ("", *cli.commands.commands)),
+        *(pytest.param(name, None, id=f"{name}-all", marks=pytest.mark.soak) for name in LONG),
+    ],
+)
+def test_the_help_of_every_command_shows_examples_that_run(
+    command: str,
+    count: int | None,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    shown = examples(*command)
+    shown = examples(*command.split())
 
     assert shown
-    for arguments in shown:
-        assert not command or arguments[0] == command[0]
+    for arguments in shown[:count]:
+        assert not command or arguments[0] == command
         status, out, err = run(arguments, capsys)
         assert (status, err) == (0, "")
         assert out
