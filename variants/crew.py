@@ -88,7 +88,8 @@ def _shared(
                     made = task.result()
                     yield [Done(place, one) for (place, _), one in zip(waiting.pop(task), made, strict=True)]
         finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+            # what is still in work is not waited for; all done, threads that end later would stumble at the exit
+            pool.shutdown(wait=not waiting, cancel_futures=True)
 
 
 def _singly(work: Work[Item, Made], suspects: Iterable[tuple[int, Item]]) -> Iterator[list[Done[Made]]]:
