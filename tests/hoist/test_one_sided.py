@@ -20,24 +20,21 @@ def stepped(found: Mapping[str, float], end: float) -> dict[str, float]:
     """Return what small steps of a load on a one-sided support, by a one-sided rope, give (Verlet's rule)."""
     m, g, C_01, C_12, V, a = (found[name] for name in ("m", "g", "C_01", "C_12", "V_t", "a"))
     h = 2.0 * math.pi / found["k"] / PARTS
-    t, s, v, t_1, most = 0.0, -m * g / C_01, 0.0, math.nan, [0.0, 0.0]
-    slack = False
-
-    def force(t: float, s: float) -> float:
-        return max(C_12 * (V * t + 0.5 * a * t * t - s - m * g / C_01), 0.0)
-
-    rate = 0.0
+    rest = m * g / C_01
+    t, s, v, t_1, most = 0.0, -rest, 0.0, math.nan, [0.0, 0.0]
+    slack, phase, rate = False, 0, 0.0
     while t < end:
         v += 0.5 * h * rate
         before, s, t = s, s + h * v, t + h
-        rate = (force(t, s) + max(-C_01 * s, 0.0)) / m - g
+        pulled = C_12 * (V * t + 0.5 * a * t * t - s - rest)
+        if pulled <= 0.0:
+            pulled, slack = 0.0, True
+        rate = (pulled - C_01 * s if s < 0.0 else pulled) / m - g
         v += 0.5 * h * rate
-        if math.isnan(t_1) and s >= 0.0:
-            t_1 = t - h * s / (s - before)
-        pulled = force(t, s)
-        slack |= pulled == 0.0
-        phase = 0 if math.isnan(t_1) else 1
-        most[phase] = max(most[phase], pulled)
+        if s >= 0.0 and not phase:
+            phase, t_1 = 1, t - h * s / (s - before)
+        if pulled > most[phase]:
+            most[phase] = pulled
     return {"t_1": t_1, "F_12_max": most[0], "P_12_max": most[1], "slack": float(slack)}
 
 
