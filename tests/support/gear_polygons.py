@@ -88,7 +88,8 @@ def flanks_touch(meshing: Meshing, angle: float, room: float) -> int:
     steps = [np.exp(2j * math.pi / tooth.z) for tooth in meshing.teeth]
     count = 0
     for k in range(-2, 3):
-        first = meshing.centres[0] + (one - meshing.centres[0]) * steps[0] ** k
-        second = meshing.centres[1] + (other - meshing.centres[1]) * steps[1] ** -k
-        count += bool(shapely.dwithin(line(first), line(second), room))
+        first = line(meshing.centres[0] + (one - meshing.centres[0]) * steps[0] ** k)
+        second = line(meshing.centres[1] + (other - meshing.centres[1]) * steps[1] ** -k)
+        shapely.prepare(first)  # with an index of its pieces
+        count += bool(shapely.dwithin(first, second, room))
     return count
