@@ -28,7 +28,8 @@ PATHS = (
 MARKUP = (
     "<script>alert(1)</script>", "&amp;<b>", "]]>", "<!-- x", "<!ENTITY x>", "&#x202e;", "%s%n", "{names}", "{0}",
     "$HOME", "`id`", "'; DROP TABLE x", '"quoted"', "name;semicolon", "name,comma", "#hash", "#sys.inputs",
-    "$x^2$ *b* _i_", "@cite <label>", '#include "/etc/passwd"', "[link](http://x)", "![x](http://x/y.png)", "// c", "~=:{}",
+    "$x^2$ *b* _i_", "@cite <label>", '#include "/etc/passwd"', "[link](http://x)", "![x](http://x/y.png)", "// c",
+    "~=:{}",
     "_x0041_",
 )  # fmt: skip
 FORMULAS = (

@@ -13,7 +13,8 @@ W = "{http://schemas.openxmlformats.org/wordprocessingml/2006/main}"
 M = "{http://schemas.openxmlformats.org/officeDocument/2006/math}"
 # what ECMA-376 lets stand in these elements, in its order: a word processor refuses a file with another one
 ORDER = {
-    f"{W}pPr": "pStyle keepNext keepLines pageBreakBefore numPr tabs suppressAutoHyphens spacing ind jc outlineLvl sectPr",
+    f"{W}pPr": "pStyle keepNext keepLines pageBreakBefore numPr tabs suppressAutoHyphens spacing ind jc "
+    "outlineLvl sectPr",
     f"{W}rPr": "rStyle rFonts b bCs i iCs sz szCs vertAlign lang",
     f"{W}tblPr": "tblStyle tblW jc tblInd tblBorders tblLayout tblCellMar tblLook",
     f"{W}tcPr": "tcW gridSpan shd vAlign",
