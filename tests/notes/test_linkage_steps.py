@@ -22,6 +22,7 @@ from kulman.variants.shelf import bundled
 
 FEW = ("bertyaev-six-bar", "scheme-09-shaper", "scheme-20-press-automaton", "scheme-18-hydraulic-drive")
 DRAWING = ("pole", "lay", "back", "chain", "meet", "arc", "arcs", "divide", "similar", "same", "template", "tangent")
+LAID = re.compile(r" = ([\d.]+)([/·])([\d.]+) = ([\d.]+) [cm]m")
 NUMBER = r"= ([\d.]+) "
 
 
@@ -39,9 +40,9 @@ def scene_of(case: Case, lang: str = "en") -> Any:
     return KIND._scene(case, scales, case.words(lang))
 
 
-def story_of(case: Case, lang: str = "en") -> Story:
+def story_of(case: Case, lang: str = "en", notation: str | None = None) -> Story:
     scales = KIND.first_scales(case.solved, case.choosers)
-    return KIND.story(case, scales, case.words(lang), packaged("kulman.drawing.notes", "texts", lang))
+    return KIND.story(case, scales, case.words(lang, notation), packaged("kulman.drawing.notes", "texts", lang))
 
 
 @lru_cache(maxsize=32)
@@ -84,6 +85,22 @@ def test_every_plan_has_its_steps_and_vector_equations(task: str) -> None:
         known = [line for line in lines if r"\uu{" in line]  # a vector that is known in size and direction
         assert len([line for line in known if r"\u{" in line]) >= len(meets), view
         assert known or view in ("position", "lever"), view
+
+
+@pytest.mark.parametrize("notation", [None, "bauman"])
+@pytest.mark.parametrize("task", tasks())
+def test_what_is_laid_off_recomputes_from_its_value_and_scale_factor(task: str, notation: str | None) -> None:
+    steps = story_of(case_of(task), "en", notation).steps
+    laid = [LAID.search(text) for texts in steps.values() for text in texts if "lay off" in text or "radius" in text]
+
+    found = [match for match in laid if match is not None]
+    assert len(found) >= 6
+    assert len(found) >= 0.9 * len(laid)
+    for match in found:
+        value, sign, mu, length = match.groups()
+        assert (sign == "·") == (notation == "bauman")
+        exact = float(value) / float(mu) if sign == "/" else float(value) * float(mu)
+        assert float(length) == pytest.approx(exact, abs=0.005001)
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)

@@ -69,7 +69,7 @@ def _hung(teller: Teller, at: At, step: Step) -> Told:
     letter = teller.vector(vector)
     if teller.scene.vanishes(vector):
         return Told(step, teller.say("compound_zero", vector=letter))
-    mm = teller.on_paper(abs(teller.scene.mm(step.name) - teller.scene.mm(start)))
+    mm = teller.drawn(vector, at.plan)
     begin = _start(teller, at, start)
     text = teller.say("compound_vector", start=begin, line=teller.along(vector), vector=letter, mm=mm)
     return _drawn(step, text, vector, letter)

@@ -28,18 +28,18 @@ def _place(teller: Teller, step: Step) -> Iterator[str]:
 
 def _lay(teller: Teller, step: Step) -> Iterator[str]:
     """Laid off along a line: a link's length, or a vector; a zero vector is a point."""
-    start, direction, _ = step.operands
+    start, direction, size = step.operands
     edge = teller.reading.between(start, step.name)
     b = teller.mark(step.name)
-    line, mm = teller.line(direction, back=step.verb == "back"), teller.distance(start, step.name)
+    line = teller.line(direction, back=step.verb == "back")
     if GUIDES.fullmatch(start):
-        yield teller.say("on_guide", line=line.removeprefix("∥ "), point=b, mm=mm)
+        yield teller.say("on_guide", line=line.removeprefix("∥ "), point=b, mm=teller.drawn(size, step.plan))
         return
     a = teller.mark(start)
     if edge is not None and teller.scene.vanishes(edge.name):
         yield teller.say("zero", vector=teller.vector(edge.name), start=a, end=b)
         return
-    parts = {"start": a, "segment": f"{a}{b}", "mm": mm}
+    parts = {"start": a, "length": teller.segment(f"{a}{b}", size, step.plan)}
     if edge is None:
         yield teller.say("lay", line=teller.angle(direction) or line, **parts)
     else:
@@ -54,7 +54,7 @@ def _chain(teller: Teller, step: Step) -> Iterator[str]:
         yield teller.say("zero", vector=teller.vector(vector), start=a, end=b)
         return
     line = teller.along(vector)
-    parts = {"segment": f"{a}{b}", "mm": teller.distance(start, step.name), "vector": teller.hung(vector)}
+    parts = {"length": teller.segment(f"{a}{b}", vector, step.plan), "vector": teller.hung(vector)}
     if line:
         yield teller.say("vector", start=a, line=line, **parts)
     else:
@@ -94,7 +94,7 @@ def _divide(teller: Teller, step: Step) -> Iterator[str]:
     start, end, part, whole = step.operands
     a, b, s = (teller.mark(mark) for mark in (start, end, step.name))
     if step.plan == POSITION:
-        yield teller.say("on_link", point=s, link=f"{a}{b}", segment=f"{a}{s}", mm=teller.radius(part))
+        yield teller.say("on_link", point=s, link=f"{a}{b}", length=teller.segment(f"{a}{s}", part, POSITION))
         return
     ratio = " : ".join(teller.scene.words.symbol(name.strip("_|")) for name in (part, whole))
     yield teller.say("divide", point=s, segment=f"{a}{b}", ratio=ratio)
@@ -169,7 +169,12 @@ def _path(teller: Teller, joint: str, leg: tuple[str, ...]) -> str:
     _, start, radius, direction = leg
     if size_of(teller.scene, radius) == 0.0:
         return teller.say("path_line", point=joint, line=teller.line(direction).removeprefix("∥ "))
-    return teller.say("path_arc", point=joint, centre=teller.mark(start), mm=teller.radius(radius))
+    return teller.say(
+        "path_arc",
+        point=joint,
+        centre=teller.mark(start),
+        mm=teller.on_paper(size_of(teller.scene, radius) / teller.scene.scales[POSITION].mu),
+    )
 
 
 TOLD: Mapping[str, Callable[[Teller, Step], Iterator[str]]] = {

@@ -5,18 +5,19 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ....plans.board import POSITION, Step
 from ....scales.packaged import packaged
 from ... import notes
-from ...printed import POINT
+from ...printed import HUNDREDTHS, POINT, Input, calculation
 from ..at_point import At, figures_of
-from ..calculations.equations import is_given, size_of
+from ..calculations.equations import Product, factor, is_given, paper, size_of
 from ..calculations.vector_equations import ends_of, line_of
 from ..reading import Reading, read
 from ..scene import Scene
 
+DOWN = 270.0  # degrees
 ACROSS = ("transport_speed", "transport_tangential")  # laws of vectors normal to the arm of a turn
 
 
@@ -69,7 +70,23 @@ class Teller:
 
     def radius(self, name: str) -> str:
         """Return a length of the mechanism as it is taken into the compass."""
-        return self.on_paper(size_of(self.scene, name) / self.scene.scales[POSITION].mu)
+        return self.drawn(name, POSITION)
+
+    def segment(self, letters: str, name: str, plan: str) -> str:
+        """Return a segment by its letters with the length at which it is drawn; lengths may have the same letters."""
+        drawn = self.drawn(name, plan)
+        return drawn if drawn.startswith((f"{letters}/", f"{letters}·")) else f"{letters} = {drawn}"
+
+    def drawn(self, name: str, plan: str) -> str:
+        """Return how long a quantity is drawn on a plan: by its scale factor, with the numbers put in."""
+        words, scale = self.scene.words, self.scene.scales[plan]
+        if name.startswith("_") and name.lstrip("_") not in self.scene.solved.quantities:
+            return self.on_paper(size_of(self.scene, name) / scale.mu)
+        value, mu = factor(self.scene, name), paper(words, scale)
+        length = Product((value, replace(mu, power=-mu.power)))
+        inputs = [Input(value.value, value.exact), Input(mu.value, exact=True)]
+        texts, result = calculation(words, lambda *x: length.of(x), inputs, HUNDREDTHS)
+        return f"{length.symbols} = {length.written(texts)} = {result} {words.unit(words.display.paper)}"
 
     def on_paper(self, mm: float) -> str:
         """Return a length on paper with its unit."""
@@ -145,7 +162,8 @@ class Teller:
         if line is not None and line.verb != "turn":
             return self.line(made.operands[1])
         angle = math.degrees(cmath.phase(complex(self.scene.solved.values[made.name]))) % 360.0
-        return self.say("inclined", angle=self.scene.words.short(round(angle, 2)))
+        down = abs(angle - DOWN) < 1e-9
+        return self.say("down") if down else self.say("inclined", angle=self.scene.words.short(round(angle, 2)))
 
 
 ALONG = {
