@@ -61,11 +61,10 @@ def cut_by_rack(values: Mapping[str, float], tooth: Tooth, x: float, step: float
     angles = np.arange(-reach, reach, step)
     # the rack moves along its pitch line by as much as the reference circle turns
     moved = (outline + 1j * r * angles[:, np.newaxis]) * np.exp(-1j * angles)[:, np.newaxis]
-    tools = []
-    for side in (-half, half):
-        turned = moved * np.exp(1j * side)
-        tools += list(shapely.polygons(np.stack((turned.real, turned.imag), axis=-1)))
-    near = [tool for tool in tools if tool.intersects(blank)]
+    turned = np.concatenate([moved * np.exp(1j * side) for side in (-half, half)])
+    tools = shapely.polygons(np.stack((turned.real, turned.imag), axis=-1))
+    shapely.prepare(blank)  # with an index of its sides
+    near = tools[shapely.intersects(blank, tools)]
     left = blank.difference(shapely.unary_union(near))
     parts = list(left.geoms) if hasattr(left, "geoms") else [left]
     return float(max(part.area for part in parts))
