@@ -18,6 +18,7 @@ from .telling.conclusions import conclusions
 from .telling.lever import lever_told
 from .telling.marks import TOLD
 from .telling.teller import Teller, Told
+from .views import links_apart
 
 SET = ("pole", "place")  # verbs that set a drawing up
 FORCES = "forces_"
@@ -37,10 +38,12 @@ def story(scene: Scene, texts: Mapping[str, str]) -> Story:
     equations |= compound_equations(teller)
     before: dict[str, tuple[Block, ...]] = {}
     if any(plan.startswith(FORCES) for plan in steps):
-        equations |= lines_by_plan(scene)
+        groups = scene.solved.structure.groups
+        apart = {number for group in groups for number in links_apart(scene.solved, group)}
+        equations |= lines_by_plan(scene, apart)
         views |= {"equations_forces", *(f"equations_forces_{part}" for part in force_parts(scene.solved) if part)}
         loads = Heading(scene.words["heading.equations_loads"]), Equations(tuple(map(tuple, load_lines(scene))))
-        before[f"group_{scene.solved.structure.groups[-1].name}"] = loads
+        before[f"group_{groups[-1].name}"] = loads
     told = frozenset(views | compound_blocks(teller))
     return Story(steps, equations, told, tuple(conclusions(teller)), before)
 

@@ -128,21 +128,29 @@ def _group(solved: SolvedLinkage, group: Group) -> Iterator[Figure]:
 
     A slider whose plan the construction draws stands before it; that of a rod beside it stands after the plans.
     """
-    symbols, sliding = solved.scale_of_plan, _sliding(group)
+    symbols, apart = solved.scale_of_plan, links_apart(solved, group)
     plans = [plan for plan in symbols if plan in {f"forces_{n}" for n in (group.name, *group.links)}]
     plans.sort(key=solved.program.plans.index)
-    alone = [number for number in group.links if f"forces_{number}" in plans]
     yield _apart(group, None)
     for plan in plans:
         link = plan.removeprefix("forces_")
         if link == group.name:
             yield _plan(plan, "heading.group_forces", symbols[plan], links=", ".join(map(str, group.links)))
             continue
-        if int(link) in sliding:
+        if int(link) in apart:
             yield _apart(group, int(link))
         yield _plan(plan, "heading.link_forces", symbols[plan], link=link)
-    if alone and not sliding & {*alone}:
-        yield from (_apart(group, number) for number in group.links if number in sliding)
+    yield from (_apart(group, number) for number in apart if f"forces_{number}" not in plans)
+
+
+def links_apart(solved: SolvedLinkage, group: Group) -> tuple[int, ...]:
+    """Return the sliders of a group that have figures of their own: those with plans, or else that of a rod beside one.
+
+    None has, where no link of the group has a plan of its own.
+    """
+    sliding, alone = _sliding(group), {number for number in group.links if f"forces_{number}" in solved.scale_of_plan}
+    shown = sliding & alone or (sliding if alone else set())
+    return tuple(number for number in group.links if number in shown)
 
 
 def _sliding(group: Group) -> set[int]:

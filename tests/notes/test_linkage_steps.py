@@ -18,6 +18,7 @@ from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
 from kulman.variants.case import Case, solve_case
 from kulman.variants.kinds.linkage import KIND
+from kulman.variants.sheets import draw_case
 from kulman.variants.shelf import bundled
 
 FEW = ("bertyaev-six-bar", "scheme-09-shaper", "scheme-20-press-automaton", "scheme-18-hydraulic-drive")
@@ -190,3 +191,18 @@ def test_equations_of_forces_stand_before_their_plan() -> None:
     assert isinstance(blocks[loads - 3], Heading)
     assert isinstance(blocks[loads - 2], Equations)
     assert isinstance(blocks[at - 1], Steps)
+
+
+SLIDERS = ("scheme-19-scotch-yoke", "scheme-09-shaper", "scheme-04-v-engine", "scheme-20-press-automaton")
+
+
+@pytest.mark.parametrize("task", [SLIDERS[0], *(pytest.param(task, marks=pytest.mark.soak) for task in SLIDERS[1:])])
+def test_moments_about_guides_stand_with_the_figure_of_their_slider(task: str) -> None:
+    equations = told(task).equations
+    views = {view.name for view in draw_case(case_of(task), {}, lang="en").views}
+
+    assert {*equations} <= views
+    assert {view for view in views if view.startswith("link_")} == {name for name in equations if "link_" in name}
+    for name, lines in equations.items():
+        if name.startswith("link_"):
+            assert f"({name[-1]}) = 0:" in lines[0][0]

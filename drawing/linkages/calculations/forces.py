@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import replace
 
 from ....plans.board import Step
@@ -55,24 +55,28 @@ def force_lines(scene: Scene, part: str = WHOLE) -> Lines:
     return lines
 
 
-def lines_by_plan(scene: Scene) -> dict[str, Lines]:
+def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, Lines]:
     """Return the equations that stand before each force plan, by plan: moments first, then the sums that it shows.
 
-    What is found after the last plan of a group stands with that one.
+    What is found of a link after its plans stands with the figure of that link where it is `apart`, or else with the
+    last plan of its group.
     """
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))
     poles = [step for step in scene.solved.program if step.verb == "pole" and step.name.startswith("forces_")]
     last = {_part(scene, step): plan_of(step.name) for step in poles}
     found: dict[str, Lines] = {plan_of(step.name): [] for step in poles}
-    held: dict[str, Lines] = {}
+    held: dict[str, list[tuple[Step, Lines]]] = {}
     for step in scene.solved.program:
         told = [] if step.law in LOADING else _force(scene, step)
         if step in poles:
-            found[plan_of(step.name)] += [*held.pop(_part(scene, step), []), *told]
+            before = held.pop(_part(scene, step), [])
+            found[plan_of(step.name)] += [*(line for _, lines in before for line in lines), *told]
         elif told:
-            held.setdefault(_part(scene, step), []).extend(told)
-    for part, lines in held.items():
-        found[last[part]] += lines
+            held.setdefault(_part(scene, step), []).append((step, told))
+    for part, after in held.items():
+        for step, lines in after:
+            number = link_of(scene, step.operands[1] if step.verb == "arm" else step.name)
+            found.setdefault(f"link_{number}" if number in apart else last[part], []).extend(lines)
     return found
 
 
