@@ -22,3 +22,4 @@ def pytest_collection_finish() -> None:
     """Spare the thousands of tests, which stay to the end, from every later search for garbage."""
     gc.collect()
     gc.freeze()
+    gc.set_threshold(10_000, 10, 20)
