@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from enum import Enum
 
 from ..scales.packaged import packaged
+from .page import Page
 from .shapes import Arrow, Group, Head, Pen, Shape, Text, Vector
 
 NOTE = "note"  # the name of lines under a heading, which may hold results
@@ -43,6 +44,11 @@ _ROLES = {
     Layer.LABELS: "dimension extension leader point ordinate",
 }
 _LAYERS = {role: layer for layer, roles in _ROLES.items() for role in roles.split()}
+
+
+def parts_of(page: Page) -> Sequence[tuple[Layer | None, Sequence[Shape]]]:
+    """Return the shapes of a page by layers, in the order of painting; all as they come where it has none."""
+    return layered(page.shapes) if page.layers else [(None, page.shapes)]
 
 
 def layered(shapes: Iterable[Shape]) -> list[tuple[Layer, list[Shape]]]:

@@ -17,7 +17,9 @@ from .text import Box, corners
 class Page:
     """A sheet of paper of `width` x `height` mm with shapes on it, ready for any writer.
 
-    `language` is the language of its words ("uk", "ru", "en"); `norm` picks the widths of its lines.
+    `language` is the language of its words ("uk", "ru", "en"); `norm` picks the widths of its lines. With `layers` a
+    file keeps what is given, construction, results and letters apart, so that a reader can hide any of them; without
+    them each view is one group.
     """
 
     width: float
@@ -26,6 +28,7 @@ class Page:
     title: str
     language: str
     norm: Norm = "gost"
+    layers: bool = False
 
     @property
     def pens(self) -> Pens:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, BinaryIO, assert_never
 from zlib import compress
 
 from .font import font
-from .layers import Layer, layered
+from .layers import Layer, parts_of
 from .page import Page
 from .pdf_layers import DocumentLayers, opened
 from .pens import Pens, arrow_parts, head_outline, length_of
@@ -101,14 +101,16 @@ def draw_page(canvas: Canvas, page: Page) -> list[Layer]:
     """Draw a page layer by layer on a canvas whose unit is the point and whose y points up; return its layers."""
     canvas.saveState()
     writer = _Writer(canvas, page.pens)
-    parts = layered(page.shapes)
+    parts = parts_of(page)
     for layer, shapes in parts:
-        writer.put(opened(layer))
+        if layer is not None:
+            writer.put(opened(layer))
         for shape in shapes:
             writer.draw(shape)
-        writer.put("EMC")
+        if layer is not None:
+            writer.put("EMC")
     canvas.restoreState()
-    return [layer for layer, _ in parts]
+    return [layer for layer, _ in parts if layer is not None]
 
 
 def draw_shapes(canvas: Canvas, shapes: Sequence[Shape], pens: Pens) -> None:

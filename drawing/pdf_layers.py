@@ -29,9 +29,11 @@ class DocumentLayers:
         return found
 
     def close(self) -> None:
-        """Tell the catalog of the layers of all pages."""
+        """Tell the catalog of the layers of all pages, if there are any."""
         from reportlab.pdfbase.pdfdoc import PDFArray, PDFDictionary
 
+        if not self.groups:
+            return
         listed = [layer for layer in Layer if layer in self.groups]
         hidden = PDFArray([self._reference(layer) for layer in listed if layer.hidden])
         groups = PDFArray([self._reference(layer) for layer in listed])

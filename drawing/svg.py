@@ -12,7 +12,7 @@ from math import cos, degrees, isfinite, pi, sin
 from typing import BinaryIO, assert_never
 
 from .font import FAMILY, subset, web_subset
-from .layers import Layer, layered
+from .layers import Layer, parts_of
 from .page import Page
 from .pens import Pens, arrow_parts, head_outline, length_of
 from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
@@ -40,16 +40,18 @@ def write_svg(page: Page, stream: BinaryIO, with_font: bool = True) -> None:
 def svg_text(page: Page, with_font: bool = True) -> str:
     """Return one page as the text of an SVG file."""
     writer = _Writer(page.height, page.pens)
-    for layer, shapes in layered(page.shapes):
-        writer.parts.append(_opened(layer, page.language))
+    for layer, shapes in parts_of(page):
+        if layer is not None:
+            writer.parts.append(_opened(layer, page.language))
         for shape in shapes:
             writer.draw(shape)
-        writer.parts.append("</g>")
+        if layer is not None:
+            writer.parts.append("</g>")
     width, height = _number(page.width), _number(page.height)
+    of_layers = f' xmlns:inkscape="{INKSCAPE}"' if page.layers else ""
     head = (
         '<?xml version="1.0" encoding="UTF-8"?>\n'
-        f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="{INKSCAPE}" version="1.1" '
-        f'width="{width}mm" height="{height}mm" '
+        f'<svg xmlns="http://www.w3.org/2000/svg"{of_layers} version="1.1" width="{width}mm" height="{height}mm" '
         f'viewBox="0 0 {width} {height}" xml:lang="{_quoted(page.language)}" font-family="{FAMILY}, sans-serif">\n'
         f"<title>{_quoted(page.title)}</title>\n"
     )

@@ -20,7 +20,7 @@ def printable(sheet: Format) -> Format:
 
 
 def marked(page: Page) -> Page:
-    """Return a page with a ruler under the frame and one beside it."""
+    """Return a page in layers with a ruler under the frame and one beside it."""
     x, y = 24.0, 6.0
     across = _ruler(complex(x, y), 1 + 0j)
     up = _ruler(complex(12.0, 60.0), 1j)
@@ -31,9 +31,8 @@ def marked(page: Page) -> Page:
         role="stamp",
         name="print",
     )
-    return replace(
-        page, shapes=(*page.shapes, Group((*across, text), "ruler", "across"), Group(tuple(up), "ruler", "up"))
-    )
+    rulers = Group((*across, text), "ruler", "across"), Group(tuple(up), "ruler", "up")
+    return replace(page, shapes=(*page.shapes, *rulers), layers=True)
 
 
 def _ruler(start: complex, along: complex) -> list[Shape]:

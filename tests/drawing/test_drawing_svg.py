@@ -41,12 +41,6 @@ def read(drawn):
     return etree.fromstring(stream.getvalue())
 
 
-def drawn(*shapes):
-    """Return what the one layer of these shapes holds."""
-    (layer,) = (child for child in read(page(*shapes)) if child.get("class") == "layer")
-    return layer
-
-
 def without_font(text):
     return "".join(line for line in text.splitlines(keepends=True) if not line.startswith("@font-face"))
 
@@ -63,7 +57,7 @@ def test_the_page_is_in_millimetres():
 def test_a_vector_is_read_back_with_all_digits(tip):
     vector = replace(ONE_OF_EACH[6], tip=tip)
 
-    group = drawn(vector).find(f"{SVG}g")
+    group = read(page(vector)).find(f"{SVG}g")
 
     line = group.find(f"{SVG}line")
     ends = [complex(float(line.get(f"x{n}")), 297 - float(line.get(f"y{n}"))) for n in (1, 2)]
@@ -75,7 +69,7 @@ def test_a_vector_is_read_back_with_all_digits(tip):
 
 
 def test_a_zero_vector_is_a_dot_and_keeps_its_line():
-    group = drawn(replace(ONE_OF_EACH[6], tip=50 + 150j, value=0.0)).find(f"{SVG}g")
+    group = read(page(replace(ONE_OF_EACH[6], tip=50 + 150j, value=0.0))).find(f"{SVG}g")
 
     line, dot = group.find(f"{SVG}line"), group.find(f"{SVG}circle")
     assert (line.get("x1"), line.get("y1")) == (line.get("x2"), line.get("y2"))
@@ -84,7 +78,7 @@ def test_a_zero_vector_is_a_dot_and_keeps_its_line():
 
 @pytest.mark.parametrize("length", [100.0, 5.1, 3.0, 1.0])
 def test_heads_have_one_size_and_point_along_the_arrow(length):
-    group = drawn(Arrow(10 + 10j, 10 + 10j + length * 1j)).find(f"{SVG}g")
+    group = read(page(Arrow(10 + 10j, 10 + 10j + length * 1j))).find(f"{SVG}g")
 
     corners = [complex(*map(float, pair.split(","))) for pair in group.find(f"{SVG}polygon").get("points").split()]
     tip, left, right = (corner.real + (297 - corner.imag) * 1j for corner in corners)
@@ -123,7 +117,7 @@ def test_runs_of_a_text_stand_where_its_layout_says():
 
 
 def test_a_squeezed_text_keeps_its_place():
-    element = drawn(Text(60 + 200j, "Заболотна", 2.5, squeeze=0.5)).find(f"{SVG}text")
+    element = read(page(Text(60 + 200j, "Заболотна", 2.5, squeeze=0.5))).find(f"{SVG}text")
 
     a, b, c, d, e, f = map(float, element.get("transform")[len("matrix(") : -1].split())
     x, y = float(element.get("x")), float(element.get("y"))
@@ -133,7 +127,7 @@ def test_a_squeezed_text_keeps_its_place():
 
 @pytest.mark.parametrize("sweep", [0.5, -0.5, 3.0, -6.0])
 def test_arcs_run_the_way_they_are_meant(sweep):
-    path = drawn(Arc(100 + 100j, 20, 0.3, sweep)).find(f"{SVG}path").get("d")
+    path = read(page(Arc(100 + 100j, 20, 0.3, sweep))).find(f"{SVG}path").get("d")
 
     numbers = [float(part) for part in path.replace("M", "").replace("A", " ").split()]
     ends = [complex(x, 297 - y) - (100 + 100j) for x, y in zip(numbers[7::7], numbers[8::7], strict=True)]

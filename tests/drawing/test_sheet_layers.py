@@ -88,7 +88,7 @@ def shown(data: bytes) -> bytes:
 
 @pytest.mark.parametrize("task", TASKS)
 def test_each_thing_is_in_one_layer(task: str) -> None:
-    for page in sheet(task, only=PLANS if task == TASK else None).pages:
+    for page in printed(task, key=True).pages:
         parts = layered(page.shapes)
 
         assert Counter(leaves(shape for _, own in parts for shape in own)) == Counter(leaves(page.shapes))
@@ -125,7 +125,7 @@ def test_a_shape_tells_its_layer_by_what_it_is(shape: Shape, layer: Layer) -> No
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_readers_name_the_layers_in_the_language_of_the_sheet(language: str) -> None:
     everything = (Group((Line(0j, 1j),), "view", str(k), layer=layer.value) for k, layer in enumerate(Layer))
-    page = Page(100, 100, tuple(everything), "x", language)
+    page = Page(100, 100, tuple(everything), "x", language, layers=True)
     titles = [layer.title(language) for layer in Layer]
 
     groups = layers_of(page)
@@ -160,15 +160,21 @@ def test_all_that_a_pdf_paints_is_in_a_layer_that_its_page_knows() -> None:
 def test_layers_change_nothing_that_is_seen() -> None:
     """Where white covers lines, it covers them in layers too, but for lines that end in the circle of a node."""
     (page,) = sheet(TASK, only="position,velocity,forces", format="A2").pages
-    one = Group(tuple(part for shape in page.shapes for part in _parts(shape)), "view", layer="result")
 
-    apart, whole = (picture(pdf(drawn)) for drawn in (page, replace(page, shapes=(one,))))
+    apart, whole = (picture(pdf(drawn)) for drawn in (replace(page, layers=True), page))
 
     assert np.mean(np.abs(apart.astype(int) - whole) > 32) < 2e-5
 
 
-def _parts(shape: Shape) -> tuple[Shape, ...]:
-    return shape.shapes if isinstance(shape, Group) and shape.role == "view" else (shape,)
+def test_on_a_sheet_each_view_is_one_group() -> None:
+    (page,) = sheet(TASK, only=PLANS).pages
+    root = etree.fromstring(svg_text(page).encode())
+
+    groups = [child.get("data-name") for child in root if child.get("class") == "view"]
+
+    assert sorted(groups) == sorted({*groups}) == sorted(view.name for view in sheet(TASK, only=PLANS).views)
+    assert names(page) == []
+    assert "OCProperties" not in PDFDocument(PDFParser(BytesIO(pdf(page)))).catalog
 
 
 @pytest.mark.parametrize("how", [{}, {"grid": True}, {"steps": 2}], ids=str)

@@ -245,10 +245,11 @@ def _page(number: int, svg: str | bytes) -> Page:
 
 
 def _leafed(root: etree._Element) -> Iterator[etree._Element]:
-    """Go through what the layers hold: first what is given, where every view has its heading."""
+    """Go through what a page or its layers hold: first what is given, where every view has its heading."""
     layers = [child for child in root if child.get("class") == "layer"]
     for layer in sorted(layers, key=lambda layer: layer.get("id") != "layer-given"):
         yield from layer
+    yield from (child for child in root if child not in layers)
 
 
 def _walk(group: etree._Element, view: View, path: tuple[tuple[str, str], ...], height: float) -> None:
