@@ -16,6 +16,7 @@ from .exact import run
 from .noting import NotingBoard
 
 CHUNK = 8192
+FEW = 2000  # positions up to which preparing a batch takes longer than running them on arrays
 
 
 def batch(

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ....scales.errors import InputError
 from ...board import Program
-from ...boards.batch import batch
+from ...boards.batch import FEW, batch
 from ...boards.exact import STATUSES
 from ...extremes import Extreme, extremes
 from ...laws import TURN, dot
@@ -33,7 +33,6 @@ __all__ = ["Arc", "Cycle", "Extreme", "Travel", "cycle", "stroke_of"]
 Array = NDArray[Any]
 VANISHES = 1e-9  # part of the largest magnitude below which the smallest is zero
 BESIDE_CHANGE = 1e-4  # radians from a change point within which velocities are lost in rounding: it goes as 1 / angle^2
-FEW = 2000  # positions up to which preparing a batch takes longer than running it
 FEWEST, MOST = 3, 100_000  # positions of a cycle
 
 

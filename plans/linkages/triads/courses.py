@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...board import Program, RecordingBoard, Step
-from ...boards.batch import batch
+from ...boards.arrays import ArrayBoard
+from ...boards.batch import FEW, batch
 from ...boards.exact import run
 from ...boards.template import ASTRAY, CLOSED, FOLDED
 from ..chain import construct
@@ -124,7 +125,12 @@ class Course:
             one = {name: float(value[0]) if np.ndim(value) else value for name, value in values.items()}
             board = run(program, one)
             return {name: np.array([board.values[name]]) for name in wanted}
-        return batch(program, values, wanted)[0]
+        if size > FEW:
+            return batch(program, values, wanted)[0]
+        many = ArrayBoard(values, size)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            program.run(many)
+        return {name: many.values[name] for name in wanted}
 
     def _largest_side(self) -> Array:
         """Return the largest distance of two joints of the last central link, for each mechanism."""
