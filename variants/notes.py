@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,7 +25,8 @@ from .task import Task
 
 TEXTS = "kulman.drawing.notes"
 DOCUMENTS = (".pdf", ".docx", ".md")
-ALONE = {".pdf": pdf_bytes, ".docx": docx_bytes}  # documents that hold their figures
+# documents that hold their figures
+ALONE: Mapping[str, Callable[[Document], bytes]] = {".pdf": pdf_bytes, ".docx": docx_bytes}
 SUFFIXES = (*DOCUMENTS, ".svg", ".png")
 
 

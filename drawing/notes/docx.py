@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Iterable, Sequence
 from importlib.util import find_spec
 from io import BytesIO
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...scales.errors import InputError
 from ...scales.packaged import home, packaged
 from ..formats import FORMATS
-from .blocks import FOLDED, Document, Figure, Steps
+from .blocks import FOLDED, Block, Document, Figure, Steps
 from .figures import figure_page
 from .markup import printable
 from .outlines import outlined
@@ -34,31 +35,64 @@ _FOOTER = paragraph("Footer", f'<w:fldSimple w:instr=" PAGE ">{words("2")}</w:fl
 _LONG_AGO = (1980, 1, 1, 0, 0, 0)  # the first date that a file in a ZIP can have: the same note, the same bytes
 
 
-def docx_bytes(document: Document) -> bytes:
+class Drawing(NamedTuple):
+    """A figure as PNG, and as SVG with outlines for letters."""
+
+    png: bytes
+    svg: bytes
+
+
+def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) -> bytes:
     """Return a note as DOCX; the same note gives the same bytes.
+
+    Parameters
+    ----------
+    drawings : sequence of Drawing, optional
+        Those of its figures, where they are drawn already for another note with the same blocks.
 
     Raises
     ------
     InputError
         The extra `docx` is not installed.
     """
-    if any(find_spec(name) is None for name in LIBRARIES):
-        raise InputError("extra-missing", extra="docx", suffix=".docx")
+    _needs_libraries()
     import docx
 
     word = docx.Document()
     _dress(word, document)
     _pages(word)
     _sign(word, document)
-    figures = [block for block in document.blocks if isinstance(block, Figure)]
-    pictures = [_picture(word, figure, document.language, number) for number, figure in enumerate(figures, 1)]
+    drawings = drawings_of(document.blocks, document.language) if drawings is None else drawings
+    pictures = [_picture(word, drawing, number) for number, drawing in enumerate(drawings, 1)]
     _append(word, f"{first_pages(document)}{blocks_in_word(document, pictures)}")
-    if any(figure.folded for figure in figures):
+    if any(isinstance(block, Figure) and block.folded for block in document.blocks):
         _larger_sheets(word)
         _append(word, folded_in_word(document, pictures))
     stream = BytesIO()
     word.save(stream)
     return _undated(stream.getvalue())
+
+
+def drawings_of(blocks: Iterable[Block], language: str) -> list[Drawing]:
+    """Draw the figures of a note; errors as of `docx_bytes`."""
+    _needs_libraries()
+    return [_drawn(block, language) for block in blocks if isinstance(block, Figure)]
+
+
+def _needs_libraries() -> None:
+    if any(find_spec(name) is None for name in LIBRARIES):
+        raise InputError("extra-missing", extra="docx", suffix=".docx")
+
+
+def _drawn(figure: Figure, language: str) -> Drawing:
+    from ..png import write_png
+    from ..svg import write_svg
+
+    page = figure_page(figure, language)
+    png, svg = BytesIO(), BytesIO()
+    write_png([page], png, DPI * shown_share(figure))
+    write_svg(page, svg, with_font=False)
+    return Drawing(png.getvalue(), outlined(svg.getvalue()))
 
 
 def _append(word: Word, inside: str) -> None:
@@ -141,22 +175,15 @@ def _short(text: str) -> str:
     return printable(text)[:LONGEST]
 
 
-def _picture(word: Word, figure: Figure, language: str, number: int) -> Picture:
-    """Put the picture of a figure into the document, as PNG and as SVG with outlines for letters."""
+def _picture(word: Word, drawing: Drawing, number: int) -> Picture:
+    """Put the picture of a figure into the document."""
     from docx.opc.constants import RELATIONSHIP_TYPE as KIND
     from docx.opc.packuri import PackURI
     from docx.opc.part import Part
 
-    from ..png import write_png
-    from ..svg import write_svg
-
-    page = figure_page(figure, language)
-    png, svg = BytesIO(), BytesIO()
-    write_png([page], png, DPI * shown_share(figure))
-    write_svg(page, svg, with_font=False)
     name = PackURI(f"/word/media/figure{number}.svg")
-    part = Part(name, "image/svg+xml", outlined(svg.getvalue()), word.part.package)
-    return Picture(word.part.get_or_add_image(png)[0], word.part.relate_to(part, KIND.IMAGE))
+    part = Part(name, "image/svg+xml", drawing.svg, word.part.package)
+    return Picture(word.part.get_or_add_image(BytesIO(drawing.png))[0], word.part.relate_to(part, KIND.IMAGE))
 
 
 def _undated(data: bytes) -> bytes:

@@ -11,6 +11,7 @@ from pathlib import Path
 from ... import __version__
 from ...drawing.compose import Drawn
 from ...drawing.notes.blocks import Block, Document
+from ...drawing.notes.docx import Drawing, docx_bytes, drawings_of
 from ...drawing.notes.typst import Body, pdf_bytes
 from ...drawing.pens import Norm
 from ...drawing.writers import WRITERS, page_files, slug
@@ -21,7 +22,7 @@ from ...scales.units import format_unit
 from ..case import Case, solve_case
 from ..handouts import begun_of_case, drawing_for_print
 from ..journal import digest_of
-from ..notes import ALONE, body_of, title_page
+from ..notes import body_of, title_page
 from ..roster import Entry
 from ..sheet_id import sheet_id
 from ..sheets import Sheet, drawing_of, sheet_of, stamp_of
@@ -78,6 +79,11 @@ class Work:
     def written(self) -> Body:
         """The same for a note as PDF."""
         return Body.of(self.body, self.language)
+
+    @cached_property
+    def drawings(self) -> list[Drawing]:
+        """Its figures for a note as DOCX."""
+        return drawings_of(self.body, self.language)
 
     @cached_property
     def blank(self) -> Drawn:
@@ -164,8 +170,8 @@ class Making:
         if kind in NOTES:
             page = {name: text for name, text in block.items() if name != "designation"}
             document = Document(title_page(work.case, page, self.language), work.body, self.language)
-            written = pdf_bytes(document, work.written) if kind == NOTE else ALONE[NOTES[kind]](document)
-            yield f"{stem}-note{NOTES[kind]}", written
+            data = pdf_bytes(document, work.written) if kind == NOTE else docx_bytes(document, work.drawings)
+            yield f"{stem}-note{NOTES[kind]}", data
             return
         if kind == HANDOUT:
             drawn = begun_of_case(work.case, work.blank, block, notation=self.notation, lang=self.language)
