@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from pdfminer.high_level import extract_pages
-from pdfminer.layout import LTLine, LTTextContainer
+from pdfminer.layout import LAParams, LTLine, LTTextContainer
 from pdfminer.pdfdocument import PDFDocument
 from pdfminer.pdfparser import PDFParser
 from pdfminer.pdftypes import resolve1
@@ -22,6 +22,7 @@ from kulman.tests.support.mechanisms import NAU_VARIANTS
 from kulman.tests.support.sheet_cases import TASK, Case, drawn, sheet_of, solved
 
 MM = 25.4 / 72
+LETTERS = LAParams(boxes_flow=None)  # letters as lines of text, which take no order
 
 
 def scale_faults(case: Case) -> list[str]:
@@ -46,7 +47,7 @@ def pdf_faults(case: Case) -> list[str]:
     """PDF against SVG: size of the pages, every vector's shaft, selectable words, embedded fonts."""
     read, stream, faults = drawn(case), io.BytesIO(), []
     write_pdf(sheet_of(case).pages, stream)
-    pages = list(extract_pages(stream))
+    pages = list(extract_pages(stream, laparams=LETTERS))
     for page, same in zip(pages, read.pages, strict=True):
         if abs(page.width * MM - same.width) > 0.01 or abs(page.height * MM - same.height) > 0.01:
             faults.append(f"page of {page.width * MM} x {page.height * MM}")
