@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from pdfminer.high_level import extract_pages
-from pdfminer.layout import LTCurve
+from pdfminer.layout import LAParams, LTCurve
 
 MM = 25.4 / 72
 Stroke = NDArray[np.complex128]  # the points of a line or a curve, mm from the lower left corner
@@ -41,7 +41,7 @@ def _across(line: Stroke, along: complex) -> float:
 def prints(pdf: bytes) -> list[Print]:
     """Return the pages of a PDF."""
     found = []
-    for page in extract_pages(BytesIO(pdf), laparams=None):
+    for page in extract_pages(BytesIO(pdf), laparams=LAParams(boxes_flow=None)):
         strokes = (np.array([complex(*point) * MM for point in part.pts]) for part in _parts(page))
         found.append(Print(page.width * MM, page.height * MM, tuple(stroke for stroke in strokes if len(stroke))))
     return found
