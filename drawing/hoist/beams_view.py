@@ -24,7 +24,7 @@ def beams_view(scene: HoistScene) -> View:
     for i in scene.solved.layout.bent:
         low = _beam(canvas, scene, i, low) - APART
     heading = (words["heading.hoist_beams"], scene.factors("mu_w", "mu_x"))
-    return canvas.finish("beams", heading, (words["hoist.from_nearer"],))
+    return canvas.finish("beams", heading, (words["hoist.from_farther"],))
 
 
 def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:

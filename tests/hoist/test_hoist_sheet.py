@@ -238,6 +238,8 @@ def test_verdict_and_flow_chart_are_those_of_the_numbers(case: HoistCase) -> Non
         most = node(beams, f"w_{i}_max") - points[0]
         assert -most.imag * of_w == pytest.approx(float(np.max(w)), abs=NEAR * of_w)
         assert l - most.real * of_x == pytest.approx(math.sqrt((l * l - b * b) / 3.0), abs=NEAR * of_x)
+        assert b <= l / 2.0  # so that this is the distance from the farther end, and the view says so
+    assert [text for text in beams.of("heading") if re.search("дальшого|дальнего|farther", text.string)]
 
 
 @every_case
