@@ -9,7 +9,7 @@ import pytest
 from kulman import sheet, solve
 from kulman.scales.errors import LANGUAGES, InputError, messages
 from kulman.variants import load_task
-from kulman.variants.kinds.cam import AT_MOST, UNUSUAL
+from kulman.variants.kinds.cam import LARGE, UNUSUAL
 
 TASK = "madi-cam"
 ROCKER = str(Path(__file__).parents[2] / "docs" / "examples" / "rocker-cam.toml")
@@ -53,7 +53,7 @@ def test_what_follows_from_a_wrong_given_is_not_told_again() -> None:
 def test_every_unusual_number_has_its_message() -> None:
     for language in LANGUAGES:
         keys = {key for key in messages(language) if key.startswith("cam-unusual-")}
-        assert keys == {f"cam-unusual-{end}" for end in (*(end for end, _ in UNUSUAL.values()), *AT_MOST.values())}
+        assert keys == {f"cam-unusual-{end}" for end in (*(end for end, _ in UNUSUAL.values()), *LARGE.values())}
 
 
 @pytest.mark.parametrize("name", ["phi_rise", "phi_fall"])
