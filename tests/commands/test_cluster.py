@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import json
+import logging
 import os
 import signal
+import subprocess
+import sys
+import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Thread
 
 import pytest
 
@@ -31,12 +38,14 @@ def files(folder: Path) -> dict[str, bytes]:
 
 def test_a_cluster_gives_the_same_bytes(tmp_path: Path, address: str) -> None:
     file = tmp_path / "class.csv"
-    rows = [f"S{number};{number % 10}" for number in range(20)]
-    file.write_text("\n".join(("student;variant", *rows, "Bad;77")) + "\n", encoding="utf-8")
+    rows = [f"S{number};{number:02d}" for number in range(58)]
+    file.write_text("\n".join(("student;record book", *rows, "Bad;x", "None;")) + "\n", encoding="utf-8")
+    tasks = ["nau-slider-crank"] * 6 + ["scheme-19-scotch-yoke"] * 4
 
-    there = batch("nau-slider-crank", file, tmp_path / "there", dask=address, lang="en")
-    here = batch("nau-slider-crank", file, tmp_path / "here", jobs=2, lang="en")
+    there = batch(tasks, file, tmp_path / "there", only="structure,velocity", dask=address, lang="en")
+    here = batch(tasks, file, tmp_path / "here", only="structure,velocity", jobs=2, lang="en")
 
+    assert len(there.problems) == 2
     assert there.outcomes == here.outcomes
     assert files(tmp_path / "there") == files(tmp_path / "here")
 
@@ -58,6 +67,65 @@ def test_an_item_that_kills_workers_is_found_out(address: str) -> None:
     done = [one for piece in on_cluster(Squares(), list(range(24)), address) for one in piece]
 
     assert {one.place: one.made for one in done} == {n: n * n if n != 13 else None for n in range(24)}
+
+
+@dataclass(frozen=True)
+class Strange(Squares):
+    """What a worker without the module cannot unpack."""
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return missing, ()
+
+
+def missing() -> None:
+    raise ModuleNotFoundError("No module named 'kulman'")
+
+
+def test_a_worker_that_cannot_do_the_work_is_told_in_a_line(address: str) -> None:
+    with pytest.raises(InputError, match="cannot do the work: No module named 'kulman'"):
+        list(on_cluster(Strange(), [1], address))
+
+
+def kill_when_reached(scheduler: subprocess.Popen[bytes]) -> None:
+    from distributed import default_client
+
+    for _ in range(1200):
+        with suppress(ValueError):
+            if default_client().futures:
+                break
+        time.sleep(0.05)
+    scheduler.kill()
+
+
+@pytest.fixture
+def idle(tmp_path: Path) -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
+    """A scheduler without workers: its address, its process."""
+    place = tmp_path / "scheduler.json"
+    command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard"]
+    with subprocess.Popen([*command, "--scheduler-file", str(place)], stderr=subprocess.DEVNULL) as going:
+        while not place.exists() or not place.read_text():
+            time.sleep(0.05)
+        yield json.loads(place.read_text())["address"], going
+        going.kill()
+
+
+def test_a_scheduler_that_goes_is_told_in_a_line(idle: tuple[str, subprocess.Popen[bytes]]) -> None:
+    there, going = idle
+    Thread(target=kill_when_reached, args=(going,)).start()
+
+    with pytest.raises(InputError, match=f"{there} no longer answers"):
+        list(on_cluster(Squares(), [1, 2, 3], there))
+
+    assert logging.root.manager.disable == logging.NOTSET
+
+
+def test_a_scheduler_without_workers_is_told_in_a_line(
+    idle: tuple[str, subprocess.Popen[bytes]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("kulman.variants.cluster.ROUND", "0.2s")
+
+    with pytest.raises(InputError, match=f"{idle[0]} has no workers"):
+        list(on_cluster(Squares(), [1, 2, 3], idle[0]))
 
 
 def test_a_scheduler_that_is_not_there_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
