@@ -46,14 +46,15 @@ def _patterns() -> Iterator[str]:
                 yield node.value
 
 
+@cache
 def words_of(stem: str) -> frozenset[str]:
     """Return what may stand in place of the `*` of `stem*`: names of the bundled tasks, or any text of the code."""
-    tasks = [load_task(task) for task in bundled()]
+    if stem not in ("given.", "choice."):
+        return patterns()
+    givens = [given for task in bundled() for given in load_task(task).givens.values()]
     if stem == "given.":
-        return frozenset(name for task in tasks for name, given in task.givens.items() if given.choices)
-    if stem == "choice.":
-        return frozenset(word for task in tasks for given in task.givens.values() for word in given.choices)
-    return patterns()
+        return frozenset(given.name for given in givens if given.choices)
+    return frozenset(word for given in givens for word in given.choices)
 
 
 def used(key: str) -> bool:
