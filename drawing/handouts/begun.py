@@ -15,6 +15,8 @@ from ..view import View
 
 NUMBER = re.compile(r"[−-]?\d+(?:[.,]\d+)?(?: |$)")  # what a cell of units does not begin with
 ALWAYS = ("axis", "pivot", "frame")  # roles of what the task gives, not the work
+ENLARGED = ("window", "enlarged")  # roles of what is drawn when the whole view is: its crowded parts, larger
+TOGETHER = re.compile(r", | = ")  # between letters of marks at one place, and of vectors that are one
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +25,8 @@ class Shown:
 
     `notes` are the lines under its heading, which may hold results. A table keeps its first `columns`, and the `rows`
     with these first cells; without any said, its last column where that is one of units. Of a view that is drawn part
-    by part these `parts` are drawn, whatever their names and letters.
+    by part these `parts` are drawn, whatever their names and letters. What is enlarged beside a view is drawn when the
+    view is drawn `whole`.
     """
 
     names: frozenset[str]
@@ -32,6 +35,7 @@ class Shown:
     rows: frozenset[str] | None = None
     columns: int = 1
     parts: frozenset[str] | None = None
+    whole: bool = False
 
 
 NOTHING = Shown(frozenset(), frozenset(), notes=False)
@@ -113,18 +117,27 @@ def _is_shown(shape: Shape, shown: Shown) -> bool:
         case Text(role="heading"):
             return True
         case Text(markup=markup):
-            return markup in shown.letters
+            return _told(markup, shown)
         case Vector(quantity=quantity):
             return quantity in shown.names
-        case Arrow():
-            return False
+        case Arrow(name=name):
+            return bool(name) and name in shown.names
         case Group(role=role, name=name):
             own = f"link:{name}" if role == "guide" else f"{role}:{name}"
-            return role in ALWAYS or own in shown.names or name in shown.names
+            return role in ALWAYS or own in shown.names or name in shown.names or (role in ENLARGED and shown.whole)
         case LineShape(role="leader", name=name):
-            return name in shown.names or name in shown.letters
+            return name in shown.names or _told(name, shown)
+        case Polyline(role=role) if role in ENLARGED:
+            return shown.whole
+        case LineShape(role="similarity", name=name):
+            return shown.names.issuperset(name.split())
         case LineShape(name=name, pen=pen) | Polyline(name=name, pen=pen):
             return name in shown.names or (not name and pen.name == "AXIS")
         case _:
             name = getattr(shape, "name", "")
             return bool(name) and name in shown.names
+
+
+def _told(letters: str, shown: Shown) -> bool:
+    """Whether what is written is shown: as it stands, or each of the letters that stand together."""
+    return letters in shown.letters or shown.letters.issuperset(TOGETHER.split(letters))

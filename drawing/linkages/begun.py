@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ...plans.board import POSITION, Step
+from ...plans.linkages.mechanism import Driver
 from ..handouts.begun import Shown
+from .figures.inset import NUMERALS
+from .figures.scheme import angle_said
 from .letters import guide_letters
 from .reading import read
 from .scene import Scene
@@ -32,23 +35,37 @@ def _view(teller: Teller, view: str, steps: int) -> Shown:
         names |= {f"link:{link.number}" for link in links}
         letters |= {str(link.number) for link in links}
         letters |= {scene.words.frame, *guide_letters(scene.solved.program).values()}
-    # what is zero, or too short, is told when all is drawn
-    return Shown(frozenset(names), frozenset(letters), notes=sum(told.counted for told in every) <= steps)
+        driver = scene.solved.mechanism.driver
+        if isinstance(driver, Driver) and driver.point in names:
+            names.add(driver.angle)
+            letters.add(angle_said(scene, driver)[1])
+    # what is zero, or too short, is told when all is drawn, and drawn larger
+    whole = sum(told.counted for told in every) <= steps
+    letters |= set(NUMERALS) if whole else set()
+    return Shown(frozenset(names), frozenset(letters), notes=whole, whole=whole)
 
 
 def _add_mark(scene: Scene, step: Step, names: set[str], letters: set[str]) -> None:
     """Add what a step of a plan draws: its mark with the letter, its construction lines, its vector."""
     words = scene.words
-    names |= {step.name, f"arc_{step.name}", f"{step.name}_1", f"{step.name}_2"}
+    lines = (step.name, f"arc_{step.name}")
+    names |= {*lines, *(f"{line}_{number}" for line in lines for number in (1, 2))}
     if step.verb == "read":
-        letters.add(words.symbol(step.name, bar=True))
+        same = [other.name for other in scene.solved.program.on(step.plan) if _same(other, step)]
+        names |= set(same)
+        letters |= {words.symbol(name.lstrip("_"), bar=True) for name in same}
         return
     if step.verb != "tangent":
         letters.add(words.mark(step.name))
     edges = (e for e in read(scene.solved.program).on(step.plan) if e.tip == step.name and _laid(step, e.tail))
     for edge in edges:
         names.add(edge.name)
-        letters.add(words.symbol(edge.name, bar=True))
+        letters.add(words.symbol(edge.name.lstrip("_"), bar=True))
+
+
+def _same(other: Step, step: Step) -> bool:
+    """Whether a step measures the same vector: that of a point about another that rests, and that of the point."""
+    return other.verb == "read" and other.operands == step.operands
 
 
 def _laid(step: Step, tail: str) -> bool:

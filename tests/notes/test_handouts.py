@@ -14,7 +14,7 @@ from kulman.drawing.compose import Drawn
 from kulman.drawing.formats import BLOCK, FORMATS, drawing_area
 from kulman.drawing.handouts.print_marks import printable
 from kulman.drawing.notes.blocks import Figure, Steps
-from kulman.drawing.shapes import Group, Line, Shape, Text, Vector
+from kulman.drawing.shapes import Arrow, Group, Line, Shape, Text, Vector
 from kulman.scales.errors import LANGUAGES
 from kulman.variants.case import Case
 from kulman.variants.handouts import drawing_for_print
@@ -88,10 +88,38 @@ def test_a_blank_has_no_answers(task: str) -> None:
     assert not [line for line in said & notes if re.search(r"= ?\d", line)]
 
 
-def test_all_steps_of_a_plan_draw_the_plan() -> None:
-    whole, done = (handout("nau-slider-crank", "3", **how) for how in ({"key": True}, {"steps": 1000}))
+PLANS = ("velocity", "acceleration", "forces_", "lever")
+LINKAGES = [task for task in bundled() if task.startswith("scheme") or task in ("nau-slider-crank", "madi-four-bar")]
 
-    assert vectors(done) == vectors(whole)
+
+def plans(sheet: Sheet) -> dict[str, set[Shape]]:
+    """The shapes of each plan that is told step by step, but for the equations beside it."""
+    views = (view for page in sheet.pages for view in page.shapes if isinstance(view, Group) and view.role == "view")
+    return {view.name: set(view.shapes) for view in views if view.name.startswith(PLANS)}
+
+
+@pytest.mark.parametrize(
+    "task",
+    [name if name == "madi-four-bar" else pytest.param(name, marks=pytest.mark.soak) for name in LINKAGES],
+)
+def test_all_steps_of_plans_draw_all_that_they_show(task: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    draw_once(monkeypatch)
+
+    whole, done = (plans(handout(task, format="A1", **how)) for how in ({"key": True}, {"steps": 1000}))
+
+    assert {"velocity", "lever"} <= set(whole)
+    assert done == whole
+
+
+def test_a_lever_begins_with_its_plan_then_forces_hang_on_it() -> None:
+    begun = [plans(handout("nau-slider-crank", "3", steps=steps, only="lever"))["lever"] for steps in (1, 3, 4)]
+
+    lines, arrows = (
+        [{shape.name for shape in shapes if isinstance(shape, kind)} for shapes in begun] for kind in (Line, Arrow)
+    )
+    assert lines[0] == {"V_A"}
+    assert lines[1] == {"V_A", "V_BA", "V_B", "V_S2"}
+    assert arrows == [set(), set(), {"F_i2"}]
 
 
 def test_steps_are_those_that_the_note_numbers() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import combinations, pairwise
+from typing import NamedTuple
 
 from ...shapes import Line, Pen
 from ...view import Canvas, View
@@ -16,45 +17,65 @@ from .lever_arms import LeverArm, draw_arms
 BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
 
 
+class LeverLine(NamedTuple):
+    """A line of the turned velocity plan, by the marks at its ends."""
+
+    start: str
+    end: str
+    name: str
+
+
 def lever_view(scene: Scene) -> View:
     """Draw the lever: forces keep their directions, couples hang as pairs, arms run from the pole."""
     canvas = Canvas(scene.style)
     words, point = scene.words, scene.solved.mechanism.driver.point
-    marks = dict.fromkeys(("lever.p", *_images(scene)))
-    lines, hung = _lines(scene), hung_on_lever(scene)
-    canvas.add(*(Line(a, b, Pen.MAIN, role="lever", name=name) for a, b, name in lines))
-    arrows = Arrows(canvas, scene, [(a, b) for a, b, _ in lines])
+    marks = dict.fromkeys(("lever.p", *images(scene)))
+    lines, hung = lines_of_lever(scene), hung_on_lever(scene)
+    strokes = [(image(scene, line.start), image(scene, line.end)) for line in lines]
+    canvas.add(
+        *(Line(a, b, Pen.MAIN, role="lever", name=line.name) for (a, b), line in zip(strokes, lines, strict=True))
+    )
+    arrows = Arrows(canvas, scene, strokes)
     for name, mark in hung:
         at = image(scene, mark)
-        arrows.bar(at, rays_of(at, [(a, b) for a, b, *_ in lines]))
+        arrows.bar(at, rays_of(at, strokes))
         arrows.hang(name, at)
     places = [image(scene, mark) for mark in marks]
-    _arms(canvas, scene, hung, sum(places) / len(places))
-    text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{point}')} = {scene.segment(f'V_{point}')}"
-    ends = image(scene, "lever.p"), image(scene, f"lever.{point}")
+    draw_arms(canvas, scene, image(scene, "lever.p"), arms_on_lever(scene), sum(places) / len(places))
+    text, ends = driven(scene), (image(scene, "lever.p"), image(scene, f"lever.{point}"))
     canvas.label(text, ends, clear=0.9, height=scene.style.text, spare=text)
-    letters = {mark: words.mark(f"velocity.{mark.removeprefix('lever.')}") for mark in marks}
+    letters = {mark: letter_of(scene, mark) for mark in marks}
     letter_marks(canvas, scene, {**letters, "lever.p": words.mark("lever.p")}, ("lever.p",), image)
     gone = [arm_of(name) for name, _ in hung if scene.direction(name) != 0]
     zero = zeros(scene, [*arrows.zero, *gone])
     return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"], *zero))
 
 
-def _arms(canvas: Canvas, scene: Scene, hung: list[tuple[str, str]], middle: complex) -> None:
-    """Draw the arms from the pole; forces on one line share theirs."""
+def driven(scene: Scene) -> str:
+    """Return what is written on the velocity of the driver's point, the arm of the force that balances."""
+    words, point = scene.words, scene.solved.mechanism.driver.point
+    return f"{words.mark('velocity.p')}{words.mark(f'velocity.{point}')} = {scene.segment(f'V_{point}')}"
+
+
+def letter_of(scene: Scene, mark: str) -> str:
+    """Return the letter of a mark of the lever: that of the velocity plan."""
+    return scene.words.mark(f"velocity.{mark.removeprefix('lever.')}")
+
+
+def arms_on_lever(scene: Scene) -> list[LeverArm]:
+    """Return the arms; forces on one line share theirs."""
     p, feet = image(scene, "lever.p"), dict[complex, list[tuple[str, complex]]]()
-    for name, mark in hung:
+    for name, mark in hung_on_lever(scene):
         e, at = scene.direction(name), image(scene, mark)
         if e != 0 and name not in BALANCE and scene.defined(arm_of(name)):
             foot = at + e * (((p - at) / e).real)
             same = next((other for other in feet if abs(other - foot) < 1e-4), foot)
             feet.setdefault(same, []).append((name, at))
-    arms = [
+    return [
         LeverArm(tuple(n for n, _ in sharing), tuple(arm_of(n) for n, _ in sharing), sharing[0][1], along, foot)
         for foot, sharing in feet.items()
         for along in [scene.direction(sharing[0][0])]
     ]
-    draw_arms(canvas, scene, p, arms, middle)
 
 
 def image(scene: Scene, mark: str) -> complex:
@@ -64,7 +85,7 @@ def image(scene: Scene, mark: str) -> complex:
     return scene.mm(f"velocity.{mark.removeprefix('lever.')}") * 1j
 
 
-def _images(scene: Scene) -> list[str]:
+def images(scene: Scene) -> list[str]:
     """Return the marks of the lever: those on which something hangs, and the images of all joints."""
     hung = [step.name for step in scene.solved.program.on("lever") if step.verb == "normal"]
     joints = [f"lever.{point}" for points in _joints(scene) for point in points]
@@ -82,19 +103,21 @@ def _joints(scene: Scene) -> list[list[str]]:
     return found
 
 
-def _lines(scene: Scene) -> list[tuple[complex, complex, str]]:
+def lines_of_lever(scene: Scene) -> list[LeverLine]:
     """Return the lines of the turned velocity plan: all its vectors, and those between images of each link's joints."""
     steps = scene.solved.program.on("velocity")
     ends = [(tail, tip, name) for name, tail, tip in vectors_of(steps)]
     for points in _joints(scene):
         ways = combinations(points, 2) if len(points) < 4 else pairwise([*points, points[0]])
         ends += [(f"lever.{a}", f"lever.{b}", a + b) for a, b in ways]
-    kept: dict[frozenset[complex], tuple[complex, complex, str]] = {}
+    kept: dict[frozenset[complex], LeverLine] = {}
     for start, end, name in ends:
-        a, b = (image(scene, f"lever.{mark.rpartition('.')[2]}") for mark in (start, end))
+        tail, tip = (f"lever.{mark.rpartition('.')[2]}" for mark in (start, end))
+        line = LeverLine(tail, tip, name)
+        a, b = image(scene, line.start), image(scene, line.end)
         places = frozenset(complex(round(at.real, 4), round(at.imag, 4)) for at in (a, b))
         if len(places) == 2:
-            kept.setdefault(places, (a, b, name))
+            kept.setdefault(places, line)
     return list(kept.values())
 
 

@@ -27,6 +27,16 @@ class LeverArm:
     along: complex
     foot: complex
 
+    def said(self, scene: Scene) -> str:
+        """Return what is written on the arm."""
+        symbols = " = ".join(scene.words.symbol(name) for name in self.names)
+        return f"{symbols} = {scene.segment(self.names[0])}"
+
+    @property
+    def line(self) -> str:
+        """The name of the line on which the forces act."""
+        return " ".join(self.forces)
+
 
 def draw_arms(canvas: Canvas, scene: Scene, pole: complex, arms: Sequence[LeverArm], middle: complex) -> None:
     """Draw arms from the `pole`, or beside it on the far side of the figure, whose middle is `middle`."""
@@ -41,10 +51,8 @@ def draw_arms(canvas: Canvas, scene: Scene, pole: complex, arms: Sequence[LeverA
                 Line(pole, pole + shift * (1 + 1.5 / abs(shift)), Pen.THIN, role="extension", name=each.names[0])
             )
         canvas.add(arm(pole + shift, each.foot + shift, each.names[0], each.along, scene.style))
-        symbols = " = ".join(scene.words.symbol(name) for name in each.names)
+        ends, text = (pole + shift, each.foot + shift), each.said(scene)
         # smaller than a node's letter: a number with its symbol is long
-        text = f"{symbols} = {scene.segment(each.names[0])}"
-        ends = pole + shift, each.foot + shift
         canvas.label(text, ends, clear=0.9, height=scene.style.text, strict=True, spare=text)
 
 
@@ -79,4 +87,4 @@ def _line_of_action(canvas: Canvas, scene: Scene, each: LeverArm, foot: complex)
     reach = 0.6 * scene.style.force
     ends = sorted((-reach, reach, ((foot - each.at) / each.along).real))
     line = (each.at + each.along * (ends[0] - PAST), each.at + each.along * (ends[-1] + PAST))
-    canvas.add(Line(*line, Pen.THIN, role="line-of-action", name=" ".join(each.forces)))
+    canvas.add(Line(*line, Pen.THIN, role="line-of-action", name=each.line))

@@ -50,15 +50,21 @@ def scheme(scene: Scene) -> View:
     return canvas.finish("position", scene.heading("heading.position", "position"), tuple(said_flat(scene, POSITION)))
 
 
-def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
-    """Dimension phi from the axis x, and draw the arrows of omega_1 and epsilon_1 on the other side."""
-    o, style, words = scene.mm(driver.pivot), scene.style, scene.words
-    crank_mm = abs(scene.mm(driver.point) - o)
+def angle_said(scene: Scene, driver: Driver) -> tuple[float, str]:
+    """Return the angle of the crank from the axis x, not negative, and what is written at it."""
     phi = math.remainder(scene.solved.values[driver.angle], 2 * math.pi)
     phi = phi + 2 * math.pi if phi < -1e-12 else phi
-    text = f"{words.symbol(driver.angle)} = {words.short(round(math.degrees(phi), 9))}°"
+    return phi, f"{scene.words.symbol(driver.angle)} = {scene.words.short(round(math.degrees(phi), 9))}°"
+
+
+def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
+    """Dimension phi from the axis x, and draw the arrows of omega_1 and epsilon_1 on the other side."""
+    o, style = scene.mm(driver.pivot), scene.style
+    crank_mm = abs(scene.mm(driver.point) - o)
+    phi, text = angle_said(scene, driver)
     radius = max(0.45 * crank_mm, 9.0)
-    canvas.add(Line(o + style.pair, o + max(crank_mm, radius + 6.0) * 1.1, Pen.THIN, role="zero-direction"))
+    zero = o + max(crank_mm, radius + 6.0) * 1.1
+    canvas.add(Line(o + style.pair, zero, Pen.THIN, role="zero-direction", name=driver.angle))
     if phi > 0.05:
         canvas.add(angle_dimension(o, radius, 0.0, phi, driver.angle, style))
         middle = o + rect(radius, min(phi / 2, 1.2))
