@@ -21,11 +21,11 @@ def markdown(document: Document, figures: list[str]) -> str:
     ]
     about += [text for text in (page.department, page.date, page.identity) if text]
     head = [f"# {_plain(said['title.note'])}", f"**{_plain(page.title)}**", "  \n".join(map(_plain, about))]
-    names = iter(figures)
-    return "\n\n".join([*head, *(text for block in document.blocks for text in _block(block, said, names))]) + "\n"
+    files = iter(enumerate(figures, 1))
+    return "\n\n".join([*head, *(text for block in document.blocks for text in _block(block, said, files))]) + "\n"
 
 
-def _block(block: Block, said: dict[str, str], names: Iterator[str]) -> Iterator[str]:
+def _block(block: Block, said: dict[str, str], files: Iterator[tuple[int, str]]) -> Iterator[str]:
     match block:
         case Heading(text=text):
             yield f"## {_line(text)}"
@@ -40,8 +40,9 @@ def _block(block: Block, said: dict[str, str], names: Iterator[str]) -> Iterator
             ruled = ["|".join(("", *row, "")) for row in (head, ["---"] * len(head), *body)]
             yield "\n".join(ruled)
         case Figure(caption=caption, under=under):
-            yield f"![{_plain(letters(caption))}]({next(names)})"
-            yield "  \n".join((f"*{said['figure']}: {_line(caption)}*", *map(_line, under)))
+            number, name = next(files)
+            yield f"![{_plain(letters(caption))}]({_target(name)})"
+            yield "  \n".join((f"*{said['figure']} {number} – {_line(caption)}*", *map(_line, under)))
 
 
 def _line(markup: str) -> str:
@@ -69,6 +70,11 @@ def _barred(text: str) -> str:
 
 
 RULED = {"bar": _barred, "u": "<u>{}</u>".format, "uu": _twice}
+
+
+def _target(name: str) -> str:
+    """Return the name of a file as the target of a link, which may hold a space only within signs of its own."""
+    return "<" + re.sub(r"([<>\\])", r"\\\1", name) + ">" if re.search(r"[\s()<>]", name) else name
 
 
 def _plain(text: str) -> str:

@@ -28,6 +28,7 @@ PREAMBLE = """\
 #show heading: set block(above: 1.4em, below: 0.8em, sticky: true)
 #set table(stroke: 0.5pt, inset: 4pt)
 #show figure: set block(breakable: false)
+#set figure.caption(separator: [ – ])
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif", "DejaVu Sans"))
 #let equation(body) = block(inset: (left: 8mm), spacing: 0.75em, body)
 """

@@ -213,3 +213,12 @@ def test_what_cannot_be_done_is_said_in_a_line(
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert said in err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_names_with_spaces_are_targets_of_links(tmp_path: Path) -> None:
+    path = tmp_path / "записка (1) x.md"
+
+    note("nau-slider-crank", "3", only="velocity").save(path)
+
+    assert "](<записка (1) x-velocity.svg>)" in path.read_text(encoding="utf-8")
+    assert (tmp_path / "записка (1) x-velocity.svg").is_file()
