@@ -15,11 +15,12 @@ from ..scales.numbers import quote
 from .record_book import Digits, Schemes, variant_of_book
 from .spreadsheets.cells_in import read_grid
 from .spreadsheets.grid import SHOWN, Grid
-from .spreadsheets.headers import LOOKED_AT, about_kind, quantity_part
+from .spreadsheets.headers import LOOKED_AT, about_kind, quantity_part, split_unit, symbol
 from .task import LocatedError, Task
 
 WHO = ("student", "group", "book", "number", "email")
 KEYS = ("number", "book", "email", "student")  # by which a student is found, the surest first
+NAMED = {*KEYS, "first"}  # columns of which a roster has one
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +36,9 @@ class Who:
     @classmethod
     def of(cls, about: Mapping[str, str]) -> Who:
         """Return the student of whom a file says so."""
-        return cls(*(about.get(key, "") for key in WHO))
+        said = {key: about.get(key, "") for key in WHO}
+        said["student"] = " ".join(part for key in ("student", "first") if (part := about.get(key, "")))
+        return cls(**said)
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,21 +155,22 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
 
 def _is_header(row: tuple[str, ...]) -> bool:
     kinds = {about_kind(text) for text in row}
-    return bool(kinds & set(KEYS)) and len(row) > 1
+    return bool(kinds & NAMED) and len(row) > 1
 
 
 def _columns(grid: Grid, header: int, of: Task | Schemes) -> _Columns:
     """Return what the columns hold, by the words over them."""
     schemes = of if isinstance(of, Schemes) else Schemes((of,), Digits.of(1))
     known = tuple(dict.fromkeys(name for task in schemes.tasks for name in task.givens))
+    symbols = {symbol(name): name for name in known}
     about: dict[str, int] = {}
     givens: dict[int, tuple[str, str]] = {}
     for column, text in enumerate(grid.rows[header]):
-        kind, part = about_kind(text), quantity_part(text)
+        kind, part, (head, unit) = about_kind(text), quantity_part(text), split_unit(text)
         if kind is not None:
             about.setdefault(kind, column)
-        elif part is not None and part[0] in known:
-            givens[column] = (part[0], part[2])
+        elif symbol(head) in symbols:
+            givens[column] = (symbols[symbol(head)], unit)
         elif part is not None and "_" in text:
             error = unknown("given-unknown", part[0], known, task=", ".join(schemes.ids))
             raise LocatedError(grid.place(header, column), error)

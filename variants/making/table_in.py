@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from ...drawing.writers import slug
 from ...scales.errors import InputError
-from ...scales.names import latin
 from ...scales.numbers import quote
 from ...scales.units import parse
 from ..spreadsheets.cells_in import read_grid
 from ..spreadsheets.grid import SHOWN, Grid
-from ..spreadsheets.headers import UNDERSTOOD, about_kind, column_kind, variant_said
+from ..spreadsheets.headers import UNDERSTOOD, about_kind, column_kind, symbol, variant_said
 from ..task import Given, LocatedError, Task
 
 _NUMBER = re.compile(r"[-−+0-9.,\s]+(?:[eE][-+]?\d+)?")
 _BETWEEN = re.compile(r"[,:;()\[\]]")  # parts of a header: what it is, its symbol, its unit
-_ORNAMENT = re.compile(r"[\s_{}$\\.^]")  # of a symbol: l_OA, l_{OA} and lOA are one
-_GREEK = re.compile(r"GREEK (?:SMALL LETTER |CAPITAL LETTER )?(\w+)")
 PLAIN = "1"  # a unit of numbers that have none
 NOTHING = frozenset(UNDERSTOOD["none"])  # in the place of a unit
 
@@ -138,22 +134,11 @@ def _seen(grid: Grid, task: Task, turned: bool) -> _Table:
     return _Table(grid, turned, best, heads[best] if heads else {})
 
 
-def _symbol(text: str) -> str:
-    """Return a symbol as plain letters and digits, however it is written.
-
-    >>> _symbol("l_{OA}"), _symbol("φ"), _symbol("J_{S_2}"), _symbol("n₁")
-    ('lOA', 'phi', 'JS2', 'n1')
-    """
-    plain = latin(_ORNAMENT.sub("", unicodedata.normalize("NFKC", text)))
-    found = ((sign, _GREEK.match(unicodedata.name(sign, ""))) for sign in plain)
-    return "".join(sign if greek is None else greek[1].lower().replace("lamda", "lambda") for sign, greek in found)
-
-
 def _by_symbol(task: Task) -> dict[str, str]:
     """Return the givens of a task by their symbols, and in small letters where these tell them apart."""
-    found = {_symbol(name): name for name in task.givens}
-    small = [symbol.lower() for symbol in found]
-    return {symbol.lower(): name for symbol, name in found.items() if small.count(symbol.lower()) == 1} | found
+    found = {symbol(name): name for name in task.givens}
+    small = [letters.lower() for letters in found]
+    return {letters.lower(): name for letters, name in found.items() if small.count(letters.lower()) == 1} | found
 
 
 def _names(cells: list[str], task: Task, known: Mapping[str, str]) -> dict[int, tuple[str, str]]:
@@ -170,12 +155,12 @@ def _names(cells: list[str], task: Task, known: Mapping[str, str]) -> dict[int, 
 
 def _named(part: str, first: bool, known: Mapping[str, str]) -> str:
     """Return the given that a part of a header names: as a whole, or as one of its words, `Маса шатуна m_2`."""
-    whole = _symbol(part)
+    whole = symbol(part)
     if len(whole) > 1 or first:
         name = known.get(whole) or known.get(whole.lower())
         if name:
             return name
-    words = {known[symbol] for word in part.split() if len(symbol := _symbol(word)) > 1 and symbol in known}
+    words = {known[letters] for word in part.split() if len(letters := symbol(word)) > 1 and letters in known}
     return words.pop() if len(words) == 1 else ""
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -19,6 +20,8 @@ _QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|mu))?")
 _BEFORE = sorted((*UNDERSTOOD["about"]["variant"], *UNDERSTOOD["numbered"]["variant"]), key=len, reverse=True)
 _NUMBERED = re.compile(rf"\s*(?:{'|'.join(map(re.escape, _BEFORE))})\.?\s*№?\s*", re.IGNORECASE)
 MIXED = re.compile(r"[A-Za-z]+_\w+")
+_ORNAMENT = re.compile(r"[\s_{}$\\.^]")  # of a symbol: l_OA, l_{OA} and lOA are one
+_GREEK = re.compile(r"GREEK (?:SMALL LETTER |CAPITAL LETTER )?(\w+)")
 
 
 def tidy(text: str) -> str:
@@ -58,6 +61,17 @@ def quantity_part(text: str) -> tuple[str, str, str] | None:
     head, unit = split_unit(text)
     found = _QUANTITY.fullmatch(latin(head))
     return None if found is None else (found["name"], found["part"] or "", unit)
+
+
+def symbol(text: str) -> str:
+    """Return a symbol as plain letters and digits, however it is written.
+
+    >>> symbol("l_{OA}"), symbol("φ"), symbol("J_{S_2}"), symbol("n₁")
+    ('lOA', 'phi', 'JS2', 'n1')
+    """
+    plain = latin(_ORNAMENT.sub("", unicodedata.normalize("NFKC", text)))
+    found = ((sign, _GREEK.match(unicodedata.name(sign, ""))) for sign in plain)
+    return "".join(sign if greek is None else greek[1].lower().replace("lamda", "lambda") for sign, greek in found)
 
 
 def variant_said(text: str) -> str:
