@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
-from threading import Thread
+from queue import SimpleQueue
+from threading import Event, Thread
 from typing import Any, Generic, Protocol, TypeVar
 
 Item = TypeVar("Item")
@@ -20,7 +21,8 @@ Made = TypeVar("Made")
 MadeOut = TypeVar("MadeOut", covariant=True)
 TOGETHER = 8  # items that a process is given at once
 ALONE = 16  # items for which no process is started
-WAITING = 3  # pieces that wait for each process
+WAITING = 2  # pieces that each process has, one in work
+PATIENCE = 10.0  # seconds for which a process that is stopped may go on
 
 
 class Work(Protocol[ItemIn, MadeOut]):
@@ -56,7 +58,7 @@ def shared_out(
         For so many items no process is started; then one may be the only one.
     """
     placed = list(enumerate(items))
-    pieces = deque(placed[at : at + TOGETHER] for at in range(0, len(placed), TOGETHER))
+    pieces = [placed[at : at + TOGETHER] for at in range(0, len(placed), TOGETHER)]
     if len(placed) > ((ALONE if jobs > 1 else len(placed)) if alone is None else alone):
         yield from _in_processes(work, pieces, min(jobs, len(pieces)))
         return
@@ -65,56 +67,135 @@ def shared_out(
         yield [Done(place, make(item)) for place, item in piece]
 
 
-def _in_processes(work: Work[Item, Made], left: deque[Piece[Item]], jobs: int) -> Iterator[list[Done[Made]]]:
-    """Share pieces out; where a process dies what was in work then is done again, item by item, one at a time."""
-    while left:
-        waiting: dict[Future[list[Made]], Piece[Item]] = {}
-        with suppress(BrokenProcessPool):
-            yield from _shared(work, left, jobs, waiting)
-        yield from _singly(work, (item for piece in waiting.values() for item in piece))
+def _in_processes(work: Work[Item, Made], left: Sequence[Piece[Item]], jobs: int) -> Iterator[list[Done[Made]]]:
+    """Share pieces out; what a process has when it dies is done again, item by item, one at a time, after the others.
+
+    Each process has a part of its own, as neighbours are often alike; one that has done it takes from another's end.
+    """
+    parts = [deque(left[len(left) * at // jobs : len(left) * (at + 1) // jobs]) for at in range(jobs)]
+    hands = [_Hand(work) for _ in parts]
+    suspects: Piece[Item] = []
+    try:
+        while _given_out(parts, hands):
+            for at in _ready(hands):
+                hand = hands[at]
+                if hand.has_died():
+                    suspects += [item for piece in hand.pieces for item in piece]
+                    hand.stop()
+                    hands[at] = _Hand(work)
+                else:
+                    yield hand.take()
+    finally:
+        for hand in hands:
+            hand.stop()
+    yield from _singly(work, suspects)
 
 
-def _shared(
-    work: Work[Item, Made], left: deque[Piece[Item]], jobs: int, waiting: dict[Future[list[Made]], Piece[Item]]
-) -> Iterator[list[Done[Made]]]:
-    """Share pieces out until none is left; those in work stand in `waiting`."""
-    with ProcessPoolExecutor(jobs, initializer=_begin, initargs=(work,)) as pool:
-        try:
-            while left or waiting:
-                while left and len(waiting) < WAITING * jobs:
-                    task = pool.submit(_piece, [item for _, item in left[0]])
-                    waiting[task] = left.popleft()
-                for task in wait(waiting, return_when=FIRST_COMPLETED).done:
-                    made = task.result()
-                    yield [Done(place, one) for (place, _), one in zip(waiting.pop(task), made, strict=True)]
-        finally:
-            # what is still in work is not waited for; all done, threads that end later would stumble at the exit
-            pool.shutdown(wait=not waiting, cancel_futures=True)
+def _given_out(parts: Sequence[deque[Piece[Item]]], hands: Sequence[_Hand[Item, Made]]) -> bool:
+    """Give every process so much that it need not wait; tell whether any has something to do."""
+    for own, hand in zip(parts, hands, strict=True):
+        while len(hand.pieces) < WAITING and any(parts):
+            hand.give(own.popleft() if own else max(parts, key=len).pop())
+    return any(hand.pieces for hand in hands)
+
+
+def _ready(hands: Sequence[_Hand[Item, Made]]) -> list[int]:
+    """Wait until processes have made something, or have died; return which."""
+    signs: dict[Any, int] = {}
+    for at, hand in enumerate(hands):
+        if hand.pieces:
+            signs |= {hand.made: at, hand.process.sentinel: at}
+    return list(dict.fromkeys(signs[sign] for sign in wait(list(signs))))
 
 
 def _singly(work: Work[Item, Made], suspects: Iterable[tuple[int, Item]]) -> Iterator[list[Done[Made]]]:
     """Do items one at a time in a process of their own, a new one after each that dies."""
-    left = deque(suspects)
-    while left:
-        with ProcessPoolExecutor(1, initializer=_begin, initargs=(work,)) as pool:
-            while left:
-                place, item = left.popleft()
-                try:
-                    yield [Done(place, pool.submit(_piece, [item]).result()[0])]
-                except BrokenProcessPool:
-                    yield [Done(place, None)]
-                    break
+    hand: _Hand[Item, Made] | None = None
+    try:
+        for place, item in suspects:
+            hand = hand or _Hand(work)
+            hand.give([(place, item)])
+            _ready([hand])
+            if hand.has_died():
+                hand.stop()
+                hand = None
+                yield [Done(place, None)]
+            else:
+                yield hand.take()
+    finally:
+        if hand is not None:
+            hand.stop()
 
 
-_OWN: list[Callable[[Any], Any]] = []  # of a process
+class _Hand(Generic[Item, Made]):
+    """A process that makes pieces in their order; `pieces` are those that it has not handed back."""
+
+    def __init__(self, work: Work[Item, Made]) -> None:
+        items, self._items = multiprocessing.Pipe(duplex=False)
+        self.made, made = multiprocessing.Pipe(duplex=False)
+        self.pieces: deque[Piece[Item]] = deque()
+        self.process = multiprocessing.Process(target=_serve, args=(items, made, work), daemon=True)
+        self.process.start()
+        items.close()
+        made.close()
+        self._taken: tuple[bool, Any] | None = None
+
+    def give(self, piece: Piece[Item]) -> None:
+        """Hand over a piece; a process that has died loses it."""
+        self.pieces.append(piece)
+        with suppress(OSError):
+            self._items.send([item for _, item in piece])
+
+    def has_died(self) -> bool:
+        """Whether the process has died, where it has made nothing before it did."""
+        try:
+            self._taken = self.made.recv()
+        except (EOFError, OSError):
+            return True
+        return False
+
+    def take(self) -> list[Done[Made]]:
+        """Return what has been made of the first piece; an error of the work is raised."""
+        assert self._taken is not None
+        (right, made), self._taken = self._taken, None
+        if not right:
+            raise made
+        return [Done(place, one) for (place, _), one in zip(self.pieces.popleft(), made, strict=True)]
+
+    def stop(self) -> None:
+        """End the process when it has done the item that it is at."""
+        with suppress(OSError):
+            self._items.send(None)
+        self.process.join(PATIENCE)
+        self.process.kill()
+        self.process.join()
+        self._items.close()
+        self.made.close()
 
 
-def _begin(work: Work[Any, Any]) -> None:
-    """Set up a process, which ends with the one that has started it, even if that is killed."""
+def _serve(items: Connection, made: Connection, work: Work[Any, Any]) -> None:
+    """Make pieces as they come in a process, which ends with the one that has started it, even if that is killed.
+
+    Two threads take and hand back, so that it never waits for the other end.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the other end is told, and stops this one
+    come, gone = SimpleQueue[Any](), SimpleQueue[Any]()
+    over = Event()
     parent = multiprocessing.parent_process()
-    if parent is not None:
-        Thread(target=_end_with, args=(parent,), daemon=True).start()
-    _OWN.append(work.begin())
+    for task, *given in ((_end_with, parent), (_take_in, items, come, over), (_hand_back, made, gone)):
+        Thread(target=task, args=given, daemon=True).start()
+    make: Callable[[Any], Any] | None = None
+    while (piece := come.get()) is not None:
+        try:
+            make = make or work.begin()
+            results = []
+            for item in piece:
+                if over.is_set():
+                    return
+                results.append(make(item))
+            gone.put((True, results))
+        except Exception as error:
+            gone.put((False, error))
 
 
 def _end_with(parent: BaseProcess) -> None:
@@ -122,5 +203,20 @@ def _end_with(parent: BaseProcess) -> None:
     os._exit(1)
 
 
-def _piece(items: list[Any]) -> list[Any]:
-    return [_OWN[-1](item) for item in items]
+def _take_in(items: Connection, come: SimpleQueue[Any], over: Event) -> None:
+    with suppress(EOFError, OSError):
+        while (piece := items.recv()) is not None:
+            come.put(piece)
+    over.set()
+    come.put(None)
+
+
+def _hand_back(made: Connection, gone: SimpleQueue[Any]) -> None:
+    while True:
+        results = gone.get()
+        try:
+            made.send(results)
+        except OSError:
+            return
+        except Exception as error:  # it cannot be sent
+            made.send((False, TypeError(str(error))))
