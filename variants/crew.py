@@ -60,7 +60,7 @@ def shared_out(
     placed = list(enumerate(items))
     pieces = [placed[at : at + TOGETHER] for at in range(0, len(placed), TOGETHER)]
     if len(placed) > ((ALONE if jobs > 1 else len(placed)) if alone is None else alone):
-        yield from _in_processes(work, pieces, min(jobs, len(pieces)))
+        yield from _in_processes(work, pieces, max(1, min(jobs, len(pieces))))
         return
     make = work.begin()
     for piece in pieces:

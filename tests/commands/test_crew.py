@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -67,3 +69,52 @@ def test_a_process_that_somebody_kills_costs_nothing(tmp_path: Path) -> None:
 def test_an_error_of_the_work_comes_through() -> None:
     with pytest.raises(ValueError, match="no square of 40"):
         made(Squares(wrong=40), 2)
+
+
+@dataclass(frozen=True)
+class Place:
+    """The process in which an item is made, with so many bytes; nothing that can be sent for `odd`."""
+
+    size: int = 0
+    odd: int | None = None
+
+    def begin(self) -> Callable[[object], object]:
+        return self.where
+
+    def where(self, item: object) -> object:
+        return (lambda: item) if item == self.odd else (os.getpid(), b"x" * self.size)
+
+
+def test_neighbours_are_made_in_one_process() -> None:
+    work, items = Place(), list(range(160))
+
+    done = sorted((one.place, one.made) for piece in shared_out(work, items, 2) for one in piece)
+
+    where = [made[0] for _, made in done if isinstance(made, tuple)]
+    assert len(where) == len(items)
+    assert len(set(where)) <= 2
+    assert os.getpid() not in where
+    assert sum(one != other for one, other in pairwise(where)) <= 3  # between the parts, and where one helps the other
+
+
+def test_what_is_large_stops_nobody() -> None:
+    items = ["y" * 300_000] * 40
+
+    done = [one for piece in shared_out(Place(300_000), items, 2) for one in piece]
+
+    assert len(done) == 40
+    assert {len(one.made[1]) for one in done if isinstance(one.made, tuple)} == {300_000}
+
+
+def test_what_cannot_be_sent_is_an_error_and_no_process_stays() -> None:
+    with pytest.raises(TypeError, match="pickle"):
+        list(shared_out(Place(odd=31), list(range(60)), 2))
+
+    assert multiprocessing.active_children() == []
+
+
+@pytest.mark.parametrize("jobs", [-3, 0, 1, 1000])
+def test_any_number_of_processes_makes_everything(jobs: int) -> None:
+    found = [one for piece in shared_out(Squares(), ITEMS[:20], jobs, alone=0) for one in piece]
+
+    assert sorted((one.place, one.made) for one in found) == [(item, item * item) for item in ITEMS[:20]]
