@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import csv
+import doctest
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
 from kulman import batch, check, load_task
+from kulman.drawing import people
 from kulman.scales.errors import InputError
+from kulman.variants import record_book
 from kulman.variants.record_book import Digits, Schemes, variant_of_book
 from kulman.variants.roster import read_roster
+from kulman.variants.spreadsheets import csv_write, headers
 from kulman.variants.task import Task
 
 SCHEMES = ("scheme-01-compressor", "scheme-02-forging-press", "scheme-03-crank-rocker")
@@ -169,3 +174,11 @@ def test_a_changed_task_changes_only_its_own_students(tmp_path: Path) -> None:
 def _copy(task: Path, other: Path) -> Path:
     other.write_text(task.read_text(encoding="utf-8") + "# other\n", encoding="utf-8")
     return other
+
+
+@pytest.mark.parametrize("module", [record_book, headers, csv_write, people])
+def test_examples_in_docstrings_say_what_comes_out(module: ModuleType) -> None:
+    found = doctest.testmod(module)
+
+    assert found.attempted
+    assert found.failed == 0
