@@ -197,6 +197,8 @@ def folder_for(folder: str | os.PathLike[str]) -> Path:
     path = Path(folder)
     try:
         path.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise InputError("output-not-folder", file=quote(path, SHOWN)) from None
     except (OSError, ValueError) as problem:
         kind = OutputError if isinstance(problem, OSError) else InputError
         reason = getattr(problem, "strerror", "") or ""

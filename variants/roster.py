@@ -68,9 +68,10 @@ class Entry:
 
 @dataclass(frozen=True)
 class Roster:
-    """The students of a class, in the order of the file."""
+    """The students of a class, in the order of the file; `unread` are the heads of columns that say nothing here."""
 
     entries: tuple[Entry, ...]
+    unread: tuple[str, ...] = ()
 
     @cached_property
     def _by_key(self) -> Mapping[tuple[str, str], list[Entry]]:
@@ -114,6 +115,11 @@ class _Columns:
     schemes: Schemes
     whole: bool
 
+    @property
+    def read(self) -> frozenset[int]:
+        """The columns that are read."""
+        return frozenset((*self.about.values(), *self.givens))
+
     def said(self, row: int) -> dict[str, str]:
         """Return what a row says of the student."""
         return {kind: self.grid.shared(row, column) for kind, column in self.about.items()}
@@ -149,8 +155,9 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
     if isinstance(of, Task):
         rows = [row for row in rows if not columns.other(row)]
         columns = replace(columns, about={kind: column for kind, column in columns.about.items() if kind != "task"})
-    read = _told if each else _entry
-    return Roster(tuple(read(columns, row) for row in rows))
+    read, heads = _told if each else _entry, enumerate(grid.rows[header])
+    unread = (text for column, text in heads if column not in columns.read and any(map(str.isalpha, text)))
+    return Roster(tuple(read(columns, row) for row in rows), tuple(unread))
 
 
 def _is_header(row: tuple[str, ...]) -> bool:

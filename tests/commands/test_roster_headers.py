@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from kulman import load_task
+from kulman import cli, load_task
 from kulman.variants.roster import Entry, Who, read_roster
 
 TASK = "nau-slider-crank"
@@ -43,3 +43,30 @@ def test_data_of_ones_own_stand_under_symbols_too(tmp_path: Path, head: str, cel
     (entry,) = entries(tmp_path, f"student;variant;{head}", f"А;5;{cell}")
 
     assert entry.settings == dict([given])
+
+
+def refused(file: Path, out: Path, capfd: pytest.CaptureFixture[str]) -> list[str]:
+    """What the command says on stderr of a batch that is not right."""
+    with pytest.raises(SystemExit) as left:
+        cli.main(["batch", TASK, "--roster", str(file), "--out", str(out), "--as", "svg", "--jobs", "1"])
+    assert left.value.code == 2
+    return capfd.readouterr().err.splitlines()
+
+
+def test_columns_that_say_nothing_are_named(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "class.csv"
+    file.write_text("№;student;variant;phi;Кут;note\n1;А;77;45;30;x\n", encoding="utf-8")
+
+    said = refused(file, tmp_path / "out", capfd)
+
+    assert said[0] == "class.csv: columns that are not read: Кут, note"
+
+
+def test_a_file_is_no_folder(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "class.csv"
+    file.write_text("student;variant\nА;3\n", encoding="utf-8")
+
+    said = refused(file, file, capfd)
+
+    assert len(said) == 1
+    assert said[0].endswith("class.csv: this is a file, a folder was expected")

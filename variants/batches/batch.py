@@ -96,14 +96,21 @@ def batch(
     )  # fmt: skip
     _refuse_early(making)
     schemes = Schemes(tasks, Digits.of(_usual(tasks) if digits is None else digits))
-    entries = read_roster(os.fspath(roster), schemes, each=True).entries
-    students = tuple(Student(number, entry) for number, entry in enumerate(entries, 1))
+    listed = read_roster(os.fspath(roster), schemes, each=True)
+    students = tuple(Student(number, entry) for number, entry in enumerate(listed.entries, 1))
     place = folder_for(folder)
     outcomes = run(making, students, place, _crew(jobs, dask), advance or (lambda done, whole: None))
-    done = Batch(students, outcomes)
+    done = Batch(students, outcomes, tuple(_unread(os.fspath(roster), listed.unread)))
     for name, rows in _tables(done, making.tasks, lang):
         put(place / name, csv_table(list(rows), lang))
     return done
+
+
+def _unread(roster: str, heads: Sequence[str]) -> Iterator[InputError]:
+    """Warn of columns that say nothing here: what was meant by them has been left out."""
+    if heads:
+        columns = ", ".join(quote(head, SHOWN) for head in heads)
+        yield InputError("roster-unread", file=quote(os.path.basename(roster), SHOWN), columns=columns)
 
 
 def _tasks(said: Tasks) -> tuple[Task, ...]:

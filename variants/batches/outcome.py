@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from ...scales.errors import InputError
 from ..journal import digest_of
 from .student import Made, Student
 
@@ -59,10 +60,11 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True)
 class Batch:
-    """The students of a class with what each has got, in the order of the roster."""
+    """The students of a class with what each has got, in the order of the roster; `warnings` are about the roster."""
 
     students: tuple[Student, ...]
     outcomes: tuple[Outcome, ...]
+    warnings: tuple[InputError, ...] = ()
 
     @property
     def problems(self) -> list[str]:

@@ -190,6 +190,7 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     block = {name: text for name in BLOCK if (text := options.pop(name)) is not None}
     with progress() as advance:
         made = variants.batch(tasks, roster, folder, block=block, advance=advance, jobs=jobs or None, **options)
+    warn(made.warnings)
     n, bad = len(made.students), made.problems
     click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))
     for problem in bad:
