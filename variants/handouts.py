@@ -23,7 +23,14 @@ from .sheets import Sheet, drawing_of, sheet_of, stamp_of
 from .task import Task
 
 PAPER = "A4"
-APART = (("--hidden-key", "--key"), ("--hidden-key", "--over"), ("--grid", "--over"))  # what is not asked for together
+APART = (  # what is not asked for together
+    ("--hidden-key", "--key"),
+    ("--hidden-key", "--over"),
+    ("--grid", "--over"),
+    ("--steps", "--key"),
+    ("--steps", "--over"),
+)
+ALL = 1000  # steps: no plan has more
 
 
 def handout(
@@ -67,13 +74,13 @@ def handout(
     Raises
     ------
     InputError, PositionError
-        As for `sheet`; a number of steps below zero; no such view; a hidden key beside the key, or a grid or hidden
-        key with one view alone.
+        As for `sheet`; a number of steps below zero; no such view; steps or a hidden key beside the key; steps, a grid
+        or a hidden key with one view alone.
     """
     of_kind("steps", steps, (int,), "int")
     if steps < 0:
         raise InputError("handout-steps", text=str(steps))
-    asked = {"--key": key, "--over": over is not None, "--hidden-key": hidden_key, "--grid": grid}
+    asked = {"--key": key, "--over": over is not None, "--hidden-key": hidden_key, "--grid": grid, "--steps": steps > 0}
     for first, second in APART:
         if asked[first] and asked[second]:
             raise InputError("handout-apart", first=first, second=second)
@@ -127,5 +134,6 @@ def begun_of_case(
         return begun_pages(drawn.pages, drawn.views, case.kind.begun(case, drawn.scales, words, count))
 
     begun = done(steps)
-    idle = (InputError("handout-stepless", task=case.task.id, steps=steps),) if steps and begun == done(0) else ()
+    stepless = steps > 0 and begun == done(0) == done(ALL)  # the first ones may set a plan up, as on the blank
+    idle = (InputError("handout-stepless", task=case.task.id, steps=steps),) if stepless else ()
     return replace(drawn, pages=tuple(map(marked, begun)), warnings=(*drawn.warnings, *idle))

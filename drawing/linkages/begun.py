@@ -40,7 +40,7 @@ def _view(teller: Teller, view: str, steps: int) -> Shown:
             names.add(driver.angle)
             letters.add(angle_said(scene, driver)[1])
     # what is zero, or too short, is told when all is drawn, and drawn larger
-    whole = sum(told.counted for told in every) <= steps
+    whole = len(every) <= steps
     letters |= set(NUMERALS) if whole else set()
     return Shown(frozenset(names), frozenset(letters), notes=whole, whole=whole)
 
@@ -74,8 +74,4 @@ def _laid(step: Step, tail: str) -> bool:
 
 def _first(every: Iterable[Told], steps: int) -> Iterator[Told]:
     """Go through the steps that are done: those that set the drawing up, and so many that the note tells."""
-    done = 0
-    for told in every:
-        done += told.counted
-        if done <= steps or not told.counted:
-            yield told
+    return (told for number, told in enumerate(every, 1) if told.before or number <= steps)

@@ -84,4 +84,4 @@ def _plan(teller: Teller, plan: str) -> Iterator[Iterator[Told]]:
             continue
         if plan == POSITION and step.verb == "read":  # an arm that a calculation takes
             continue
-        yield (Told(step, text, counted=step.verb not in SET) for text in TOLD[step.verb](teller, step))
+        yield (Told(step, text, before=step.verb in SET) for text in TOLD[step.verb](teller, step))

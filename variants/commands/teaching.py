@@ -46,7 +46,12 @@ if TYPE_CHECKING:
 @of_task
 @output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
 @click.option(
-    "--steps", metavar="K", default="0", show_default=True, callback=count, help="So many steps of each plan."
+    "--steps",
+    metavar="K",
+    default="0",
+    show_default=True,
+    callback=count,
+    help="So many steps of each plan, as the note numbers them.",
 )
 @click.option("--key", is_flag=True, help="The whole work, at the same places.")
 @click.option(

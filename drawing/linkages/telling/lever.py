@@ -16,7 +16,7 @@ def lever_told(teller: Teller) -> Iterator[Told]:
     """Go through the steps of the lever."""
     for step in teller.scene.solved.program.on("lever"):
         if step.verb == "pole":
-            yield from (Told(step, text, counted=False) for text in TOLD["pole"](teller, step))
+            yield from (Told(step, text, before=True) for text in TOLD["pole"](teller, step))
     yield from _turned(teller)
     hung: dict[str, list[Step]] = {}
     for step in teller.scene.solved.program.which(("moment",)):

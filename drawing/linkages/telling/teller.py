@@ -25,12 +25,12 @@ ACROSS = ("transport_speed", "transport_tangential")  # laws of vectors normal t
 class Told:
     """A sentence, the step that it tells of, and what it draws beside the mark that the step makes.
 
-    What is not `counted` only sets a drawing up, as a pole does: a handout shows it from the start.
+    What is there `before` only sets a drawing up, as a pole does: a handout shows it from the start.
     """
 
     step: Step
     text: str
-    counted: bool = True
+    before: bool = False
     names: frozenset[str] = frozenset()
     letters: frozenset[str] = frozenset()
 
