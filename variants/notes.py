@@ -14,6 +14,7 @@ from ..drawing.notes.docx import docx_bytes
 from ..drawing.notes.figures import figure_page
 from ..drawing.notes.markdown import markdown
 from ..drawing.notes.typst import pdf_bytes
+from ..drawing.text import escape
 from ..drawing.writers import WRITERS, Files, save_all
 from ..scales.errors import InputError
 from ..scales.names import unknown
@@ -131,6 +132,8 @@ def body_of(case: Case, drawn: Drawn | Sheet, notation: str | None = None, lang:
     words = case.words(lang, notation)
     story = case.kind.story(case, drawn.scales, words, said)
     by = said["note.over" if words.per_unit else "note.times"]
-    about = Sentences((said["note.about"].format(sheet=sheet_id(case.task, case.variant, case.settings), by=by),))
+    identity = sheet_id(case.task, case.variant, case.settings)
+    source = said["note.source"].format(source=escape(case.task.source.rstrip(".")))
+    about = Sentences((said["note.about"].format(sheet=identity, by=by), source))
     end = (Heading(said["note.conclusions"]), Steps(story.conclusions)) if story.conclusions else ()
     return about, *blocks_of(drawn.views, story), *end
