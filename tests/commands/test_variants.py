@@ -176,6 +176,7 @@ def test_questions_for_moodle_hold_the_right_values(tmp_path: Path) -> None:
         texts = [node.firstChild.data for node in question.getElementsByTagName("text")]
         assert texts[0] == name
         assert texts[1] == text.replace("\\:", ":")
+        assert text.endswith("(+ проти годинникової стрілки, − за нею)") == (quantity == "omega_2")
         assert [float(value) for value in texts[2:]] == [float(texts[2])] * 2
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ...drawing.writers import Files, save_all
+from ...plans.quantities import unit_of
 from ...scales.errors import InputError, KulmanError
 from ...scales.names import unknown
 from ...scales.numbers import quote
@@ -19,6 +20,7 @@ from ..case import Settings
 from ..crew import Advance
 from ..marking.checks import Check, check
 from ..marking.keyed import Keyed, keyed
+from ..marking.rubric import SIGNED
 from ..marking.wording import texts
 from ..spreadsheets.cells_out import table_bytes
 from ..spreadsheets.csv_write import Cell
@@ -123,6 +125,8 @@ class AllVariants:
                     title=self.check.request.task.title[self._language], variant=variant, sheet=key.sheet,
                     symbol=key.symbol(name), unit=unit,
                 )  # fmt: skip
+                if unit_of(name) in SIGNED:
+                    text = said["question.sense"].format(question=text)
                 yield Question(f"{variant}-{name}", text, value, key.key.allowed[name] * factor)
 
 
