@@ -13,6 +13,7 @@ import pytest
 
 from kulman import all_variants, cli, load_task, sheet, solve
 from kulman.plans.boards.exact import SMALL
+from kulman.variants.making.ranges import ranges_of
 from kulman.variants.making.task_text import with_variants
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled
@@ -85,6 +86,15 @@ def test_made_variants_are_good_exercises(task: str, count: int, ranges: dict[st
         assert (len(drawn.pages), drawn.warnings) == (1, ())
         for step in range(0, 360, 20):  # the crank turns round
             assert solve(new.task, variant, set={"phi": step}, only="position").status != "no-assembly"
+
+
+@pytest.mark.parametrize(
+    "text", ["25..60/5 mm", "2,5..6/0,5 см", "25мм..60мм/5мм", "25…60/5", "25–60 / 5 мм", "0.025 .. 0.06 / 0.005 m"]
+)
+def test_a_range_is_read_in_every_usual_form(text: str) -> None:
+    found = ranges_of(load_task(TASK), {"l_OA": text})["l_OA"]
+
+    assert (found.low, found.high, found.step, found.unit) == (25, 60, 5, "mm")
 
 
 def test_made_variants_keep_to_ranges_and_steps() -> None:

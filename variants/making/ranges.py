@@ -20,7 +20,7 @@ AROUND = 0.2  # a given that all variants have alike is varied by so much to eit
 STEPS = 20  # into how many steps such a range is divided, at most
 TRIES = 50  # sets looked at for each variant that is wanted
 Judgement = tuple[KulmanError | None, KulmanError | None]
-_RANGE = re.compile(r"(?P<low>.+?)\s*\.\.\s*(?P<high>[^/]+?)\s*(?:/\s*(?P<step>.+))?")
+_RANGE = re.compile(r"(?P<low>.+?)\s*(?:\.\.\.?|…|–)\s*(?P<high>[^/]+?)\s*(?:/\s*(?P<step>.+))?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +77,12 @@ def _read(given: Given, text: str, usual: Range | None) -> Range:
     if parts is None:
         raise InputError("range-bad", text=quote(text))
     unit = given.unit
-    low, high = (_decimal(unit.from_si(_number(given, text))) for text in (_with(parts["low"], text), parts["high"]))
-    step = _decimal(unit.from_si(_number(given, _with(parts["step"], text)))) if parts["step"] else None
+    low, high, step = (
+        None if part is None else _decimal(unit.from_si(_number(given, _with(part, text))))
+        for part in parts.group("low", "high", "step")
+    )
+    assert low is not None
+    assert high is not None
     if low > high or (step is not None and step <= 0):
         raise InputError("range-bad", text=quote(text))
     row = usual.row if usual is not None and step is None else ()
