@@ -10,10 +10,12 @@ from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.names import latin, unknown
 from ..scales.numbers import quote
+from .spreadsheets.headers import about_kind
 from .task import Task
 
 SCHEME, VARIANT, NOTHING = "scheme", "variant", "-"
 MEANINGS = (VARIANT, SCHEME, NOTHING)
+_MEANT = {"task": SCHEME, "variant": VARIANT}  # by what a column of such a name holds
 MOST = 9  # digits that have a meaning
 SHOWN = 200  # characters of a list in a message
 _SHORTENED = re.compile(r"\d[.,]\d*E\+?\d+", re.IGNORECASE)  # 1,23E+11: what a spreadsheet leaves of a long number
@@ -36,13 +38,15 @@ class Digits:
     def of(cls, said: int | str) -> Digits:
         """Return what is meant by a number of digits for the variant, or by words such as `variant,scheme`.
 
+        The words may be those over the columns of a roster, in any language.
+
         Raises
         ------
         InputError
             No such number, or another word.
         """
         of_kind("digits", said, (int, str), "int | str")
-        words = [word.strip().lower() for word in str(said).split(",")]
+        words = [_MEANT.get(about_kind(word), word.strip().lower()) for word in str(said).split(",")]
         if len(words) == 1 and re.fullmatch("[0-9]{1,9}", words[0]):
             words = [VARIANT] * min(int(words[0]), MOST + 1)
         for word in words:

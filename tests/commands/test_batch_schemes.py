@@ -42,6 +42,7 @@ def tasks() -> tuple[Task, ...]:
         ("variant,scheme", "КБ-123471", 1, 7),
         ("scheme,variant", "КБ-1/234 27", 2, 7),
         ("variant,-,scheme", "593", 3, 5),
+        ("варіант,схема", "593", 3, 9),
         ("-,variant", "93", None, 3),
         (" Variant , SCHEME ", "71.0", 1, 7),  # what a table of numbers makes of 71
         (2, "АТ-2023/417", None, 17),
