@@ -8,6 +8,7 @@ from ...plans.hoist.paper import SCALED
 from ...plans.hoist.sections import DRAWN, section_of
 from ...plans.hoist.solve import unit_of
 from ..givens import Given, givens_view
+from ..printed import Input, calculation
 from ..table import table
 from ..view import View
 from .scene import HoistScene
@@ -86,13 +87,9 @@ def strength_lines(scene: HoistScene) -> list[tuple[str, ...]]:
     greatest = words.symbol("P_12_max" if found["P_12_max"] >= found["F_12_max"] else "F_12_max")
     lines: list[tuple[str, ...]] = [
         (f"{words.symbol('F_max')} = {greatest} =", f"{scene.value(found['F_max'])} {words.unit('N')}"),
+        _ratio(scene, f"{words.symbol('sigma_max')} = {words.symbol('F_max')}/S", ("F_max", 1.0), ("S", 1e6), "MPa"),
         (
-            f"{words.symbol('sigma_max')} = {words.symbol('F_max')}/S =",
-            f"{scene.value(found['sigma_max'] * 1e-6)} {words.unit('MPa')}",
-        ),
-        (
-            f"[σ]/{words.symbol('sigma_max')} =",
-            f"{scene.value(found['safety'])}",
+            *_ratio(scene, f"[σ]/{words.symbol('sigma_max')}", ("sigma", 1e-6), ("sigma_max", 1e-6)),
             f"{'≥' if scene.solved.forces.ok[STRENGTH] else '<'} K = {words.short(found['K'])}",
         ),
         (words["hoist.strong" if scene.solved.forces.ok[STRENGTH] else "hoist.weak"],),
@@ -102,3 +99,16 @@ def strength_lines(scene: HoistScene) -> list[tuple[str, ...]]:
     if printed.ok != scene.solved.forces.ok[STRENGTH]:
         lines.append((words["hoist.disagrees"].format(safety=scene.value(printed.value)),))
     return lines
+
+
+def _ratio(
+    scene: HoistScene, letters: str, above: tuple[str, float], below: tuple[str, float], unit: str = ""
+) -> tuple[str, ...]:
+    """Return a ratio in letters, with numbers, and its value; a quantity is its name and its unit."""
+    words, found = scene.words, scene.solved.forces.found
+    inputs = [
+        Input(float(f"{found[name] * times:.{ROUNDING}g}"), exact=name in scene.givens)
+        for name, times in (above, below)
+    ]
+    (first, second), result = calculation(words, lambda a, b: a / b, inputs)
+    return (f"{letters} =", f"{first}/{second} =", f"{result} {words.unit(unit)}" if unit else result)

@@ -214,6 +214,10 @@ def test_verdict_and_flow_chart_are_those_of_the_numbers(case: HoistCase) -> Non
     strength, flow, beams = (case.sheet[name] for name in ("strength", "flow", "beams"))
 
     lines = " ".join(text.string for text in strength.texts)
+    ratios = re.findall(r"= ([\d.,]+)/([\d.,]+) = ([\d.,]+)", lines)
+    assert len(ratios) == 2  # the stress, the safety: with their numbers, which recompute
+    for above, below, ratio in ratios:
+        assert f"{number(above) / number(below):.4g}" == f"{number(ratio):.4g}"
     numbers = [number(text) for text in re.findall(r"= (-?[\d.,]+)", lines)]
     for expected in (greatest, greatest / values["S"] * 1e-6):
         assert any(abs(seen - expected) < 1e-3 * expected for seen in numbers), lines
