@@ -46,7 +46,7 @@ class Digits:
             No such number, or another word.
         """
         of_kind("digits", said, (int, str), "int | str")
-        words = [_MEANT.get(about_kind(word), word.strip().lower()) for word in str(said).split(",")]
+        words = [_MEANT.get(about_kind(word) or "", word.strip().lower()) for word in str(said).split(",")]
         if len(words) == 1 and re.fullmatch("[0-9]{1,9}", words[0]):
             words = [VARIANT] * min(int(words[0]), MOST + 1)
         for word in words:
