@@ -15,6 +15,7 @@ from .theta_diagram import theta_said
 
 PAPER = 1  # decimals of segments on paper
 SIZES = ("g_alpha", "p", "p_b", "rho_f", "l_N1N2", "PW", *(f"s_{i}" for i in WHEELS))
+LAID_OFF = tuple(name for name in SIZES if name != "PW")  # at the scale of the meshing; PW is a segment itself
 ANGLES = ("alpha_w", *(f"phi_alpha{i}" for i in WHEELS))
 RADII = tuple(f"{circle}{i}" for circle in ("w", "b", "a", "f", "") for i in WHEELS)
 TOLD = ("meshing", "rolling", "action", "sliding")
@@ -43,7 +44,7 @@ def _said(scene: GearScene, mu: float, mu_theta: float) -> dict[str, str]:
     found = {name: f"{scene.stated(name)} {mm}" for name in SIZES} | {name: scene.angle(name) for name in ANGLES}
     for name in RADII:
         found[f"r_{name}"] = f"{words.number(0.5 * sizes[f'd_{name}'] / mu, PAPER)} {mm}"
-    for name in ("g_alpha", "p_b"):
+    for name in LAID_OFF:
         found[f"{name}_drawn"] = f"{words.number(sizes[name] / mu, PAPER)} {mm}"
     for i, rolled in zip(WHEELS, scene.solved.layout.rollings, strict=True):
         found[f"parts_{i}"] = str(rolled.parts)

@@ -8,9 +8,10 @@ from itertools import pairwise
 
 import pytest
 
-from kulman import handout, solve
+from kulman import handout, note, solve
 from kulman.drawing.gears.begun import STAGES
 from kulman.drawing.handouts.begun import begun_pages
+from kulman.drawing.notes.blocks import Steps
 from kulman.drawing.page import Page
 from kulman.drawing.shapes import Group, Line, Polyline, Shape, Text
 from kulman.scales.errors import LANGUAGES
@@ -152,3 +153,17 @@ def test_letters_on_leaders_keep_them_on_a_blank() -> None:
 
     assert "P" in leaders
     assert {*leaders} <= {"P", "O_{1}", "O_{2}"}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_is_laid_off_is_told_on_paper_and_as_it_is(language: str) -> None:
+    written = note(TASK, lang=language)
+    steps = [text for block in written.document.blocks if isinstance(block, Steps) for text in block.texts]
+
+    laid_off = [
+        pair for text in steps for pair in re.findall(r"([\d.,]+) (?:mm|мм) \(\S+ = ([\d.,]+) (?:mm|мм)\)", text)
+    ]
+    assert len(laid_off) == 8  # s_1, s_2, p, rho_f, p_b, l_N1N2, twice the active line
+    for paper, length in laid_off:
+        drawn, real = (float(text.replace(",", ".")) for text in (paper, length))
+        assert drawn == pytest.approx(5.0 * real, abs=0.05 + 5.0 * 0.005)  # M 5:1, as they are rounded
