@@ -116,6 +116,8 @@ def _is_shown(shape: Shape, shown: Shown) -> bool:
     match shape:
         case Text(role="heading"):
             return True
+        case Text(role="diameter", name=name):  # at the end of its circle, on a leader
+            return name in shown.names
         case Text(markup=markup):
             return _told(markup, shown)
         case Vector(quantity=quantity):

@@ -155,6 +155,15 @@ def test_letters_on_leaders_keep_them_on_a_blank() -> None:
     assert {*leaders} <= {"P", "O_{1}", "O_{2}"}
 
 
+def test_no_leader_of_a_begun_sheet_ends_at_nothing() -> None:
+    shapes = [shape for page in handout(TASK, steps=2, only="meshing").pages for shape in parts(page.shapes)]
+    texts = [shape for shape in shapes if isinstance(shape, Text)]
+    leaders = {shape.name for shape in shapes if isinstance(shape, Line) and shape.role == "leader"}
+
+    assert {"d_w1", "d_w2", "P"} <= leaders
+    assert leaders <= {name for text in texts for name in (text.name, text.markup)}
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_what_is_laid_off_is_told_on_paper_and_as_it_is(language: str) -> None:
     written = note(TASK, lang=language)
