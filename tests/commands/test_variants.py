@@ -199,7 +199,7 @@ def test_questions_for_moodle_hold_the_right_values(tmp_path: Path) -> None:
         (["--make", "3", "--range", "l_OA=60..20 mm"], "60..20"),
         (["--make", "3", "--range", "rotation=1..2"], "rotation"),
         (["--make", "3", "--range", "l_OA=-5..-1 mm"], "l_OA"),
-        (["--make", "3", "--set", "l_OA=300 mm"], "--make 3"),
+        (["--make", "3", "--set", "l_OA=300 mm"], "--make 3: found: 0; of 50 more sets"),
         (["--make", "3", "--from", "x.csv"], "--from"),
         (["--seed", "3"], "--make"),
         (["-v", "3"], "-v"),

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 
-from ...scales.errors import InputError, KulmanError
+from ...scales.errors import InputError, KulmanError, messages
 from ...scales.numbers import quote
 from ..case import Settings, solve_case
 from ..kinds import kind_of
@@ -139,6 +139,23 @@ def _round_step(width: Decimal) -> Decimal:
     return next(step * power for step in map(Decimal, (1, 2, 5, 10)) if step * power >= rough)
 
 
+class FruitlessError(LocatedError):
+    """So many sets in a row were no good exercise; what was wrong with the last."""
+
+    def __init__(self, place: str, cause: KulmanError, found: int) -> None:
+        super().__init__(place, cause)
+        self.found = found
+
+    def text(self, language: str = "en") -> str:
+        """Return what has been found and what was wrong last as one line in `language`."""
+        said = messages(language)["variants-hard"]
+        return f"{self.place}: {said.format(found=self.found, tries=TRIES, reason=self.cause.text(language))}"
+
+
+def _given_up(place: str, reason: KulmanError, found: int) -> LocatedError:
+    return LocatedError(place, reason) if reason.key == "variants-few" else FruitlessError(place, reason, found)
+
+
 def made(
     task: Task, ranges: Mapping[str, Range], count: int, seed: int, fixed: Mapping[str, str]
 ) -> Iterator[dict[str, str]]:
@@ -168,7 +185,7 @@ def made(
                 break
         else:
             assert reason is not None
-            raise LocatedError(f"--make {count}", reason)
+            raise _given_up(f"--make {count}", reason, number)
 
 
 def looked_at(task: Task, variant: str, settings: Settings, through: bool = True) -> Judgement:
