@@ -70,3 +70,16 @@ def test_a_file_is_no_folder(tmp_path: Path, capfd: pytest.CaptureFixture[str]) 
 
     assert len(said) == 1
     assert said[0].endswith("class.csv: this is a file, a folder was expected")
+
+
+@pytest.mark.parametrize("number", ["0", "-3"])
+def test_some_process_is_needed(
+    number: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+
+    with pytest.raises(SystemExit) as left:
+        cli.main(["batch", TASK, "--roster", "class.csv", "--out", "out", "--jobs", number])
+
+    assert left.value.code == 2
+    assert capfd.readouterr().err.strip() == f"--jobs: '{number}' processes; expected a number from 1"

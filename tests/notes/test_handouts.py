@@ -201,6 +201,7 @@ def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, 
         (["--steps", "two"], "two"),
         (["--over", "veloc"], "'velocity'"),
         (["--steps", "3", "--key"], "--steps without --key"),
+        (["--hidden-key", "-o", "teacher.png"], "--hidden-key without -o teacher.png"),
         (["--format", "A9"], "A9"),
     ],
 )

@@ -140,6 +140,16 @@ def count_if_given(ctx: click.Context, param: click.Parameter, value: str | None
     return None if value is None else count(ctx, param, value)
 
 
+def processes(ctx: click.Context, param: click.Parameter, value: str | None) -> int:
+    """Read a number of processes; 0, for as many as cores, where there is none."""
+    if value is None:
+        return 0
+    number = count(ctx, param, value)
+    if number < 1:
+        raise InputError("cli-from-one", option=param.opts[0], text=quote(value))
+    return number
+
+
 def of_norm(command: Command) -> Command:
     """Add by which norm frame and title block are drawn."""
     said = "Frame and title block."
@@ -206,9 +216,7 @@ def of_check(command: Command) -> Command:
         ),
         click.option("--out", "folder", metavar="FOLDER", help="Reports on every student, .html and .txt."),
         click.option("--moodle", metavar="FILE", callback=moodle_out, help="Grades for Moodle, .csv."),
-        click.option(
-            "--jobs", metavar="N", default="0", callback=count, help="Processes; as many as cores when left out."
-        ),
+        click.option("--jobs", metavar="N", callback=processes, help="Processes; as many as cores when left out."),
         output(
             ".marking.reports",
             "Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx.",

@@ -10,6 +10,7 @@ import click
 from ...scales.choices import HANDS, SIZES
 from ...scales.errors import InputError, messages
 from ...scales.language import system_language
+from ...scales.numbers import quote
 from .console import hand_over, print_json, progress, refuse, warn
 from .options import (
     BLOCK,
@@ -24,6 +25,7 @@ from .options import (
     of_tasks,
     output,
     pairs,
+    processes,
     tiled,
     titled,
 )
@@ -69,6 +71,9 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     """Draw a handout of TASK: givens, scales and poles, no answers; with rulers that prove the print."""
     from ... import variants
 
+    flat = [file for file in files if file.suffix.lower() == ".png"]
+    if flat and options["hidden_key"]:  # a picture has no layers
+        raise InputError("handout-apart", first="--hidden-key", second=f"-o {quote(flat[0])}")
     said = {name: options.pop(name) for name in (*BLOCK, "student")}
     block = {name: text for name, text in said.items() if text is not None}
     drawn = variants.handout(task, set=settings, block=block, **{**options, "lang": options["lang"] or "uk"})
@@ -160,7 +165,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 @click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything.")
 @of_norm
 @titled(*BLOCK)
-@click.option("--jobs", metavar="N", default="0", callback=count, help="Processes; as many as cores when left out.")
+@click.option("--jobs", metavar="N", callback=processes, help="Processes; as many as cores when left out.")
 @click.option(
     "--dask", metavar="ADDRESS", help="Work on a Dask cluster: the address of its scheduler, tcp://host:8786."
 )
