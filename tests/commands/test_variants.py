@@ -84,8 +84,17 @@ def test_made_variants_are_good_exercises(task: str, count: int, ranges: dict[st
         assert solution.solved.worst_sine()[1] >= SMALL
         drawn = sheet(new.task, variant)
         assert (len(drawn.pages), drawn.warnings) == (1, ())
+        speeds = {name: item.value for name, item in solution.quantities.items() if re.match(r"V_\w+$", name)}
+        assert min(speeds.values()) >= 0.01 * max(speeds.values())  # no plan is a line
         for step in range(0, 360, 20):  # the crank turns round
             assert solve(new.task, variant, set={"phi": step}, only="position").status != "no-assembly"
+
+
+@pytest.mark.parametrize(("phi", "quantity"), [("180°", "V_B"), ("90°", "V_BA")])
+def test_a_plan_that_is_a_line_makes_a_poor_exercise(phi: str, quantity: str) -> None:
+    case = solve_case(TASK, "3", {"phi": phi}, None, None)
+
+    assert [error.data for error in case.kind.unfit(case) if error.key == "variant-short"] == [{"quantity": quantity}]
 
 
 @pytest.mark.parametrize(

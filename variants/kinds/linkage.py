@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from ..sweeps.sweeps import Sweep
 
 LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
+SHORT = 0.01  # part of the longest vector of a plan below which another is hardly seen: a millimetre beside 100
 COMPOUND_AGREES = 1e-9  # part of the longest vector by which two routes to one vector may differ
 OPEN = ("", "position", "velocity", "acceleration", "loads")  # sections before the first group is dealt with
 KINEMATIC = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
@@ -112,7 +113,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         return first_scales(solved, choosers)
 
     def unfit(self, case: Case) -> Iterator[InputError]:
-        """Go through what makes a variant a poor exercise; its crank should turn round, too."""
+        """Go through what makes a variant a poor exercise: its crank does not turn round, a plan is a line."""
         from ...plans.linkages.cycles.limits import reach_of
         from ...plans.linkages.cycles.swept import swept
 
@@ -121,6 +122,9 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         drive = swept(case.task.mechanism, values)
         for arc in reach_of(drive, values).apart if drive.turns else ():
             yield InputError("variant-apart", low=_degrees(arc.low), high=_degrees(arc.high))
+        short = _short_vectors(case)
+        for name in sorted(short - _always_short(case.task)) if short else ():
+            yield InputError("variant-short", quantity=name)
 
     def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity."""
@@ -285,6 +289,22 @@ KIND = Linkages()
 def _short(value: float) -> str:
     """Return a number with three digits, a large one with a power of ten."""
     return f"{float(f'{value:.3g}'):g}" if value < 1e6 else f"{value:.1e}".replace("e+0", "e").replace("e+", "e")
+
+
+def _short_vectors(case: Case) -> set[str]:
+    """Return the velocities that are next to nothing beside the longest one of their plan."""
+    solved = case.solved
+    own = (item for name, item in solved.quantities.items() if solved.shown_on.get(name) == "velocity")
+    sizes = {item.name: item.value or 0.0 for item in own if item.kind == "vector"}
+    return {name for name, size in sizes.items() if size < SHORT * max(sizes.values())}
+
+
+def _always_short(task: Task) -> set[str]:
+    """Return those that are so in every variant of a task, as on guides that do not turn."""
+    from ..case import solve_case
+
+    found = (_short_vectors(solve_case(task, variant, None, None, None)) for variant in task.variants)
+    return set.intersection(*found)
 
 
 def _degrees(angle: float) -> str:
