@@ -13,6 +13,7 @@ import pytest
 
 from kulman import all_variants, cli, load_task, sheet, solve
 from kulman.plans.boards.exact import SMALL
+from kulman.variants.case import solve_case
 from kulman.variants.making.ranges import ranges_of
 from kulman.variants.making.task_text import with_variants
 from kulman.variants.reader import read_text
