@@ -5,10 +5,12 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import sys
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from queue import SimpleQueue
@@ -46,7 +48,7 @@ Piece = list[tuple[int, Item]]
 
 
 def shared_out(
-    work: Work[Item, Made], items: Sequence[Item], jobs: int, alone: int | None = None
+    work: Work[Item, Made], items: Sequence[Item], jobs: int, alone: int | None = None, afresh: bool = False
 ) -> Iterator[list[Done[Made]]]:
     """Go through what is made, in the order in which it is done.
 
@@ -56,24 +58,28 @@ def shared_out(
         Processes. With one all is done in this one.
     alone : int, optional
         For so many items no process is started; then one may be the only one.
+    afresh : bool
+        Start processes that are no copies of this one, where it has threads without which a copy would stand still.
     """
     placed = list(enumerate(items))
     pieces = [placed[at : at + TOGETHER] for at in range(0, len(placed), TOGETHER)]
     if len(placed) > ((ALONE if jobs > 1 else len(placed)) if alone is None else alone):
-        yield from _in_processes(work, pieces, max(1, min(jobs, len(pieces))))
+        yield from _in_processes(partial(_Hand, work, afresh), pieces, max(1, min(jobs, len(pieces))))
         return
     make = work.begin()
     for piece in pieces:
         yield [Done(place, make(item)) for place, item in piece]
 
 
-def _in_processes(work: Work[Item, Made], left: Sequence[Piece[Item]], jobs: int) -> Iterator[list[Done[Made]]]:
+def _in_processes(
+    new_hand: Callable[[], _Hand[Item, Made]], left: Sequence[Piece[Item]], jobs: int
+) -> Iterator[list[Done[Made]]]:
     """Share pieces out; what a process has when it dies is done again, item by item, one at a time, after the others.
 
     Each process has a part of its own, as neighbours are often alike; one that has done it takes from another's end.
     """
     parts = [deque(left[len(left) * at // jobs : len(left) * (at + 1) // jobs]) for at in range(jobs)]
-    hands = [_Hand(work) for _ in parts]
+    hands = [new_hand() for _ in parts]
     suspects: Piece[Item] = []
     try:
         while _given_out(parts, hands):
@@ -82,13 +88,13 @@ def _in_processes(work: Work[Item, Made], left: Sequence[Piece[Item]], jobs: int
                 if hand.has_died():
                     suspects += [item for piece in hand.pieces for item in piece]
                     hand.stop()
-                    hands[at] = _Hand(work)
+                    hands[at] = new_hand()
                 else:
                     yield hand.take()
     finally:
         for hand in hands:
             hand.stop()
-    yield from _singly(work, suspects)
+    yield from _singly(new_hand, suspects)
 
 
 def _given_out(parts: Sequence[deque[Piece[Item]]], hands: Sequence[_Hand[Item, Made]]) -> bool:
@@ -108,12 +114,14 @@ def _ready(hands: Sequence[_Hand[Item, Made]]) -> list[int]:
     return list(dict.fromkeys(signs[sign] for sign in wait(list(signs))))
 
 
-def _singly(work: Work[Item, Made], suspects: Iterable[tuple[int, Item]]) -> Iterator[list[Done[Made]]]:
+def _singly(
+    new_hand: Callable[[], _Hand[Item, Made]], suspects: Iterable[tuple[int, Item]]
+) -> Iterator[list[Done[Made]]]:
     """Do items one at a time in a process of their own, a new one after each that dies."""
     hand: _Hand[Item, Made] | None = None
     try:
         for place, item in suspects:
-            hand = hand or _Hand(work)
+            hand = hand or new_hand()
             hand.give([(place, item)])
             _ready([hand])
             if hand.has_died():
@@ -130,12 +138,14 @@ def _singly(work: Work[Item, Made], suspects: Iterable[tuple[int, Item]]) -> Ite
 class _Hand(Generic[Item, Made]):
     """A process that makes pieces in their order; `pieces` are those that it has not handed back."""
 
-    def __init__(self, work: Work[Item, Made]) -> None:
-        items, self._items = multiprocessing.Pipe(duplex=False)
-        self.made, made = multiprocessing.Pipe(duplex=False)
+    def __init__(self, work: Work[Item, Made], afresh: bool) -> None:
+        means: Any = multiprocessing.get_context("spawn" if afresh else None)
+        items, self._items = means.Pipe(duplex=False)
+        self.made, made = means.Pipe(duplex=False)
         self.pieces: deque[Piece[Item]] = deque()
-        self.process = multiprocessing.Process(target=_serve, args=(items, made, work), daemon=True)
-        self.process.start()
+        self.process = means.Process(target=_serve, args=(items, made, work), daemon=True)
+        with _without_script() if afresh else nullcontext():
+            self.process.start()
         items.close()
         made.close()
         self._taken: tuple[bool, Any] | None = None
@@ -171,6 +181,18 @@ class _Hand(Generic[Item, Made]):
         self.process.join()
         self._items.close()
         self.made.close()
+
+
+@contextmanager
+def _without_script() -> Iterator[None]:
+    """Keep a process that is started from running the user's script once more: nothing that it needs stands there."""
+    script: dict[str, Any] = vars(sys.modules["__main__"])
+    kept = {name: script.pop(name) for name in ("__file__", "__spec__") if name in script}
+    script["__spec__"] = None
+    try:
+        yield
+    finally:
+        script.update(kept)
 
 
 def _serve(items: Connection, made: Connection, work: Work[Any, Any]) -> None:

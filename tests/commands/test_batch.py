@@ -213,3 +213,22 @@ def test_what_is_wrong_for_all_is_refused_before_any_work(
     assert (status, printed, err.count("\n")) == (2, "", 1)
     assert said in err
     assert not out.exists()
+
+
+def test_a_class_gets_notes_after_one_has_been_written_in_the_same_process(tmp_path: Path) -> None:
+    """Threads of typst are not in a copy of the process, which would wait for them for ever."""
+    (tmp_path / "class.csv").write_text("name,variant\nA,1\nB,2\n", encoding="utf-8")
+    script = tmp_path / "script.py"
+    script.write_text(
+        "from kulman import batch, note\n"
+        "note('nau-slider-crank', only='velocity').save('n.pdf')\n"
+        "print('once')\n"
+        "done = batch('nau-slider-crank', 'class.csv', 'out', kinds=['note'], only='velocity', jobs=2)\n"
+        "print(done.problems)\n",
+        encoding="utf-8",
+    )
+
+    ran = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+
+    assert (ran.returncode, ran.stdout.split("\n"), ran.stderr) == (0, ["once", "[]", ""], "")
+    assert len(list((tmp_path / "out").glob("*-note.pdf"))) == 2

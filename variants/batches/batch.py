@@ -195,7 +195,7 @@ def _crew(jobs: int | None, dask: str | None) -> Crew:
     if dask is None:
         # an item may kill its process, which is not this one unless that is asked for
         return lambda making, students: shared_out(
-            making, students, jobs or os.cpu_count() or 1, 0 if jobs != 1 else None
+            making, students, jobs or os.cpu_count() or 1, 0 if jobs != 1 else None, making.afresh
         )
     from ..cluster import on_cluster
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import traceback
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -125,6 +126,11 @@ class Making:
     language: str = "uk"
     block: Mapping[str, str] = field(default_factory=dict)
     _works: dict[Hashable, Work] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    @property
+    def afresh(self) -> bool:
+        """Whether processes for it must be no copies of this one: typst, once at work, stands still in a copy."""
+        return NOTE in self.kinds and "typst" in sys.modules
 
     def begin(self) -> Callable[[Student], Made]:
         """Return what makes the files of a student."""
