@@ -187,7 +187,7 @@ class _Hand(Generic[Item, Made]):
 def _without_script() -> Iterator[None]:
     """Keep a process that is started from running the user's script once more: nothing that it needs stands there."""
     script: dict[str, Any] = vars(sys.modules["__main__"])
-    kept = {name: script.pop(name) for name in ("__file__", "__spec__") if name in script}
+    kept: dict[str, Any] = {name: script.pop(name) for name in ("__file__", "__spec__") if name in script}
     script["__spec__"] = None
     try:
         yield

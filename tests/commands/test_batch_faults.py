@@ -311,7 +311,7 @@ def test_a_row_that_crashes_is_named_and_the_others_are_done(
 
     monkeypatch.setattr(Making, "_made", make)
 
-    done = batch(TASK, roster(tmp_path, 5), tmp_path / "out", jobs=jobs, lang="en")
+    done = batch(TASK, roster(tmp_path, 5), tmp_path / "out", kinds=["svg"], jobs=jobs, lang="en")
 
     assert len(done.problems) == 1
     assert done.problems[0].startswith(f"{tmp_path / 'class.csv'}: 4: ")
