@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from ..text import ESCAPED, RULES
 
@@ -44,6 +45,7 @@ class Scripted:
 Node = Plain | Ruled | Scripted
 
 
+@lru_cache(maxsize=4096)
 def parse(markup: str) -> tuple[Node, ...]:
     """Return the parts of a line of markup, which is one that can be drawn.
 
@@ -120,7 +122,7 @@ def printable(text: str) -> str:
     >>> printable("a\\u202eb\\x07")
     'a b '
     """
-    return "".join(c if c.isprintable() or c == TIE else " " for c in text)
+    return text if text.isprintable() else "".join(c if c.isprintable() or c == TIE else " " for c in text)
 
 
 def tied(text: str) -> str:
