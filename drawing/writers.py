@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import BinaryIO, TypeAlias
 
 from ..scales.arguments import of_kind
-from ..scales.errors import InputError, OutputError
+from ..scales.errors import InputError
 from ..scales.numbers import quote
 from .page import Page
 
@@ -200,9 +200,8 @@ def folder_for(folder: str | os.PathLike[str]) -> Path:
     except FileExistsError:
         raise InputError("output-not-folder", file=quote(path, SHOWN)) from None
     except (OSError, ValueError) as problem:
-        kind = OutputError if isinstance(problem, OSError) else InputError
         reason = getattr(problem, "strerror", "") or ""
-        raise kind("output-refused", file=quote(path, SHOWN), reason=reason) from None
+        raise InputError("output-refused", file=quote(path, SHOWN), reason=reason) from None
     return path
 
 
@@ -263,10 +262,10 @@ def refused(path: Path) -> Iterator[None]:
 
     Raises
     ------
-    OutputError
+    InputError
         For what the system says.
     """
     try:
         yield
     except OSError as problem:
-        raise OutputError("output-refused", file=quote(path, SHOWN), reason=problem.strerror or "") from None
+        raise InputError("output-refused", file=quote(path, SHOWN), reason=problem.strerror or "") from None

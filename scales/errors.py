@@ -57,12 +57,6 @@ class InputError(KulmanError, ValueError):
     """What was asked or given cannot be used; nothing has been written."""
 
 
-class OutputError(InputError):
-    """A file cannot be written, such as on a full disk; what was written before it is whole."""
-
-    status = 4
-
-
 class PositionError(KulmanError, ArithmeticError):
     """The mechanism has no plan in this position: it is singular or cannot be assembled.
 

@@ -49,7 +49,7 @@ class Journal(Generic[Result]):
 
         Raises
         ------
-        OutputError
+        InputError
             It cannot be written.
         """
         line = self._line(digest, result)

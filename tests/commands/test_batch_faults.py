@@ -21,7 +21,7 @@ import pytest
 
 from kulman import batch, cli
 from kulman.drawing import writers
-from kulman.scales.errors import OutputError
+from kulman.scales.errors import InputError
 from kulman.variants.batches.outcome import Outcome
 from kulman.variants.batches.student import Made, Making, Student
 from kulman.variants.batches.work import JOURNAL
@@ -133,7 +133,7 @@ def test_a_disk_that_is_full_at_any_moment_leaves_nothing_half_written(tmp_path:
             Disk(patched, until, full)
             try:
                 batch(TASK, file, out, jobs=1)
-            except OutputError as error:
+            except InputError as error:
                 refused += 1
                 told = error.text("en")
                 assert re.fullmatch(re.escape(str(out)) + r"/\S+: cannot be written \(No space left on device\)", told)
@@ -193,7 +193,7 @@ def test_a_full_disk_is_one_line_with_a_status_of_its_own(
     with pytest.raises(SystemExit) as left:
         cli.main(["batch", TASK, "--roster", str(roster(tmp_path, 3)), "--out", str(out), "--jobs", "1"])
 
-    assert left.value.code == 4
+    assert left.value.code == 2
     said = capsys.readouterr()
     assert (said.out, said.err.count("\n")) == ("", 1)
     assert str(out / "002-S2.svg") in said.err
@@ -262,7 +262,7 @@ def test_a_file_that_a_scanner_keeps_for_a_moment_is_waited_for(
     writers.write_whole(tmp_path / "x.csv", b"1")
     waits.clear()
     monkeypatch.setattr(writers, "PAUSES", (0.1,))
-    with pytest.raises(OutputError, match=r"x\.csv: cannot be written \(Access is denied\)"):
+    with pytest.raises(InputError, match=r"x\.csv: cannot be written \(Access is denied\)"):
         writers.write_whole(tmp_path / "x.csv", b"2")
 
     assert (tmp_path / "x.csv").read_bytes() == b"1"

@@ -67,7 +67,7 @@ def put(path: Path, data: bytes) -> None:
 
     Raises
     ------
-    OutputError
+    InputError
         It cannot be written.
     """
     with suppress(OSError):
