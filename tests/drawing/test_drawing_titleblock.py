@@ -19,6 +19,7 @@ from kulman.drawing.svg import svg_text
 from kulman.drawing.text import box
 from kulman.drawing.titleblock import Stamp, words
 from kulman.scales.errors import InputError
+from kulman.tests.support.shapes import leaves
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -76,11 +77,6 @@ def page(name, language, norm="gost", first=True, stamp=None):
     return Page(sheet.width, sheet.height, shapes, "x", language, norm)
 
 
-def flat(shapes):
-    for shape in shapes:
-        yield from flat(shape.shapes) if isinstance(shape, Group) else (shape,)
-
-
 def drawn_lines(root, name, height, corner, heavy):
     """Read the cell lines of one block back, measured from its bottom left corner."""
     found = set()
@@ -136,7 +132,7 @@ def test_the_frame_is_a_main_line_and_the_edge_a_thin_one(name, norm):
 @pytest.mark.parametrize(("name", "language", "norm", "first"), EVERY)
 def test_no_text_touches_a_line_or_another_text(name, language, norm, first):
     drawn = page(name, language, norm, first)
-    parts = list(flat(drawn.shapes))
+    parts = list(leaves(drawn.shapes))
     texts = [(text, box(text)) for text in parts if isinstance(text, Text)]
     strokes = []
     for part in parts:
@@ -156,7 +152,7 @@ def test_no_text_touches_a_line_or_another_text(name, language, norm, first):
 
 @pytest.mark.parametrize(("name", "language", "norm", "first"), EVERY)
 def test_letters_have_a_height_of_the_row(name, language, norm, first):
-    heights = {text.height for text in flat(page(name, language, norm, first).shapes) if isinstance(text, Text)}
+    heights = {text.height for text in leaves(page(name, language, norm, first).shapes) if isinstance(text, Text)}
 
     assert heights <= {2.5, 3.5, 5.0, 7.0}
 
@@ -166,10 +162,12 @@ def test_empty_fields_stay_blank(norm):
     full = replace(STAMPS["en"], language="en")
     empty = Stamp(language="en")
 
-    names = {text.name for text in flat(page("A3", "en", norm, stamp=empty).shapes) if isinstance(text, Text)}
+    names = {text.name for text in leaves(page("A3", "en", norm, stamp=empty).shapes) if isinstance(text, Text)}
 
     assert not names & {"student", "teacher", "designation", "date_value", "title", "scale", "organisation"}
-    shown = " ".join(text.markup for text in flat(page("A3", "en", norm, stamp=full).shapes) if isinstance(text, Text))
+    shown = " ".join(
+        text.markup for text in leaves(page("A3", "en", norm, stamp=full).shapes) if isinstance(text, Text)
+    )
     for filler in ("None", "TODO", "{", "}"):
         assert filler not in shown
 
@@ -179,7 +177,7 @@ def test_a_long_title_shrinks_and_wraps():
     long = replace(short, title=STAMPS["uk"].title + " і ще одного механізму з кулісою")
 
     def title(stamp):
-        texts = flat(page("A3", "uk", stamp=stamp).shapes)
+        texts = leaves(page("A3", "uk", stamp=stamp).shapes)
         return [text for text in texts if isinstance(text, Text) and text.name == "title"]
 
     assert {text.height for text in title(short)} == {5.0}
@@ -196,7 +194,7 @@ def test_a_name_that_no_letters_can_fit_is_refused():
 
 
 def test_braces_and_backslashes_of_a_name_are_shown():
-    texts = flat(page("A3", "uk", stamp=Stamp(designation=r"A_{1}\bar{2}")).shapes)
+    texts = leaves(page("A3", "uk", stamp=Stamp(designation=r"A_{1}\bar{2}")).shapes)
 
     assert [text.markup for text in texts if getattr(text, "name", "") == "designation"] == [r"A\_\{1\}\\bar\{2\}"]
 

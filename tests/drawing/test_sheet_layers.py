@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache
 from io import BytesIO
@@ -32,6 +31,7 @@ from kulman.drawing.svg import svg_text
 from kulman.drawing.tile import write_tiles
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.readback import SVG, read
+from kulman.tests.support.shapes import leaves
 from kulman.variants.sheets import Sheet
 
 INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
@@ -46,14 +46,6 @@ DPI = 60
 @cache
 def printed(task: str = TASK, **how: object) -> Sheet:
     return handout(task, only=PLANS if task == TASK else None, format="A3", **how)  # type: ignore[arg-type]
-
-
-def leaves(shapes: Iterable[Shape]) -> Iterator[Shape]:
-    for shape in shapes:
-        if isinstance(shape, Group):
-            yield from leaves(shape.shapes)
-        else:
-            yield shape
 
 
 def layers_of(page: Page) -> list[etree._Element]:

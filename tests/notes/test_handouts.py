@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from pathlib import Path
 
@@ -16,6 +15,7 @@ from kulman.drawing.handouts.print_marks import printable
 from kulman.drawing.notes.blocks import Figure, Steps
 from kulman.drawing.shapes import Arrow, Group, Line, Shape, Text, Vector
 from kulman.scales.errors import LANGUAGES
+from kulman.tests.support.shapes import leaves
 from kulman.variants.case import Case
 from kulman.variants.handouts import drawing_for_print
 from kulman.variants.sheets import Sheet
@@ -27,14 +27,6 @@ FEW = ("nau-slider-crank",)
 
 def tasks(few: tuple[str, ...] = FEW) -> list[object]:
     return [name if name in few else pytest.param(name, marks=pytest.mark.soak) for name in bundled()]
-
-
-def leaves(shapes: Iterable[Shape]) -> Iterator[Shape]:
-    for shape in shapes:
-        if isinstance(shape, Group):
-            yield from leaves(shape.shapes)
-        else:
-            yield shape
 
 
 def drawn(sheet: Sheet) -> list[set[Shape]]:
