@@ -37,7 +37,8 @@ def _joints(solved: SolvedLinkage) -> dict[str, str]:
     for link in solved.mechanism.links:
         joints = {pair.point for pair in solved.mechanism.pairs if link.number in pair.links}
         pairs = combinations([point for point in link.points if point in joints], 2)
-        ends = max(pairs, key=lambda ends: abs(solved.point(ends[1]) - solved.point(ends[0])), default=())
+        at = {point: complex(*(solved.values[xy] for xy in place)) for point, place in link.points.items()}
+        ends = max(pairs, key=lambda ends: abs(at[ends[1]] - at[ends[0]]), default=())
         if ends:
             named[str(link.number)] = "".join(re.sub(r"(\d+)", r"_{\1}", end) for end in ends)
     return named

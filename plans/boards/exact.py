@@ -73,7 +73,7 @@ class ExactBoard(TemplateBoard):
         self._name, self._operands = name, operands
         value = operate(*[values[operand] for operand in operands])
         if type(value) is not complex:
-            value += 0.0  # zero has no sign
+            value = value + 0.0  # zero has no sign, and an array of one number becomes that number
         elif value is not POLE:
             value += POLE
         values[name] = value
@@ -94,7 +94,7 @@ class ExactBoard(TemplateBoard):
             self._name, self._operands = step.name, step.operands
             value = operate(*(taken(values) if taken else [values[operand] for operand in step.operands]))
             if type(value) is not complex:
-                value += 0.0
+                value = value + 0.0
             elif value is not POLE:
                 value += POLE
             values[step.name] = value

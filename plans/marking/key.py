@@ -100,7 +100,7 @@ def answer_key(
 
 def _key(paper: Paper, key: Key) -> Key:
     """Find the tolerances of a key on another paper."""
-    ruled = key.questions.keys() - key.limits.keys()
+    ruled = {step.name for step in results(paper.program)} - key.limits.keys()
     allowed = {**(tolerances(paper, key.values, key.sines, key.tolerance) if ruled else {}), **key.limits}
     for name in key.questions:
         least = rounded(key.values[name], key.tolerance)

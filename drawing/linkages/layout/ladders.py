@@ -88,6 +88,8 @@ def by_plan(solved: SolvedLinkage, mus: Mapping[str, float]) -> dict[str, Scale]
     """Return the scale factors of the plans from their values by symbol."""
     plans = solved.scale_of_plan.items()
     scales = {plan: Scale(symbol, mus[symbol], UNITS[symbol.split("_")[1]]) for plan, symbol in plans}
+    if POSITION not in scales:  # of a structure alone nothing is drawn to scale
+        return scales
     return {**scales, DRIVER: _of_driver(solved, scales[POSITION])}
 
 
