@@ -56,6 +56,7 @@ OF_PLATE = (
     Stage("points", "plate_sizes.#_before"),
     Stage("tangent", "plate_sizes.T"),
     Stage("centre", "r_0_flat"),
+    Stage("centre", "rho_flat_min"),  # where r_0_flat is given
 )
 OF_ROCKER = (
     Stage("pivot", "rocker_sizes.#", "pole"),
@@ -124,8 +125,8 @@ def family(name: str) -> str:
 def _ordered(table: tuple[Stage, ...], firsts: Firsts, left_out: tuple[str, ...]) -> Iterator[str]:
     first, *others = table
     yield first.part
-    starts = {stage.part: firsts.get((stage.family, stage.verb)) for stage in others if stage.family}
-    begun = {part: start for part, start in starts.items() if start is not None and part not in left_out}
+    starts = ((stage.part, firsts.get((stage.family, stage.verb))) for stage in others if stage.family)
+    begun = {part: start for part, start in starts if start is not None and part not in left_out}
     yield from sorted(begun, key=lambda part: begun[part])
     yield from (stage.part for stage in others if not stage.family)
 

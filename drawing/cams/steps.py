@@ -22,7 +22,7 @@ from .transfer import ratio
 PAPER = 2  # decimals of segments on paper
 Said = dict[str, str]
 # choices of sizes: by view the givens that make the sentence about the centre another one
-CHOSEN = {SIZES: ("r_0", "e"), ROCKER_SIZES: ("l_OC", "r_0")}
+CHOSEN = {SIZES: ("r_0", "e"), ROCKER_SIZES: ("l_OC", "r_0"), PLATE_SIZES: ("r_0_flat",)}
 CENTRAL = 0.05  # mm, of a circle of the offset that is not drawn
 
 
@@ -203,6 +203,8 @@ def _of_plate(scene: CamScene) -> Said:
     found["r_0_flat_min_read"] = read(scene, PLATE_SIZES, "r_0_flat_min", sizes.r_0_min)
     found["r_0_flat_tangent"] = scene.stated("r_0_flat_tangent", float(solved.values["r_0_flat_tangent"]))
     found |= {"ratio_s_d2s": ratio(scene, "mu_s", "mu_s_d2s"), "ratio_d2s": ratio(scene, "mu_d2s", "mu_s_d2s")}
+    if "rho_flat_min" in solved.values:
+        found["rho_flat_min"] = scene.stated("rho_flat_min", float(solved.values["rho_flat_min"]))
     parts = scene.length(solved.motion.ds_max.value), scene.length(solved.values["margin"])
     total = f"{' + '.join(parts)} = {scene.length(sizes.R_plate)} {words.unit('mm')}"
     return found | {"R_plate_sum": f"{words.symbol('R_plate')} = {total}"}

@@ -73,17 +73,15 @@ def plate_block(scene: CamScene, width: float) -> View:
         tangent = float(values["r_0_flat_tangent"]) * 1e3
         text = f"{words.symbol('r_0_flat_tangent')} = {words.number(tangent, 2)} {words.unit('mm')}"
         lines.append((f"{words['said.cam_tangents']}:", text))
-    sizes = plate.sizes
-    lines.append(
-        worked(
-            scene,
-            "r_0_flat",
-            "{r_0_flat_min} + {rho_flat}",
-            lambda a, b: a + b,
-            [("r_0_flat_min", sizes.r_0_min * 1e3, False), ("rho_flat", float(values["rho_flat"]) * 1e3, True)],
-            "mm",
-        )
-    )
+    rho_flat, r_0 = (("rho_flat", float(values["rho_flat"]) * 1e3, True), ("r_0_flat", plate.sizes.r_0 * 1e3, True))
+    least = ("r_0_flat_min", plate.sizes.r_0_min * 1e3, False)
+    if plate.given:
+        more = f"≥ {words.symbol('rho_flat')} = {words.short(rho_flat[1])} {words.unit('mm')}"
+        formula = "{r_0_flat} − {r_0_flat_min}"
+        lines.append(worked(scene, "rho_flat_min", formula, lambda a, b: a - b, [r_0, least], "mm", more))
+    else:
+        formula = "{r_0_flat_min} + {rho_flat}"
+        lines.append(worked(scene, "r_0_flat", formula, lambda a, b: a + b, [least, rho_flat], "mm"))
     lines.append(
         worked(
             scene,

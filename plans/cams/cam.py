@@ -52,8 +52,9 @@ VALUES = {
     "psi": "rad",  # swing of a rocker, in the place of the stroke; its length, and where it turns
     "l_rocker": "m",
     "l_OC": "m",
-    "r_0": "m",  # sizes that are given, not found
+    "r_0": "m",  # sizes that are given, not found; r_0_flat is that of the cam for a plate beside one for a roller
     "e": "m",
+    "r_0_flat": "m",
 }
 NEAR = 1e-12  # rad, within which two angles are one: by so much the phases may be longer than a turn
 SECTIONS = 12  # of a phase, at least: what a student can draw, and enough for a smooth curve

@@ -7,9 +7,11 @@ board, by closed forms of its law, so that the derivatives are central differenc
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
+from ...scales.errors import InputError
 from ..boards.exact import run
 from ..condition import Condition
 from ..references import worst_behind
@@ -32,13 +34,25 @@ def conditions_of(solved: SolvedCam) -> dict[str, Condition]:
     """Return the condition of every quantity, given ones among them."""
     numbers = {name: float(solved.givens[name]) for name in VALUES if solved.givens.get(name)}
     totals = dict.fromkeys(solved.quantities, 0.0)
-    for name, value in numbers.items():
-        more, less = (_with(solved, numbers, name, value * (1.0 + step)) for step in (STEP, -STEP))
+    for name in numbers:
+        (more, up), (less, down) = (_beside(solved, numbers, name, step) for step in (STEP, -STEP))
         for quantity in totals:
-            totals[quantity] += abs(more[quantity] - less[quantity]) * (0.5 / STEP)
+            change = abs(more[quantity] - less[quantity])
+            totals[quantity] += change / (up - down) if up > down else math.inf
     worst = worst_behind(solved.program, solved.sines)
     sizes = {name: float(abs(solved.values[BESIDE.get(name, name)])) for name in totals}
     return {name: Condition(_ratio(total, sizes[name]), worst.get(name, 1.0)) for name, total in totals.items()}
+
+
+def _beside(solved: SolvedCam, numbers: Mapping[str, float], name: str, step: float) -> tuple[Mapping[str, Any], float]:
+    """Return the values of a cam with a number larger by a step, a part of it, and the step: none where it may not be.
+
+    A size that is given may be the least that the limits permit, and others at their ends.
+    """
+    try:
+        return _with(solved, numbers, name, numbers[name] * (1.0 + step)), step
+    except InputError:
+        return solved.values, 0.0
 
 
 def _with(solved: SolvedCam, numbers: Mapping[str, float], name: str, value: float) -> Mapping[str, Any]:

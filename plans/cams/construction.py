@@ -24,7 +24,8 @@ class Layout:
 
     `given` is the diagram that the law gives; `fastest` the section line of the greatest velocity; `limits` names the
     limits of the pressure angle, `corner` the two whose tangents meet at a cam's centre; `ranged` tells that r_0 is
-    given, and between which offsets the cam may be; `rocks` that the travel runs along the arc of a rocker.
+    given, and between which offsets the cam may be; `plate_given` that r_0 of the cam for a plate is; `rocks` that the
+    travel runs along the arc of a rocker.
     """
 
     division: Division
@@ -34,6 +35,7 @@ class Layout:
     limits: tuple[str, ...] = ()
     corner: tuple[str, ...] = ()
     ranged: bool = False
+    plate_given: bool = False
     rocks: bool = False
 
 
@@ -56,7 +58,7 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
                 permitted_offsets(board)
         if PLATE in layout.followers:
             plate_sizes(board, division)
-            smallest_plate_cam(board)
+            smallest_plate_cam(board, layout.plate_given)
         if ROCKER in layout.followers:
             rocker_sizes(board, division)
     if PROFILE_PART in wanted:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...scales.errors import InputError
 from .cam import Cam
@@ -39,18 +40,24 @@ from .sizes import (
 )
 
 Values = Mapping[str, float]
+Range = tuple[float, float]  # the least and the greatest
 MILLI = 1e3
+ROUNDING = 1e-12  # part of a length by which it may be less than another, and the same
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RollerCam:
-    """A cam for a roller: its sizes, those where the limit tangents meet, and the offsets permitted at a given r_0."""
+    """A cam for a roller: its sizes, those where the limit tangents meet, and the offsets permitted at a given r_0.
+
+    `permitted` is the least r_0 at an offset that is given together with r_0, and the greatest, which is infinite.
+    """
 
     limits: Limits
     sizes: RollerSizes
     by_tangents: RollerSizes
     profile: RollerProfile
     offsets: Offsets | None = None
+    permitted: Range | None = None
 
     def givens(self, cam: Cam) -> dict[str, float]:
         """Return the sizes as parts of the stroke, to which they are proportional, and the limits' tangents."""
@@ -76,6 +83,7 @@ class PlateCam:
 
     sizes: PlateSizes
     profile: PlateProfile
+    given: bool = False  # whether r_0 is given
 
     def givens(self) -> dict[str, float]:
         """Return the least radius as a part of the stroke."""
@@ -84,12 +92,16 @@ class PlateCam:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RockerCam:
-    """A cam for a rocker with a roller; `rocker` has the motion as angles, rad."""
+    """A cam for a rocker with a roller; `rocker` has the motion as angles, rad.
+
+    `permitted` is the least and the greatest r_0 at an l_OC that is given together with r_0, None where no r_0 is.
+    """
 
     limits: Limits
     rocker: Rocker
     sizes: RockerSizes
     profile: RollerProfile
+    permitted: Range | None = None
 
     def givens(self, cam: Cam, angles: Array, division: Division) -> dict[str, float]:
         """Return the rocker's positions, the directions of the limits, and sizes as parts of its length."""
@@ -125,32 +137,51 @@ def roller_cam(cam: Cam, motion: Motion, values: Values) -> RollerCam:
     """
     limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
     planes = wedge(motion, limits, cam.sense)
-    r_0, e, permitted = values.get("r_0"), values.get("e"), None
-    if r_0 is not None:
-        found = offsets(planes, r_0)
-        permitted = found if isinstance(found, Offsets) else None
-        if e is None and isinstance(found, NoOffset):
-            raise _no_offset(found, r_0)
+    r_0, e, between, permitted = values.get("r_0"), values.get("e"), None, None
     if r_0 is None:
         sizes = smallest_roller(planes) if e is None else central(planes, e)
     else:
-        if e is None:
-            assert permitted is not None
-            e = 0.5 * (permitted.least + permitted.most)
+        ends = offsets(planes, r_0)
+        between = ends if isinstance(ends, Offsets) else None
+        if e is not None:
+            permitted = central(planes, e).r_0, math.inf
+        elif isinstance(ends, NoOffset):
+            raise InputError("cam-no-offset", r_0=f"{r_0 * MILLI:.6g}", least=six_digits(ends.r_0_min))
+        else:
+            e = 0.5 * (ends.least + ends.most)
         sizes = RollerSizes(r_0, e, math.sqrt((r_0 - e) * (r_0 + e)))
     profile = RollerProfile(StraightPath(motion, sizes), values["R_roller"], cam.sense)
-    return RollerCam(limits=limits, sizes=sizes, by_tangents=apex(planes), profile=profile, offsets=permitted)
+    found = RollerCam(limits=limits, sizes=sizes, by_tangents=apex(planes), profile=profile, offsets=between)
+    return replace(found, permitted=permitted)
 
 
-def _no_offset(found: NoOffset, r_0: float) -> InputError:
-    said = {"r_0": f"{r_0 * 1e3:.6g}", "least": f"{found.r_0_min * 1e3:.6g}"}
-    return InputError("cam-no-offset", **said)
+def six_digits(length: float, greatest: bool = False) -> str:
+    """Return a least length in mm, of six digits, or the greatest, rounded down: who takes it is within the limits.
+
+    >>> six_digits(0.0452581786), six_digits(0.02), six_digits(0.0452581786, greatest=True)
+    ('45.2582', '20', '45.2581')
+    """
+    within, rounding = (1.0 + ROUNDING, ROUND_FLOOR) if greatest else (1.0 - ROUNDING, ROUND_CEILING)
+    digits = Context(prec=6, rounding=rounding).create_decimal(Decimal(length * MILLI * within))
+    return f"{float(digits):.6g}"
 
 
 def plate_cam(cam: Cam, motion: Motion, values: Values) -> PlateCam:
-    """Return the smallest cam for a plate."""
+    """Return the smallest cam for a plate, or the one with the given r_0_flat.
+
+    Raises
+    ------
+    InputError
+        At the given r_0 the profile is curved with a smaller radius than is wanted.
+    """
     sizes = smallest_plate(motion, values["rho_flat"], values["margin"])
-    return PlateCam(sizes=sizes, profile=PlateProfile(motion, sizes.r_0, cam.sense))
+    r_0 = values.get("r_0_flat")
+    if r_0 is not None:
+        if r_0 < sizes.r_0 * (1.0 - ROUNDING):
+            lengths = {"r_0": f"{r_0 * MILLI:.6g}", "rho": f"{values['rho_flat'] * MILLI:.6g}"}
+            raise InputError("cam-plate-r-0", **lengths, least=six_digits(sizes.r_0))
+        sizes = replace(sizes, r_0=r_0)
+    return PlateCam(sizes=sizes, profile=PlateProfile(motion, sizes.r_0, cam.sense), given=r_0 is not None)
 
 
 def rocker_cam(cam: Cam, values: Values) -> RockerCam:
@@ -165,7 +196,7 @@ def rocker_cam(cam: Cam, values: Values) -> RockerCam:
     """
     limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
     rocker = Rocker(motion_of(cam, {**values, "h": values["psi"]}), values["l_rocker"], cam.sense)
-    distance, r_0 = values.get("l_OC"), values.get("r_0")
+    distance, r_0, permitted = values.get("l_OC"), values.get("r_0"), None
     if distance is None:
         if r_0 is not None:
             raise InputError("cam-rocker-r-0")
@@ -173,11 +204,12 @@ def rocker_cam(cam: Cam, values: Values) -> RockerCam:
     elif r_0 is None:
         found = smallest_rocker_at(rocker, limits, distance)
     else:
-        found = _given_sizes(rocker.l, distance, r_0)
+        found, best = _given_sizes(rocker.l, distance, r_0), smallest_rocker_at(rocker, limits, distance)
+        permitted = None if isinstance(best, NoPlace) else (best.r_0, best.r_0_most)
     if isinstance(found, NoPlace):
         raise _no_place(rocker, limits, distance, found)
     profile = RollerProfile(RockerPath(rocker.motion, found), values["R_roller"], cam.sense)
-    return RockerCam(limits=limits, rocker=rocker, sizes=found, profile=profile)
+    return RockerCam(limits=limits, rocker=rocker, sizes=found, profile=profile, permitted=permitted)
 
 
 def _given_sizes(l: float, l_OC: float, r_0: float) -> RockerSizes:

@@ -44,6 +44,7 @@ class RockerSizes:
     e: float
     s_0: float
     on: tuple[str, ...] = ()
+    r_0_most: float = math.inf  # the greatest r_0 that the limits permit at this l_OC
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,8 +186,8 @@ def smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> RockerSiz
     beta, name = least
     if beta > most[0]:
         return NoPlace((name, most[1]))
-    place = rocker.l - l_OC * complex(math.cos(beta), -math.sin(beta))
-    return RockerSizes(abs(place), l_OC, rocker.l, place.real, place.imag, (name,))
+    place, farthest = (rocker.l - l_OC * complex(math.cos(end), -math.sin(end)) for end in (beta, most[0]))
+    return RockerSizes(abs(place), l_OC, rocker.l, place.real, place.imag, (name,), abs(farthest))
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ NAMES = {
         "psi_0",
         *PRESSURES,
     ),
-    PLATE: ("mu_s_d2s", "r_0_flat_tangent", "r_0_flat_min", "r_0_flat", "R_plate"),
+    PLATE: ("mu_s_d2s", "r_0_flat_tangent", "r_0_flat_min", "r_0_flat", "rho_flat_min", "R_plate"),
     PROFILE: ("mu_l", "R_roller", "rho_min"),
 }
 OF_PLAN = {DIAGRAMS_PART: (DIAGRAMS, CHORDS), SIZES_PART: (ROLLER, PLATE), PROFILE_PART: (PROFILE,), PRESSURE_PART: ()}

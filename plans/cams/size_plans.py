@@ -115,8 +115,11 @@ def plate_sizes(board: Board, division: Division) -> None:
     board.distance("r_0_flat_tangent", f"{PLATE_SIZES}.0", f"{PLATE_SIZES}.T")
 
 
-def smallest_plate_cam(board: Board) -> None:
-    """Calculate the smallest cam for a plate, its margin, and the plate."""
+def smallest_plate_cam(board: Board, given: bool) -> None:
+    """Calculate the smallest cam for a plate, or how sharp that of a given r_0 is, and the plate."""
     board.calc("r_0_flat_min", "part_of_travel", "h", "_r_0_flat_part")
-    board.calc("r_0_flat", "enlarged", "r_0_flat_min", "rho_flat")
+    if given:
+        board.calc("rho_flat_min", "excess", "r_0_flat", "r_0_flat_min")
+    else:
+        board.calc("r_0_flat", "enlarged", "r_0_flat_min", "rho_flat")
     board.calc("R_plate", "enlarged", "ds_max", "margin")

@@ -58,7 +58,7 @@ class Offsets:
 class NoOffset:
     """Why no offset is permitted at a given r_0: limits that exclude all, one alone or two together.
 
-    `r_0_min` is the least r_0 at which these limits permit one.
+    `r_0_min` is the least r_0 at which all limits permit one.
     """
 
     limits: tuple[str, ...]
@@ -136,7 +136,7 @@ def offsets(planes: Sequence[HalfPlane], r_0: float) -> Offsets | NoOffset:
     least, most, at_least, at_most = -RIGHT_ANGLE, RIGHT_ANGLE, "r_0", "r_0"
     for plane in planes:
         if plane.least > r_0 * (1.0 + ON_CIRCLE):
-            return NoOffset((plane.name,), plane.least)
+            return NoOffset((plane.name,), smallest_roller(planes).r_0)
         reach = math.acos(max(-1.0, min(1.0, plane.least / r_0)))
         middle = math.atan2(plane.normal.real, plane.normal.imag)
         if middle - reach > least:
@@ -147,8 +147,8 @@ def offsets(planes: Sequence[HalfPlane], r_0: float) -> Offsets | NoOffset:
         least = most = 0.5 * (least + most)
         place = complex(r_0 * math.sin(least), r_0 * math.cos(least))
         if any(plane.lack(place) > ON_CIRCLE * r_0 for plane in planes):
-            both = [plane for plane in planes if plane.name in (at_least, at_most)]
-            return NoOffset(tuple(plane.name for plane in both), smallest_roller(both).r_0)
+            both = tuple(plane.name for plane in planes if plane.name in (at_least, at_most))
+            return NoOffset(both, smallest_roller(planes).r_0)
     return Offsets(r_0 * math.sin(least), r_0 * math.sin(most), at_least, at_most)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ...scales.errors import InputError
 from ..board import Program, with_needs
 from ..boards.exact import run
 from ..laws import LAWS
@@ -43,7 +44,7 @@ SHOWN_ON = {
     "ds_max": VELOCITY,
     "s_max": TRAVEL,
     **dict.fromkeys(("r_0", "e", "s_0", "r_0_tangents", "e_tangents"), SIZES),
-    **dict.fromkeys(("r_0_flat_min", "r_0_flat_tangent"), PLATE_SIZES),
+    **dict.fromkeys(("r_0_flat_min", "r_0_flat_tangent", "rho_flat_min"), PLATE_SIZES),
     **dict.fromkeys(("rho_min", "R_roller"), PROFILE),
     **dict.fromkeys(("r_0_flat", "R_plate"), PLATE_PROFILE),
 }
@@ -118,8 +119,9 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     Raises
     ------
     InputError
-        A law that cannot be had with these numbers.
+        A law that cannot be had with these numbers, or a size that the limits do not permit.
     """
+    values = _of_plate_alone(values) if cam.followers == (PLATE,) else values
     motion = _motion(cam, values)
     angles, division = motion.division(cam.sections)
     wanted = with_needs(plans, NEEDS)
@@ -161,6 +163,15 @@ def again(solved: SolvedCam, values: Mapping[str, float]) -> Mapping[str, Any]:
     return run(solved.program, {**values, **_givens(cam, motion, angles, solved.layout, cams)}).values
 
 
+def _of_plate_alone(values: Mapping[str, float]) -> Mapping[str, float]:
+    """Return the numbers of a cam for a plate alone, whose r_0_flat may be called r_0."""
+    if "r_0" not in values:
+        return values
+    if "r_0_flat" in values:
+        raise InputError("cam-r-0-twice")
+    return {"r_0_flat" if name == "r_0" else name: value for name, value in values.items()}
+
+
 def _motion(cam: Cam, values: Mapping[str, float]) -> Motion:
     """Return the motion of the follower; the stroke of a rocker is that of its roller."""
     if ROCKER in cam.followers:
@@ -184,6 +195,7 @@ def _found(program: Program, givens: Mapping[str, Any]) -> dict[str, Any]:
 def _layout(cam: Cam, motion: Motion, angles: Array, division: Division, cams: Mapping[str, Any]) -> Layout:
     """Return what the construction depends on: a velocity that jumps is given, as no acceleration has it."""
     roller: RollerCam | None = cams.get(ROLLER)
+    plate: PlateCam | None = cams.get(PLATE)
     return Layout(
         division,
         tuple(cams),
@@ -192,6 +204,7 @@ def _layout(cam: Cam, motion: Motion, angles: Array, division: Division, cams: M
         limits=limits_of(cam),
         corner=roller.by_tangents.on if roller else (),
         ranged=roller is not None and roller.offsets is not None,
+        plate_given=plate is not None and plate.given,
         rocks=ROCKER in cam.followers,
     )
 
@@ -236,4 +249,4 @@ def _stated(values: Mapping[str, Any]) -> dict[str, Quantity]:
 
 def _lengths(values: Mapping[str, Any]) -> dict[str, float]:
     """Return the given lengths that are results, too."""
-    return {name: values[name] for name in ("H_a", "H_v", "R_roller", "l_rocker") if name in values}
+    return {name: values[name] for name in ("H_a", "H_v", "R_roller", "l_rocker", "r_0_flat") if name in values}

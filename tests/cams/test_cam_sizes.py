@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from kulman import check, note, sweep
+from kulman.plans.cams.cam import Cam
 from kulman.plans.cams.laws_of_motion import law_of_motion
-from kulman.plans.cams.motion import Motion
+from kulman.plans.cams.motion import Motion, motion_of
 from kulman.plans.cams.pressure import least_transmission, pressure_angle
 from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath
 from kulman.plans.cams.rocker import (
@@ -34,6 +37,10 @@ from kulman.plans.cams.sizes import (
     smallest_roller,
     wedge,
 )
+from kulman.plans.cams.solve import solve_cam
+from kulman.scales.errors import InputError
+from kulman.tests.support.cam_cases import CamCase
+from kulman.tests.support.cam_points_profile import c8_plate
 from kulman.tests.support.cams import (
     MADI_LIMITS,
     SEED,
@@ -43,6 +50,7 @@ from kulman.tests.support.cams import (
     random_limits,
     random_motion,
 )
+from kulman.variants.kinds.cam import KIND
 
 COUNTS = [pytest.param(5, id="5"), pytest.param(250, id="250", marks=pytest.mark.soak)]
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
@@ -201,7 +209,7 @@ def test_too_small_a_cam_has_no_offset_and_says_why(part: float, reason: tuple[s
 
     assert isinstance(found, NoOffset)
     assert found.limits == reason
-    assert found.r_0_min == pytest.approx(smallest_roller([p for p in planes if p.name in reason]).r_0)
+    assert found.r_0_min == smallest_roller(planes).r_0
 
 
 def test_least_r_0_permits_exactly_its_offset() -> None:
@@ -345,3 +353,130 @@ def test_wide_swing_with_large_angles_has_no_place_and_says_why() -> None:
     found = smallest_rocker(rocker, Limits(math.radians(80.0), math.radians(75.0)))
 
     assert found == NoPlace(("rise", "fall"))
+
+
+PAPER = {"omega": 20.0, "mu_phi": math.radians(1.0), "l_A1": 0.1, "H_a": 0.03, "H_v": 0.03, "R_roller": 1e-4}
+LEAST = [pytest.param(2, id="2"), pytest.param(100, id="100", marks=pytest.mark.soak)]
+
+
+def random_task(random: np.random.Generator, follower: str) -> tuple[Cam, dict[str, float]]:
+    """Return a cam with one follower and random laws, phases, limits and senses, and its numbers."""
+    laws = random.choice(SMOOTH, 2)
+    sides, order, sense = ("one-sided", "two-sided"), ("mirror", "same"), ("ccw", "cw")
+    words = (str(random.choice(choices)) for choices in (order, sense, sides))
+    rise, upper, fall, _ = random.dirichlet((6.0, 2.0, 6.0, 3.0)) * 2.0 * math.pi
+    limits = dict(zip(("gamma_rise", "gamma_fall"), np.radians(random.uniform(25.0, 70.0, 2)).tolist(), strict=True))
+    values = {**PAPER, **limits, "phi_rise": rise, "phi_upper": upper, "phi_fall": fall, "margin": 0.0}
+    values |= {"h": random.uniform(5e-3, 60e-3), "rho_flat": random.uniform(0.0, 0.02)}
+    values |= {"psi": random.uniform(0.1, 0.6), "l_rocker": random.uniform(0.05, 0.2), "u": random.uniform(0.2, 0.8)}
+    return Cam((follower,), str(laws[0]), str(laws[1]), *words), values
+
+
+def limits_in(cam: Cam, values: dict[str, float]) -> Limits:
+    return Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
+
+
+def told(cam: Cam, values: dict[str, float], key: str) -> dict[str, float]:
+    """Return the lengths, m, that an error or a warning of this key names; nothing where none is said."""
+    try:
+        said = KIND.warnings(solve_cam(cam, values, ("sizes",)))
+    except InputError as error:
+        said = (error,)
+    return {name: float(text) * 1e-3 for error in said if error.key == key for name, text in error.data.items()}
+
+
+def just_above(least: float, scanned: float) -> bool:
+    """Whether a least length that is rounded up to six digits is the one that a scan finds."""
+    return scanned * (1.0 - 1e-9) <= least <= scanned * (1.0 + 3e-5)
+
+
+@pytest.mark.parametrize("count", LEAST)
+def test_too_small_a_cam_for_a_roller_names_the_least_r_0_of_all_offsets(count: int) -> None:
+    random = np.random.default_rng(SEED + 20)
+
+    for _ in range(count):
+        cam, values = random_task(random, "roller")
+        positions = Positions(motion_of(cam, values), limits_in(cam, values), cam.sense)
+        ends, scanned = (-1.0, 1.0), math.inf
+        for _ in range(9):  # a scan of e, then finer and finer ones about the best
+            every = np.linspace(*ends, 41).tolist()
+            scanned, e = min((math.hypot(e, positions.s_0(e)), e) for e in every)
+            ends = (e - 2.0 * (every[1] - every[0]), e + 2.0 * (every[1] - every[0]))
+
+        least = told(cam, {**values, "r_0": scanned * random.uniform(0.05, 0.999)}, "cam-no-offset")["least"]
+
+        assert just_above(least, scanned * (1.0 - 2e-6))
+        assert told(cam, {**values, "r_0": least}, "cam-no-offset") == {}
+        e = 0.4 * scanned * random.uniform(-1.0, 1.0)
+        least = told(cam, {**values, "e": e, "r_0": abs(e) * 1.001}, "cam-r-0-at-e")["least"]
+        assert just_above(least, math.hypot(e, positions.s_0(e)) * (1.0 - 2e-6))
+        assert told(cam, {**values, "e": e, "r_0": least}, "cam-r-0-at-e") == {}
+
+
+@pytest.mark.parametrize("count", LEAST)
+def test_a_given_r_0_beside_l_OC_of_a_rocker_is_held_against_all_that_is_permitted(count: int) -> None:
+    random, checked = np.random.default_rng(SEED + 21), 0
+
+    while checked < count:
+        cam, values = random_task(random, "rocker")
+        rocker, l = Rocker(motion_of(cam, {**values, "h": values["psi"]}), values["l_rocker"], cam.sense), "l_rocker"
+        distance = values["l_OC"] = values[l] * random.uniform(0.8, 2.5)
+        ends = [(0.0, math.pi - values["psi"])] * 2
+        for _ in range(5):  # a scan of the angle at the pivot, then finer ones about the first and the last permitted
+            for k, (low, high) in enumerate(ends):
+                every = np.linspace(low, high, 41)
+                places = values[l] - distance * np.exp(-1j * every)
+                fit = np.flatnonzero(dense_slack(rocker, limits_in(cam, values), places) >= 0.0)
+                if fit.size:
+                    at, step = every[fit[-k]], every[1] - every[0]
+                    ends[k] = max(at - step, 0.0), min(at + step, math.pi - values["psi"])
+        if not fit.size:
+            continue
+        checked += 1
+        first, last = (abs(values[l] - distance * np.exp(-1j * sum(end) / 2.0)) for end in ends)
+
+        small, large = (told(cam, {**values, "r_0": r_0}, "cam-r-0-at-l-OC") for r_0 in (0.99 * first, 1.01 * last))
+
+        for named in (small, large or small):
+            assert named["least"] == pytest.approx(first, rel=1e-5)
+            assert named["most"] == pytest.approx(last, rel=1e-5)
+            for end in ("least", "most"):
+                assert told(cam, {**values, "r_0": named[end]}, "cam-r-0-at-l-OC") == {}
+
+
+@pytest.mark.parametrize("count", LEAST)
+@pytest.mark.parametrize("name", ["r_0", "r_0_flat"])
+def test_a_given_r_0_under_a_plate_is_held_against_the_least_that_a_scan_finds(name: str, count: int) -> None:
+    random = np.random.default_rng(SEED + 22)
+
+    for _ in range(count):
+        cam, values = random_task(random, "plate")
+        motion = motion_of(cam, values)
+        every = [dense(motion, phase.name, 1500) for phase in motion.phases if phase.pieces]
+        scanned = max(0.0, *(np.max(-s - d2s) for _, s, _, d2s in every)) + values["rho_flat"]
+
+        least = told(cam, {**values, name: scanned * random.uniform(0.05, 0.99)}, "cam-plate-r-0")["least"]
+
+        assert just_above(least, scanned * (1.0 - 1e-5))
+        solved = solve_cam(cam, {**values, name: 2.0 * least})
+        assert solved.plate is not None
+        assert solved.quantities["r_0_flat"].value == 2.0 * least
+        assert solved.quantities["rho_flat_min"].value == pytest.approx(solved.plate.profile.rho_min, rel=1e-12)
+        for k, phi in enumerate(solved.angles.tolist()):
+            reach = solved.point(f"plate_profile.B{k}") * np.exp(1j * cam.sense * phi)
+            assert reach == pytest.approx(1j * (2.0 * least + float(motion.at(phi)[0])), abs=1e-14)
+
+
+def test_a_plate_cam_with_a_given_r_0_is_drawn_told_and_marked(tmp_path: Path) -> None:
+    task, given = "madi-cam", {"r_0_flat": "50 mm"}
+    path, *_ = note(task, set=given, lang="en").save(tmp_path / "note.md")
+    told_of = path.read_text(encoding="utf-8")
+    form = check(task, set=given, lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
+    asked = [line.split(",")[0] for line in form.splitlines()]
+    swept = sweep(task, set=given).table("en")
+    drawn = CamCase((*given.items(),), "A2", "en", only="sizes,profile")
+
+    assert "given least radius" in told_of
+    assert ("r_0_flat" in asked, "rho_flat_min" in asked) == (False, True)
+    assert "least radius of curvature under the plate: 21.4039 mm at phi = 195" in swept
+    assert [*c8_plate(drawn, drawn.sheet)] == []

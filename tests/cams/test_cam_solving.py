@@ -119,7 +119,7 @@ def test_a_broken_rule_is_told(settings: dict[str, Any], broken: set[str]) -> No
     found = solve(TASK, set=settings)
 
     assert {name for name, one in found.checks.items() if not one["ok"]} == broken
-    told = [warning.text() for warning in found.warnings]
+    told = [warning.text() for warning in found.warnings if warning.key != "cam-r-0-at-e"]  # which tells the least r_0
     assert len(told) == len(broken)
     assert ("undercut_roller" in broken) == any(
         "is undercut: from 35.61° to 49.73° the follower loses up to 0.0224 mm" in line for line in told

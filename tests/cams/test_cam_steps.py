@@ -33,6 +33,7 @@ CASES: tuple[tuple[str, str, Settings], ...] = (
     (TASK, "17", (("e", "0"), ("rotation", "cw"))),
     (TASK, "17", (("r_0", "50"), ("law", "sine"))),
     (TASK, "17", (("r_0", "50"), ("e", "3"))),
+    (TASK, "17", (("r_0_flat", "50"),)),
     (ROCKER, "1", ()),
     (ROCKER, "2", ()),
 )
@@ -100,7 +101,7 @@ def test_every_mark_of_the_construction_has_its_stage(case: tuple[str, str, Sett
 def test_stages_follow_the_construction() -> None:
     first = stages(cam(solved(*CASES[0])))
     once = stages(cam(solved(*CASES[1])))
-    rocks = stages(cam(solved(*CASES[5])))
+    rocks = stages(cam(solved(*CASES[6])))
 
     assert first["diagrams"] == (
         "axes", "sections", "law_a", "rays_a", "chords_v", "means_v", "rays_v", "chords_s", "scales",
@@ -109,6 +110,8 @@ def test_stages_follow_the_construction() -> None:
     assert once["diagrams"] == ("axes", "sections", "law_v", "rays_v", "chords_s", "scales")
     assert {"tangent_rise_back", "tangent_fall_back"} <= {*once["sizes"]}
     assert "plate_sizes" not in once
+    flat = (stages(cam(solved(*CASES[k])))["plate_sizes"] for k in (0, 5))
+    assert [*flat] == [("axes", "points", "tangent", "centre")] * 2  # r_0 of a plate found, and given
     assert rocks["rocker_sizes"] == ("pivot", "positions", "analogues", "limits", "centre", "pressure")
     assert rocks["profile"] == ("shaft", "pivots", "pitch", "normal", "profile", "sharpest", "follower")
 

@@ -119,7 +119,8 @@ def test_sizes_by_chords_are_drawn_by_the_hand_that_draws_what_they_stand_for() 
         assert drawing.expected[exact] is drawing.expected[chords]
 
 
-ROLLER_ONLY, PLATE_ONLY = ("rho_flat", "margin"), ("gamma_rise", "gamma_fall", "R_roller", "r_0", "e", "limits")
+ROLLER_ONLY = ("rho_flat", "margin", "r_0_flat")
+PLATE_ONLY = ("gamma_rise", "gamma_fall", "R_roller", "e", "limits")
 
 
 @pytest.mark.parametrize(

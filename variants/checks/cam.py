@@ -59,13 +59,14 @@ NUMBERS = {
     "l_OC": Number(needed=False),  # else the pivot is where the cam is smallest
     "r_0": Number(needed=False),
     "e": Number(Bound.FREE, needed=False),
+    "r_0_flat": Number(needed=False),
 }
 _STRAIGHT, _ROLLING = (ROLLER, PLATE), (ROLLER, ROCKER)
 HAD_BY = {  # numbers that not every follower has
     "h": _STRAIGHT,
     "psi": (ROCKER,),
-    **dict.fromkeys(("gamma_rise", "gamma_fall", "R_roller", "r_0"), _ROLLING),
-    **dict.fromkeys(("rho_flat", "margin"), (PLATE,)),
+    **dict.fromkeys(("gamma_rise", "gamma_fall", "R_roller"), _ROLLING),
+    **dict.fromkeys(("rho_flat", "margin", "r_0_flat"), (PLATE,)),
     **dict.fromkeys(("l_rocker", "l_OC"), (ROCKER,)),
     "e": (ROLLER,),
 }

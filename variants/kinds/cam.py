@@ -164,6 +164,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
             if check.name in RULES and not check.ok:
                 said = _degrees if check.unit == "rad" else _millimetres
                 found.append(InputError(f"cam-rule-{check.name}", value=said(check.value), limit=said(check.limit)))
+        found += _outside(solved)
         for follower, profile in _profiles(solved):
             for undercut in profile.undercuts:
                 said_ends = {"start": _degrees(undercut.start), "end": _degrees(undercut.end)}
@@ -306,6 +307,23 @@ def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlatePro
 
     if solved.draws_profiles:
         yield from ((follower, profile) for _, follower, profile in profiles(solved))
+
+
+def _outside(solved: SolvedCam) -> Iterator[InputError]:
+    """Tell which r_0 the limits permit, where one is given together with e or l_OC that they do not."""
+    from ...plans.cams.followers import ROUNDING, six_digits
+
+    cam = solved.roller or solved.rocker
+    if cam is None or cam.permitted is None:
+        return
+    (least, most), r_0 = cam.permitted, cam.sizes.r_0
+    if least * (1.0 - ROUNDING) <= r_0 <= most * (1.0 + ROUNDING):
+        return
+    if solved.rocker is None:
+        yield InputError("cam-r-0-at-e", e=_millimetres(solved.givens["e"]), least=six_digits(least))
+    else:
+        ends = {"least": six_digits(least), "most": six_digits(most, greatest=True)}
+        yield InputError("cam-r-0-at-l-OC", l_OC=_millimetres(solved.givens["l_OC"]), **ends)
 
 
 def _unusual(solved: SolvedCam) -> Iterator[InputError]:
