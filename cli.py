@@ -122,7 +122,8 @@ def _check(file: str, as_json: bool) -> int:
     "--condition",
     is_flag=True,
     help="Show for each quantity its condition K (errors of the data come through so many times, in parts of the "
-    "largest vector of the plan) and the sine of the flattest intersection behind it.",
+    "largest vector of the plan, or of the quantity itself where it is only calculated) and the sine of the flattest "
+    "intersection behind it.",
 )
 @click.option(
     "--hand",

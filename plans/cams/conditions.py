@@ -13,7 +13,7 @@ from typing import Any
 
 from ...scales.errors import InputError
 from ..boards.exact import run
-from ..condition import Condition
+from ..condition import Condition, ratio
 from ..references import worst_behind
 from .cam import VALUES
 from .solve import SolvedCam, again
@@ -41,7 +41,7 @@ def conditions_of(solved: SolvedCam) -> dict[str, Condition]:
             totals[quantity] += change / (up - down) if up > down else math.inf
     worst = worst_behind(solved.program, solved.sines)
     sizes = {name: float(abs(solved.values[BESIDE.get(name, name)])) for name in totals}
-    return {name: Condition(_ratio(total, sizes[name]), worst.get(name, 1.0)) for name, total in totals.items()}
+    return {name: Condition(ratio(total, sizes[name]), worst.get(name, 1.0)) for name, total in totals.items()}
 
 
 def _beside(solved: SolvedCam, numbers: Mapping[str, float], name: str, step: float) -> tuple[Mapping[str, Any], float]:
@@ -60,9 +60,3 @@ def _with(solved: SolvedCam, numbers: Mapping[str, float], name: str, value: flo
     if name in ON_BOARD:
         return run(solved.program, {**solved.givens, name: value}).values
     return again(solved, {**numbers, name: value})
-
-
-def _ratio(total: float, size: float) -> float | None:
-    if not total < float("inf"):
-        return None
-    return total / size if size else 0.0 if total == 0.0 else None

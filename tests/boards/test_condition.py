@@ -11,16 +11,19 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
 from kulman import solve
 from kulman.plans.boards.exact import run
+from kulman.plans.boards.fifty_digits import DIGITS, fifty_digits
 from kulman.plans.condition import conditions, derivatives
 from kulman.plans.linkages.accuracy.conditions import conditions_of, signs, varied
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
-from kulman.plans.linkages.solved import solve_linkage
-from kulman.plans.references import references, results
+from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
+from kulman.plans.references import plans_of, references, results
+from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.fifty_digits import differences
 from kulman.tests.support.mechanisms import SEED, general_slider_crank, nau_slider_crank, nau_values, one_of
 from kulman.tests.support.mechanisms import random_slider_cranks as random_cranks
@@ -162,9 +165,14 @@ def test_every_quantity_of_every_task_has_a_condition_and_a_sine(task: str) -> N
     for name, item in quantities.items():
         assert 0.0 < item["sine"] <= 1.0, name
         undefined = item.get("value", item.get("x")) is None
-        assert (item["condition"] is None) == undefined, name
-        assert undefined or item["condition"] >= 0.0, name
+        nothing = abs(item.get("value") or 0.0) <= 1e-12 * largest_of(quantities, item["unit"])
+        assert item["condition"] is not None or undefined or nothing, name
+        assert item["condition"] is None or (item["condition"] >= 0.0 and not undefined), name
     assert json.loads(json.dumps(quantities, allow_nan=False)) == quantities
+
+
+def largest_of(quantities: Mapping[str, Any], unit: str) -> float:
+    return max(abs(item.get("value") or 0.0) for item in quantities.values() if item["unit"] == unit)
 
 
 def test_json_of_the_command_line_carries_conditions() -> None:
@@ -174,3 +182,81 @@ def test_json_of_the_command_line_carries_conditions() -> None:
     quantities = json.loads(out)["quantities"]
     assert all({"condition", "sine"} <= item.keys() for item in quantities.values())
     assert 1.0 < quantities["V_B"]["condition"] < 20.0
+
+
+ERR = mpf(10) ** -13  # part by which data err, more than a right angle is rounded by
+EPS = 2.0**-52
+KINDS: list[tuple[str, tuple[int, int], tuple[bool, ...]]] = [
+    ("RRR", (2, 3), ()),
+    ("RRP", (2, 1), (True,)),
+    ("RPR", (2, 3), (False,)),
+    ("PRP", (2, 3), (False, True)),
+    ("RPP", (2, 3), (False, False)),
+]
+
+
+def exceeding(solved: SolvedLinkage, random: np.random.Generator) -> dict[str, tuple[float, float]]:
+    """Return what loses more than K says, by its name: in parts of it by data that err, and by rounding.
+
+    Of what a plan shows K refers to the largest vector there, of all else to its own magnitude.
+    """
+    program, givens = solved.program, solved.givens
+    err = {name: ERR * int(random.choice((-1, 1))) for name in varied(solved)}
+    with mp.workdps(DIGITS):
+        right = fifty_digits(program, givens)
+        moved = fifty_digits(program, {name: mpf(value) * (1 + err.get(name, 0)) for name, value in givens.items()})
+    shown, largest, known, found = plans_of(program), references(program, solved.values), conditions_of(solved), {}
+    for name in (step.name for step in results(program) if step.law != "difference"):
+        K, size = known[name].value, largest[name] if name in shown else abs(right[name])
+        if K is None:  # no digit is right: nothing but rounding
+            assert abs(solved.values[name]) <= 1e-12 * largest[name], name
+            continue
+        with mp.workdps(DIGITS):
+            through = float(abs(moved[name] - right[name]) / (size or 1) / ERR)
+            rounded = float(abs(mp.mpmathify(solved.values[name]) - right[name]) / (size or 1) / EPS)
+        if through > K * (1 + 1e-4) + 1e-9 or rounded > 4.0 * (K + 1.0):
+            found[name] = through / (K or 1.0), rounded / (K + 1.0)
+    return found
+
+
+@pytest.mark.parametrize("count", [1, pytest.param(40, marks=pytest.mark.soak)])
+@pytest.mark.parametrize(("kind", "before", "carries"), KINDS)
+def test_no_quantity_loses_more_than_its_condition_says(
+    kind: str, before: tuple[int, int], carries: tuple[bool, ...], count: int
+) -> None:
+    random = np.random.default_rng(SEED)
+    mechanism, values, _ = random_dyads(kind, before, carries, seed=SEED, count=count)
+    for index in range(count):
+        solved = solve_linkage(mechanism, one_of(values, index))
+
+        assert exceeding(solved, random) == {}
+
+
+@pytest.mark.parametrize("turn", [1.0, 1e-2, 1e-4])
+def test_no_quantity_loses_more_than_its_condition_says_near_a_singular_position(turn: float) -> None:
+    assert exceeding(solve_linkage(*near_the_end(turn)), np.random.default_rng(SEED)) == {}
+
+
+def test_the_condition_of_a_calculated_quantity_refers_to_itself() -> None:
+    # the rod hardly speeds up: its moment of inertia forces is nothing beside M_bal, and three of its digits are lost
+    solved = solve("scheme-12-shaking-conveyor", "0").solved
+    names = varied(solved)
+    slopes = derivatives(solved.program, solved.givens, names)["M_i4"]
+
+    found = conditions_of(solved)["M_i4"].value
+
+    assert found == pytest.approx(float(np.abs(slopes).sum() / abs(solved.values["M_i4"])), rel=1e-12)
+    assert found is not None
+    assert found > 1e3
+    given = names.index("phi")
+    there = solve("scheme-12-shaking-conveyor", "0", set={"phi": solved.givens["phi"] * (1 + 1e-7) * 180 / math.pi})
+    change = float(there["M_i4"].value or 0.0) - solved.values["M_i4"]
+    assert change == pytest.approx(1e-7 * slopes[given], rel=1e-3)
+
+
+def test_what_is_nothing_but_rounding_has_no_condition() -> None:
+    solution = solve("scheme-05-articulated-rod", "1", condition=True)
+
+    assert 0.0 < abs(solution["omega_2"].value or 0.0) < 1e-12
+    assert solution.conditions["omega_2"].value is None
+    assert solution.to_json()["quantities"]["omega_2"]["condition"] is None

@@ -1,6 +1,6 @@
 """Plans in double precision miss fifty digits by no more than data that err in their last places would.
 
-|error| <= 4 eps (K + the largest vector of the plan), K being the sum over the givens of |x dQ/dx|: of every quantity,
+|error| <= 4 eps (K + 1) times the size that K refers to (of what no plan shows its own magnitude): of every quantity,
 over the cycle and on the way to every dead position, limit and change point from 0.1 down to 1e-9 rad.
 """
 
@@ -19,14 +19,14 @@ from kulman import solve
 from kulman.plans.board import Program
 from kulman.plans.boards.exact import run
 from kulman.plans.boards.fifty_digits import DIGITS, fifty_digits
-from kulman.plans.condition import derivatives
+from kulman.plans.condition import derivatives, sizes_beside
 from kulman.plans.laws import LAWS, TURN
 from kulman.plans.linkages.accuracy.conditions import signs
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.cycles.limits import Reach, reach_of
 from kulman.plans.linkages.cycles.strokes import output_motions
 from kulman.plans.linkages.cycles.swept import Swept, swept
-from kulman.plans.references import references, results
+from kulman.plans.references import results
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.mechanisms import one_of
 from kulman.variants.shelf import bundled
@@ -78,7 +78,7 @@ def ratios(task: Task, place: float) -> Iterator[tuple[float, str]]:
     board, right = run(task.program, givens), fifty_digits(task.program, givens)
     fixed = signs(task.drive.mechanism)
     slopes = derivatives(task.program, givens, [name for name, x in givens.items() if name not in fixed and x])
-    sizes = references(task.program, board.values)
+    sizes = sizes_beside(task.program, board.values)
     bounds: dict[str, float] = {}
     for step in results(task.program):
         value, name = board.values[step.name], step.name

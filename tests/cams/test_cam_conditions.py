@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from functools import cache
+from itertools import cycle
 
 import pytest
 
 from kulman import solve
+from kulman.plans.cams.conditions import BESIDE
 from kulman.tests.support.cam_students import ROCKER
 from kulman.variants.solution import Solution
 
@@ -28,6 +30,7 @@ POWERS = {
     "s_close": 0.0,
 }
 STEP = 1e-4
+NUMBERS = ("h", "phi_rise", "phi_fall", "phi_upper", "omega", "l_A1", "H_a", "H_v", "gamma_rise", "gamma_fall")
 
 
 @cache
@@ -88,3 +91,20 @@ def test_conditions_of_a_law_with_jumps_of_the_velocity() -> None:
 
     assert found["v_max"].value == pytest.approx(3.0, abs=1e-4)
     assert found["rho_min"].value == 0.0  # a corner, whatever the data
+
+
+def test_no_size_of_a_cam_loses_more_than_its_condition_says() -> None:
+    right, err, signs = madi(), 1e-6, cycle((1.0, -1.0, -1.0))
+    units = {name: right.task.givens[name].unit for name in NUMBERS}
+    erring = {
+        name: unit.from_si(right.solved.givens[name] * (1.0 + err * next(signs)))
+        for name, unit in units.items()
+        if unit is not None
+    }
+    there = solve("madi-cam", set=erring)
+
+    for name, condition in right.conditions.items():
+        value, size = float(right.solved.values[name]), float(right.solved.values[BESIDE.get(name, name)])
+        moved = float(there.solved.values[name])
+        assert condition.value is not None, name
+        assert abs(moved - value) <= err * (condition.value * 1.01 + 1e-3) * abs(size), name

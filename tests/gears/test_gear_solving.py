@@ -5,16 +5,19 @@ from __future__ import annotations
 import json
 import math
 
+import numpy as np
 import pytest
 
 from kulman import cli, solve
-from kulman.plans.gears.gear import PLANS
+from kulman.plans.gears.conditions import WHOLE, conditions_of
+from kulman.plans.gears.gear import PLANS, GearPair
 from kulman.plans.gears.geometry import geometry_program
 from kulman.plans.gears.sections import SECTIONS, section_of
+from kulman.plans.gears.solve import solve_gear
 from kulman.plans.hands.hand import preset
 from kulman.plans.hands.shaky import paper_of
 from kulman.scales.errors import LANGUAGES, InputError
-from kulman.tests.support.gears import counted_ratio
+from kulman.tests.support.gears import SEED, counted_ratio, random_pairs
 from kulman.variants.solution import Solution
 
 TASK = "madi-gear"
@@ -230,3 +233,24 @@ def test_scale_factors_that_a_pair_has_not_are_refused() -> None:
     for symbol in ("mu_V", "mu_rho"):
         with pytest.raises(InputError):
             solve(TASK, scales={symbol: "0.05"})
+
+
+@pytest.mark.parametrize("count", [5, pytest.param(100, marks=pytest.mark.soak)])
+def test_no_quantity_of_a_pair_loses_more_than_its_condition_says(count: int) -> None:
+    random, err = np.random.default_rng(SEED), 1e-7
+    pairs = random_pairs(random, count)
+    for i in range(count):
+        numbers = {name: float(values[i]) for name, values in pairs.items()}
+        right = solve_gear(GearPair(), numbers)
+        erring = {
+            name: value if name in WHOLE else value * (1.0 + err * random.choice((-1.0, 1.0)))
+            for name, value in numbers.items()
+        }
+        there = solve_gear(GearPair(), erring)
+
+        for name, condition in conditions_of(right).items():
+            value, moved = right.values[name], there.values[name]
+            if condition.value is None or not math.isfinite(value):
+                continue
+            size = max(abs(value), numbers["m"]) if name in right.shown_on else abs(value)
+            assert abs(moved - value) <= err * (condition.value * 1.001 + 1e-3) * size, (i, name)

@@ -33,9 +33,12 @@ def conditions_of(solved: SolvedLinkage) -> dict[str, Condition]:
 
 
 def worst_condition(solved: SolvedLinkage, plan: str | None = None) -> tuple[str, float]:
-    """Return the quantity of the largest condition, of those that `plan` shows or of all, and that condition."""
+    """Return the quantity of the largest condition, of those that `plan` or any plan shows, and that condition.
+
+    What is only calculated may lose its digits because it passes zero: that says nothing of the position.
+    """
     shown = plans_of(solved.program)
-    found = conditions_of(solved).items()
-    here = ((item.value or 0.0, name) for name, item in found if plan is None or shown.get(name) == plan)
+    found = ((item.value or 0.0, name) for name, item in conditions_of(solved).items() if name in shown)
+    here = (pair for pair in found if plan is None or shown[pair[1]] == plan)
     value, name = max(here, default=(0.0, ""))
     return name, value
