@@ -29,7 +29,9 @@ class Answer:
     direction : float, optional
         Radians from the x axis, of a vector.
     sense : int, optional
-        Of a scalar: +1 counter-clockwise (or along the axis), -1 the other way.
+        Of a scalar: +1 counter-clockwise (or along the axis), -1 the other way, said beside the value.
+    plus : bool
+        Whether the value has a plus. Without it a positive value says nothing of the sense.
     """
 
     name: str
@@ -38,6 +40,7 @@ class Answer:
     value: float | None = None
     direction: float | None = None
     sense: int | None = None
+    plus: bool = False
 
     @property
     def empty(self) -> bool:
@@ -100,8 +103,9 @@ def nearest(values: tuple[float, ...], ours: float) -> float:
 def readings(answer: Answer, values: tuple[float, ...], plain: bool = False) -> tuple[Said, ...]:
     """Return all ways to take an answer whose value is one of `values`.
 
-    Where the sense is free to be assumed, a minus says that it is the other one, and does no harm without it. A `plain`
-    number has no sense: without a minus it is positive.
+    A sign of the value is its sense. Where the sense is free to be assumed, a minus says that it is the other one, and
+    a sign alone leaves open which one was assumed; a sense that is said beside the value does not. A `plain` number has
+    no sense: without a minus it is positive.
     """
     turned = cmath.rect(1.0, answer.direction) if answer.direction is not None and known(answer.direction) else None
     free, found = FREE.match(answer.name), []
@@ -111,7 +115,8 @@ def readings(answer: Answer, values: tuple[float, ...], plain: bool = False) -> 
         if minus and free:
             found += [Said(size, sign, turned), Said(size, None if sign is None else -sign, _opposite(turned))]
         else:
-            written = -1 if minus else 1 if plain and size else None
+            positive = plain or (answer.plus and not free)
+            written = -1 if minus else 1 if positive and size else None
             found.append(Said(size, written if sign is None else sign, turned))
     return tuple(found)
 

@@ -204,6 +204,12 @@ def of_check(command: Command) -> Command:
         click.option("--format", type=Word(*SIZES), help="Mark what is drawn on the sheet of this format."),
         click.option("--rubric", metavar="FILE", help="Weights, worths, tolerances: a small TOML file."),
         click.option(
+            "--directions",
+            type=Word("required", "optional", "ignored"),
+            help="Directions of vectors, senses of what turns: a line without is worth half; what is said is compared; "
+            "or sizes alone are. In the place of what the rubric says; else optional.",
+        ),
+        click.option(
             "--roster", metavar="FILE", help="Students with their variants, record books, own data: .csv or .xlsx."
         ),
         click.option(

@@ -50,7 +50,9 @@ class Line:
     direction : float, optional
         Radians from the x axis, counter-clockwise.
     sense : int, optional
-        1 counter-clockwise or along the axis, -1 the other way.
+        1 counter-clockwise or along the axis, -1 the other way: what words, arrows, or a column of senses say.
+    plus : bool
+        Whether the value is written with a plus: its sense is said, too.
     """
 
     name: str
@@ -61,6 +63,7 @@ class Line:
     value: float | None = None
     direction: float | None = None
     sense: int | None = None
+    plus: bool = False
 
 
 @dataclass(frozen=True, slots=True)

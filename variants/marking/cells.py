@@ -15,6 +15,11 @@ from .answers import Asked, Mu
 NONE = frozenset(UNDERSTOOD["none"])
 SENSES = {word: int(sense) for sense, words in UNDERSTOOD["senses"].items() for word in words}
 SIDES = {word: float(degrees) for degrees, words in UNDERSTOOD["directions"].items() for word in words}
+TURNING = {kind: tuple(words) for kind, words in UNDERSTOOD["turning"].items() if kind != "letters"}
+LETTERS = {tuple(word): int(sense) for word, sense in UNDERSTOOD["turning"]["letters"].items()}
+WORDIEST = 200  # characters of a cell in which a sense is looked for
+_ARROWS = "".join(word for kind in ("clockwise", "counter") for word in TURNING[kind] if not word.isalpha())
+_WORD = re.compile(rf"[^\W\d_]+|[{_ARROWS}]")
 _DECIMALS = re.compile(r"^[^0-9]*[0-9 \u00a0\u2009\u202f]*[.,]([0-9]+)")
 MM = unit("mm")
 
@@ -112,13 +117,73 @@ def bare(text: str, name: str, asked: Asked) -> float | None:
         return None
 
 
+def split_sense(text: str) -> tuple[str, frozenset[int]]:
+    """Return a text without the words and arrows that say which way something turns, and these senses.
+
+    >>> split_sense("16,3 рад/с за год. стрілкою")
+    ('16,3 рад/с', frozenset({-1}))
+    """
+    if len(text) > WORDIEST:
+        return text, frozenset()
+    found = list(_WORD.finditer(text))
+    words = [match.group().lower().replace("ё", "е") for match in found]
+    senses, at, rest, after = set[int](), 0, "", 0
+    while at < len(words):
+        count, sense = _sense_at(words, at)
+        if count:
+            senses.add(sense)
+            rest += text[after : found[at].start()].rstrip(" ([,;–-")
+            after = found[at + count - 1].end()
+            while text[after : after + 1] and text[after] in " .,;:)]\ufe0f":
+                after += 1
+            rest += " "
+        at += count or 1
+    return ((rest + text[after:]).strip(), frozenset(senses)) if senses else (text, frozenset())
+
+
+def _sense_at(words: list[str], at: int) -> tuple[int, int]:
+    """Return how many words from `at` on say a sense, none where they do not, and which sense.
+
+    A lone "за" or "по" is one at the end of a text only: between two words it may mean "per".
+    """
+    word, following = words[at], words[at + 1 : at + 2]
+    if word in TURNING["opposite"] and following == ["clockwise"]:
+        return 2, 1
+    if word in TURNING["clockwise"] or word in TURNING["counter"]:
+        return 1, 1 if word in TURNING["counter"] else -1
+    for letters, sense in LETTERS.items():
+        if tuple(words[at : at + len(letters)]) == letters:
+            return len(letters), sense
+    against = word in TURNING["against"]
+    if not against and word not in TURNING["along"]:
+        return 0, 0
+    end = at + 1
+    while end < len(words) and _is_of(words[end], "course"):
+        end += 1
+    last = [_kind_of(word) for word in words[end : end + 2]]
+    clocks = last[: 2 if all(last) else 1]
+    told = "clocks" in clocks or {*clocks} >= {"clock", "hand"} or (against and clocks[:1] == ["clock"])
+    count = end + len(clocks) - at if told else 1 if at + 1 == len(words) else 0
+    return count, 1 if against else -1
+
+
+def _is_of(word: str, kind: str) -> bool:
+    """Whether a word is one of a kind; of those that end in * the beginning is enough."""
+    return any(word.startswith(one[:-1]) if one.endswith("*") else word == one for one in TURNING[kind])
+
+
+def _kind_of(word: str) -> str:
+    """Return what a word after "за" or "проти" is of a clock; nothing where it is not."""
+    return next((kind for kind in ("clocks", "clock", "hand") if _is_of(word, kind)), "")
+
+
 def direction(text: str, vector: bool = False) -> tuple[float | None, int | None]:
     """Return an angle in radians from the x axis, or a sense; of a vector a number is an angle, also 1.
 
     Raises
     ------
     InputError
-        Neither an angle in degrees nor a sense.
+        Neither an angle in degrees nor a sense, or two senses.
     """
     if text in ("+", "-", "−", "–"):
         return None, 1 if text == "+" else -1
@@ -127,8 +192,14 @@ def direction(text: str, vector: bool = False) -> tuple[float | None, int | None
         return None, SENSES[word]
     if word in SIDES:
         return math.radians(SIDES[word]), None
+    angle, senses = split_sense(text)
+    if len(senses) > 1:
+        raise InputError("answer-senses", text=quote(text))
+    sense = next(iter(senses), None)
+    if sense is not None and not (vector and angle):
+        return None, sense
     try:
-        number, rest = split_number(text)
-        return converted(number, unit(rest) if rest else unit("deg"), unit("deg")), None
+        number, rest = split_number(angle)
+        return (sense or 1) * converted(number, unit(rest) if rest else unit("deg"), unit("deg")), None
     except InputError:
         raise InputError("answer-direction", text=quote(text)) from None

@@ -122,6 +122,7 @@ def check(
     scales: Settings | None = None,
     preset: str = "normal",
     rubric: PathLike | None = None,
+    directions: str | None = None,
     roster: PathLike | None = None,
     digits: int | str = 1,
     own: bool = False,
@@ -141,6 +142,10 @@ def check(
         What may be missed by hand: `cad`, `careful`, `normal`, `lenient`.
     rubric, roster : str or PathLike, optional
         Files with weights, worths, tolerances; and with the students of a class.
+    directions : str, optional
+        `required`: a vector without its direction, a moment or an angular velocity without its sense is worth half;
+        `optional`: what is said of them is compared; `ignored`: sizes alone are. In the place of what the rubric says;
+        without either `optional`.
     digits : int or str
         How many last digits of the record book give the variant, where the roster has none; or what each of them is
         for, such as `"variant,scheme"`.
@@ -171,6 +176,6 @@ def check(
     if plans is not None:
         whole = asked_of(replace(request, only=None, format=None).solution(variant or next(iter(found.variants)), {}))
         asked = replace(asked, others=frozenset(whole.names).difference(asked.names))
-    marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked)
+    marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked, directions)
     students = None if roster is None else read_roster(os.fspath(roster), found)
     return Check(request, marking, asked, students, digits, own)

@@ -35,7 +35,10 @@ def write_form(check: Check, file: str | os.PathLike[str]) -> Path:
     task, language = check.request.task, check.request.language
     key = desk.keyed(check.request.variant or next(iter(task.variants)), {})
     if check.roster is not None:
-        rows = [class_header(key.parts, language), *_students(check, check.roster)]
+        rows = [
+            class_header(key.parts, language, check.rubric.directions != "ignored"),
+            *_students(check, check.roster),
+        ]
         bold, frozen = [0], 1
     else:
         about = {"task": task.id, "variant": check.request.variant}

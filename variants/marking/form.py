@@ -11,6 +11,7 @@ from ...drawing.words import Words
 from ...plans.marking.key import Question
 from ...scales.units import format_unit
 from ..solution import Solution
+from .rubric import has_sense
 from .wording import plain, texts
 
 if TYPE_CHECKING:
@@ -85,8 +86,11 @@ def _written(unit: str, words: Words) -> str:
     return format_unit(unit, words.language)
 
 
-def class_header(parts: Iterable[Section], language: str) -> tuple[str, ...]:
-    """Return the columns of a class: who it is, then scale factors, and segment, value and sense of each quantity."""
+def class_header(parts: Iterable[Section], language: str, directions: bool) -> tuple[str, ...]:
+    """Return the columns of a class: who it is, then scale factors, and segment, value of each quantity.
+
+    With `directions` also the direction of a vector, the sense of what turns.
+    """
     said = texts(language)
     columns = [said[f"about.{key}"] for key in ("student", "group", "book", "number", "variant", "sheet")]
     for part in parts:
@@ -95,5 +99,6 @@ def class_header(parts: Iterable[Section], language: str) -> tuple[str, ...]:
             name = question.name
             columns += [f"{name}.mm"] if drawn(question) else []
             columns += [name]
-            columns += [f"{name}.dir"] if question.vector else []
+            if directions and (question.vector or has_sense(name)):
+                columns.append(f"{name}.{'dir' if question.vector else 'sense'}")
     return tuple(columns)

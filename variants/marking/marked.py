@@ -85,8 +85,10 @@ class Desk:
         settings = entry.settings if entry else {}
         key = self.keyed(variant, settings)
         notes += self._sheet(answers, key)
+        rubric = self.check.rubric
         found = tuple(misfits(answers, key.key, key.solution.solved.scale_of_plan))
         given, undefined = _given(answers, key, {misfit.symbol: misfit.fits for misfit in found})
+        given = [rubric.compared(answer, key.key.questions[answer.name]) for answer in given]
         notes += undefined
         marking, candidates = mark(key.key, given), tuple[Candidate, ...]()
         if marking.first_wrong is not None:
@@ -94,9 +96,13 @@ class Desk:
             marking, candidates = explanation.marking, explanation.candidates
         marking, borne = counted_once(marking, found, {line.name for line in self._counted(key, marking, answers)})
         lines = self._counted(key, marking, answers)
-        marks = self.check.rubric.mark(lines)
+        marks = rubric.mark(lines)
         told = [line for line in lines if line.answer is not None and isinstance(line.right, complex)]
-        if len(told) > 1 and all(line.answer is not None and line.answer.direction is None for line in told):
+        if (
+            rubric.directions != "ignored"
+            and len(told) > 1
+            and all(line.answer is not None and line.answer.direction is None for line in told)
+        ):
             notes.append(InputError("marked-directions"))
         all_notes = (*answers.problems, *notes)
         fits = fits_other(marking, given, self._others(variant), lambda other: self.keyed(other, settings).key)
@@ -163,5 +169,5 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
         symbol = key.solution.solved.scale_of_plan.get(question.plan, "")
         written = line.mu or answers.scales.get(symbol)
         mu = None if written is None else fits.get(symbol, written.value) if line.mu is None else line.mu.value
-        given.append(Answer(line.name, line.mm, mu, line.value, line.direction, line.sense))
+        given.append(Answer(line.name, line.mm, mu, line.value, line.direction, line.sense, line.plus))
     return given, notes

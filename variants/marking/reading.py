@@ -102,9 +102,8 @@ class _Sheet:
             self.refuse(row, column, name, error)
             return None
 
-    def value(self, row: int, column: int | None, name: str, written: str) -> float | None:
+    def value(self, row: int, column: int | None, name: str, text: str, written: str) -> float | None:
         """Read a value; one with a wrong unit is noted, and taken in the unit of the form."""
-        text = self.number(row, column, name)
         if not text:
             return None
         try:
@@ -126,6 +125,34 @@ class _Sheet:
             self.refuse(row, column, name, error)
             return None, None
         return angle, sense
+
+    def line(self, row: int, name: str, at: Mapping[str, int], units: Mapping[str, str], place: str) -> Line:
+        """Read all that is answered to one question.
+
+        Parameters
+        ----------
+        at, units : mapping
+            By "mm", "mu", "value" and "direction": the columns there are, and the units over them or beside.
+        """
+        mm, decimals = self.segment(row, at.get("mm"), name, units.get("mm", ""))
+        direction, sense = self.direction(row, at.get("direction"), name)
+        mu = self.mu(row, at.get("mu"), name, None, units.get("mu", ""))
+        text, written = self.number(row, at.get("value"), name), units.get("value", "")
+        if self.asked.quantities[name].kind == "scalar":
+            text, written, sense = self.sense(row, at.get("value"), name, (text, written, sense))
+        value = self.value(row, at.get("value"), name, text, written)
+        return Line(name, place, mm, decimals, mu, value, direction, sense, value is not None and text.startswith("+"))
+
+    def sense(
+        self, row: int, column: int | None, name: str, said: tuple[str, str, int | None]
+    ) -> tuple[str, str, int | None]:
+        """Take the sense out of a value and its unit; that of a column of its own counts where they contradict it."""
+        (text, of_value), (written, of_unit) = map(cells.split_sense, said[:2])
+        senses = of_value | of_unit | ({said[2]} if said[2] is not None else set())
+        if len(senses) > 1:
+            self.refuse(row, column, name, InputError("answer-senses", text=quote(self.grid.text(row, column))))
+            return text, written, said[2]
+        return text, written, next(iter(senses), None)
 
     def add(self, line: Line, row: int, column: int | None) -> None:
         """Keep a line that says anything, the first of each name."""
@@ -186,19 +213,8 @@ def _form_row(sheet: _Sheet, row: int, columns: Mapping[str, int], over: Mapping
         if mu is not None:
             sheet.scales.setdefault(name, mu)
         return
-    mm, decimals = sheet.segment(row, columns.get("mm"), name, over["mm"])
-    direction, sense = sheet.direction(row, columns.get("direction"), name)
-    line = Line(
-        name,
-        grid.place(row),
-        mm,
-        decimals,
-        sheet.mu(row, columns.get("mu"), name, None, over.get("mu", "")),
-        sheet.value(row, columns.get("value"), name, written or over.get("value", "")),
-        direction,
-        sense,
-    )
-    sheet.add(line, row, columns["name"])
+    units = {**over, "value": written or over.get("value", "")}
+    sheet.add(sheet.line(row, name, columns, units, grid.place(row)), row, columns["name"])
 
 
 def _of_class(header: tuple[str, ...], asked: Asked) -> dict[int, tuple[str, str, str]]:
@@ -244,23 +260,14 @@ def _strangers(grid: Grid, header: int, asked: Asked, read: set[int]) -> list[Lo
 def _class_row(sheet: _Sheet, row: int, parts: Mapping[str, Mapping[str, tuple[int, str]]]) -> None:
     """Read the answers of one student, all parts of each quantity together."""
     for name, at in parts.items():
-        nothing: tuple[int | None, str] = (None, "")
         if name in sheet.asked.scales:
             mu = sheet.mu(row, *_swap(next(iter(at.values())), name))
             if mu is not None:
                 sheet.scales[name] = mu
             continue
-        mm, decimals = sheet.segment(row, *_named(at.get("mm", nothing), name))
-        direction, sense = sheet.direction(row, at.get("dir", nothing)[0], name)
-        scale_at, scale_unit = at.get("mu", nothing)
-        mu = sheet.mu(row, scale_at, name, None, scale_unit)
-        value = sheet.value(row, *_named(at.get("", nothing), name))
-        place = sheet.grid.place(row, min(number for number, _ in at.values()))
-        sheet.add(Line(name, place, mm, decimals, mu, value, direction, sense), row, None)
-
-
-def _named(at: tuple[int | None, str], name: str) -> tuple[int | None, str, str]:
-    return at[0], name, at[1]
+        columns = {part: column for part, (column, _) in at.items()}
+        units = {part: written for part, (_, written) in at.items()}
+        sheet.add(sheet.line(row, name, columns, units, sheet.grid.place(row, min(columns.values()))), row, None)
 
 
 def _swap(at: tuple[int, str], name: str) -> tuple[int, str, str, str]:
@@ -270,5 +277,5 @@ def _swap(at: tuple[int, str], name: str) -> tuple[int, str, str, str]:
 def _part(asked: Asked, name: str, part: str, written: str) -> str:
     """Return what a column of a class holds: millimetres over a quantity that is no length are those of paper."""
     if part or name in asked.scales:
-        return part
-    return "mm" if cells.of_paper(written) and asked.quantities[name].unit != "m" else ""
+        return "direction" if part in ("dir", "sense") else part
+    return "mm" if cells.of_paper(written) and asked.quantities[name].unit != "m" else "value"

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from ...plans.hands.hand import Tolerance, preset
+from ...plans.marking.answers import Answer
+from ...plans.marking.key import Question
 from ...plans.marking.verdicts import Line, Verdict
 from ...plans.quantities import unit_of
 from ...scales.errors import InputError
@@ -26,7 +28,7 @@ WORTH = {
     Verdict.WRONG: 0.0,
     Verdict.MISSING: 0.0,
 }
-DIRECTIONS = ("optional", "required")
+DIRECTIONS = ("optional", "required", "ignored")
 SIZE_ALONE = 0.5  # part of a line's worth where a direction or sense is required and left out
 SIGNED = ("rad/s", "rad/s^2", "N*m")  # units of scalars that have a sense
 LARGEST = 100_000  # bytes
@@ -49,7 +51,8 @@ class Rubric:
     limits : mapping of str to float
         Tolerances of single quantities, SI.
     directions : str
-        Whether a line without its direction or sense is worth less: "required", or "optional".
+        What holds of directions and senses: "required", a line without its own is worth less; "optional", what is said
+        of one is compared; "ignored", sizes alone are.
     """
 
     tolerance: Tolerance
@@ -70,6 +73,14 @@ class Rubric:
         total = sum(weight for weight, _ in weights)
         return round(self.out_of * sum(weight * worth for weight, worth in weights) / total, 1) if total else 0.0
 
+    def compared(self, answer: Answer, question: Question) -> Answer:
+        """Return what counts of an answer; the sign of a number without a unit is no sense."""
+        if self.directions != "ignored":
+            return answer
+        signed = answer.value is None or (question.unit == "1" and not question.vector)
+        value = answer.value if signed else abs(answer.value or 0.0)
+        return replace(answer, value=value, direction=None, sense=None, plus=False)
+
     def _worth(self, line: Line) -> float:
         """Return what a line is worth, in parts of its weight."""
         less = self.directions == "required" and wants_direction(line)
@@ -83,12 +94,18 @@ def wants_direction(line: Line) -> bool:
         return False
     if isinstance(line.right, complex):
         return answer.direction is None
-    signed = unit_of(line.name) in SIGNED and not (answer.value or 0.0) < 0.0
-    return signed and answer.sense is None
+    return has_sense(line.name) and answer.sense is None and not answer.plus and not (answer.value or 0.0) < 0.0
 
 
-def read_rubric(file: str | Path | None, preset_name: str, asked: Asked) -> Rubric:
+def has_sense(name: str) -> bool:
+    """Whether a scalar turns one way or the other: an angular velocity or acceleration, a moment."""
+    return unit_of(name) in SIGNED
+
+
+def read_rubric(file: str | Path | None, preset_name: str, asked: Asked, directions: str | None = None) -> Rubric:
     """Read a rubric, a small TOML file; without one every quantity weighs the same.
+
+    What is said of `directions` beside it takes the place of what it says itself.
 
         out_of = 100
         asked = ["V_B", "omega_2", "a_B"]
@@ -111,13 +128,15 @@ def read_rubric(file: str | Path | None, preset_name: str, asked: Asked) -> Rubr
     Raises
     ------
     InputError
-        The file cannot be read, or holds what no rubric has; with file and key.
+        The file cannot be read, or holds what no rubric has; with file and key. A choice of directions there is not.
     """
     tolerance = preset(preset_name).tolerance
-    if file is None:
-        return Rubric(tolerance)
-    raw = _table(Path(file))
-    return _Reader(quote(file, SHOWN), raw, asked).rubric(tolerance)
+    if directions is not None and directions not in DIRECTIONS:
+        raise unknown("choice-unknown", directions, DIRECTIONS)
+    rubric = (
+        Rubric(tolerance) if file is None else _Reader(quote(file, SHOWN), _table(Path(file)), asked).rubric(tolerance)
+    )
+    return rubric if directions is None else replace(rubric, directions=directions)
 
 
 def _table(path: Path) -> dict[str, Any]:
@@ -165,7 +184,7 @@ class _Reader:
         )
 
     def _directions(self) -> str:
-        """Return whether directions and senses are required."""
+        """Return what holds of directions and senses."""
         said = self.raw.get("directions", DIRECTIONS[0])
         if said not in DIRECTIONS:
             raise self._at("directions", unknown("choice-unknown", str(said), DIRECTIONS))

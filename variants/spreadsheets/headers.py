@@ -16,7 +16,7 @@ _COLUMN_OF = {word: kind for kind, words in UNDERSTOOD["columns"].items() for wo
 _ABOUT_OF = {word: kind for kind, words in UNDERSTOOD["about"].items() for word in words}
 _UNIT = re.compile(r"\s*(?:[,:]\s*(?P<plain>[^\[(]+)|\[(?P<square>[^\]]*)\]|\((?P<round>.*)\))\s*$")
 # a column of a class: a quantity, a part of its answer, a unit
-_QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|mu))?")
+_QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|sense|mu))?")
 _BEFORE = sorted((*UNDERSTOOD["about"]["variant"], *UNDERSTOOD["numbered"]["variant"]), key=len, reverse=True)
 _NUMBERED = re.compile(rf"\s*(?:{'|'.join(map(re.escape, _BEFORE))})\.?\s*№?\s*", re.IGNORECASE)
 MIXED = re.compile(r"[A-Za-z]+_\w+")
@@ -53,7 +53,9 @@ def about_kind(text: str) -> str | None:
 
 
 def quantity_part(text: str) -> tuple[str, str, str] | None:
-    """Return name, part ("", "mm", "dir" or "mu") and unit of a class's column; None where it can be no quantity.
+    """Return name, part and unit of a class's column; None where it can be no quantity.
+
+    The part is "", "mm", "mu", "dir" or "sense".
 
     >>> quantity_part("V_B.mm"), quantity_part("omega_2 [рад/с]"), quantity_part("прізвище")
     (('V_B', 'mm', ''), ('omega_2', '', 'рад/с'), None)
