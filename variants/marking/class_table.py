@@ -20,7 +20,7 @@ def flags_of(results: Sequence[Result], language: str) -> list[list[str]]:
     for pair in shared([result.segments for result in results]):
         for one, other in ((pair.first, pair.second), (pair.second, pair.first)):
             name = results[other].who.student or results[other].source
-            found[one].append(said["flag.shared"].format(n=len(pair.names), student=name))
+            found[one].append(said["flag.shared"].format(n=len(pair.names), of=pair.of, near=pair.near, student=name))
     return found
 
 

@@ -16,13 +16,24 @@ FOUND = ("meet", "arc", "arcs", "tangent", "similar", "divide", "template")  # v
 LEAST_MM = 5.0  # shorter segments say little
 HAND = 0.25  # mm, by which a usual hand misses at the least
 UNLIKELY = 1e-3  # that an honest hand is so exact
-SHARED = 1e-2  # expected number of pairs in the class that would agree so by chance
+SHARED = 0.03  # ratio of likelihoods of all pairs of a class together at which one of them is told of
+UNLIKELY_PAIR = 1e-3  # that of a pair in a small class
 FEWEST = 4  # segments that two students must share
+CHANGED = 0.5  # mm by which somebody who copies changes some of them
+SAME, AGREE = 0.65, 0.9  # parts of the segments that must be the same, and at the most changed so
+COPIED, FAR = 0.65, 0.02  # how often a copied segment is the same, and another one altogether
+CERTAIN = 0.6  # the chance that two honest readings are the same is no more than this
+WIDEST = 2.0  # mm of spread
+BEST = 0.242  # 1/sqrt(2 pi e): density of a normal law at its deviation, at the deviation where it is largest
+ROUNDING = 1e-6  # mm
 
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A segment of one student, mm on his own scale: as written, as it should be, what it is read to, its spread."""
+    """A segment of one student, mm on his own scale: as written, as it should be, what it is read to, its spread.
+
+    It should be what follows from the student's earlier errors: who goes on honestly from the same mistake is no copy.
+    """
 
     mm: float
     right: float
@@ -30,11 +41,13 @@ class Measured:
     spread: float
 
 
-def measured(answers: Answers, key: Key, mus: Mapping[str, float]) -> dict[str, Measured]:
+def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapping[str, float]) -> dict[str, Measured]:
     """Return the segments that can only have been measured.
 
     Parameters
     ----------
+    follows : mapping of str to float
+        What follows for each quantity from the student's earlier errors, SI; the right size where it is not there.
     mus : mapping of str to float
         The student's scale factors by plan, value in SI per mm.
     """
@@ -49,7 +62,7 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float]) -> dict[str, 
         drawn = question.step.verb == "arm" or any(made[end].verb in FOUND for end in ends if end in made)
         if mu and drawn and abs(key[name]) / mu >= LEAST_MM:
             spread = max(HAND, key.allowed[name] / mu / 3.0)
-            found[name] = Measured(line.mm, abs(key[name]) / mu, step, spread)
+            found[name] = Measured(line.mm, follows.get(name, abs(key[name])) / mu, step, spread)
     return found
 
 
@@ -72,36 +85,72 @@ def too_exact(segments: Mapping[str, Measured]) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Two students, by their numbers in the list, whose segments are the same; `names` are those."""
+    """Two students, by their numbers in the list, whose segments agree.
+
+    `names` are those that are the same, `near` is how many are so at least nearly, `of` how many both have.
+    """
 
     first: int
     second: int
     names: tuple[str, ...]
+    near: int
+    of: int
 
 
 def shared(students: Sequence[Mapping[str, Measured]]) -> Iterator[Pair]:
-    """Go through the pairs of students whose measured segments agree more often than chance lets them.
+    """Go through the pairs of students whose measured segments agree as those of somebody who has copied.
 
-    Two honest drawings miss by different amounts: that the same tenth or half of a millimetre is read twice has the
-    chance of step / (2 sqrt(pi) spread), segment by segment.
+    Who copies leaves most millimetres as they are and changes some of them a little; two honest drawings miss by
+    different amounts. Pairs that agree so far are held against both hypotheses, segment by segment.
     """
     import numpy as np
 
     names = sorted({name for student in students for name in student})
     if not names or len(students) < 2:
         return
-    shape = (len(students), len(names))
-    mm, chance = np.full(shape, np.nan), np.ones(shape)
+    mm = np.full((len(students), len(names)), np.nan)
     for i, student in enumerate(students):
         for j, name in enumerate(names):
             if name in student:
-                s = student[name]
-                mm[i, j], chance[i, j] = s.mm, min(1.0, s.step / (2.0 * math.sqrt(math.pi) * s.spread))
-    pairs = len(students) * (len(students) - 1) / 2
+                mm[i, j] = student[name].mm
+    reach = np.array([max([CHANGED, *(s.step for s in student.values())]) for student in students]) + ROUNDING
+    least = math.log(min(UNLIKELY_PAIR, SHARED / (len(students) * (len(students) - 1) / 2)))
     for i in range(len(students) - 1):
-        same = np.abs(mm[i + 1 :] - mm[i]) < 1e-6
-        both = ~np.isnan(mm[i + 1 :]) & ~np.isnan(mm[i])
-        likely = np.where(same, np.log(np.maximum(chance[i + 1 :], chance[i])), 0.0).sum(axis=1)
-        enough = (same.sum(axis=1) >= FEWEST) & (same.sum(axis=1) >= 0.9 * both.sum(axis=1))
-        for k in np.flatnonzero(enough & (likely < math.log(SHARED / pairs))):
-            yield Pair(i, int(i + 1 + k), tuple(name for j, name in enumerate(names) if same[k, j]))
+        apart = np.abs(mm[i + 1 :] - mm[i])
+        both, same = np.isfinite(apart).sum(axis=1), (apart < ROUNDING).sum(axis=1)
+        near = (apart <= np.maximum(reach[i + 1 :], reach[i])[:, None]).sum(axis=1)
+        for k in np.flatnonzero((same >= FEWEST) & (same >= SAME * both) & (near >= AGREE * both)):
+            other = int(i + 1 + k)
+            if _likelihood(students[i], students[other]) < least:
+                alike = tuple(name for j, name in enumerate(names) if apart[k, j] < ROUNDING)
+                yield Pair(i, other, alike, int(near[k]), int(both[k]))
+
+
+def _likelihood(one: Mapping[str, Measured], other: Mapping[str, Measured]) -> float:
+    """Return the logarithm of how much likelier two drawings agree as they do if both are honest than if one is copied.
+
+    That an honest hand reads the same step as another has the chance of step / (2 sqrt(pi) spread); of a segment that
+    is nearly right much more: however good the hand, 0.242 step / deviation at the most, certain within half a step.
+    """
+    total = 0.0
+    for name in one.keys() & other.keys():
+        pair = one[name], other[name]
+        step = max(s.step for s in pair)
+        steps = max(round(CHANGED / step), 1)  # to either side
+        spread = min(max(s.spread for s in pair), WIDEST)
+        same = min(max(step / (2.0 * math.sqrt(math.pi) * spread), *map(_most, pair)), CERTAIN)
+        near = min(2 * steps * same, 1.0 - FAR - same)
+        apart = abs(pair[0].mm - pair[1].mm)
+        if apart < ROUNDING:
+            total += math.log(same / COPIED)
+        elif apart <= steps * step + ROUNDING:
+            total += math.log(near / (1.0 - FAR - COPIED))
+        else:
+            total += math.log((1.0 - same - near) / FAR)
+    return total
+
+
+def _most(segment: Measured) -> float:
+    """Return the largest chance that a hand, be it good or bad, reads what was read."""
+    off = abs(segment.mm - segment.right)
+    return BEST * segment.step / off if off > segment.step / 2.0 else 1.0

@@ -82,7 +82,8 @@ def students_scales(marked: Marked) -> dict[str, float]:
 def result_of(marked: Marked, language: str, reports: tuple[str, ...] = ()) -> Result:
     """Return what is kept of a student who was marked."""
     key, first = marked.keyed, marked.marking.first_wrong
-    segments = measured(marked.answers, marked.marking.key, students_scales(marked))
+    follows = {line.name: abs(line.follows) for line in marked.marking.lines if line.follows == line.follows}
+    segments = measured(marked.answers, marked.marking.key, students_scales(marked), follows)
     best = marked.candidates[0].mistakes if marked.candidates and not marked.slips else ()
     return Result(
         marked.answers.source,
