@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import zipfile
 from contextlib import suppress
 from pathlib import Path
 
+import openpyxl
 import pytest
 import xlsxwriter
 from hypothesis import given, settings
@@ -13,7 +16,9 @@ from hypothesis import strategies as st
 
 from kulman.scales.errors import InputError
 from kulman.tests.support.answer_files import ASKED, HEAD, messages, read
+from kulman.tests.support.hostile_workbooks import HOSTILE, SMALL, good, hostile, zipped
 from kulman.variants.marking.reading import read_answers
+from kulman.variants.spreadsheets.cells_in import read_grid
 
 
 def workbook(tmp_path: Path, cells: dict[str, object], formats: dict[str, str] | None = None) -> Path:
@@ -138,3 +143,116 @@ def test_whatever_bytes_come_they_are_read_or_refused(tmp_path_factory: pytest.T
     for name in ("a.csv", "a.xlsx"):
         with suppress(InputError):  # anything else would be our bug
             read(folder, HEAD.encode() + data if name == "a.csv" else b"PK\x03\x04" + data, name)
+
+
+@pytest.mark.parametrize("name", [*SMALL, "member twice", "password", "packed by LZMA", "size that is too small"])
+def test_a_hostile_workbook_is_refused_in_one_line(tmp_path: Path, name: str) -> None:
+    file = tmp_path / "answers.xlsx"
+    file.write_bytes(hostile(name))
+    line = ""
+
+    try:
+        read_grid(file)
+    except InputError as error:
+        line = error.text("en")
+
+    assert HOSTILE[name] in line
+    assert "\n" not in line
+
+
+READ = """
+import sys, time
+from pathlib import Path
+from kulman.scales.errors import InputError
+from kulman.variants.spreadsheets.cells_in import read_grid
+line = ""
+try:
+    read_grid(sys.argv[1])
+except InputError as error:
+    line = error.text("en")
+peak = next(row for row in Path("/proc/self/status").read_text().splitlines() if row.startswith("VmHWM"))
+print(time.process_time(), int(peak.split()[1]) / 1024, line)
+"""
+
+
+@pytest.mark.soak
+@pytest.mark.skipif(sys.platform != "linux", reason="the peak of memory is read from /proc")
+@pytest.mark.parametrize("name", sorted(HOSTILE.keys() - set(SMALL)))
+def test_no_workbook_takes_long_or_much_memory(tmp_path: Path, name: str) -> None:
+    file = tmp_path / "answers.xlsx"
+    file.write_bytes(hostile(name))
+
+    run = subprocess.run([sys.executable, "-c", READ, str(file)], capture_output=True, encoding="utf-8", check=True)
+
+    seconds, megabytes, line = run.stdout.split(" ", 2)
+    assert HOSTILE[name] in line
+    assert float(seconds) < 4.0  # 2 on a machine that does nothing else
+    assert float(megabytes) < 300
+    assert run.stderr == ""
+
+
+def test_a_harmless_workbook_is_read_as_the_hostile_ones_are_made_of_it(tmp_path: Path) -> None:
+    file = tmp_path / "answers.xlsx"
+    file.write_bytes(zipped(good()))
+
+    assert read_answers(file, ASKED)[0].lines["V_B"].value == pytest.approx(2.76)
+
+
+def test_a_workbook_of_two_programs_is_read_alike_whatever_looks_it_has(tmp_path: Path) -> None:
+    written = ["ПІБ", "5,5", " a\nb ", "=1", 12, 2.5, 1e-7, True, "q\tr", "🛠"]
+    files = [tmp_path / "a.xlsx", tmp_path / "b.xlsx"]
+    with xlsxwriter.Workbook(str(files[0]), {"strings_to_formulas": False}) as book:
+        sheet = book.add_worksheet()
+        sheet.write_row(0, 0, written, book.add_format({"bold": True, "num_format": "0.00%", "bg_color": "red"}))
+        sheet.write_rich_string(1, 0, "V", book.add_format({"font_script": 2}), "B")
+        sheet.merge_range("C3:D4", "both")
+        sheet.write(5, 0, "_x000D_")
+        sheet.data_validation("A1:B9", {"validate": "list", "source": ["1"]})
+    other = openpyxl.Workbook()
+    other.active.append([value if value != "=1" else "'=1" for value in written])
+    other.active.append(["VB"])
+    other.active["C3"] = "both"
+    other.active.merge_cells("C3:D4")
+    other.save(files[1])
+
+    grids = [read_grid(file) for file in files]
+
+    expected = ("ПІБ", "5,5", "a\nb", "=1", "12", "2.5", "1e-07", "1", "q\tr", "🛠")
+    assert grids[0].rows[5] == ("_x000D_",)
+    for grid in grids:
+        assert tuple(text.lstrip("'") for text in grid.rows[0]) == expected
+        assert grid.rows[1] == ("VB",)
+        assert [grid.shared(row, column) for row in (2, 3) for column in (1, 2, 3, 4)] == ["", "both", "both", ""] * 2
+
+
+@pytest.mark.parametrize(
+    ("content", "what"),
+    [
+        (b";" * 2_000_000, "more than 20000 rows or 1000 columns"),
+        (b"a;b;c\n" * 200_000, "more than 20000 rows or 1000 columns"),
+        ((b";" * 900 + b"\n") * 2_000, "than can be read at once"),
+        (b"a" * 9_000_000, "than can be read at once"),
+        (b"a;" + b"b" * 40_000, "B1: the cell is longer than 32767 characters"),
+        (b"a;" + b"b" * 140_000, "a quotation mark is not closed"),
+        (b"\xff\xfe\0\0a\0\0\0", "not a text"),
+        ("a;\0".encode("utf-16"), "not a text"),
+        (b"\xff\xfe\x00\xd8", "not a text"),
+        (b'"' * 300_001, ""),
+        (b'sep="\n1"2', ""),
+        (b"\x98" * 100, "not a text"),
+        (b"\r" * 3_000_000, ""),
+        ("\N{RIGHT-TO-LEFT OVERRIDE};\u200b\n".encode() * 9, ""),
+    ],
+)
+def test_a_hostile_csv_is_refused_in_one_line(tmp_path: Path, content: bytes, what: str) -> None:
+    file = tmp_path / "a.csv"
+    file.write_bytes(content)
+    line = ""
+
+    try:
+        read_grid(file)
+    except InputError as error:
+        line = error.text("en")
+
+    assert what in line
+    assert "\n" not in line

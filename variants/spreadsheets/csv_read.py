@@ -6,10 +6,23 @@ import codecs
 import csv
 import io
 from collections import Counter
+from itertools import islice
 
 from ...scales.errors import InputError
 from ...scales.numbers import quote
-from .grid import MOST_ROWS, SHOWN, Grid, bounded
+from .grid import (
+    LONGEST,
+    MOST_CELLS,
+    MOST_COLUMNS,
+    MOST_LETTERS,
+    MOST_ROWS,
+    SHOWN,
+    Grid,
+    bounded,
+    too_long,
+    too_many_cells,
+    too_many_texts,
+)
 from .headers import LOOKED_AT, recognised
 
 SEPARATORS = (";", "\t", ",")
@@ -29,10 +42,12 @@ def grid_of_csv(file: str, data: bytes) -> Grid:
     if data.startswith(_ZIP):
         raise InputError("answers-is-xlsx", file=quote(file, SHOWN))
     text = _decoded(file, data)
+    if len(text) > MOST_LETTERS:
+        raise too_many_texts(file)
     first, _, rest = text.partition("\n")
-    if first.strip().lower().startswith("sep=") and len(first.strip()) == 5:
+    if first.strip().lower().startswith("sep=") and len(first.strip()) == 5 and not first.strip().endswith('"'):
         return Grid(file, bounded(file, _rows(file, rest, first.strip()[-1])))
-    head = "\n".join(text.splitlines()[:LOOKED_AT])
+    head = "".join(islice(io.StringIO(text, newline=""), LOOKED_AT))
     best = max(SEPARATORS, key=lambda separator: _told(_rows(file, head, separator)))
     return Grid(file, bounded(file, _rows(file, text, best)))
 
@@ -45,30 +60,34 @@ def _told(rows: list[tuple[str, ...]]) -> tuple[int, int, int]:
 
 
 def _decoded(file: str, data: bytes) -> str:
-    """Return the text: UTF-8 if it can be, else the encoding of Cyrillic Windows."""
+    """Return the text: UTF-8 if it can be, else the encoding of Cyrillic Windows; none has a NUL."""
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        encodings: tuple[str, ...] = ("utf-16",)
+    else:
+        encodings = ("utf-8-sig", "cp1251")
+    for encoding in encodings:
         try:
-            return data.decode("utf-16")
-        except UnicodeDecodeError:
-            raise InputError("answers-encoding", file=quote(file, SHOWN)) from None
-    if b"\0" in data:
-        raise InputError("answers-encoding", file=quote(file, SHOWN))
-    for encoding in ("utf-8-sig", "cp1251"):
-        try:
-            return data.decode(encoding)
+            text = data.decode(encoding)
         except UnicodeDecodeError:
             continue
+        if "\0" not in text:
+            return text
     raise InputError("answers-encoding", file=quote(file, SHOWN))
 
 
 def _rows(file: str, text: str, separator: str) -> list[tuple[str, ...]]:
     """Cut a text into cells."""
-    rows = []
+    rows: list[tuple[str, ...]] = []
+    cells = 0
     try:
         for row in csv.reader(io.StringIO(text, newline=""), delimiter=separator):
+            cells += len(row)
+            if cells > MOST_CELLS or len(rows) > 2 * MOST_ROWS:
+                raise too_many_cells(file) if len(row) > MOST_COLUMNS or len(rows) > MOST_ROWS else too_many_texts(file)
+            long = next((at for at, cell in enumerate(row) if len(cell) > LONGEST), None)
+            if long is not None:
+                raise too_long(file, len(rows), long)
             rows.append(tuple(map(_cell, row)))
-            if len(rows) > 2 * MOST_ROWS:
-                break
     except csv.Error:
         raise InputError("answers-quotes", file=quote(file, SHOWN), row=len(rows) + 1) from None
     return rows

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
+from typing import TypeAlias
 
 from ...scales.errors import InputError
 from ...scales.numbers import quote
 
-LARGEST = 20_000_000  # bytes of a file, and of what is unpacked from it: a class of 1000 needs 3
-MOST_MERGED = 2_000  # ranges of merged cells that are looked at
-MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 20_000, 1_000, 2_000_000
+LARGEST = 20_000_000  # bytes of a file, and of what is unpacked from it: a class of 1000 needs 12
+LONGEST, MOST_LETTERS = 32_767, 8_000_000  # characters of a cell, as programs have it, and of all: a class needs 5
+MOST_MERGED = 100_000  # rows of ranges of merged cells that are looked at
+MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 20_000, 1_000, 270_000
 SUFFIXES = (".csv", ".xlsx")
 SHOWN = 200  # characters of a path in a message
+
+Merged: TypeAlias = Mapping[int, Sequence[tuple[int, int, int]]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,14 +27,14 @@ class Grid:
     """The texts of a file's cells by row.
 
     `formulas` and `dates` are cells (row, column) with a formula that nobody has worked out, or with a date; `merged`
-    are the first and last ones of those that are one.
+    are those that are one, by row, from left to right: first and last column, and the row that has the text.
     """
 
     file: str
     rows: tuple[tuple[str, ...], ...]
     formulas: frozenset[tuple[int, int]] = field(default_factory=frozenset)
     dates: frozenset[tuple[int, int]] = field(default_factory=frozenset)
-    merged: tuple[tuple[tuple[int, int], tuple[int, int]], ...] = ()
+    merged: Merged = field(default_factory=dict)
 
     def text(self, row: int, column: int | None) -> str:
         """Return what a cell shows, nothing beyond the end of its row."""
@@ -39,9 +46,10 @@ class Grid:
         text = self.text(row, column)
         if text or not self.merged:
             return text
-        ends = (ends for ends in self.merged if ends[0][0] <= row <= ends[1][0] and ends[0][1] <= column <= ends[1][1])
-        first = next(ends, ((row, column), (row, column)))[0]
-        return self.text(*first) if first[0] < len(self.rows) else ""
+        ranges = self.merged.get(row, ())
+        at = bisect_right(ranges, (column, MOST_COLUMNS, MOST_ROWS)) - 1
+        first, last, top = ranges[at] if at >= 0 else (column, column, row)
+        return self.text(top, first) if column <= last else ""
 
     def place(self, row: int, column: int | None = None) -> str:
         """Return the address of a cell as a spreadsheet shows it, or of a row: `answers.csv: D12`."""
@@ -68,6 +76,20 @@ def letters(column: int) -> str:
     return name
 
 
+def by_row(ranges: Iterable[tuple[tuple[int, int], tuple[int, int]]], rows: int) -> Merged:
+    """Return ranges of merged cells, given by their first and last ones, as a grid of so many rows has them."""
+    found: dict[int, list[tuple[int, int, int]]] = defaultdict(list)
+    left = MOST_MERGED
+    for (top, first), (bottom, last) in ranges:
+        bottom = min(bottom, rows - 1)
+        left -= max(bottom - top + 1, 0)
+        if left < 0:
+            break
+        for row in range(top, bottom + 1):
+            found[row].append((first, last, top))
+    return {row: sorted(spans) for row, spans in found.items()}
+
+
 def bounded(file: str, rows: list[tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
     """Return the rows without blank ones at the end; refuse more than a class needs.
 
@@ -88,3 +110,13 @@ def bounded(file: str, rows: list[tuple[str, ...]]) -> tuple[tuple[str, ...], ..
 def too_many_cells(file: str) -> InputError:
     """Return the error for a file with more rows or columns than any class has."""
     return InputError("answers-cells", file=quote(file, SHOWN), rows=MOST_ROWS, columns=MOST_COLUMNS)
+
+
+def too_many_texts(file: str) -> InputError:
+    """Return the error for a file with more in its cells than any class has."""
+    return InputError("answers-many", file=quote(file, SHOWN))
+
+
+def too_long(file: str, row: int, column: int) -> InputError:
+    """Return the error for a cell with a text that belongs in no table."""
+    return InputError("answers-long", place=Grid(file, ()).place(row, column), n=LONGEST)

@@ -11,10 +11,11 @@ from ...scales.names import latin
 from ...scales.packaged import packaged
 
 LOOKED_AT = 60  # rows in which the header is looked for
+LONGEST_HEAD = 300  # characters over a column; what is longer says nothing of one
 UNDERSTOOD: Mapping[str, Any] = packaged(__package__, "texts", "understood")
 _COLUMN_OF = {word: kind for kind, words in UNDERSTOOD["columns"].items() for word in words}
 _ABOUT_OF = {word: kind for kind, words in UNDERSTOOD["about"].items() for word in words}
-_UNIT = re.compile(r"\s*(?:[,:]\s*(?P<plain>[^\[(]+)|\[(?P<square>[^\]]*)\]|\((?P<round>.*)\))\s*$")
+_COMMA = re.compile("[,:]")  # before a unit without brackets
 # a column of a class: a quantity, a part of its answer, a unit
 _QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|sense|mu))?")
 _BEFORE = sorted((*UNDERSTOOD["about"]["variant"], *UNDERSTOOD["numbered"]["variant"]), key=len, reverse=True)
@@ -22,6 +23,11 @@ _NUMBERED = re.compile(rf"\s*(?:{'|'.join(map(re.escape, _BEFORE))})\.?\s*№?\s
 MIXED = re.compile(r"[A-Za-z]+_\w+")
 _ORNAMENT = re.compile(r"[\s_{}$\\.^]")  # of a symbol: l_OA, l_{OA} and lOA are one
 _GREEK = re.compile(r"GREEK (?:SMALL LETTER |CAPITAL LETTER )?(\w+)")
+_LETTERS = {  # of Greek by their names
+    ord(sign): found[1].lower().replace("lamda", "lambda")
+    for sign in map(chr, range(0x370, 0x400))
+    if (found := _GREEK.match(unicodedata.name(sign, "")))
+}
 
 
 def tidy(text: str) -> str:
@@ -36,10 +42,18 @@ def split_unit(text: str) -> tuple[str, str]:
     >>> split_unit("V_B [м/с]"), split_unit("відрізок, мм"), split_unit("V_B")
     (('V_B', 'м/с'), ('відрізок', 'мм'), ('V_B', ''))
     """
-    found = _UNIT.search(text.strip())
-    if found is None:
-        return text.strip(), ""
-    return text.strip()[: found.start()].strip(), next(part for part in found.groups() if part is not None).strip()
+    text = text.strip()
+    opened = -1
+    if len(text) > LONGEST_HEAD:
+        return text, ""
+    if text.endswith("]"):
+        opened = text.find("[", text.rfind("]", 0, -1) + 1)
+    elif text.endswith(")"):
+        opened = text.find("(", text.rfind("\n") + 1)
+    if opened >= 0:
+        return text[:opened].strip(), text[opened + 1 : -1].strip()
+    comma = _COMMA.search(text, max(text.rfind("["), text.rfind("(")) + 1, len(text) - 1)
+    return (text, "") if comma is None else (text[: comma.start()].strip(), text[comma.end() :].strip())
 
 
 def column_kind(text: str) -> str | None:
@@ -71,9 +85,9 @@ def symbol(text: str) -> str:
     >>> symbol("l_{OA}"), symbol("φ"), symbol("J_{S_2}"), symbol("n₁")
     ('lOA', 'phi', 'JS2', 'n1')
     """
-    plain = latin(_ORNAMENT.sub("", unicodedata.normalize("NFKC", text)))
-    found = ((sign, _GREEK.match(unicodedata.name(sign, ""))) for sign in plain)
-    return "".join(sign if greek is None else greek[1].lower().replace("lamda", "lambda") for sign, greek in found)
+    if len(text) > LONGEST_HEAD:
+        return ""
+    return latin(_ORNAMENT.sub("", unicodedata.normalize("NFKC", text))).translate(_LETTERS)
 
 
 def variant_said(text: str) -> str:
