@@ -213,6 +213,7 @@ def test_a_workbook_of_two_programs_is_read_alike_whatever_looks_it_has(tmp_path
     other.active.append(["VB"])
     other.active["C3"] = "both"
     other.active.merge_cells("C3:D4")
+    other.active["A6"] = "end"
     other.save(files[1])
 
     grids = [read_grid(file) for file in files]
