@@ -85,8 +85,7 @@ def roots_of(found: Mapping[str, float]) -> Roots:
     before = max(FEWEST, math.ceil(PER_TURN * turns))
     section, waves = (t_1 - begin) / (before + 0.5), math.isfinite(k)
     ratio = found["C_01"] / found["C_12"]
-    times = np.sort(np.concatenate(extremes(V, a, k, ratio, t_1))) if waves else np.zeros(0)
-    times = times[times > begin]
+    times = np.sort(np.concatenate(extremes(V, a, k, ratio, t_1, begin))) if waves else np.zeros(0)
     lines = np.floor((times - begin) / section).astype(int)
     return Roots(begin, section, before, tuple(lines.tolist()), tuple(times.tolist()), waves)
 

@@ -9,11 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, pairwise
 
+from ...scales.errors import InputError
 from ..laws import TURN
 from .waves import CLOSE, MOST_ROUNDS
 
+MOST = 8_000  # pieces and swings of one motion: beyond, nobody wants to know them
+LATEST = 1e12  # swings after which the next one cannot be told from it
 Real = Callable[[float], float]
 
 
@@ -63,14 +66,14 @@ class Curve:
             return (root - p_1) / (2.0 * p_2)
         return max(-2.0 * p_0 / (p_1 + root), 0.0)
 
-    def turnings(self, end: float) -> Iterator[float]:
-        """Go through the places before `end` where it turns from rising to falling or back."""
+    def turnings(self, end: float, begin: float = 0.0) -> Iterator[float]:
+        """Go through the places from `begin` to `end` where it turns from rising to falling or back."""
         if self.w == 0.0:
-            if self.p_2 != 0.0 and 0.0 < -self.p_1 / (2.0 * self.p_2) < end:
+            if self.p_2 != 0.0 and begin < -self.p_1 / (2.0 * self.p_2) < end:
                 yield -self.p_1 / (2.0 * self.p_2)
             return
-        begin, slope = 0.0, self.slope(0.0)
-        for node in self._nodes(end):
+        slope = self.slope(begin)
+        for node in self._nodes(begin, end):
             other = self.slope(node)
             if slope < 0.0 < other or other < 0.0 < slope:
                 yield zero_between(self.slope, self.bend, begin, node)
@@ -78,21 +81,28 @@ class Curve:
                 yield node
             begin, slope = node, other
 
-    def _nodes(self, end: float) -> Iterator[float]:
-        """Go through places, `end` the last, between which the slope does not turn."""
+    def _nodes(self, begin: float, end: float) -> Iterator[float]:
+        """Go through places after `begin`, `end` the last, between which the slope does not turn.
+
+        Raises
+        ------
+        InputError
+            They are in more swings than anybody wants to know, or so late that they cannot be told apart.
+        """
         size, psi = self.swing * self.w * self.w, math.atan2(self.B, self.A)
         part = 2.0 * self.p_2 / size if size else 2.0
         reach = math.acos(part) if abs(part) < 1.0 else 0.5 * math.pi
-        n = math.floor((-reach - psi) / TURN)
-        while True:
+        first = (begin * self.w - reach - psi) / TURN
+        late = not abs(first) < LATEST
+        for n in range(0 if late else math.floor(first), 0 if late else math.floor(first) + MOST):
             for angle in (psi - reach, psi + reach):
                 t = (angle + TURN * n) / self.w
                 if t >= end:
                     yield end
                     return
-                if t > 0.0:
+                if t > begin:
                     yield t
-            n += 1
+        raise InputError("hoist-pieces", n=MOST)
 
     def falls_through(self, end: float, room: float) -> float | None:
         """Return where before `end` it first falls through zero, None where it does not.
@@ -101,24 +111,37 @@ class Curve:
         """
         if self.w == 0.0:
             return self._falls_straight(end, room)
-        begin, value = 0.0, max(self.at(0.0), 0.0)
-        for turning in chain(self.turnings(end), (end,)):
-            other = self.at(turning)
-            if other < -room:
-                return zero_between(self.at, self.slope, begin, turning) if value > 0.0 else begin
-            begin, value = turning, other
+        for low, high in self._reached(end, room):
+            begin, value = low, max(self.at(low), 0.0)
+            for turning in chain(self.turnings(high, low), (high,)):
+                other = self.at(turning)
+                if other < -room:
+                    return zero_between(self.at, self.slope, begin, turning) if value > 0.0 else begin
+                begin, value = turning, other
         return None
+
+    def _reached(self, end: float, room: float) -> Iterator[tuple[float, float]]:
+        """Go through the times before `end`, from and to, at which its swing may reach zero: one, or two."""
+        straight = Curve(self.p_0 - self.swing - room, self.p_1, self.p_2)
+        ends = [0.0, *sorted(t for t in straight._zeros()[1] if 0.0 < t < end), end]
+        for low, high in pairwise(ends):
+            if straight.at(0.5 * (low + high)) < 0.0:
+                yield low, high
+
+    def _zeros(self) -> tuple[float, list[float]]:
+        """Return the discriminant of its parabola, and where that is zero; where it turns if it nowhere is."""
+        half, square = 0.5 * self.p_1, 0.25 * self.p_1 * self.p_1 - self.p_0 * self.p_2
+        root = math.sqrt(max(square, 0.0))
+        larger = -(half + math.copysign(root, half))
+        found = [larger / self.p_2] if self.p_2 else []
+        return square, found + ([self.p_0 / larger] if larger else [])
 
     def _falls_straight(self, end: float, room: float) -> float | None:
         """Return the same of a parabola."""
-        half, square = 0.5 * self.p_1, 0.25 * self.p_1 * self.p_1 - self.p_0 * self.p_2
+        square, zeros = self._zeros()
         if self.at(end) >= -room and (self.p_2 <= 0.0 or square <= 0.0):
             return None
-        root = math.sqrt(max(square, 0.0))
-        larger = -(half + math.copysign(root, half))
-        roots = [larger / self.p_2] if self.p_2 else []
-        roots += [self.p_0 / larger] if larger else []
-        return min((t for t in roots if 0.0 < t <= end and self.slope(t) < 0.0), default=None)
+        return min((t for t in zeros if 0.0 < t <= end and self.slope(t) < 0.0), default=None)
 
 
 def zero_between(function: Real, slope: Real, low: float, high: float) -> float:

@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from .checks import valid
 from .forces import forces
 from .model import model
-from .rope import Heavy, rope_of
+from .rope import Heavy, TremblingError, rope_of
 
+Known = TypeVar("Known")
 COMPARED = ("t_1", "F_12_max", "P_12_max", "F_max")
 SIMPLER: Mapping[str, Mapping[str, float]] = {  # simplifications, and what is given then
     "G_2": {"G_2": 0.0},
@@ -68,8 +69,8 @@ class HoistDepth:
     simpler : tuple of Simplification
         In the order of `SIMPLER`, the article's formula last.
     ropes : tuple of Heavy
-        Ropes of more and more masses; empty where the rope weighs nothing, the support is rigid or formulas are not
-        valid.
+        Ropes of more and more masses, as far as they can be followed; empty where the rope weighs nothing, the support
+        is rigid or formulas are not valid.
     ratio : float
         G_2 / G_1 of this hoist.
     one_mass : tuple of OneMass
@@ -133,9 +134,9 @@ def depth(
     printed |= dict.fromkeys(("P_12_max", "F_max"), found["P_12_max_printed"])
     simpler.append(Simplification(PRINTED, _changes(full, printed)))
     swings = math.isfinite(found["C_01"]) and whole.motion is None
-    ropes = tuple(rope_of(found, n) for n in masses) if swings and values["G_2"] > 0.0 else ()
+    ropes = (_followed(found, n) for n in masses) if swings and values["G_2"] > 0.0 else ()
     lighter = [_at_ratio(values, ratio) for ratio in ratios] if swings else []
-    return HoistDepth(full, tuple(simpler), ropes, values["G_2"] / values["G_1"], _known(lighter), tolerance)
+    return HoistDepth(full, tuple(simpler), _known(ropes), values["G_2"] / values["G_1"], _known(lighter), tolerance)
 
 
 def _changes(full: Mapping[str, float], other: Mapping[str, Any]) -> dict[str, float | None]:
@@ -146,10 +147,19 @@ def _changes(full: Mapping[str, float], other: Mapping[str, Any]) -> dict[str, f
 def _at_ratio(values: Mapping[str, float], ratio: float) -> OneMass | None:
     """Compare one mass with many for the same load on a rope of other weight; None where no formula is valid."""
     found = model({**values, "G_2": ratio * values["G_1"]})
-    return _beside(found, rope_of(found, MANY), ratio) if valid(found) else None
+    rope = _followed(found, MANY) if valid(found) else None
+    return None if rope is None else _beside(found, rope, ratio)
 
 
-def _known(found: Iterable[OneMass | None]) -> tuple[OneMass, ...]:
+def _followed(found: Mapping[str, float], n: int) -> Heavy | None:
+    """Return what a rope of n masses gives; None where it trembles too fast to be followed."""
+    try:
+        return rope_of(found, n)
+    except TremblingError:
+        return None
+
+
+def _known(found: Iterable[Known | None]) -> tuple[Known, ...]:
     return tuple(one for one in found if one is not None)
 
 

@@ -15,6 +15,7 @@ from .hoist import VALUES
 from .model import model, motion_given
 from .onesided import OneSided, one_sided
 
+MOST_OF_MANY = 10_000.0  # pieces and swings of the motions of many hoists together
 VALIDITY = ("F_12_min", "P_12_min", "s_min")
 MOVED = ("g", "m", "C_01", "C_12", "V_t", "a")  # what a motion follows from
 
@@ -85,14 +86,20 @@ def forces_of_many(values: Mapping[str, Any], wanted: Iterable[str]) -> dict[str
         The complete givens, admissible, with any shapes that go together.
     wanted : iterable of str
         Names of the quantities.
+
+    Raises
+    ------
+    InputError
+        Motions of more pieces and swings than anybody waits for.
     """
-    names = tuple(wanted)
+    names, left = tuple(wanted), MOST_OF_MANY
     found = model(values, (*names, *VALIDITY, *MOVED))
     shape = np.broadcast_shapes(*(np.shape(values[name]) for name in VALUES))
     kept = {name: np.array(np.broadcast_to(found[name], shape)) for name in names}
     for index in map(tuple, np.argwhere(~np.broadcast_to(valid(found), shape))):
         one = {name: float(np.broadcast_to(values[name], shape)[index]) for name in VALUES}
-        motion = one_sided({name: float(np.broadcast_to(found[name], shape)[index]) for name in MOVED})
+        motion = one_sided({name: float(np.broadcast_to(found[name], shape)[index]) for name in MOVED}, left)
+        left -= motion.events
         alone = model(one | motion_givens(motion), names, one_sided=True)
         for name in names:
             kept[name][index] = alone[name]

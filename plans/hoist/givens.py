@@ -8,8 +8,10 @@ from typing import Any
 
 from ...scales.errors import InputError
 from ...scales.numbers import quote
+from ..laws import TURN
 from .hoist import MAY_BE_RIGID, NOT_NEGATIVE, PARTS, USUAL, VALUES
 
+MOST_SWINGS = 1e9  # before the lift-off: half of the digits tell in which of them this is
 NEAREST = 0.5  # part of a span at most, from the nearer end
 
 
@@ -61,7 +63,7 @@ def in_range(found: Mapping[str, float]) -> None:
     Raises
     ------
     InputError
-        `hoist-range`
+        `hoist-range`, `hoist-stiff` of a load that swings so often before the lift-off that its phase is not known.
     """
     for name, value in found.items():
         of_rigid = math.isinf(value) and name in RIGID and math.isinf(found[RIGID[name]])
@@ -70,6 +72,9 @@ def in_range(found: Mapping[str, float]) -> None:
     for name in FINITE:
         if not found[name] > 0.0:
             raise InputError("hoist-range", name=name)
+    turns = found["k"] * found["t_1"] / TURN
+    if math.isfinite(found["k"]) and turns > MOST_SWINGS:
+        raise InputError("hoist-stiff", n=f"{turns:.3g}")
 
 
 # what is infinite where a beam is rigid, and what must not vanish

@@ -10,15 +10,16 @@ To a rigid support no load comes back: it leaves it slower, beside the rope's en
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import chain
 
 from ...scales.errors import InputError
 from ..laws import TURN
-from .curves import Curve
+from .curves import MOST, Curve
 
-MOST_PIECES = 20_000
 ROUNDING = 1e-12  # part of the static stretch that is nothing
 SAME = 1e-9  # part of a force within which two are alike
 
@@ -47,12 +48,17 @@ class Piece:
         """When it ends."""
         return self.begin + self.time
 
+    @property
+    def events(self) -> float:
+        """How much it adds to what a motion consists of: itself, and its swings."""
+        return 1.0 + self.time * self.height.w / TURN
+
     def force(self, C_12: float, t: float) -> float:
         """Return the force of a rope of the stiffness C_12 at a time since its begin."""
         return max(C_12 * self.stretch.at(t), 0.0) if self.rope else 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class OneSided:
     """The whole motion until it only repeats itself, higher and higher.
 
@@ -65,7 +71,7 @@ class OneSided:
     pieces: tuple[Piece, ...]
     C_12: float
 
-    @property
+    @cached_property
     def t_1(self) -> float:
         """When the support is free of the load for the first time."""
         return next(piece.begin for piece in self.pieces if not piece.support)
@@ -86,7 +92,17 @@ class OneSided:
         return piece.height.at(t - piece.begin)
 
     def _at(self, t: float) -> Piece:
-        return next((piece for piece in self.pieces if t < piece.end), self.pieces[-1])
+        return self.pieces[min(bisect_right(self.ends, t), len(self.pieces) - 1)]
+
+    @cached_property
+    def ends(self) -> tuple[float, ...]:
+        """When its pieces end."""
+        return tuple(piece.end for piece in self.pieces)
+
+    @property
+    def events(self) -> float:
+        """How many pieces it has, and swings in these."""
+        return sum(piece.events for piece in self.pieces)
 
     def extremes(self, lifted: bool) -> tuple[tuple[float, float], tuple[float, float]]:
         """Return time and force where it is greatest, and where least, before the first lift-off or from then on.
@@ -211,24 +227,29 @@ class Hoisting:
         return Piece(state.t, time, state.rope, state.support, stretch, height), moved
 
 
-def one_sided(found: Mapping[str, float]) -> OneSided:
+def one_sided(found: Mapping[str, float], most: float = MOST) -> OneSided:
     """Return the motion of a load on a one-sided support, by a one-sided rope.
 
     Parameters
     ----------
     found : mapping of str to float
         Quantities `m g C_01 C_12 V_t a` in SI.
+    most : float
+        Pieces and swings that it may have.
 
     Raises
     ------
     InputError
-        A motion of more pieces than anybody wants to know.
+        A motion of more pieces and swings than that.
     """
     hoisting = Hoisting(*(found[name] for name in ("m", "g", "C_01", "C_12", "V_t", "a")))
-    state, pieces, slack = hoisting.start(), [], False
-    for _ in range(MOST_PIECES):
+    state, pieces, slack, events = hoisting.start(), list[Piece](), False, 0.0
+    while True:
         piece, following = hoisting.piece(state)
         pieces.append(piece)
+        events += piece.events
+        if not events <= most:
+            raise InputError("hoist-pieces", n=f"{most:.0f}")
         if piece.rope and not piece.support and not following.support:
             if following.rope or slack:  # a swing without an end, or one after a slack
                 return OneSided(tuple(pieces), hoisting.C_12)
@@ -236,4 +257,3 @@ def one_sided(found: Mapping[str, float]) -> OneSided:
         elif following.support:
             slack = False
         state = following
-    raise InputError("hoist-pieces", n=MOST_PIECES)

@@ -95,15 +95,15 @@ def first_minimum(V: Any, a: Any, k: Any, ratio: Any, t_1: Any) -> Any:
 
 
 @np.errstate(invalid="ignore", divide="ignore")
-def extremes(V: float, a: float, k: float, ratio: float, t_1: float) -> tuple[Any, Any]:
-    """Return all roots of (12) before t_1: the times of the maxima and of the minima of the rope's force, in order."""
-    wave, end = force_rate(V, a, k, ratio), k * t_1
+def extremes(V: float, a: float, k: float, ratio: float, t_1: float, begin: float = 0.0) -> tuple[Any, Any]:
+    """Return the roots of (12) from `begin` to t_1, times of maxima and of minima of the rope's force, in order."""
+    wave, end, start = force_rate(V, a, k, ratio), k * t_1, k * begin
     if not wave.last >= 0.0:
         return np.zeros(0), np.zeros(0)
     most = min(float(np.floor((end - wave.psi - wave.crest) / TURN)), float(wave.last))
-    n = np.arange(most + 1.0)
-    maxima, minima = wave.falling(n), wave.rising(n)
-    return maxima[maxima < end] / k, minima[minima < end] / k
+    n = np.arange(max(np.floor((start - wave.psi - wave.crest) / TURN) - 1.0, 0.0), most + 1.0)
+    maxima, minima = (roots[(roots > start) & (roots < end)] for roots in (wave.falling(n), wave.rising(n)))
+    return maxima / k, minima / k
 
 
 @np.errstate(invalid="ignore", divide="ignore")

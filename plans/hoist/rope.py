@@ -19,10 +19,14 @@ from .row import Row, RowMotion
 
 Array = NDArray[np.float64]
 SAMPLES = 10  # of the shortest period
-MOST_SAMPLES = 400_000
+MOST_SAMPLES = 60_000  # beyond, the rope trembles too fast to be followed
 ENOUGH = 1.05  # times a period of the swing, within which the greatest force is looked for
 ROUNDS = 60
 NAMES = ("G_1", "G_2", "g", "C_01", "C_k", "C_2", "V_t", "a")
+
+
+class TremblingError(ArithmeticError):
+    """A rope whose parts tremble so fast beside the swing of the load that nobody waits until it is followed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +64,11 @@ def rope_of(found: Mapping[str, float], n: int) -> Heavy:
     ----------
     found : mapping of str to float
         Quantities `G_1 G_2 g C_01 C_k C_2 V_t a k k_1 t_1`, SI: of a rope with weight, on a support that yields.
+
+    Raises
+    ------
+    TremblingError
+        It takes too long.
     """
     G_1, G_2, _, _, C_k, C_2, V_t, _ = (found[name] for name in NAMES)
     row = rope_row(found, n, False)
@@ -101,8 +110,10 @@ def _greatest(motion: RowMotion, end: float) -> tuple[float, float]:
 
 def _samples(motion: RowMotion, end: float) -> Array:
     fastest = float(motion.frequencies.max())
-    count = min(int(end * fastest * SAMPLES / (2.0 * math.pi)) + 2000, MOST_SAMPLES)
-    return np.linspace(0.0, end, count)
+    count = end * fastest * SAMPLES / (2.0 * math.pi) + 2000.0
+    if not count <= MOST_SAMPLES:
+        raise TremblingError
+    return np.linspace(0.0, end, int(count))
 
 
 def _top(values: Array) -> float:

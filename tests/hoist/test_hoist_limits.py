@@ -7,8 +7,15 @@ import math
 import numpy as np
 import pytest
 
+from kulman import solve
+from kulman.plans.hoist.choice import choose
+from kulman.plans.hoist.curves import MOST, Curve
 from kulman.plans.hoist.forces import forces
+from kulman.plans.hoist.hoist import VALUES, Hoist
 from kulman.plans.hoist.model import model
+from kulman.plans.hoist.rope import TremblingError, rope_of
+from kulman.plans.hoist.solve import solve_hoist
+from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.hoists import SEED, VARIANTS, random_hoists
 
 FORCES = ("t_1", "F_12_t1", "F_12_max", "T_1", "P_12_max", "P_12_min", "s_min")
@@ -112,3 +119,81 @@ def test_rope_pulled_from_rest_lifts_off_after_the_exact_time() -> None:
     lag = 0.40 * (0.5 * t * t - (1.0 - math.cos(k * t)) / k**2)
 
     assert lag == pytest.approx(found["P_st"] / found["C"], rel=1e-12)
+
+
+ENDLESS = {  # givens within their bounds whose motion nobody follows, and what is said of them
+    ("V04", "l_0", 1e5): "hoist-pieces",  # a support so weak that the rope trembles on it for years
+    ("V04", "E_0", 0.8): "hoist-pieces",
+    ("V04", "l_0", 1e4): "hoist-pieces",
+    ("V01", "l_0", 3e-12): "hoist-stiff",
+    ("V10", "V_0", 1e-11): "hoist-stiff",
+}
+
+
+@pytest.mark.parametrize(("variant", "name", "value"), ENDLESS)
+def test_a_motion_that_nobody_follows_is_refused_in_a_line(variant: str, name: str, value: float) -> None:
+    with pytest.raises(InputError) as told:
+        solve("karpenko-hoist", variant, set={name: f"{value} {VALUES[name]}"})
+
+    assert told.value.key == ENDLESS[variant, name, value]
+    assert all(told.value.text(language) for language in LANGUAGES)
+
+
+def test_many_swings_before_the_lift_off_are_no_trouble_where_the_formulas_are_valid() -> None:
+    slow = {**VARIANTS["V10"], "V_0": 1e-7, "a": 0.0}
+    found = forces(slow).found
+
+    assert found["k"] * found["t_1"] > 1e6
+    assert len([*solve_hoist(Hoist(), slow).program]) < 10_000  # the last swings are drawn, not a million
+    with pytest.raises(InputError, match="more than 10000 times"):
+        choose({**VARIANTS["V04"], "l_0": 300.0})
+    with pytest.raises(TremblingError):
+        rope_of(model({**VARIANTS["V06"], "G_2": 0.03}), 32)
+
+
+def test_a_curve_falls_through_zero_where_small_steps_say_so() -> None:
+    random, fallen = np.random.default_rng(SEED + 40), 0
+
+    for _ in range(120):
+        p_1, p_2 = random.normal(0.0, 10.0 ** random.uniform(-4.0, 0.5, 2))
+        A, B, w = (*random.normal(0.0, 1.0, 2), random.uniform(1.0, 40.0))
+        p_0 = random.choice((-A + 10.0 ** random.uniform(-6.0, 0.0), random.uniform(1.0, 3.0) * math.hypot(A, B)))
+        curve = Curve(p_0, p_1, p_2, A, B, w)
+        if not curve.at(0.0) > 0.0:
+            continue
+        t = np.linspace(0.0, end := random.uniform(1.0, 40.0), 20_001)
+        ordinates = p_0 + (p_1 + p_2 * t) * t + A * np.cos(w * t) + B * np.sin(w * t)
+        below = np.flatnonzero(ordinates < 0.0)
+
+        found = curve.falls_through(end, 1e-12)
+
+        if not below.size:
+            assert found is None or abs(curve.slope(found)) < 0.05 * w  # a dip between two steps
+        else:
+            fallen += 1
+            assert found is not None
+            assert found <= t[below[0]]
+            assert found > t[below[0] - 1] or curve.at(0.5 * (found + t[below[0] - 1])) > -1e-4
+            assert curve.at(found) == pytest.approx(0.0, abs=1e-9)
+    assert fallen > 30
+
+
+@pytest.mark.parametrize("count", [pytest.param(12, id="12"), pytest.param(300, id="300", marks=pytest.mark.soak)])
+def test_any_givens_within_their_bounds_are_answered(count: int) -> None:
+    random = np.random.default_rng(SEED + 41)
+    places, speeds = ("beta_0", "beta_2"), ("V_0", "a", "slack", "G_2")
+
+    for _ in range(count):
+        values = dict(VARIANTS[str(random.choice([*VARIANTS]))])
+        for name in random.choice([*values], random.integers(1, 7), replace=False).tolist():
+            values[name] = (values[name] or 1.0) * 10.0 ** (random.uniform(-1.0, 1.0) * random.choice((1.0, 3.0, 9.0)))
+            if name in places:
+                values[name] = min(values[name], 0.5)
+            elif name in speeds and random.random() < 0.2:
+                values[name] = 0.0
+        try:
+            solved = solve_hoist(Hoist(), values)
+        except InputError:
+            continue
+        assert solved.forces.motion is None or solved.forces.motion.events <= MOST
+        assert all(math.isfinite(q.value) or "inf" in str(values) for q in solved.quantities.values())
