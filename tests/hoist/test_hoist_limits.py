@@ -145,7 +145,7 @@ def test_many_swings_before_the_lift_off_are_no_trouble_where_the_formulas_are_v
 
     assert found["k"] * found["t_1"] > 1e6
     assert len([*solve_hoist(Hoist(), slow).program]) < 10_000  # the last swings are drawn, not a million
-    with pytest.raises(InputError, match="more than 10000 times"):
+    with pytest.raises(InputError, match=r"more than \d+ times"):
         choose({**VARIANTS["V04"], "l_0": 300.0})
     with pytest.raises(TremblingError):
         rope_of(model({**VARIANTS["V06"], "G_2": 0.03}), 32)
