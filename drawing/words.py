@@ -28,6 +28,7 @@ PARTS = {
     **dict.fromkeys(("R",), ("n", "t", "m", "p")),
 }
 OF_LINKS = ("R", "M", "h")  # quantities whose two digits are the links of a pair
+PARTING = re.compile(r"(?<=\d)_(?=\d)")  # between numbers of links of two digits: a comma where they are printed
 OF_LINK = ("omega", "epsilon", "P")  # quantities of one link: rates, instant centre
 PER_UNIT_DIGITS = 6
 
@@ -49,7 +50,8 @@ class Words:
 
     What depends on the mechanism is set when it is known: `seconds` are the forces and arms with two primes, the second
     of each couple; `letters` are marks whose letters need an index, such as one of several ends of normal parts;
-    `frame` is the number of the frame, `ends` are the ends of links by number. `display` are the units in which the
+    `frame` is the number of the frame, `ends` are the ends of links by number; numbers of links are
+    `parted` where a link has two digits. `display` are the units in which the
     task shows its results.
     """
 
@@ -60,6 +62,7 @@ class Words:
     letters: Mapping[str, str] = field(default_factory=dict)
     frame: str = "0"
     ends: Mapping[str, str] = field(default_factory=dict)
+    parted: bool = False
     display: Display = AS_INSIDE
     _symbols: dict[str, tuple[str, str]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
@@ -168,7 +171,7 @@ class Words:
     def _composed(self, name: str) -> str:
         """Return a symbol made from the name's own letters: `a_BA_n` is a with n above and BA below."""
         letters = self.notation["letters"]
-        head, *rest = name.split("_")
+        head, *rest = PARTING.sub(",", name).split("_")
         if head == "mu":  # forces of a group or of the driver alike
             of = rest[0]
             index = letters.get(f"mu_{of}", letters.get(of, GREEK.get(of, of)))
@@ -200,10 +203,11 @@ class Words:
         """
         if self.notation["links"] == "ends" and head not in OF_LINKS:
             return self._by_ends(head, index)
-        if head not in OF_LINKS or not re.fullmatch(r"\d\d", index):
+        if head not in OF_LINKS or not re.fullmatch(r"\d+,\d+" if self.parted else r"\d\d", index):
             return index
-        first, second = (self.frame if digit == "0" else digit for digit in index)
-        return first + second if self.notation["reaction"] == "ij" else second + first
+        parting = "," if self.parted else ""
+        pair = [self.frame if number == "0" else number for number in (index.split(",") if self.parted else index)]
+        return parting.join(pair if self.notation["reaction"] == "ij" else reversed(pair))
 
     def _by_ends(self, head: str, index: str) -> str:
         """Return the ends of a link in place of its number, letters with their digits lowered: `O_{1}B`."""
@@ -221,7 +225,7 @@ class Words:
             _, rest = self._parts(f"F_{moment.removeprefix('M_')}_couple")
             return "h" + ("″" if name in self.seconds else "′"), rest
         if thing[:1].isdigit():
-            links, *more = thing.split("_")
+            links, *more = PARTING.sub(",", thing).split("_")
             above = f"^{{{self._part(more.pop(0))}}}" if more and more[0] in ("n", "t") else ""
             return "h", f"{above}_{{{self._links('h', links)}{''.join(more)}}}"
         return "h", f"_{{{re.sub(r'[_^{}]', '', self.symbol(thing))}}}"

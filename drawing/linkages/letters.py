@@ -18,7 +18,14 @@ def lettered(words: Words, solved: SolvedLinkage) -> Words:
     """Return the words for the sheet of one mechanism."""
     reading = read(solved.program)
     frame = str(len(solved.mechanism.links) + 1) if words.notation["frame"] == "last" else "0"
-    return replace(words, seconds=_seconds(reading), letters=_ends(reading, words), frame=frame, ends=_joints(solved))
+    return replace(
+        words,
+        seconds=_seconds(reading),
+        letters=_ends(reading, words),
+        frame=frame,
+        ends=_joints(solved),
+        parted=solved.mechanism.parted,
+    )
 
 
 def _seconds(reading: Reading) -> frozenset[str]:

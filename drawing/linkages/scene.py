@@ -93,7 +93,7 @@ def arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:
         return frozenset()
     loads = {load.name for load in solved.mechanism.loads_on(driver.link)}
     forces = {f"F_i{driver.link}", f"G_{driver.link}", *loads}
-    forces |= {f"R_{link.number}{driver.link}" for link in solved.mechanism.links}
+    forces |= {f"R_{solved.mechanism.index(link.number, driver.link)}" for link in solved.mechanism.links}
     taken = {s.name for s in solved.program if s.verb == "moment" and s.operands[0] in forces}
     taken &= {s.name for s in solved.program if s.verb == "moment" and s.operands[2] == driver.pivot}
     return frozenset(s.name for s in solved.program if s.verb == "arm" and s.operands[0] in taken)

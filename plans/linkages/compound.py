@@ -83,7 +83,7 @@ def couplers(mechanism: Mechanism, groups: Iterable[AssurGroup], bodies: Bodies)
             if carrier is None:
                 continue
             points = (span.end, *span.others)
-            letters = {point: f"{point}{span.link.number}" if point in taken else point for point in points}
+            letters = {p: mechanism.letter_on(p, span.link.number) if p in taken else p for p in points}
             taken.update(points)
             found.append(Coupler(span, carrier, letters, _closing(mechanism, group, span)))
     return tuple(found)

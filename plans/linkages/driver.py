@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..board import Board
-from .mechanism import FORCE, MOMENT, Driver, Mechanism
+from .mechanism import FORCE, FRAME, MOMENT, Driver, Mechanism
 from .parts import Body, Couples, Forces, Span, hang, measure_link, moments_about, move_link, place_link
 
 
@@ -61,7 +61,7 @@ def _by_moment(board: Board, mechanism: Mechanism, loads: Forces, couples: Coupl
     driver = crank_of(mechanism)
     plan, hung = f"forces_{driver.link}", loads[driver.link]
     board.pole(f"{plan}.0")
-    board.read(f"R_0{driver.link}", hang(board, plan, [force for force, _ in hung]), f"{plan}.0")
+    board.read(f"R_{mechanism.index(FRAME, driver.link)}", hang(board, plan, [force for force, _ in hung]), f"{plan}.0")
     moments = moments_about(board, hung, driver.link, driver.pivot, always=True)
     board.calc("M_bal", "closing_moment", *moments, *couples[driver.link])
 
@@ -74,7 +74,11 @@ def _by_force(board: Board, mechanism: Mechanism, loads: Forces, couples: Couple
     board.calc("F_bal", "closing_force", crank.length, *moments, *couples[driver.link])
     board.calc("_F_bal", "along", "F_bal", crank.n)
     board.pole(f"{plan}.0")
-    board.read(f"R_0{driver.link}", hang(board, plan, [*(force for force, _ in hung), "_F_bal"]), f"{plan}.0")
+    board.read(
+        f"R_{mechanism.index(FRAME, driver.link)}",
+        hang(board, plan, [*(force for force, _ in hung), "_F_bal"]),
+        f"{plan}.0",
+    )
 
 
 def on_lever(board: Board, mechanism: Mechanism, moments: list[str]) -> None:

@@ -42,6 +42,7 @@ class Slide:
     pin: str
     known: Body | None
     carries: bool  # whether the link carries the guide, not the known one
+    mechanism: Mechanism
 
     @property
     def other(self) -> int:
@@ -51,17 +52,17 @@ class Slide:
     @property
     def u(self) -> str:
         """Name of the guide's direction."""
-        return f"u_{self.link.number}{self.other}"
+        return f"u_{self.mechanism.index(self.link.number, self.other)}"
 
     @property
     def under(self) -> str:
         """Letter of the known link's point that now lies under the pin."""
-        return f"{self.pin}{self.other}"
+        return self.mechanism.letter_on(self.pin, self.other)
 
     @property
     def own(self) -> str:
         """Letter of the pin as a point of the sliding link."""
-        return f"{self.pin}{self.link.number}"
+        return self.mechanism.letter_on(self.pin, self.link.number)
 
     @property
     def turns(self) -> bool:
@@ -97,7 +98,7 @@ def slide_of(mechanism: Mechanism, pair: Prismatic, number: int, pin: str, bodie
     carries = pair.links[1] == number
     if carries and other == FRAME:
         raise InputError("moving-guide", links=f"{number}, {other}")
-    return Slide(pair, mechanism.link(number), pin, None if other == FRAME else bodies[other], carries)
+    return Slide(pair, mechanism.link(number), pin, None if other == FRAME else bodies[other], carries, mechanism)
 
 
 def lay_guide(board: Board, s: Slide) -> None:
@@ -184,7 +185,7 @@ def pin_offset(board: Board, pair: Prismatic, slider: Link, pin: str, guide: Lin
     aside = across_guide(board, pair, guide, on_guide)
     if aside == ZERO:
         return size
-    name = f"_offset_{slider.number}{guide.number}"
+    name = f"_offset_{slider.number}_{guide.number}"
     board.calc(name, "excess", size, aside)
     return name
 

@@ -46,7 +46,8 @@ class Joint:
 
     def ties(self, links: Collection[int], known: Sequence[int]) -> list[Pair]:
         """Return the pair that holds `links` to one of the `known`: a named one, else to the first of these."""
-        ways = [self.pair(own, other) for other in known for own in links if {own, other} <= {*self.links}]
+        here = [own for own in links if own in self.links]
+        ways = [self.pair(own, other) for other in known if other in self.links for own in here]
         return list[Pair](sorted(ways, key=lambda pair: not self.names(pair))[:1])
 
 
@@ -86,6 +87,8 @@ def pairs_of(
     outer: list[Pair] = []
     named = True
     for joint in joints:
+        if not any(number in links for number in joint.links):
+            continue
         if isinstance(joint, Joint):
             tree, ties = joint.tree(links), joint.ties(links, known)
             named = named and all(map(joint.names, (*tree, *ties)))

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 ZERO = "zero"
 MINUS = "_minus_"
 FRAME = 0
+ONE_DIGIT = range(10)  # numbers of links that need no parting in names
 
 
 @dataclass(frozen=True, slots=True)
@@ -232,6 +233,19 @@ class Mechanism:
     gravity: str | None = None  # acceleration of free fall, downwards
     starts: tuple[Start, ...] = field(default=())
     centres: tuple[tuple[str, str], ...] = field(default=())
+
+    @property
+    def parted(self) -> bool:
+        """Whether numbers of links are parted in names: one of them has two digits."""
+        return any(link.number not in ONE_DIGIT for link in self.links)
+
+    def index(self, *numbers: int | str) -> str:
+        """Return the numbers of several links as one index of a name: `12`, and `1_2` where `12` may be a link."""
+        return ("_" if self.parted else "").join(map(str, numbers))
+
+    def letter_on(self, point: str, number: int) -> str:
+        """Return the letter of a point as one of link `number`: `A3`, and `A1_3` where `A13` may be another point."""
+        return f"{point}_{number}" if self.parted and point[-1].isdigit() else f"{point}{number}"
 
     def start(self, number: int) -> Start | None:
         """Return where link `number` starts."""

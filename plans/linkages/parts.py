@@ -6,7 +6,7 @@ joint. A straight link whose points stand on one axis from the first joint needs
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -305,11 +305,14 @@ def arm_of(force: str, link: int, arms: str = "h_{0}") -> str:
     return arms.format(link if force == f"F_i{link}" else force.removeprefix("R_"))
 
 
-def answer(board: Board, symbol: str, *on_by: tuple[int, int]) -> None:
-    """Note that a link answers another with the opposite force or moment; what acts on the frame needs no name."""
+def answer(board: Board, index: Callable[..., str], symbol: str, *on_by: tuple[int, int]) -> None:
+    """Note that a link answers another with the opposite force or moment; what acts on the frame needs no name.
+
+    `index` is `Mechanism.index`.
+    """
     for on, by in on_by:
         if on != FRAME:
-            board.calc(f"{symbol}_{by}{on}", "opposite", f"{symbol}_{on}{by}")
+            board.calc(f"{symbol}_{index(by, on)}", "opposite", f"{symbol}_{index(on, by)}")
 
 
 def hang(board: Board, plan: str, forces: Iterable[str], first: int = 0) -> str:

@@ -45,8 +45,8 @@ def forces(board: Board, mechanism: Mechanism, loads: Forces, couples: Couples) 
     Moments about P give the arm of the guide's reaction.
     """
     driver, u = slider_of(mechanism), slide_on_frame(mechanism).u
-    link, hung, reaction = driver.link, loads[driver.link], f"R_0{driver.link}"
-    plan = f"forces_{link}"
+    link, hung, pair = driver.link, loads[driver.link], mechanism.index(FRAME, driver.link)
+    plan, reaction = f"forces_{link}", f"R_{pair}"
     board.pole(f"{plan}.0")
     last, closing = hang(board, plan, [force for force, _ in hung]), f"{plan}.{len(hung) + 1}"
     board.meet(closing, last, u, f"{plan}.0", normal_of(u))
@@ -54,8 +54,8 @@ def forces(board: Board, mechanism: Mechanism, loads: Forces, couples: Couples) 
     board.read(reaction, closing, f"{plan}.0")
     board.calc("F_bal", "component", u, "_F_bal")
     moments = moments_about(board, hung, link, driver.point)
-    board.calc(f"M_0{link}", "closing_moment", ZERO, *moments, *couples[link])
-    board.step("arm", f"h_0{link}", f"M_0{link}", reaction)
+    board.calc(f"M_{pair}", "closing_moment", ZERO, *moments, *couples[link])
+    board.step("arm", f"h_{pair}", f"M_{pair}", reaction)
 
 
 def on_lever(board: Board, mechanism: Mechanism, moments: list[str]) -> None:

@@ -40,7 +40,9 @@ class SolvedLinkage(Solved):
     def guide_name(self, pair: Prismatic) -> str:
         """Return the name of the direction of a pair's guide."""
         a, b = pair.links
-        return next(name for name in (f"u_{a}{b}", f"u_{b}{a}") if name in self.values)
+        return next(
+            name for name in (f"u_{self.mechanism.index(*links)}" for links in ((a, b), (b, a))) if name in self.values
+        )
 
     def reason(self, trouble: Trouble) -> PositionError:
         """Return why the position has no plan."""

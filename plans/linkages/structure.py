@@ -7,7 +7,7 @@ be split into smaller ones. Kinds of class II groups: 1 RRR, 2 RRP, 3 RPR, 4 PRP
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 from ...scales.errors import InputError
@@ -31,6 +31,7 @@ class Group:
     inner: tuple[Pair, ...]
     outer: tuple[Pair, ...]
     kind: str
+    name: str = ""  # its links as a word: `23`, `12_13` (see `Mechanism.index`)
 
     @property
     def group_class(self) -> int:
@@ -66,11 +67,6 @@ class Group:
     def before(self) -> tuple[int, ...]:
         """The links before it to which its outer pairs join it."""
         return tuple(next(n for n in pair.links if n not in self.links) for pair in self.outer)
-
-    @property
-    def name(self) -> str:
-        """The group's links as a word, such as `23`."""
-        return "".join(str(number) for number in self.links)
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +108,7 @@ def analyse(mechanism: Mechanism) -> Structure:
     left = [link.number for link in mechanism.links if link.number not in known]
     groups: list[Group] = []
     while left and (group := next(_groups(joints, known, left), None)):
-        groups.append(group)
+        groups.append(replace(group, name=mechanism.index(*group.links)))
         known += group.links
         left = [number for number in left if number not in group.links]
     if mobility != 1 or left:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-FREE = re.compile(r"R_\w+$|M_\d\d$|[MF]_bal(_lever)?$")  # whose sense is assumed, and found by the sign
+FREE = re.compile(r"R_\w+$|M_(\d\d|\d+_\d+)$|[MF]_bal(_lever)?$")  # whose sense is assumed, and found by the sign
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -11,6 +12,7 @@ from .rules import Change, Chapter, Scene, instead, nothing, opposed, scaled
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
 LEVER = "lever"
+OF_DRIVER = re.compile(r"R_1(\d(?!_\d)|_\d)")  # a reaction of link 1, of a mechanism of any size
 
 
 def turned(scene: Scene) -> list[Step]:
@@ -91,7 +93,7 @@ def sense_of_moment(scene: Scene) -> Iterator[Change]:
 def reactions_on_lever(scene: Scene) -> Iterator[Change]:
     """A reaction hangs on the lever."""
     last = next((s for s in scene.made_by("calc", law="moment_equation") if not s.name.startswith("_R")), None)
-    mark, reaction = f"{LEVER}.{scene.pin}", next((n for n in scene.steps if n.startswith("R_1")), None)
+    mark, reaction = f"{LEVER}.{scene.pin}", next(filter(OF_DRIVER.match, scene.steps), None)
     if last is None or reaction is None or mark not in scene.steps:
         return
     extra = f"_M_{reaction}_p"

@@ -369,7 +369,8 @@ class JacobianSolver:
         self.moments: dict[tuple[int, int, str], tuple[Array, Array]] = {}
         for i, pair in enumerate(self.m.pairs):
             first, second = pair.links
-            on_first, on_second = f"R_{second}{first}", f"R_{first}{second}"
+            parting = "_" if len(self.m.links) > 9 else ""  # links 12 and 10: R_12_10
+            on_first, on_second = f"R_{second}{parting}{first}", f"R_{first}{parting}{second}"
             a, b = solved[:, 2 * i], solved[:, 2 * i + 1]
             if isinstance(pair, Revolute):
                 force = a + 1j * b

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ...drawing.words import Words
 from ...scales.packaged import packaged
 
-SYMBOL = re.compile(r"([^\W\d_][′″]*)(?:\^([^\W_]+))?(?:_([^\W_]+))?(?![\w^])")
+SYMBOL = re.compile(r"([^\W\d_][′″]*)(?:\^([^\W_]+))?(?:_([^\W_]+(?:,[0-9]+)*))?(?![\w^])")
 
 
 def texts(language: str) -> dict[str, str]:

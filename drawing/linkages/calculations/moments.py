@@ -72,15 +72,10 @@ def group_of(scene: Scene, number: int) -> Group | None:
 
 def link_of(scene: Scene, name: str) -> int:
     """Return the link on which a reaction or the moment of one acts: 2 of `R_12_t`, 3 of `_M_3`; else the driver."""
+    found = re.match(r"_?[RM](_\d+)+" if scene.solved.mechanism.parted else r"_?[RM]_\d{1,2}(?!\d)", name)
+    last = re.search(r"\d+$" if scene.solved.mechanism.parted else r"\d$", found[0]) if found else None
     numbers = {link.number for link in scene.solved.mechanism.links}
-    found = re.match(r"_?[RM]_(\d+)", name)
-    digits = found[1] if found else ""
-    if digits and int(digits) in numbers and len(digits) == 1:
-        return int(digits)
-    for cut in range(1, len(digits)):
-        if int(digits[:cut]) in numbers | {0} and int(digits[cut:]) in numbers:
-            return int(digits[cut:])
-    return scene.solved.structure.driver
+    return int(last[0]) if last and int(last[0]) in numbers else scene.solved.structure.driver
 
 
 def links_in(scene: Scene, number: int, point: str) -> str:

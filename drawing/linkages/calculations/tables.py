@@ -26,6 +26,8 @@ from .equations import rate_of
 KINDS = ("velocity", "acceleration", "compound", "forces", "lever")
 HEADS = {"l": "velocity", "V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 ROWS = 30  # most rows of a table
+PAIR = 2  # links of a reaction
+NUMBERS = r"(?<![A-Za-hj-z\d])\d+"  # of links of two digits, not of points: 12 and 10 of `12_10`, 12 of `i12`
 _Piece: TypeAlias = tuple[tuple[int, ...], list[str]]  # links of a group, names
 
 
@@ -148,20 +150,21 @@ def _links_of(solved: SolvedLinkage, name: str) -> set[int]:
     numbers = {link.number for link in mechanism.links}
     if head in ("V", "a"):
         return _first_with(solved, rest)
-    digits = re.sub(r"\D", "", rest.partition("_lever")[0])
-    if digits and int(digits) in numbers:
-        return {int(digits)}
-    found = {number for number in numbers if str(number) in digits}
-    if head == "h" and len(digits) == 2:
-        return {int(digits[1])} & numbers  # the arm of a reaction stands where the link on which it acts is dealt with
-    return found or {link.number for link in mechanism.links if {link.mass, link.inertia} & {name}}
+    digits = re.findall(NUMBERS if mechanism.parted else r"\d", rest.partition("_lever")[0])
+    named = [int(number) for number in digits]
+    if head == "h" and len(named) == PAIR:
+        return {named[1]} & numbers  # the arm of a reaction stands where the link on which it acts is dealt with
+    return numbers.intersection(named) or {
+        link.number for link in mechanism.links if {link.mass, link.inertia} & {name}
+    }
 
 
 def _first_with(solved: SolvedLinkage, index: str) -> set[int]:
     """Return the first link that has the point with which an index such as `BA`, `A3A2` or `X3` begins."""
     links = [solved.structure.driver, *(number for group in solved.structure.groups for number in group.links)]
     points = {point: number for number in reversed(links) for point in solved.mechanism.link(number).points}
-    ways = {**{f"{point}{number}": number for point in points for number in links}, **points}
+    named = ((point, number) for point in points for number in links)
+    ways = {**{solved.mechanism.letter_on(point, number): number for point, number in named}, **points}
     found = max((way for way in ways if index.startswith(way)), key=len, default="")
     return {ways[found]} if found else {number for number in links if str(number) in index}
 

@@ -49,7 +49,7 @@ def handed(scene: Scene, number: int) -> Hung:
     moments = {moment.force: moment.at for moment in moments_of(scene, (number,))}
     found = []
     for group, pair, own in _attached(scene, number):
-        force = f"R_{own}{number}"
+        force = f"R_{scene.solved.mechanism.index(own, number)}"
         if scene.defined(force):
             found.append((force, moments.get(force) or pin_of(group, pair)))
     return found
@@ -69,7 +69,7 @@ def couples(scene: Scene, number: int) -> list[str]:
     names = [f"M_i{number}", *(couple.name for couple in mechanism.couples if couple.link == number)]
     for _, pair, own in _attached(scene, number):
         if isinstance(pair, Prismatic):
-            handed_on = (f"M_{own}{number}", f"_M_{own}")
+            handed_on = (f"M_{mechanism.index(own, number)}", f"_M_{own}")
             names += [name for name in handed_on if scene.defined(name)][:1]
     return [name for name in names if scene.defined(name)]
 
@@ -79,7 +79,7 @@ def reactions(scene: Scene, group: Group) -> list[tuple[Pair, int, list[str]]]:
     found = []
     for pair, before in zip(group.outer, group.before, strict=True):
         own = next(number for number in pair.links if number in group.links)
-        whole = f"R_{before}{own}"
+        whole = f"R_{scene.solved.mechanism.index(before, own)}"
         parts = [f"{whole}_{part}" for part in ("n", "t") if f"{whole}_{part}" in scene.solved.values]
         found.append((pair, own, parts or [whole]))
     return found
@@ -104,12 +104,12 @@ def _link_of(scene: Scene, force: str) -> int | None:
         if load.name == force:
             return load.link
     head, _, rest = force.partition("_")
-    index = rest.partition("_")[0].removeprefix("i")
+    index = rest.removeprefix("i")
     numbers = [structure.driver, *(number for group in structure.groups for number in group.links)]
     if head in ("F", "G"):
         return int(index) if index.isdigit() else None
     ways = ((first, second) for first in (FRAME, *numbers) for second in numbers)
-    return next((second for first, second in ways if index == f"{first}{second}"), None)
+    return next((on for by, on in ways if f"{rest}_".startswith(f"{mechanism.index(by, on)}_")), None)
 
 
 def pin_of(group: Group, pair: Pair) -> str:
@@ -127,8 +127,9 @@ def pin_of(group: Group, pair: Pair) -> str:
 def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int) -> Contact | None:
     """Return where the reaction R of link `other` on `number` in a prismatic pair acts, both ways of naming tried."""
     for first, second in ((other, number), (number, other)):
-        step = next((s for s in scene.solved.program if s.verb == "arm" and s.name == f"h_{first}{second}"), None)
-        if step is not None and step.operands[1] == f"R_{first}{second}":
+        index = scene.solved.mechanism.index(first, second)
+        step = next((s for s in scene.solved.program if s.verb == "arm" and s.name == f"h_{index}"), None)
+        if step is not None and step.operands[1] == f"R_{index}":
             break
     else:
         return None

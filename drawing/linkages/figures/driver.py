@@ -68,7 +68,7 @@ def _crank(sketch: Sketch, driver: Driver) -> None:
     scene, o = sketch.scene, sketch.scene.mm(driver.pivot)
     foot = foot_of(scene, driver.pivot, sketch.figures)
     sketch.arrows.bar(o, (foot * rect(1.0, lean) for lean in (-0.5, 0.0, 0.5)))
-    sketch.force(f"R_{FRAME}{driver.link}", o)
+    sketch.force(f"R_{scene.solved.mechanism.index(FRAME, driver.link)}", o)
     for name, point in loads(scene, driver.link):
         if point in scene.solved.mechanism.frame_points:
             sketch.force(name, scene.mm(point))
@@ -82,12 +82,13 @@ def _slider(sketch: Sketch, number: int) -> None:
     """Hang the guide's reaction where it acts, and the balancing force along the guide."""
     scene = sketch.scene
     pair = next(p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and number in p.links)
-    pin, u, reaction = scene.mm(pair.point), guide_of(scene, pair), f"R_{FRAME}{number}"
+    index = scene.solved.mechanism.index(FRAME, number)
+    pin, u, reaction = scene.mm(pair.point), guide_of(scene, pair), f"R_{index}"
     sketch.force("_F_bal", pin)
-    moment, size = scene.solved.values[f"M_{FRAME}{number}"], scene.direction(reaction)
+    moment, size = scene.solved.values[f"M_{index}"], scene.direction(reaction)
     across = ((complex(scene.solved.values[reaction]) / u).imag) if size != 0 else 0.0
-    couple = f"M_{FRAME}{number}" if across == 0.0 and moment != 0.0 else ""
-    found = Contact(f"h_{FRAME}{number}", pair.point, u, moment / across if across else 0.0, couple)
+    couple = f"M_{index}" if across == 0.0 and moment != 0.0 else ""
+    found = Contact(f"h_{index}", pair.point, u, moment / across if across else 0.0, couple)
     sketch.force(reaction, sketch.contact(found, reaction))
     if couple:
         sketch.couple(couple, sketch.figures[0])

@@ -71,7 +71,9 @@ class Sketch:
         radius = self.scene.style.force * (0.5 + 0.25 * self.turning.count(at))  # round those that stand there already
         self.turning.append(at)
         self.canvas.add(turning_arrow(at, radius, phase(along), 2.0, math.copysign(1.0, value), name))
-        self.canvas.label(self.scene.words.symbol(couple_name(name, figure.number)), at + along * radius, clear=1.2)
+        self.canvas.label(
+            self.scene.words.symbol(couple_name(self.scene, name, figure.number)), at + along * radius, clear=1.2
+        )
 
     def _free_place(self, figure: Skeleton) -> tuple[complex, complex]:
         """Return the place on a link farthest from its joints, forces and couples so far, and the link's direction."""
@@ -186,7 +188,7 @@ def link_view(scene: Scene, group: Group, number: int) -> View:
     sketch = Sketch(canvas, scene, draw_links(canvas, scene, (number,), framed=False))
     for pair in (p for p in group.inner if number in p.links):
         other = next(n for n in pair.links if n != number)
-        _react(sketch, group, pair, number, [f"R_{other}{number}"])
+        _react(sketch, group, pair, number, [f"R_{scene.solved.mechanism.index(other, number)}"])
     _load(sketch, (number,))
     for pair, own, names in reactions(scene, group):
         if own == number:
@@ -195,9 +197,11 @@ def link_view(scene: Scene, group: Group, number: int) -> View:
     return canvas.finish(f"link_{number}", scene.heading("heading.link", POSITION, link=str(number)), sketch.notes())
 
 
-def couple_name(name: str, number: int) -> str:
+def couple_name(scene: Scene, name: str, number: int) -> str:
     """Return the name by which a couple is written: that of a guide on link 3 is `M_43`, also where it was a sum."""
-    return f"M_{name.removeprefix('_M_')}{number}" if name.startswith("_M_") else name
+    if not name.startswith("_M_"):
+        return name
+    return f"M_{scene.solved.mechanism.index(name.removeprefix('_M_'), number)}"
 
 
 def length_along(canvas: Canvas, scene: Scene, name: str, start: complex, end: complex) -> None:

@@ -10,7 +10,6 @@ Any view of a mechanism, or of a part of it, draws its links so:
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
@@ -145,10 +144,12 @@ def coincident(scene: Scene) -> dict[str, tuple[int, ...]]:
     """Return the joints at which points of several links have marks of their own, `velocity.A3`, with these links."""
     mechanism, found = scene.solved.mechanism, dict[str, set[int]]()
     letters = {point for link in mechanism.links for point in link.points}
+    named = {mechanism.letter_on(p, link.number): (p, link.number) for p in letters for link in mechanism.links}
     for name in scene.solved.program.names:
-        match = re.fullmatch(r"velocity\.(\w*?[A-Za-z])(\d+)", name)
-        if match and match[1] in letters and f"{match[1]}{match[2]}" not in letters:
-            found.setdefault(match[1], set()).add(int(match[2]))
+        plan, _, letter = name.rpartition(".")
+        if plan == "velocity" and letter in named and letter not in letters:
+            point, number = named[letter]
+            found.setdefault(point, set()).add(number)
     for point, numbers in found.items():
         numbers.update(n for p in mechanism.pairs if isinstance(p, Revolute) and p.point == point for n in p.links)
     return {point: tuple(sorted(numbers - {FRAME})) for point, numbers in found.items()}

@@ -22,7 +22,7 @@ from .teller import Teller
 
 PLANS = ("velocity", "acceleration")
 RATES = {"velocity": "omega", "acceleration": "epsilon"}
-REACTION = re.compile(r"R_\d\d")
+REACTION = re.compile(r"R_(\d)(\d)|R_(\d+)_(\d+)")  # of one link on another
 BALANCES = ("M_bal", "F_bal")
 SAME = 1e-9  # part by which values may differ that are the same by construction
 SMALL_ANGLE = 20  # degrees, as `SMALL`
@@ -68,7 +68,12 @@ def _extremes(teller: Teller, key: str, names: Iterable[str]) -> Iterator[str]:
 
 def _other_side(name: str) -> str:
     """Return the reaction that stands for this one, too, since both are as large; nothing where it is itself that."""
-    return f"R_{name[3]}{name[2]}" if REACTION.fullmatch(name) and name[2] > name[3] else ""
+    found = REACTION.fullmatch(name)
+    if found is None:
+        return ""
+    by, on = (number for number in found.groups() if number is not None)
+    parting = "_" if found[3] else ""
+    return f"R_{on}{parting}{by}" if int(by) > int(on) else ""
 
 
 def _alike(teller: Teller, found: Mapping[str, float], name: str) -> str:

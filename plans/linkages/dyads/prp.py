@@ -52,7 +52,10 @@ class Dyad:
     def passed(self) -> tuple[Passed, ...]:
         """Reactions on the links before, moved to B, with couples."""
         numbers = ((slide.link.number, slide.other) for slide in self.slides)
-        return tuple(Passed(f"R_{own}{other}", other, self.B, f"M_{own}{other}") for own, other in numbers)
+        return tuple(
+            Passed(f"R_{self.mechanism.index(own, other)}", other, self.B, f"M_{self.mechanism.index(own, other)}")
+            for own, other in numbers
+        )
 
 
 def dyad(mechanism: Mechanism, group: Group, bodies: Bodies) -> Dyad:
@@ -117,19 +120,19 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
 
     The inner reaction is a chord of the plan; the moments of each link about B give the arms of the outer ones.
     """
-    (first, second), plan = d.slides, f"forces_{d.name}"
+    (first, second), plan, index = d.slides, f"forces_{d.name}", d.mechanism.index
     i, j, k, m = first.other, first.link.number, second.link.number, second.other
     board.pole(f"{plan}.0")
     parted = hang(board, plan, [force for force, _ in loads[j]])
     last = hang(board, plan, [force for force, _ in loads[k]], len(loads[j]))
     closing = f"{plan}.{len(loads[j]) + len(loads[k]) + 1}"
     board.meet(closing, last, normal_of(second.u), f"{plan}.0", normal_of(first.u))
-    board.read(f"R_{i}{j}", closing, f"{plan}.0")
-    board.read(f"R_{m}{k}", last, closing)
-    board.read(f"R_{k}{j}", parted, closing)
-    answer(board, "R", (i, j), (k, j), (m, k))
+    board.read(f"R_{index(i, j)}", closing, f"{plan}.0")
+    board.read(f"R_{index(m, k)}", last, closing)
+    board.read(f"R_{index(k, j)}", parted, closing)
+    answer(board, index, "R", (i, j), (k, j), (m, k))
     for other, own in ((i, j), (m, k)):
         moments = moments_about(board, loads[own], own, d.B)
-        board.calc(f"M_{other}{own}", "closing_moment", ZERO, *moments, *couples[own])
-        answer(board, "M", (other, own))
-        board.step("arm", f"h_{other}{own}", f"M_{other}{own}", f"R_{other}{own}")
+        board.calc(f"M_{index(other, own)}", "closing_moment", ZERO, *moments, *couples[own])
+        answer(board, index, "M", (other, own))
+        board.step("arm", f"h_{index(other, own)}", f"M_{index(other, own)}", f"R_{index(other, own)}")

@@ -78,7 +78,9 @@ class Dyad:
     def passed(self) -> tuple[Passed, Passed]:
         """Reactions on the links before; that on the last is moved to A, with a couple."""
         j, k, m = self.inner.link.number, self.outer.link.number, self.outer.other
-        return Passed(f"R_{j}{self.before}", self.before, self.A), Passed(f"R_{k}{m}", m, self.A, f"M_{k}{m}")
+        return Passed(f"R_{self.mechanism.index(j, self.before)}", self.before, self.A), Passed(
+            f"R_{self.mechanism.index(k, m)}", m, self.A, f"M_{self.mechanism.index(k, m)}"
+        )
 
 
 def dyad(mechanism: Mechanism, group: Group, bodies: Bodies) -> Dyad:
@@ -171,22 +173,24 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     Moments about A give the arms of the reactions of the guides, of link 2 first.
     """
     i, j, k, m = d.before, d.inner.link.number, d.outer.link.number, d.outer.other
-    plan, own = f"forces_{k}", f"forces_{j}"
+    plan, own, index = f"forces_{k}", f"forces_{j}", d.mechanism.index
     board.pole(f"{plan}.0")
     last, closing = hang(board, plan, [force for force, _ in loads[k]]), f"{plan}.{len(loads[k]) + 1}"
     board.meet(closing, last, normal_of(d.outer.u), f"{plan}.0", normal_of(d.inner.u))
-    board.read(f"R_{j}{k}", closing, f"{plan}.0")
-    board.read(f"R_{m}{k}", last, closing)
-    answer(board, "R", (j, k))
+    board.read(f"R_{index(j, k)}", closing, f"{plan}.0")
+    board.read(f"R_{index(m, k)}", last, closing)
+    answer(board, index, "R", (j, k))
 
     board.pole(f"{own}.0")
-    board.read(f"R_{i}{j}", hang(board, own, [f"R_{k}{j}", *(force for force, _ in loads[j])]), f"{own}.0")
-    answer(board, "R", (i, j), (m, k))
+    board.read(
+        f"R_{index(i, j)}", hang(board, own, [f"R_{index(k, j)}", *(force for force, _ in loads[j])]), f"{own}.0"
+    )
+    answer(board, index, "R", (i, j), (m, k))
 
-    board.calc(f"M_{k}{j}", "closing_moment", ZERO, *moments_about(board, loads[j], j, d.A), *couples[j])
-    answer(board, "M", (k, j))
+    board.calc(f"M_{index(k, j)}", "closing_moment", ZERO, *moments_about(board, loads[j], j, d.A), *couples[j])
+    answer(board, index, "M", (k, j))
     moments = moments_about(board, loads[k], k, d.A)
-    board.calc(f"M_{m}{k}", "closing_moment", f"M_{j}{k}", *moments, *couples[k])
-    answer(board, "M", (m, k))
-    board.step("arm", f"h_{k}{j}", f"M_{k}{j}", f"R_{k}{j}")
-    board.step("arm", f"h_{m}{k}", f"M_{m}{k}", f"R_{m}{k}")
+    board.calc(f"M_{index(m, k)}", "closing_moment", f"M_{index(j, k)}", *moments, *couples[k])
+    answer(board, index, "M", (m, k))
+    board.step("arm", f"h_{index(k, j)}", f"M_{index(k, j)}", f"R_{index(k, j)}")
+    board.step("arm", f"h_{index(m, k)}", f"M_{index(m, k)}", f"R_{index(m, k)}")

@@ -54,17 +54,17 @@ class Dyad:
     @property
     def u(self) -> str:
         """Name of the guide's direction."""
-        return f"u_{self.slider.number}{self.guide.number}"
+        return f"u_{self.mechanism.index(self.slider.number, self.guide.number)}"
 
     @property
     def own(self) -> str:
         """Letter of A as a point of the slider."""
-        return f"{self.A}{self.slider.number}"
+        return self.mechanism.letter_on(self.A, self.slider.number)
 
     @property
     def under(self) -> str:
         """Letter of the guide link's point under A."""
-        return f"{self.A}{self.guide.number}"
+        return self.mechanism.letter_on(self.A, self.guide.number)
 
     @property
     def spans(self) -> tuple[Span, ...]:
@@ -84,7 +84,9 @@ class Dyad:
     def passed(self) -> tuple[Passed, Passed]:
         """Reactions on the links before."""
         (i, m), j, k = self.before, self.slider.number, self.guide.number
-        return Passed(f"R_{j}{i}", i, self.A), Passed(f"R_{k}{m}", m, self.C)
+        return Passed(f"R_{self.mechanism.index(j, i)}", i, self.A), Passed(
+            f"R_{self.mechanism.index(k, m)}", m, self.C
+        )
 
 
 def dyad(mechanism: Mechanism, group: Group, bodies: Bodies) -> Dyad:
@@ -155,27 +157,28 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     parallel to CA, through its end the normal to u. R_43 closes the chain of the group.
     """
     (i, m), j, k = d.before, d.slider.number, d.guide.number
+    index = d.mechanism.index
     moments = [m for n in (j, k) for m in moments_about(board, loads[n], n, d.C)]
     # R^t stands at A and turns about C in the sense in which it points along the normal: it is laid off backwards
-    board.calc(f"_R_{i}{j}_t", "moment_equation", f"l_{d.CA}", *moments, *couples[j], *couples[k])
+    board.calc(f"_R_{index(i, j)}_t", "moment_equation", f"l_{d.CA}", *moments, *couples[j], *couples[k])
 
     own = f"forces_{j}"
     board.pole(f"{own}.0")
-    board.back(f"{own}.1", f"{own}.0", f"n_{d.CA}", f"_R_{i}{j}_t")
-    board.read(f"R_{i}{j}_t", f"{own}.0", f"{own}.1")
+    board.back(f"{own}.1", f"{own}.0", f"n_{d.CA}", f"_R_{index(i, j)}_t")
+    board.read(f"R_{index(i, j)}_t", f"{own}.0", f"{own}.1")
     last, closing = hang(board, own, [force for force, _ in loads[j]], 1), f"{own}.{len(loads[j]) + 2}"
     board.meet(closing, last, normal_of(d.u), f"{own}.0", f"e_{d.CA}")
-    board.read(f"R_{k}{j}", last, closing)
-    board.read(f"R_{i}{j}_n", closing, f"{own}.0")
-    board.read(f"R_{i}{j}", closing, f"{own}.1")
+    board.read(f"R_{index(k, j)}", last, closing)
+    board.read(f"R_{index(i, j)}_n", closing, f"{own}.0")
+    board.read(f"R_{index(i, j)}", closing, f"{own}.1")
 
     plan = f"forces_{d.name}"
     board.pole(f"{plan}.0")
-    hung = [f"R_{i}{j}", *(force for n in (j, k) for force, _ in loads[n])]
-    board.read(f"R_{m}{k}", hang(board, plan, hung), f"{plan}.0")
-    answer(board, "R", (i, j), (k, j), (m, k))
+    hung = [f"R_{index(i, j)}", *(force for n in (j, k) for force, _ in loads[n])]
+    board.read(f"R_{index(m, k)}", hang(board, plan, hung), f"{plan}.0")
+    answer(board, index, "R", (i, j), (k, j), (m, k))
 
     # the guide's reaction stands where it balances the moments of the slider's loads about A
     about_A = moments_about(board, loads[j], j, d.A, f"h_{{0}}_{d.A}")
-    board.calc(f"M_{k}{j}", "closing_moment", ZERO, *about_A, *couples[j])
-    board.step("arm", f"h_{k}{j}", f"M_{k}{j}", f"R_{k}{j}")
+    board.calc(f"M_{index(k, j)}", "closing_moment", ZERO, *about_A, *couples[j])
+    board.step("arm", f"h_{index(k, j)}", f"M_{index(k, j)}", f"R_{index(k, j)}")

@@ -80,8 +80,8 @@ class Dyad:
         """Reactions on the links before; that on the guide is moved to B, with a couple."""
         k, m = self.slider.number, self.slide.other
         return (
-            Passed(f"R_{self.rod.number}{self.before}", self.before, self.A),
-            Passed(f"R_{k}{m}", m, self.B, f"M_{k}{m}"),
+            Passed(f"R_{self.mechanism.index(self.rod.number, self.before)}", self.before, self.A),
+            Passed(f"R_{self.mechanism.index(k, m)}", m, self.B, f"M_{self.mechanism.index(k, m)}"),
         )
 
 
@@ -160,29 +160,30 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     beginning the parallel to AB, through its end the normal to the guide.
     """
     i, j, k, m = d.before, d.rod.number, d.slider.number, d.slide.other
+    index = d.mechanism.index
     moments = moments_about(board, loads[j], j, d.B)
     # R^t stands at A on the arm l_AB and turns about B against the sense in which it points along the normal
-    board.calc(f"_R_{i}{j}_t", "moment_equation", d.length, *moments, *couples[j])
+    board.calc(f"_R_{index(i, j)}_t", "moment_equation", d.length, *moments, *couples[j])
 
     plan = f"forces_{d.name}"
     hung = [force for force, _ in (*loads[k], *loads[j])]
     board.pole(f"{plan}.0")
-    board.lay(f"{plan}.1", f"{plan}.0", d.span.n, f"_R_{i}{j}_t")
-    board.read(f"R_{i}{j}_t", f"{plan}.0", f"{plan}.1")
+    board.lay(f"{plan}.1", f"{plan}.0", d.span.n, f"_R_{index(i, j)}_t")
+    board.read(f"R_{index(i, j)}_t", f"{plan}.0", f"{plan}.1")
     last, closing = hang(board, plan, hung, 1), f"{plan}.{len(hung) + 2}"
     board.meet(closing, last, f"n_{d.u}", f"{plan}.0", d.span.e)
-    board.read(f"R_{m}{k}", last, closing)
-    board.read(f"R_{i}{j}_n", closing, f"{plan}.0")
-    board.read(f"R_{i}{j}", closing, f"{plan}.1")
+    board.read(f"R_{index(m, k)}", last, closing)
+    board.read(f"R_{index(i, j)}_n", closing, f"{plan}.0")
+    board.read(f"R_{index(i, j)}", closing, f"{plan}.1")
 
     own = f"forces_{j}"
     board.pole(f"{own}.0")
-    board.chain(f"{own}.1", f"{own}.0", f"R_{i}{j}")
-    board.read(f"R_{k}{j}", hang(board, own, [force for force, _ in loads[j]], 1), f"{own}.0")
-    answer(board, "R", (i, j), (k, j), (m, k))
+    board.chain(f"{own}.1", f"{own}.0", f"R_{index(i, j)}")
+    board.read(f"R_{index(k, j)}", hang(board, own, [force for force, _ in loads[j]], 1), f"{own}.0")
+    answer(board, index, "R", (i, j), (k, j), (m, k))
 
     # the guide's reaction stands where it balances the moments of the slider's loads about B
     board.calc(f"_M_{k}", "sum", ZERO, *moments_about(board, loads[k], k, d.B), *couples[k])
-    board.calc(f"M_{m}{k}", "opposite", f"_M_{k}")
-    board.step("arm", f"h_{m}{k}", f"M_{m}{k}", f"R_{m}{k}")
-    answer(board, "M", (m, k))
+    board.calc(f"M_{index(m, k)}", "opposite", f"_M_{k}")
+    board.step("arm", f"h_{index(m, k)}", f"M_{index(m, k)}", f"R_{index(m, k)}")
+    answer(board, index, "M", (m, k))

@@ -66,7 +66,7 @@ class Dyad:
     def passed(self) -> tuple[Passed, ...]:
         """Reactions on the links before."""
         return tuple(
-            Passed(f"R_{span.link.number}{before}", before, span.start)
+            Passed(f"R_{self.mechanism.index(span.link.number, before)}", before, span.start)
             for span, before in zip(self.spans, self.before, strict=True)
         )
 
@@ -132,32 +132,32 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     The tangential parts follow from the moments of each link about B; the inner reaction is a chord of the plan. Where
     AB and CB are nearly parallel, moments of the whole group give a line that meets one of them better.
     """
-    plan = f"forces_{d.name}"
+    plan, index = f"forces_{d.name}", d.mechanism.index
     (i, m), (j, k) = d.before, (link.number for link in d.links)
     for span, before in zip(d.spans, d.before, strict=True):
         number = span.link.number
         moments = moments_about(board, loads[number], number, d.B)
         # R^t stands on the arm of the link and turns about B against the sense in which it points along the normal
-        board.calc(f"_R_{before}{number}_t", "moment_equation", span.length, *moments, *couples[number])
+        board.calc(f"_R_{index(before, number)}_t", "moment_equation", span.length, *moments, *couples[number])
 
     AB, CB = d.spans
     part = _across(board, d, loads, couples)
     board.pole(f"{plan}.0")
-    board.lay(f"{plan}.1", f"{plan}.0", AB.n, f"_R_{i}{j}_t")
-    board.read(f"R_{i}{j}_t", f"{plan}.0", f"{plan}.1")
+    board.lay(f"{plan}.1", f"{plan}.0", AB.n, f"_R_{index(i, j)}_t")
+    board.read(f"R_{index(i, j)}_t", f"{plan}.0", f"{plan}.1")
     count = len(loads[j]) + len(loads[k]) + 1
     parted = hang(board, plan, [force for force, _ in loads[j]], 1)
     chained = hang(board, plan, [force for force, _ in loads[k]], 1 + len(loads[j]))
     last, closing = f"{plan}.{count + 1}", f"{plan}.{count + 2}"
-    board.lay(last, chained, CB.n, f"_R_{m}{k}_t")
-    board.read(f"R_{m}{k}_t", chained, last)
+    board.lay(last, chained, CB.n, f"_R_{index(m, k)}_t")
+    board.read(f"R_{index(m, k)}_t", chained, last)
     _close(board, d, (chained, last, closing), part)
-    board.read(f"R_{i}{j}_n", closing, f"{plan}.0")
-    board.read(f"R_{i}{j}", closing, f"{plan}.1")
-    board.read(f"R_{m}{k}_n", last, closing)
-    board.read(f"R_{m}{k}", chained, closing)
-    board.read(f"R_{k}{j}", parted, closing)
-    answer(board, "R", (i, j), (k, j), (m, k))
+    board.read(f"R_{index(i, j)}_n", closing, f"{plan}.0")
+    board.read(f"R_{index(i, j)}", closing, f"{plan}.1")
+    board.read(f"R_{index(m, k)}_n", last, closing)
+    board.read(f"R_{index(m, k)}", chained, closing)
+    board.read(f"R_{index(k, j)}", parted, closing)
+    answer(board, index, "R", (i, j), (k, j), (m, k))
 
 
 def _across(board: Board, d: Dyad, loads: Forces, couples: Couples) -> str | None:
@@ -175,7 +175,7 @@ def _across(board: Board, d: Dyad, loads: Forces, couples: Couples) -> str | Non
     board.normal(f"n_{d.name}", f"e_{d.name}")
     numbers = [link.number for link in d.links]
     moments = [m for n in numbers for m in moments_about(board, loads[n], n, centre, f"h_{{0}}_{centre}")]
-    part = f"R_{before}{span.link.number}_m"
+    part = f"R_{d.mechanism.index(before, span.link.number)}_m"
     board.calc(f"_{part}", "moment_equation", length, *moments, *(c for n in numbers for c in couples[n]))
     return part
 

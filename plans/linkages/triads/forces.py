@@ -27,12 +27,12 @@ def forces(board: Board, t: Triad, loads: Forces, couples: Couples) -> None:
     for leg in t.legs:
         if isinstance(leg, Sliding):
             board.step("arm", f"h_{_pair(leg)}", f"M_{_pair(leg)}", f"R_{_pair(leg)}")
-        answer(board, "R", (leg.before, leg.number), (t.number, leg.number))
+        answer(board, t.mechanism.index, "R", (leg.before, leg.number), (t.number, leg.number))
 
 
 def _pair(leg: Leg) -> str:
     """Indices of the reaction on a leg of the link before: `12`."""
-    return f"{leg.before}{leg.number}"
+    return leg.mechanism.index(leg.before, leg.number)
 
 
 def _alone(board: Board, t: Triad, leg: Leg, loads: list[tuple[str, str]], couples: list[str]) -> list[str]:
@@ -52,7 +52,7 @@ def _alone(board: Board, t: Triad, leg: Leg, loads: list[tuple[str, str]], coupl
             return [*about, *couples, f"_M_{part}_{t.X}"]
         case Sliding():
             board.calc(f"M_{_pair(leg)}", "closing_moment", ZERO, *own, *couples)
-            answer(board, "M", (leg.before, leg.number))
+            answer(board, t.mechanism.index, "M", (leg.before, leg.number))
             return [*about, *couples, f"M_{_pair(leg)}"]
     raise AssertionError(leg)
 
@@ -99,9 +99,9 @@ def _draw(board: Board, t: Triad, loads: Forces) -> None:
     for leg, tail, tip in ((first, closing, f"{plan}.1"), (second, chained, closing), (third, loaded, right)):
         if isinstance(leg, Hinged):
             board.read(f"R_{_pair(leg)}", tail, tip)
-    board.read(f"R_{t.number}{first.number}", parted, closing)
-    board.read(f"R_{t.number}{second.number}", closing, right)
-    board.read(f"R_{t.number}{third.number}", right, left)
+    board.read(f"R_{t.mechanism.index(t.number, first.number)}", parted, closing)
+    board.read(f"R_{t.mechanism.index(t.number, second.number)}", closing, right)
+    board.read(f"R_{t.mechanism.index(t.number, third.number)}", right, left)
 
 
 def _tangential(leg: Leg) -> list[str]:

@@ -21,6 +21,10 @@ class Leg(Protocol):
     """What the constructions of a triad ask of a leg."""
 
     @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism that it is part of."""
+
+    @property
     def number(self) -> int:
         """Its link."""
 
@@ -168,7 +172,7 @@ class Hinged:
 
     def passed(self) -> Passed:
         """Return the reaction on the link before, at the outer joint."""
-        return Passed(f"R_{self.number}{self.before}", self.before, self.end)
+        return Passed(f"R_{self.mechanism.index(self.number, self.before)}", self.before, self.end)
 
 
 @dataclass(frozen=True, slots=True)
@@ -263,4 +267,6 @@ class Sliding:
     def passed(self) -> Passed:
         """Return the reaction on the guide, moved to the pin, with a couple."""
         number, other = self.number, self.before
-        return Passed(f"R_{number}{other}", other, self.joint, f"M_{number}{other}")
+        return Passed(
+            f"R_{self.mechanism.index(number, other)}", other, self.joint, f"M_{self.mechanism.index(number, other)}"
+        )
