@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from kulman import cli
+from kulman import check, cli, solve
 from kulman.docs import refresh, seeds_tables
 from kulman.tests.support.documents import run_here
 
@@ -90,3 +90,16 @@ def test_what_cannot_be_contradicts_its_own_page() -> None:
     assert math.hypot(3.5, 67.0) == pytest.approx(67.1, abs=0.05)
     assert abs(end) == pytest.approx(59.0, abs=0.5)
     assert abs(end.imag) > 4.0
+
+
+@pytest.mark.parametrize(("name", "degrees"), [("V_B", 62.9), ("V_S2", 62.7), ("h_21", 61.5), ("R_03", 61.5)])
+def test_the_plan_of_the_guide_is_drawn_at_another_angle(name: str, degrees: float) -> None:
+    answers = check("nau-slider-crank").read("printed")[0].lines[name]
+    value = answers.value or (answers.mm or 0.0) * 1e-3
+
+    def off(angle: float) -> float:
+        solved = solve("nau-slider-crank", "example", set={"phi": f"{angle} deg"})
+        return abs(value / (solved[name].value or 1.0) - 1.0)
+
+    assert off(degrees) < 0.002
+    assert min((60.0, degrees, 66.0), key=off) == degrees

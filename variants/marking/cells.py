@@ -13,6 +13,7 @@ from ..spreadsheets.headers import UNDERSTOOD, tidy
 from .answers import Asked, Mu
 
 NONE = frozenset(UNDERSTOOD["none"])
+CALCULATIONS = frozenset(UNDERSTOOD["calculation"])
 SENSES = {word: int(sense) for sense, words in UNDERSTOOD["senses"].items() for word in words}
 SIDES = {word: float(degrees) for degrees, words in UNDERSTOOD["directions"].items() for word in words}
 TURNING = {kind: tuple(words) for kind, words in UNDERSTOOD["turning"].items() if kind != "letters"}

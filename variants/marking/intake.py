@@ -77,14 +77,15 @@ def read_all(names: Sequence[str], task: str, asked: Asked, warn: Callable[[Kulm
     inside, found = found_files(names, task), list[Answers]()
     for file in inside:
         try:
-            read = read_answers(file, asked)
+            of_source = file == str(_file_of(task))
+            read = read_answers(file, asked, PRINTED if of_source else "")
         except InputError as error:
             if len(inside) == 1:
                 raise
             warn(error)
             found.append(Answers(file, Who(), {}, {}, {}, unread=error))
             continue
-        found += map(_of_source, read) if file == str(_file_of(task)) else read
+        found += map(_of_source, read) if of_source else read
     return found
 
 

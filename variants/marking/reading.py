@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ...scales.errors import InputError
@@ -12,17 +12,18 @@ from ...scales.numbers import quote
 from ..roster import Who
 from ..spreadsheets.cells_in import read_grid
 from ..spreadsheets.grid import SHOWN, Grid
-from ..spreadsheets.headers import LOOKED_AT, about_kind, column_kind, quantity_part, split_unit
+from ..spreadsheets.headers import LOOKED_AT, about_kind, column_kind, quantity_part, split_unit, tidy
 from ..task import LocatedError
 from . import cells
 from .answers import Answers, Asked, Line, Mu
+from .calculations import result_of, slip_in
 from .swapped import put_back
 
 NUMBERS = ("mm", "mu", "value")
 
 
-def read_answers(file: str | Path, asked: Asked) -> list[Answers]:
-    """Return the answers that a file holds: of one student, or of a class.
+def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answers]:
+    """Return the answers that a file holds: of one student, or of a class; `called` is its name in messages.
 
     Raises
     ------
@@ -30,6 +31,7 @@ def read_answers(file: str | Path, asked: Asked) -> list[Answers]:
         The file cannot be read, or no row of it says what its columns hold.
     """
     grid = read_grid(file)
+    grid = replace(grid, file=called) if called else grid
     for row in range(min(len(grid.rows), LOOKED_AT)):
         kinds = _first(column_kind(text) for text in grid.rows[row])
         if "name" in kinds and kinds.keys() & {*NUMBERS, "direction"}:
@@ -64,9 +66,15 @@ class _Sheet:
         self.problems.append(LocatedError(f"{self.grid.place(row, column)}, {quote(name)}", error))
 
     def number(self, row: int, column: int | None, name: str) -> str:
-        """Return the text of a cell that should hold a number; note where it cannot."""
+        """Return the text of a cell that should hold a number, of a calculation its result; note what is wrong."""
         try:
-            return cells.checked(self.grid, row, column)
+            text = cells.checked(self.grid, row, column)
+            found = slip_in(text)
+            if found is not None:
+                makes = f"{found.makes:.7g}".replace(".", "," if "," in text else ".")
+                error = InputError("answer-calculation", text=found.text, makes=makes, written=found.written)
+                self.refuse(row, column, name, error)
+            return result_of(text)
         except InputError as error:
             self.refuse(row, column, name, error)
             return ""
@@ -202,6 +210,9 @@ def _bare_unit(text: str) -> str:
 def _form_row(sheet: _Sheet, row: int, columns: Mapping[str, int], over: Mapping[str, str]) -> None:
     """Read a row of a form; rows with nothing but a name are headings, or have no answer."""
     grid = sheet.grid
+    if tidy(grid.text(row, columns["name"])) in cells.CALCULATIONS:
+        sheet.number(row, columns.get("value"), grid.text(row, columns["name"]))
+        return
     name = latin(grid.text(row, columns["name"]))
     filled = [kind for kind in (*NUMBERS, "direction") if grid.text(row, columns.get(kind)) not in cells.NONE - {"-"}]
     if not name or not filled or column_kind(name) == "name" or not sheet.known(row, columns["name"], name):
