@@ -88,6 +88,10 @@ _SPELLINGS = {
     for spelling in (name, symbol.en, symbol.uk, symbol.ru, *symbol.also)
 } | {"rpm": "rpm", "RPM": "rpm"}
 
+# In SI; no drawing has links, masses or forces beyond these, and none of their products leaves the range of a float.
+SMALLEST, LARGEST = 1e-12, 1e9
+LARGEST_OF = {_PRESSURE: 1e15}  # what is large in SI already
+
 _SUPERSCRIPT = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
 _RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 _TOKEN = re.compile(
@@ -286,10 +290,11 @@ def parse(text: str, expected: Unit, default: Unit | None = None) -> float:
     return converted(value, written, expected)
 
 
-def converted(value: float, written: Unit, expected: Unit) -> float:
+def converted(value: float, written: Unit, expected: Unit, least: float = SMALLEST) -> float:
     """Return `value`, given in the unit `written`, in SI; refuse a unit of another dimension than `expected`.
 
-    An angular velocity may leave its angle out: 1/s is rad/s, but 1/min is a number of revolutions.
+    An angular velocity may leave its angle out: 1/s is rad/s, but 1/min is a number of revolutions. What is `least`
+    but for zero, and largest, is the same for all that people write.
     """
     dimension = written.dimension
     if dimension != expected.dimension:
@@ -298,10 +303,25 @@ def converted(value: float, written: Unit, expected: Unit) -> float:
             raise InputError("unit-wrong", text=quote(written), expected=expected.name)
         if written == unit("1/min"):
             written = RPM
-    result = written.to_si(value)
-    if not math.isfinite(result):
-        raise InputError("number-infinite", text=quote(f"{value} {written}"))
-    return result
+    result, text = written.to_si(value), f"{value:g} {written}"
+    if value != 0.0 and result == 0.0 and least > 0.0:  # what no float holds
+        raise InputError("number-infinite", text=quote(text))
+    return bounded(result, expected, text, least)
+
+
+def bounded(value: float, of: Unit, text: object, least: float = SMALLEST) -> float:
+    """Return `value`, in SI, unless it is no number, or none that can be calculated with; `text` is what was written.
+
+    Raises
+    ------
+    InputError
+        `number-bad` of NaN, `number-infinite` of a number that is too large, or nearer to zero than `least`.
+    """
+    if math.isnan(value):
+        raise InputError("number-bad", text=quote(text))
+    if value != 0.0 and not least <= abs(value) <= LARGEST_OF.get(of.dimension, LARGEST):
+        raise InputError("number-infinite", text=quote(text))
+    return value
 
 
 @cache

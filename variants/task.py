@@ -8,23 +8,20 @@ from dataclasses import dataclass, field
 from enum import Enum
 from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, SupportsFloat
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import InputError, KulmanError
 from ..scales.names import unknown
 from ..scales.numbers import quote
-from ..scales.units import Unit, parse, unit
+from ..scales.units import Unit, bounded, parse
 
 if TYPE_CHECKING:
     from ..plans.cams.cam import Cam
     from ..plans.gears.gear import GearPair
     from ..plans.hoist.hoist import Hoist
 
-# In SI; no drawing has links, masses or forces beyond these, and none of their products leaves the range of a float.
-SMALLEST, LARGEST = 1e-12, 1e9
-LARGEST_OF = {unit("Pa").dimension: 1e15}  # what is large in SI already
 ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written
 
 Instead = tuple[tuple[frozenset[str], tuple[str, ...]], ...]  # givens, and those in whose place they stand
@@ -103,11 +100,9 @@ class Given:
         if isinstance(value, str):
             number = parse(value, self.unit, self.unit)
         elif isinstance(value, Real) and not isinstance(value, bool):
-            number = _finite(value, self.unit)
+            number = plain_number(value, self.unit)
         else:
             raise InputError("type-quantity", expected=self.unit.name)
-        if number != 0.0 and not SMALLEST <= abs(number) <= LARGEST_OF.get(self.unit.dimension, LARGEST):
-            raise InputError("number-infinite", text=quote(value))
         if not self.bound.admits(number):
             raise InputError(self.bound.value, text=quote(value))
         return number
@@ -120,17 +115,12 @@ def _endless(value: object) -> bool:
     return value == math.inf
 
 
-def _finite(value: Real, of: Unit) -> float:
-    """Return a number of a unit in SI."""
+def plain_number(value: SupportsFloat, of: Unit) -> float:
+    """Return a number of a unit in SI, within the bounds of all numbers."""
     try:
-        number = of.to_si(float(value))
-    except OverflowError:
-        number = math.inf
-    if math.isnan(number):
-        raise InputError("number-bad", text=quote(value))
-    if math.isinf(number):
-        raise InputError("number-infinite", text=quote(value))
-    return number
+        return bounded(of.to_si(float(value)), of, value)
+    except OverflowError:  # a whole number that no float holds
+        raise InputError("number-infinite", text=quote(value)) from None
 
 
 @dataclass(frozen=True, slots=True)

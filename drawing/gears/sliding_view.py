@@ -78,7 +78,7 @@ def rho_scale(scene: GearScene) -> Scale:
     """Return the scale factor of the line of action, the given one or a coarser one of its series."""
     given = float(scene.solved.values["mu_rho"]) * 1e-3  # a millimetre, not a metre of paper
     least = scene.size("l_N1N2") / (LONGEST[scene.style.label] * scene.part)
-    return Scale("mu_rho", next(mu for mu in steps(given) if mu >= least * (1.0 - 1e-9)), "m")
+    return Scale("mu_rho", steps(max(given, least))[0], "m")
 
 
 def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordinates: Ordinates) -> None:

@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from ...plans.gears.geometry import POINTS
+from ...scales.errors import InputError
 from ...scales.scale import Scale, steps
 from ..areas import strokes
 from ..diagram import Axis, Field, curve, divisions
@@ -26,6 +27,7 @@ CUTS = 2.0, 10.0  # the least and the greatest depth at which curves are cut off
 USUAL = 5.0  # where sliding has no limit on the active line
 ROOM = 1.25  # how far below the extremes
 TALL = {5.0: 125.0, 3.5: 62.0}  # mm of the axis, by the height of letters
+LOWEST = 1.0  # mm, the least height of the diagram
 PLACES = 240  # of a curve
 HATCH = 2.5  # mm between strokes
 
@@ -44,10 +46,19 @@ def cut_of(scene: GearScene) -> float:
 
 
 def theta_scale(scene: GearScene) -> Scale:
-    """Return the scale factor of specific sliding, the given one or a coarser one of its series."""
+    """Return the scale factor of specific sliding, the given one or a coarser one of its series.
+
+    Raises
+    ------
+    InputError
+        The given one is so coarse that the diagram is a line.
+    """
     wanted = float(scene.solved.values["mu_theta"]) * 1e-3  # a millimetre, not a metre of paper
     least = (1.0 - cut_of(scene)) / (TALL[scene.style.label] * scene.part)
-    mu = next(step for step in steps(min(wanted, least)) if step >= least and step >= wanted * (1.0 - 1e-9))
+    height = (1.0 - cut_of(scene)) / wanted
+    if height < LOWEST:
+        raise InputError("plan-too-small", symbol="mu_theta", mu=f"{wanted:g}", unit="1/mm", size=f"{height:.2g}")
+    mu = steps(max(least, wanted * (1.0 - 1e-9)))[0]
     return Scale("mu_theta", mu, "1")
 
 

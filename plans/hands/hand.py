@@ -12,6 +12,8 @@ from typing import Any
 from ...scales.errors import InputError
 from ...scales.names import unknown
 
+LARGEST = {"point": 100.0, "direction": 90.0, "reading": 100.0}  # mm, degrees: the sheet, a right angle
+
 
 @dataclass(frozen=True, slots=True)
 class Hand:
@@ -32,10 +34,12 @@ class Hand:
     reading: float
 
     def __post_init__(self) -> None:
-        """Refuse errors below zero."""
-        for name in ("point", "direction", "reading"):
+        """Refuse errors below zero, and those of which no drawing is left."""
+        for name, most in LARGEST.items():
             if not getattr(self, name) >= 0.0:
                 raise InputError("hand-negative", name=name)
+            if getattr(self, name) > most:
+                raise InputError("hand-large", name=name, most=f"{most:g}")
 
     def times(self, factor: float) -> Hand:
         """Return a hand with errors larger by `factor`."""

@@ -7,7 +7,7 @@ import re
 
 from ...scales.errors import InputError
 from ...scales.numbers import quote, split_number
-from ...scales.units import Unit, converted, unit
+from ...scales.units import Unit, bounded, converted, unit
 from ..spreadsheets.grid import Grid
 from ..spreadsheets.headers import UNDERSTOOD, tidy
 from .answers import Asked, Mu
@@ -23,6 +23,7 @@ _ARROWS = "".join(word for kind in ("clockwise", "counter") for word in TURNING[
 _WORD = re.compile(rf"[^\W\d_]+|[{_ARROWS}]")
 _DECIMALS = re.compile(r"^[^0-9]*[0-9 \u00a0\u2009\u202f]*[.,]([0-9]+)")
 MM = unit("mm")
+NOTHING = 0.0  # a value may be as small as a calculator's rounding leaves it
 
 
 def known(written: str) -> Unit:
@@ -62,7 +63,7 @@ def segment(text: str, written: str) -> tuple[float, int]:
     """
     number, rest = split_number(text)
     own = known(rest) if rest else known(written) if written else MM
-    millimetres = converted(number, own, MM) * 1e3
+    millimetres = converted(number, own, MM, NOTHING) * 1e3
     if number < 0.0:
         raise InputError("answer-negative", text=quote(text))
     found = _DECIMALS.match(text)
@@ -107,13 +108,14 @@ def value(text: str, written: str, name: str, asked: Asked) -> float:
     """
     number, rest = split_number(text)
     own = unit(asked.quantities[name].unit)  # SI, but of a scale factor SI per millimetre
-    return own.from_si(converted(number, known(rest or written or asked.unit(name)), own))
+    return own.from_si(converted(number, known(rest or written or asked.unit(name)), own, NOTHING))
 
 
 def bare(text: str, name: str, asked: Asked) -> float | None:
     """Return the number alone, as if it were in the form's unit; None where there is none."""
     try:
-        return unit(asked.quantities[name].unit).from_si(unit(asked.unit(name)).to_si(split_number(text)[0]))
+        shown, own = unit(asked.unit(name)), unit(asked.quantities[name].unit)
+        return own.from_si(bounded(shown.to_si(split_number(text)[0]), own, text, NOTHING))
     except InputError:
         return None
 

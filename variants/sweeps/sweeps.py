@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -19,13 +18,12 @@ from ...plans.linkages.mechanism import Driver, Mechanism
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, PositionError
 from ...scales.names import unknown
-from ...scales.numbers import quote
 from ...scales.units import Unit, parse, unit
 from ..arguments import names_of, positions_of
 from ..case import Case, Settings, solve_case
 from ..sheets import Sheet
 from ..spreadsheets.csv_write import csv_bytes
-from ..task import LocatedError, Task
+from ..task import LocatedError, Task, plain_number
 from .asked import OfCase, SweepRequest, Swept
 from .columns import letters
 from .data import as_json
@@ -233,11 +231,9 @@ def _place(task: Task, name: str, value: str | float | None) -> float | None:
     try:
         if isinstance(value, str):
             return parse(value, own, own)
-        if not math.isfinite(value):
-            raise InputError("number-bad", text=quote(value))
+        return plain_number(value, own)
     except InputError as error:
         raise LocatedError(name, error) from error
-    return own.to_si(float(value))
 
 
 def _own_unit(task: Task) -> Unit:

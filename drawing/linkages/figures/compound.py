@@ -170,12 +170,12 @@ def _instant_centre(
     """Mark the instant centre and the rays to it; say in words that it lies far away, or nowhere."""
     symbol = scene.words.symbol(c.centre)
     ends = [end for figure in figures for stroke in figure.strokes for end in stroke]
-    size = max(abs(a - b) for a in ends for b in ends)
+    size = max((abs(a - b) for a in ends for b in ends), default=0.0)
     if not scene.defined(c.centre):
         yield scene.words["said.no_centre"].format(link=scene.words.ends.get(str(c.number), c.number))
         return
     P = scene.mm(c.centre)
-    if min(abs(P - end) for end in ends) > FAR * size:
+    if min((abs(P - end) for end in ends), default=0.0) > FAR * size:
         yield scene.words["said.far_centre"].format(centre=symbol)
         return
     for joint in (c.hinge, c.span.end):

@@ -15,6 +15,7 @@ from ..scene import DRIVER
 Ladders = Mapping[str, tuple[float, ...]]
 LONGEST = 130.0  # mm, the longest segment of a plan whose scale factor nobody has chosen
 LARGEST = 200.0  # mm, the same for the mechanism from joint to joint, and for plans of many vectors
+SHORTEST = 1.0  # mm, the least that the longest segment of a plan may be
 CROWD, HUNG = 14, 8  # vectors on one plan; forces on the lever
 DRAWN = ("read", "chain")
 CRANK = 45.0  # mm, the least length of a crank drawn apart
@@ -50,7 +51,16 @@ def ladders_of(solved: SolvedLinkage, choosers: Choosers) -> dict[str, tuple[flo
             ladders[symbol] = chooser.ladder(value, ladders["mu_l"])
         else:
             ladders[symbol] = chooser.ladder(value)
+        if chooser is not None and chooser.firm:
+            _visible(symbol, ladders[symbol][0], _largest(solved, symbol))
     return ladders
+
+
+def _visible(symbol: str, mu: float, largest: float) -> None:
+    """Refuse a scale factor that a user has fixed, at which a plan is a point."""
+    if 0.0 < largest < SHORTEST * mu:
+        unit = Scale(symbol, mu, UNITS[symbol.split("_")[1]]).per_mm_unit
+        raise InputError("plan-too-small", symbol=symbol, mu=f"{mu:g}", unit=unit, size=f"{largest / mu:.2g}")
 
 
 def finer_of(ladders: Mapping[str, Sequence[float]], choosers: Choosers) -> dict[str, tuple[float, ...]]:
