@@ -32,9 +32,9 @@ BESIDE = {
 
 def conditions_of(solved: SolvedCam) -> dict[str, Condition]:
     """Return the condition of every quantity, given ones among them."""
-    numbers = {name: float(solved.givens[name]) for name in VALUES if solved.givens.get(name)}
+    numbers = {name: float(solved.givens[name]) for name in VALUES if name in solved.givens}
     totals = dict.fromkeys(solved.quantities, 0.0)
-    for name in numbers:
+    for name in filter(numbers.get, numbers):  # what is nothing has no parts
         (more, up), (less, down) = (_beside(solved, numbers, name, step) for step in (STEP, -STEP))
         for quantity in totals:
             change = abs(more[quantity] - less[quantity])

@@ -59,8 +59,8 @@ class Key:
 
     def or_else(self, values: Mapping[str, Any]) -> Key:
         """Return the key in which the numbers that another way has led to are right, too, where they differ."""
-        also = {n: values[n] for n in self.questions if n in values and abs(values[n] - self[n]) > SAME * abs(self[n])}
-        return replace(self, also=also)
+        others = {n: values[n] for n in self.questions if n in values and values[n] != self[n]}  # both may be infinite
+        return replace(self, also={n: x for n, x in others.items() if abs(x - self[n]) > SAME * abs(self[n])})
 
     def drawn_to(self, mus: Mapping[str, float]) -> Key:
         """Return the key for a sheet drawn to a student's own scale factors, by plan, value in SI per mm.

@@ -69,9 +69,10 @@ def read_stroke(checker: Checker, path: Path, raw: object, names: Names) -> Stro
 def read_diagrams(checker: Checker, rows: list[tuple[Path, object]], names: Names) -> list[Diagram]:
     """Read the load diagrams; from then on their names are those of forces or moments."""
     found = [(path, _diagram(checker, path, row, names)) for path, row in rows]
-    for (_, row), (_, made) in zip(rows, found, strict=True):
+    for (path, row), (_, made) in zip(rows, found, strict=True):
         if made is None and isinstance(row, dict) and isinstance(row.get("name"), str):
             names.dimensions.setdefault(row["name"], None)
+            names.stated.setdefault(row["name"], (*path, "name"))
     diagrams = [(path, *made) for path, made in found if made is not None]
     for path, diagram, wanted in diagrams:
         if diagram.name in names.dimensions:
