@@ -1,0 +1,139 @@
+"""Mutated task files, options and answers end in a result or in a line that says what is wrong, in bounded time."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from kulman.tests.support.mutated import Case, lay_out, made
+from kulman.tests.support.mutated_runs import faults, judged, run
+from kulman.variants.shelf import bundled_text
+
+CASES, DRAWN = 600, 60  # of each half of the soak
+
+
+@dataclass(frozen=True)
+class Found:
+    """A command that once crashed, what it must say now, and what is changed in a file of a bundled task."""
+
+    command: str
+    said: str = ""
+    status: int = 2
+    task: str = "nau-slider-crank"
+    changes: tuple[tuple[str, str], ...] = ()
+    files: dict[str, str] = field(default_factory=dict)
+
+
+DIAGRAM = '[[mechanism.diagram]]\nname = "p_gas"\n'
+UNFINISHED = f'{DIAGRAM}over = "strok"\n'
+FOUND = {
+    "a segment that nobody sees": Found(
+        "sheet scheme-01-compressor -v 9 --scale pa=0.001 -o x.svg", "largest segment would be 0.001 mm"
+    ),
+    "a length beside which others are nothing": Found(
+        "sheet scheme-14-jaw-crusher --set l_AS2=295km -o x.svg", status=0
+    ),
+    "a diagram of sliding that is a line": Found("sheet madi-gear --set mu_theta=643646 -o x.svg", "mu_theta = 643646"),
+    "a literal beyond all drawings": Found(
+        "solve x.toml",
+        "x.toml:76:1: mechanism.pair.offset: '1e+154 m'",
+        changes=(('offset = "0 mm"', 'offset = "1e154 m"'),),
+    ),
+    "a choice beyond all drawings": Found(
+        "list --check x.toml",
+        "'1e+200 deg' is too large",
+        changes=(('alpha_F3 = "180 deg"', 'alpha_F3 = "1e200 deg"'),),
+    ),
+    "a hand that no float holds": Found("solve nau-slider-crank --hand 1e308mm,1deg,1mm", "'1e+308 mm' is too large"),
+    "a hand that no drawing survives": Found("solve nau-slider-crank --hand 1e8mm,1deg,1mm", "at most 100 mm"),
+    "a place beyond all drawings": Found("sweep nau-slider-crank --from 1e300", "'1e+300 deg' is too large"),
+    "a scale factor beyond all drawings": Found(
+        "solve nau-slider-crank --scale mu_l=1e20m/mm", "'1e+20 m/mm' is too large"
+    ),
+    "a number that is nothing in metres": Found(
+        "solve madi-cam --set rho_flat=5e-324mm --condition", "rho_flat: '4.94066e-324 mm' is too large or too small"
+    ),
+    "a cam without a least radius": Found("solve madi-cam --set rho_flat=0 --condition", status=0),
+    "a load diagram twice, once unfinished": Found(
+        "list --check x.toml",
+        "'p_gas' stands here a second time",
+        task="scheme-01-compressor",
+        changes=((DIAGRAM, UNFINISHED + DIAGRAM),),
+    ),
+    "a plan of joints that is a point": Found(
+        "solve x.toml --format A4",
+        status=0,
+        task="bertyaev-six-bar",
+        changes=(('mu_l = "5 cm/cm"', 'mu_l = "80 m/mm"'),),
+    ),
+    "answers to a hoist with a rigid beam": Found(
+        "check karpenko-hoist --set I_0=inf --jobs 1 a.csv", status=0, files={"a.csv": "quantity,value\nS_max,1\n"}
+    ),
+    "an answer that no float holds": Found(
+        "check nau-slider-crank --jobs 1 a.csv",
+        "",
+        0,
+        files={"a.csv": "quantity,value,unit\nV_B,1e308,m/s\nomega_2,1e300,kg\n"},
+    ),
+    "an answer that is nothing": Found(
+        "check nau-slider-crank --jobs 1 a.csv", "", 0, files={"a.csv": "quantity,value\nV_B,1e-320\na_B,-5e-324\n"}
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FOUND)
+@pytest.mark.filterwarnings("error")
+def test_what_once_crashed_says_what_is_wrong(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = FOUND[name]
+    monkeypatch.chdir(tmp_path)
+    text = bundled_text(found.task)
+    for old, new in found.changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    case = Case(found.command.split(), {"x.toml": text.encode()} | {k: v.encode() for k, v in found.files.items()})
+    lay_out(case, tmp_path)
+
+    status, out, err = run(case)
+
+    assert (status, judged(case, status, out, err)) == (found.status, "")
+    assert found.said in out + err
+    assert status == 0 or len(err.splitlines()) == 1
+
+
+def test_a_case_is_the_same_every_time_and_no_two_are_alike() -> None:
+    cases = [made(n, drawn) for drawn in (False, True) for n in range(40)]
+
+    assert cases == [made(n, drawn) for drawn in (False, True) for n in range(40)]
+    assert len({(case.line, *case.files.values()) for case in cases}) == len(cases)
+
+
+@pytest.mark.parametrize(
+    ("fault", "kind"),
+    [
+        pytest.param(lambda error: 1 // 0, "ZeroDivisionError", id="a crash"),
+        pytest.param(lambda error: bytearray(10**9), "MemoryError", id="a flood"),
+        pytest.param(lambda error: [n for n in itertools.count(1) if not n], "TooLongError", id="a hang"),
+    ],
+)
+def test_a_crash_a_flood_and_a_hang_are_faults(fault: Any, kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kulman.cli.refuse", fault)
+    monkeypatch.setattr("kulman.tests.support.mutated_runs.SECONDS", 0.5)
+
+    found = list(faults(range(6)))
+
+    assert kind in {fault.what.partition(":")[0] for fault in found}
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("half", [0, 1])
+def test_no_mutated_input_crashes_hangs_or_floods(half: int) -> None:
+    found = [
+        *faults(range(half * CASES, (half + 1) * CASES)),
+        *faults(range(half * DRAWN, (half + 1) * DRAWN), drawn=True),
+    ]
+
+    assert not found, "\n".join(f"case {fault.n}: {fault.what}\n{fault.line}\n{fault.trace}" for fault in found)
