@@ -36,7 +36,8 @@ POINTS = ("place", "lay", "back", "arc", "arcs", "meet", "divide", "similar", "t
 class Quantity:
     """A result in SI: a signed scalar, a vector with components (`value` is its magnitude), or a point (no `value`).
 
-    `mm` is the segment that shows it on its plan at the scale factor `scale`; what is undefined is None.
+    `mm` is the segment that shows it on its plan at the scale factor `scale`; what is undefined is None. The moment of
+    a prismatic pair's reaction is taken `about` a point, where the reaction is thought to act.
     """
 
     name: str
@@ -47,6 +48,7 @@ class Quantity:
     mm: float | None = None
     scale: str | None = None
     kind: str = "scalar"
+    about: str | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return the quantity as the command line's JSON has it."""
@@ -57,7 +59,7 @@ class Quantity:
             item |= {"x": self.x, "y": self.y}
         if self.scale is not None:
             item |= {"mm": self.mm, "scale": self.scale}
-        return item
+        return item if self.about is None else {**item, "about": self.about}
 
     def shown(self, display: Display) -> Quantity:
         """Return the quantity in the units of `display`, its segment too."""

@@ -218,6 +218,8 @@ def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
     parts = "–" if q.x is None or q.y is None else f"({words.short(q.x, 6)}; {words.short(q.y, 6)})"
     if q.kind == "point":
         return q.name, parts, unit, "", ""
+    if q.about is not None:
+        parts = words["said.about"].format(point=q.about)
     value = "–" if q.value is None else words.short(q.value, 6)
     places = 2 if words.display.paper == "mm" else 3
     mm = (

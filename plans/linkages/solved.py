@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ...scales.errors import PositionError
@@ -17,7 +17,7 @@ from .chain import USUAL, constructed, hinged
 from .dyads.moment_centres import with_moment_centres
 from .givens import board_givens
 from .guides import guide_letters
-from .mechanism import ZERO, Mechanism, Prismatic, SlidingDriver
+from .mechanism import FRAME, ZERO, Mechanism, Prismatic, SlidingDriver
 from .structure import TRIAD, Structure
 
 # which operands of a step are pins that must not coincide
@@ -121,6 +121,15 @@ def disagreement(solved: SolvedLinkage) -> float | None:
     return compound.disagreement(hinged(solved.mechanism, solved.structure), solved.values)
 
 
+def moment_points(mechanism: Mechanism, structure: Structure) -> dict[str, str]:
+    """Return the points about which the moments of prismatic pairs are taken, by the moments' names."""
+    pairs = [(pair, group.pin(pair)) for group in structure.groups for pair in (*group.inner, *group.outer)]
+    if isinstance(mechanism.driver, SlidingDriver):
+        pairs += [(pair, pair.point) for pair in mechanism.pairs if {*pair.links} == {FRAME, mechanism.driver.link}]
+    sliding = [(pair.links, point) for pair, point in pairs if isinstance(pair, Prismatic)]
+    return {f"M_{mechanism.index(*links)}": point for both, point in sliding for links in (both, both[::-1])}
+
+
 def _is_given(name: str) -> bool:
     return name != ZERO and not name.startswith("_")
 
@@ -168,6 +177,9 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
         board = run(program, givens)
     lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if _is_given(x)}
     items = quantities(program, board.values, lengths)
+    for name, point in moment_points(mechanism, structure).items():
+        if name in items:
+            items[name] = replace(items[name], about=point)
     return SolvedLinkage(
         mechanism=mechanism,
         structure=structure,

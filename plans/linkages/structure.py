@@ -63,6 +63,14 @@ class Group:
         """Letters of its inner pairs."""
         return tuple(pair.point for pair in self.inner)
 
+    def pin(self, pair: Pair) -> str:
+        """Return the joint about which the moment of a pair's reaction is taken: its own, or the slider's."""
+        if isinstance(pair, Revolute):
+            return pair.point
+        pins = [other for other in (*self.inner, *self.outer) if isinstance(other, Revolute)]
+        own = (pin for number in pair.links if number in self.links for pin in pins if number in pin.links)
+        return next(own, pins[0] if pins else pair).point
+
     @property
     def before(self) -> tuple[int, ...]:
         """The links before it to which its outer pairs join it."""

@@ -366,3 +366,14 @@ def test_the_list_loads_nothing_heavy(tmp_path: Path) -> None:
     loaded = set(done.stderr.split())
     assert not loaded & {"numpy", "msgspec", "shapely", "matplotlib", "reportlab", "svgwrite", "fontTools"}
     assert not loaded & {"kulman.plans", "kulman.drawing", "kulman.variants.reader"}
+
+
+@pytest.mark.parametrize(("language", "said"), [("uk", "відносно B"), ("ru", "относительно B"), ("en", "about B")])
+def test_the_moment_of_a_guide_says_about_which_point_it_is(
+    language: str, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table = run(["solve", TASK, "--lang", language], capsys)[1]
+    found = json.loads(run(["solve", TASK, "--json"], capsys)[1])["quantities"]
+
+    assert next(line for line in table.splitlines() if line.startswith("M_03 ")).endswith(said)
+    assert {name: item["about"] for name, item in found.items() if "about" in item} == {"M_03": "B"}

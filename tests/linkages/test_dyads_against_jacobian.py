@@ -23,6 +23,8 @@ from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism, Prismatic, Revolute
+from kulman.plans.linkages.solved import moment_points
+from kulman.plans.linkages.structure import analyse
 from kulman.tests.support.dyads import KINDS, random_dyads, random_trains
 from kulman.tests.support.jacobian_solver import JacobianSolver
 
@@ -150,6 +152,20 @@ def test_reactions_of_guides_stand_where_their_moments_say(both: Both) -> None:
             arm = np.abs(second.moment_at(own, other, points[pin])) / force
 
             assert np.max(np.abs(results[f"h_{other}{own}"] - arm) / np.maximum(arm, largest)) <= TOLERANCE
+
+
+def test_moments_of_guides_are_taken_about_the_points_that_are_named(both: Both) -> None:
+    named = moment_points(both.mechanism, analyse(both.mechanism))
+    results, points = both.results, both.second.expected
+    largest = np.max([np.abs(points[p]) for p in "ABC"], axis=0)
+    for name in (name for name in results if re.fullmatch(r"M_\d\d", name)):
+        other, own = int(name[2]), int(name[3])
+
+        expected = both.second.moment_at(own, other, points[named[name]])
+
+        beside = np.abs(results[f"R_{other}{own}"]) * largest + np.abs(expected)
+        assert np.max(np.abs(results[name] - expected) / beside) <= TOLERANCE, name
+    assert all(f"M_{a}{b}" in named for p in both.mechanism.pairs if isinstance(p, Prismatic) for a, b in [p.links])
 
 
 def pinned(pair: Prismatic, mechanism: Mechanism) -> tuple[int, int, str]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ....plans.laws import cross
-from ....plans.linkages.mechanism import FRAME, Pair, Prismatic, Revolute
+from ....plans.linkages.mechanism import FRAME, Pair, Prismatic
 from ....plans.linkages.structure import Group
 from ..scene import Scene
 
@@ -51,7 +51,7 @@ def handed(scene: Scene, number: int) -> Hung:
     for group, pair, own in _attached(scene, number):
         force = f"R_{scene.solved.mechanism.index(own, number)}"
         if scene.defined(force):
-            found.append((force, moments.get(force) or pin_of(group, pair)))
+            found.append((force, moments.get(force) or group.pin(pair)))
     return found
 
 
@@ -112,18 +112,6 @@ def _link_of(scene: Scene, force: str) -> int | None:
     return next((on for by, on in ways if f"{rest}_".startswith(f"{mechanism.index(by, on)}_")), None)
 
 
-def pin_of(group: Group, pair: Pair) -> str:
-    """Return the joint about which the moments of a pair's reaction are taken: its own pin, or one of the slider's."""
-    if isinstance(pair, Revolute):
-        return pair.point
-    pins = [other for other in (*group.inner, *group.outer) if isinstance(other, Revolute)]
-    for number in pair.links:
-        own = [pin.point for pin in pins if number in pin.links and number in group.links]
-        if own:
-            return own[0]
-    return pins[0].point if pins else pair.point
-
-
 def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int) -> Contact | None:
     """Return where the reaction R of link `other` on `number` in a prismatic pair acts, both ways of naming tried."""
     for first, second in ((other, number), (number, other)):
@@ -134,7 +122,7 @@ def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int
     else:
         return None
     moment, reaction = step.operands
-    pin = _about(scene, moment) or pin_of(group, pair)
+    pin = group.pin(pair)
     u = scene.solved.point(scene.solved.guide_name(pair))
     value = float(scene.solved.values[moment])
     # the moment of the loads, which the reaction balances, or that of the reaction itself
@@ -142,16 +130,3 @@ def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int
     size = cross(u, complex(scene.solved.values[reaction])) if scene.direction(reaction) != 0 else 0.0
     couple = moment if size == 0.0 and not scene.vanishes(moment) else ""
     return Contact(step.name, pin, u, turning / size if size else 0.0, couple)
-
-
-def _about(scene: Scene, name: str) -> str | None:
-    """Return the joint about which the moments are taken that make up a moment."""
-    made = {step.name: step for step in scene.solved.program}
-    left = [name]
-    while left:
-        step = made.get(left.pop(0))
-        if step is not None and step.verb == "moment":
-            return step.operands[2]
-        if step is not None and step.verb == "calc":
-            left += [operand for operand in step.operands if "M_" in operand]
-    return None

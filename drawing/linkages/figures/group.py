@@ -16,7 +16,7 @@ from ...symbols import arm, turning_arrow
 from ...view import Canvas, View
 from ..scene import Scene
 from ..skeleton import NEAR, Skeleton, guide_of
-from .acting import Contact, Moment, contact, couples, handed, loads, moments_of, pin_of, reactions
+from .acting import Contact, Moment, contact, couples, handed, loads, moments_of, reactions
 from .arrows import Arrows
 from .construction import special_points
 from .links import draw_links, letter_links
@@ -162,7 +162,7 @@ def _react(sketch: Sketch, group: Group, pair: Pair, own: int, names: list[str])
         return
     other = next(number for number in pair.links if number != own)
     found = contact(scene, group, pair, own, other)
-    at = sketch.contact(found, names[0]) if found else scene.mm(pin_of(group, pair))
+    at = sketch.contact(found, names[0]) if found else scene.mm(group.pin(pair))
     on_guide = scene.mm(pair.point)
     u = guide_of(scene, pair)
     for name in names:
