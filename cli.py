@@ -91,21 +91,24 @@ def list_tasks(as_json: bool, file: str | None) -> int:
 
 
 def _check(file: str, as_json: bool) -> int:
-    """Show all faults of a task file, one a line."""
-    from .variants.reader import read_file
+    """Show all faults of a task file, one a line, then what is worth knowing of its variants."""
+    from .variants.reader import check_file
 
     language = system_language()
-    _, faults = read_file(file, thorough=True)
+    faults, remarks = check_file(file)
+    said = [[{"key": one.key, "message": one.text(language)} for one in found] for found in (faults, remarks)]
+    words = messages(language)
     if as_json:
-        lines = [{"key": fault.key, "message": fault.text(language)} for fault in faults]
-        print_json({"file": file, "ok": not faults, "errors": lines})
+        print_json({"file": file, "ok": not faults, "errors": said[0], "remarks": said[1]})
     else:
-        for fault in faults:
-            click.echo(fault.text(language))
+        for fault in said[0]:
+            click.echo(fault["message"])
+        for remark in said[1]:
+            click.echo(words["check-remark"].format(text=remark["message"]))
     if faults:
         return refuse(InputError("check-bad", file=file, n=len(faults)))
     if not as_json:
-        click.echo(messages(language)["check-ok"].format(file=file))
+        click.echo(words["check-remarks" if remarks else "check-ok"].format(file=file, n=len(remarks)))
     return 0
 
 

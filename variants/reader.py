@@ -6,6 +6,7 @@ import os
 import re
 import stat
 import tomllib
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache, partial
@@ -69,10 +70,8 @@ def load_task(task: str | os.PathLike[str]) -> Task:
     return found
 
 
-def read_file(task: str | os.PathLike[str], thorough: bool = False) -> tuple[Task | None, tuple[InputError, ...]]:
+def read_file(task: str | os.PathLike[str]) -> tuple[Task | None, tuple[InputError, ...]]:
     """Read a task file of one's own: the task, or all its faults.
-
-    If `thorough`, what only solving each variant tells is among them.
 
     Raises
     ------
@@ -80,11 +79,40 @@ def read_file(task: str | os.PathLike[str], thorough: bool = False) -> tuple[Tas
         When there is no such file, or it cannot be read as a text.
     """
     shown = _shown(task)
-    return read_text(_file_text(task, shown), shown, thorough)
+    return read_text(_file_text(task, shown), shown)
 
 
-def read_text(toml: str, file: str, thorough: bool = False) -> tuple[Task | None, tuple[InputError, ...]]:
+def check_file(task: str | os.PathLike[str]) -> tuple[tuple[InputError, ...], tuple[InputError, ...]]:
+    """Return the faults of a task file, those among them that only solving each variant tells, and remarks.
+
+    Raises
+    ------
+    InputError
+        As `read_file`.
+    """
+    shown = _shown(task)
+    return check_text(_file_text(task, shown), shown)
+
+
+def read_text(toml: str, file: str) -> tuple[Task | None, tuple[InputError, ...]]:
     """Read a task from the text of a file that messages call `file`: the task, or all its faults, as `read_file`."""
+    found, checker = _read(toml, file)
+    return found, checker if isinstance(checker, tuple) else _in_order(checker.faults)
+
+
+def check_text(toml: str, file: str) -> tuple[tuple[InputError, ...], tuple[InputError, ...]]:
+    """Return faults and remarks of the text of a file that messages call `file`, as `check_file`."""
+    _, checker = _read(toml, file, thorough=True)
+    return (checker, ()) if isinstance(checker, tuple) else (_in_order(checker.faults), _in_order(checker.remarks))
+
+
+def _in_order(located: Iterable[tuple[int, int, InputError]]) -> tuple[InputError, ...]:
+    """Return faults or remarks in the order of the lines of the file."""
+    return tuple(error for _, _, error in sorted(located, key=lambda one: one[:2]))
+
+
+def _read(toml: str, file: str, thorough: bool = False) -> tuple[Task | None, Checker | tuple[InputError, ...]]:
+    """Read a task: with what was found at fault, or, where the text is no TOML, with that alone."""
     try:
         if _LONG_KEY.search(toml):
             raise RecursionError
@@ -97,9 +125,7 @@ def read_text(toml: str, file: str, thorough: bool = False) -> tuple[Task | None
     found = None
     with suppress(EnoughError):
         found = _task(checker, raw, thorough)
-    if checker.faults:
-        return None, tuple(fault for _, _, fault in sorted(checker.faults, key=lambda fault: fault[:2]))
-    return found, ()
+    return None if checker.faults else found, checker
 
 
 @cache
@@ -270,7 +296,9 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
         instead=kind.instead,
         note=head.get("note", {}),
     )
-    kind.varies(checker, task, thorough)
+    kind.varies(checker, task)
+    if thorough:
+        kind.tries(checker, task)
     return None if checker.faults else task
 
 

@@ -16,7 +16,7 @@ from kulman.scales.units import unit
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.checks.cam import NUMBERS, impossible
 from kulman.variants.kinds import MODULES, kind_of, table_in
-from kulman.variants.reader import load_task, read_text
+from kulman.variants.reader import check_text, load_task, read_text
 from kulman.variants.shelf import bundled, bundled_text
 
 TASK = "madi-cam"
@@ -169,14 +169,13 @@ def test_bad_data_is_explained_at_its_place(old: str, new: str, place: str, mess
 def test_what_only_solving_tells_is_a_fault_where_all_faults_are_asked_for() -> None:
     text = edited(('margin = "5 mm"\n', 'margin = "5 mm"\nr_0 = "40 mm"\n'))
 
-    task, faults = read_text(text, "t.toml", thorough=True)
+    faults, _ = check_text(text, "t.toml")
 
-    assert task is None
     (told,) = [fault.text() for fault in faults]
     line = text[: text.index("[[variant]]")].count("\n") + 1
-    assert told.startswith(f"t.toml:{line}:1: variant: at r_0 = 40 mm no eccentricity keeps")
+    assert told.startswith(f"t.toml:{line}:1: variant.17: at r_0 = 40 mm no eccentricity keeps")
     assert read_text(text, "t.toml")[1] == ()  # refused when it is solved
-    assert read_text(TEXT, "t.toml", thorough=True)[1] == ()
+    assert check_text(TEXT, "t.toml") == ((), ())
 
 
 @pytest.mark.parametrize(("excess", "whole"), [(0.0, True), (5e-13, True), (1e-11, False), (5e-10, False)])

@@ -217,7 +217,7 @@ def test_a_rocker_that_nothing_permits_is_a_fault_of_its_variant(
     status, out, err = run(capsys, "list", "--check", "mine.toml")
 
     assert (status, out.count("\n"), err.count("\n")) == (2, 1, 1)
-    assert out.startswith(f"mine.toml:{second}:1: variant: ")
+    assert out.startswith(f"mine.toml:{second}:1: variant.2: ")
     assert said in out
     assert run(capsys, "solve", "mine.toml", "-v", "2")[0] == 2
     assert solved(capsys)["status"] == "ok"

@@ -141,6 +141,7 @@ def test_a_check_of_a_good_file_says_so(tmp_path: Path, capsys: pytest.CaptureFi
         "file": str(file),
         "ok": True,
         "errors": [],
+        "remarks": [],
     }
 
 

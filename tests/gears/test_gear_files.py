@@ -14,7 +14,7 @@ from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.checks.gear import NUMBERS
 from kulman.variants.making.ranges import ranges_of
-from kulman.variants.reader import load_task, read_text
+from kulman.variants.reader import check_text, load_task, read_text
 from kulman.variants.shelf import bundled_text
 
 TASK = "madi-gear"
@@ -103,11 +103,11 @@ BAD = [
     pytest.param('m = "5 mm"', "m = 0", "variant.m", "must be greater than zero", id="no module"),
     pytest.param('m = "5 mm"', "m = -5", "variant.m", "must be greater than zero", id="negative module"),
     pytest.param('m = "5 mm"', 'm = "5 deg"', "variant.m", "the unit deg does not fit", id="module in degrees"),
-    pytest.param("x_1 = 0.2", "x_1 = 3", "variant", "x_1 = 3 leaves wheel 1 no tooth", id="pointed below its flank"),
-    pytest.param("x_1 = 0.2", "x_1 = -1.4", "variant", "x_1 = -1.4 leaves wheel 1 no tooth", id="cut away"),
-    pytest.param(BOTH, "x_1 = -0.5\nx_2 = -0.4\n", "variant", "the pair cannot mesh", id="centres too near"),
-    pytest.param(BOTH, "a_w = 60\n", "variant", "a_w = 60 mm: the pair cannot mesh", id="base circles overlap"),
-    pytest.param(BOTH, "a_w = 95\nx_1 = 3\n", "variant", "from x_1, a_w follows", id="found shift without a tooth"),
+    pytest.param("x_1 = 0.2", "x_1 = 3", "variant.17", "x_1 = 3 leaves wheel 1 no tooth", id="pointed below its flank"),
+    pytest.param("x_1 = 0.2", "x_1 = -1.4", "variant.17", "x_1 = -1.4 leaves wheel 1 no tooth", id="cut away"),
+    pytest.param(BOTH, "x_1 = -0.5\nx_2 = -0.4\n", "variant.17", "the pair cannot mesh", id="centres too near"),
+    pytest.param(BOTH, "a_w = 60\n", "variant.17", "a_w = 60 mm: the pair cannot mesh", id="base circles overlap"),
+    pytest.param(BOTH, "a_w = 95\nx_1 = 3\n", "variant.17", "from x_1, a_w follows", id="found shift without a tooth"),
     pytest.param("x_2 = 0.85\n", "", "variant.x_1", "given are: x_1; expected two of x_1, x_2", id="one shift"),
     pytest.param(BOTH, BOTH + "a_w = 92\n", "variant.x_1", "given are: x_1, x_2, a_w", id="too much"),
     pytest.param('"20 deg"', '"40 deg"', "givens.alpha.default", "expected a profile angle of the rack", id="steep"),
@@ -134,7 +134,7 @@ BAD = [
 
 @pytest.mark.parametrize(("old", "new", "place", "message"), BAD)
 def test_faults_of_a_file_are_told_with_their_places(old: str, new: str, place: str, message: str) -> None:
-    _, faults = read_text(edited((old, new)), "t.toml", thorough=True)
+    faults, _ = check_text(edited((old, new)), "t.toml")
 
     told = [fault.text("en") for fault in faults]
     assert any(f"{place}: " in line and message in line for line in told), told

@@ -14,7 +14,7 @@ from kulman.plans.hoist.hoist import VALUES, Hoist
 from kulman.plans.marking.verdicts import Verdict
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.hoists import VARIANTS
-from kulman.variants.reader import load_task, read_text
+from kulman.variants.reader import check_text, load_task
 from kulman.variants.shelf import bundled_text
 
 TASK = "karpenko-hoist"
@@ -121,7 +121,7 @@ BAD = [
 def test_faults_of_a_file_are_told_with_their_places(old: str, new: str, place: str, message: str) -> None:
     assert old in TEXT
 
-    _, faults = read_text(TEXT.replace(old, new, 1), "t.toml", thorough=True)
+    faults, _ = check_text(TEXT.replace(old, new, 1), "t.toml")
 
     told = [fault.text("en") for fault in faults]
     assert any(f"{place}: " in line and message in line for line in told), told

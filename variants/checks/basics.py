@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ...scales.errors import InputError
+from ...scales.errors import InputError, KulmanError
 from ...scales.names import cyrillic, latin, unknown
 from ...scales.numbers import quote
 from ..task import LocatedError
@@ -28,16 +28,32 @@ class Checker:
     file: str
     places: Places
     faults: list[tuple[int, int, InputError]] = field(default_factory=list)
+    remarks: list[tuple[int, int, InputError]] = field(default_factory=list)  # what is no fault, and worth knowing
+    faulty: set[Path] = field(default_factory=set)  # where the faults are
     unread: set[str] = field(default_factory=set)  # givens and diagrams at fault: that others name them is no fault
 
     def fault(self, path: Path, error: InputError) -> None:
         """Note `error` at `path`; the keys of the path go before its message."""
-        line, column = self.places[path]
-        keys = ".".join(str(part) for part in path if isinstance(part, str))
-        place = f"{self.file}:{line}:{column}"
-        self.faults.append((line, column, LocatedError(f"{place}: {quote(keys)}" if keys else place, error)))
+        self.faulty.add(path)
+        self.faults.append(self._located(path, error))
         if len(self.faults) >= MOST_FAULTS:
             raise EnoughError
+
+    def fault_of(self, path: Path, variant: str, error: KulmanError) -> None:
+        """Note what solving a variant, whose table is at `path`, has shown to be at fault."""
+        self.faulty.add(path)
+        self.faults.append(self._located(path, error, variant))
+
+    def remark_of(self, path: Path, variant: str, error: InputError) -> None:
+        """Note what solving a variant, whose table is at `path`, has shown, and what is no fault."""
+        self.remarks.append(self._located(path, error, variant))
+
+    def _located(self, path: Path, error: KulmanError, *more: str) -> tuple[int, int, InputError]:
+        """Return line and column of a path, and an error with its place before it."""
+        line, column = self.places[path]
+        keys = ".".join((*(str(part) for part in path if isinstance(part, str)), *more))
+        place = f"{self.file}:{line}:{column}"
+        return line, column, LocatedError(f"{place}: {quote(keys)}" if keys else place, error)
 
     def twice(self, path: Path, name: object, first: Path) -> None:
         """Note that `name` stands at `path` again, after it stood at `first`."""

@@ -72,14 +72,11 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         """Check that the scale factors are those that may be chosen."""
         check_scales(checker, head, SYMBOLS)
 
-    def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
-        """Check that every variant is one of a pair; if `thorough`, that its wheels have teeth and can mesh."""
+    def varies(self, checker: Checker, task: Task) -> None:
+        """Check that every variant is one of a pair."""
         told: set[str] = set()  # what is at fault in a default is so in every variant
         for row, variant in enumerate(task.variants.values()):
-            errors = [*impossible(task.values(variant.id))]
-            if thorough and not errors:
-                errors = [("", error) for error in self._refused(task, variant.id)]
-            for name, error in errors:
+            for name, error in impossible(task.values(variant.id)):
                 given = task.givens.get(name)
                 if name in variant.values:
                     checker.fault(("variant", row, name), error)
@@ -88,16 +85,6 @@ class Gears(Kind[GearPair, "SolvedGear"]):
                 elif name not in told:
                     told.add(name)
                     checker.fault(("givens", name, "default"), error)
-
-    def _refused(self, task: Task, variant: str) -> list[InputError]:
-        """Return why a variant has no pair."""
-        from ...plans.gears.givens import complete  # needs numpy
-
-        try:
-            complete(task.values(variant))
-        except InputError as error:
-            return [error]
-        return []
 
     def solve(
         self, subject: GearPair, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
@@ -32,6 +33,8 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..checks.basics import Checker
     from ..checks.names import Names
     from ..sweeps.asked import SweepRequest, Swept
+
+TRIED_FOR = 1.3  # seconds of processor time in which the variants of a file are tried
 
 Subject = TypeVar("Subject")  # what is described: a mechanism, a cam, a gear pair, a hoist
 Answer = TypeVar("Answer", bound=Solved)
@@ -67,8 +70,43 @@ class Kind(ABC, Generic[Subject, Answer]):
     def fits(self, checker: Checker, subject: Subject, head: Mapping[str, Any]) -> None:
         """Check that the subject has the plans and the scale factors that the `head` of the file wants."""
 
-    def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
-        """Check what can be wrong in single variants only; if `thorough`, whether they can be solved, too."""
+    def varies(self, checker: Checker, task: Task) -> None:
+        """Check what can be wrong in single variants only, without solving them."""
+
+    def tries(self, checker: Checker, task: Task) -> None:
+        """Solve every variant: one that has no solution is a fault, and what else a teacher should know a remark.
+
+        After `TRIED_FOR` seconds it is said how many variants were not tried.
+        """
+        if any(path[:1] != ("variant",) for path in checker.faulty):
+            return
+        wrong, begin = {path[1] for path in checker.faulty if len(path) > 1}, time.process_time()
+        for row, variant in enumerate(task.variants):
+            path = ("variant", row)
+            if time.process_time() - begin > TRIED_FOR:
+                counts = {"n": len(task.variants) - row, "all": len(task.variants), "file": checker.file}
+                checker.remark_of(path, variant, InputError("check-untried", **counts))
+                return
+            if row not in wrong:
+                self._try(checker, task, variant, path)
+
+    def _try(self, checker: Checker, task: Task, variant: str, path: tuple[str, int]) -> None:
+        """Solve one variant, whose table is at `path`."""
+        subject: Any = task.subject
+        try:
+            solved = self.solve(subject, task.values(variant), task.words(variant), task.plans)
+            error = solved.error()
+        except InputError as refused:
+            checker.fault_of(path, variant, refused)
+            return
+        if error is not None:
+            checker.fault_of(path, variant, error)
+        for remark in self.remarks(task, variant, solved):
+            checker.remark_of(path, variant, remark)
+
+    def remarks(self, task: Task, variant: str, solved: Answer) -> Iterator[InputError]:
+        """Go through what a teacher should know of a variant that is no fault of it."""
+        yield from self.warnings(solved)
 
     # Solving.
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ...plans.board import POSITION
 from ...plans.boards.exact import SMALL
 from ...plans.check import WITHIN, Check
+from ...plans.laws import TURN
 from ...plans.linkages.chain import PLANS, construct, require_couplers
 from ...plans.linkages.mechanism import Mechanism
 from ...plans.linkages.solved import SolvedLinkage, disagreement, scale_symbols, solve_linkage
@@ -89,7 +90,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             if isinstance(choice, Segment) and choice.quantity not in {*program.names, *lengths}:
                 checker.fault(("scales", name), InputError("scale-segment", text=quote(said)))
 
-    def varies(self, checker: Checker, task: Task, thorough: bool = False) -> None:
+    def varies(self, checker: Checker, task: Task) -> None:
         """Check the load diagrams of every variant."""
         diagrams_in_order(checker, task.mechanism, [task.values(variant) for variant in task.variants])
 
@@ -114,17 +115,16 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def unfit(self, case: Case) -> Iterator[InputError]:
         """Go through what makes a variant a poor exercise: its crank does not turn round, a plan is a line."""
-        from ...plans.linkages.cycles.limits import reach_of
-        from ...plans.linkages.cycles.swept import swept
-
         yield from super().unfit(case)
-        values = case.task.values(case.variant, case.settings)
-        drive = swept(case.task.mechanism, values)
-        for arc in reach_of(drive, values).apart if drive.turns else ():
-            yield InputError("variant-apart", low=_degrees(arc.low), high=_degrees(arc.high))
+        yield from _hindered(case.task.mechanism, case.task.values(case.variant, case.settings))
         short = _short_vectors(case)
         for name in sorted(short - _always_short(case.task)) if short else ():
             yield InputError("variant-short", quantity=name)
+
+    def remarks(self, task: Task, variant: str, solved: SolvedLinkage) -> Iterator[InputError]:
+        """Go through what a teacher should know: where a crank does not turn, where links lie in line."""
+        yield from super().remarks(task, variant, solved)
+        yield from _hindered(task.mechanism, task.values(variant), lined=True)
 
     def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity."""
@@ -284,6 +284,26 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
 
 KIND = Linkages()
+
+
+def _hindered(mechanism: Mechanism, values: Mapping[str, float], lined: bool = False) -> Iterator[InputError]:
+    """Go through what is in the way of a crank: arcs that it cannot reach; if `lined`, also lines that turn one.
+
+    Nothing is told of a crank that reaches no place at all.
+    """
+    from ...plans.linkages.cycles.limits import reach_of
+    from ...plans.linkages.cycles.swept import swept
+
+    drive = swept(mechanism, values)
+    found = reach_of(drive, values)
+    if not (drive.turns and found.stretches):
+        return
+    for arc in found.apart:
+        back = TURN if arc.high > TURN else 0.0  # an arc about zero begins below it
+        yield InputError("variant-apart", low=_degrees(arc.low - back), high=_degrees(arc.high - back))
+    for key, places in (("variant-change", found.changes), ("variant-pole", found.poles)) if lined else ():
+        if places:
+            yield InputError(key, angles=", ".join(f"{_degrees(place)}°" for place in places))
 
 
 def _short(value: float) -> str:
