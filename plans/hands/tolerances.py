@@ -25,7 +25,7 @@ MARKS = 0.35  # part of the tolerance in mm by which two marks miss each other: 
 def tolerances(
     paper: Paper, values: Mapping[str, Any], sines: Mapping[str, float], most: Tolerance
 ) -> dict[str, float]:
-    """Return for each quantity by how much an answer may differ, SI.
+    """Return for each quantity by how much an answer may differ, SI; and what comes between quantities.
 
     Of a segment that is read |difference| <= max(mm, part of it, tilt) / |sin gamma|, gamma being the angle of the
     lines whose meeting is read, the worst of those behind the segment's ends on its own plan. The tilt is what the
@@ -48,7 +48,7 @@ def tolerances(
             rule.aside[step.name] = rule._tilt(abs(values[step.name] - values[step.operands[2]]))
         rule.slants[step.name] = rule.slant(step)
         rule.allowed[step.name] = float(rule.of(step))
-    return {step.name: rule.allowed[step.name] for step in results(paper.program)}
+    return rule.allowed
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +121,7 @@ class _Rule:
         exact, law, total = self.values[step.name], LAWS[step.law], 0.0
         for i, name in enumerate(step.operands):
             if miss := self.allowed.get(name, 0.0):
-                changed = ([*operands[:i], longer, *operands[i + 1 :]] for longer in _longer(operands[i], miss))
+                changed = ([*operands[:i], longer, *operands[i + 1 :]] for longer in longer(operands[i], miss))
                 changes = [abs(law(*others) - exact) for others in changed]  # a load diagram may be steep on one side
                 total += max((change for change in changes if change == change), default=0.0)
         return total
@@ -138,7 +138,7 @@ def _longest(paper: Paper, values: Mapping[str, Any]) -> dict[str, float]:
     return found
 
 
-def _longer(value: Any, miss: float) -> tuple[Any, ...]:
+def longer(value: Any, miss: float) -> tuple[Any, ...]:
     """Return values that miss, more and less: a vector along itself, one that is zero along both axes."""
     if not isinstance(value, complex):
         return value + miss, value - miss

@@ -32,6 +32,8 @@ class Answer:
         Of a scalar: +1 counter-clockwise (or along the axis), -1 the other way, said beside the value.
     plus : bool
         Whether the value has a plus. Without it a positive value says nothing of the sense.
+    rounded : float, optional
+        Half of the last digit of the value as it was written.
     """
 
     name: str
@@ -41,6 +43,7 @@ class Answer:
     direction: float | None = None
     sense: int | None = None
     plus: bool = False
+    rounded: float | None = None
 
     @property
     def empty(self) -> bool:

@@ -13,7 +13,7 @@ NEVER = math.inf
 
 
 class Miss(NamedTuple):
-    """Tolerances by which an answer misses, one or less being right, and what misses most: size or direction."""
+    """Tolerances by which an answer misses, one or less being right, and what does: size, or direction alone."""
 
     off: float
     about: str
@@ -47,7 +47,7 @@ def _of_vector(said: Said, value: complex, allowed: float, angle: float) -> Miss
         return Miss(size, SIZE)
     most = max(angle, math.asin(allowed / abs(value)))
     turned = abs(math.atan2(cross(value, said.direction), dot(value, said.direction))) / most
-    return Miss(turned, DIRECTION) if turned > size else Miss(size, SIZE)
+    return Miss(turned, DIRECTION) if size <= 1.0 < turned else Miss(max(size, turned), SIZE)
 
 
 def ratio(missed: float, allowed: float) -> float:

@@ -11,7 +11,7 @@ from ..board import POSITION, Step
 from ..boards.exact import run
 from ..hands.hand import Tolerance
 from ..hands.shaky import Paper
-from ..hands.tolerances import same_plan, tolerances
+from ..hands.tolerances import MARKS, same_plan, tolerances
 from ..quantities import POINTS, shown_on, unit_of
 from ..references import results, worst_behind
 
@@ -36,7 +36,8 @@ class Question:
 class Key:
     """The answer key; `allowed` are sizes in SI, `angles` directions in radians.
 
-    `values` are those of the construction; `also` has what is right, too, because another way leads to it.
+    `values` are those of the construction; `also` has what is right, too, because another way leads to it. What is
+    `firm` has a tolerance of the teacher's own, whatever it follows from.
     """
 
     paper: Paper
@@ -48,6 +49,7 @@ class Key:
     angles: Mapping[str, float]
     questions: Mapping[str, Question]
     also: Mapping[str, Any] = field(default_factory=dict)
+    firm: frozenset[str] = frozenset()
 
     def __getitem__(self, name: str) -> Any:
         """Return the right value, a float or complex."""
@@ -62,6 +64,14 @@ class Key:
         others = {n: values[n] for n in self.questions if n in values and values[n] != self[n]}  # both may be infinite
         return replace(self, also={n: x for n, x in others.items() if abs(x - self[n]) > SAME * abs(self[n])})
 
+    def on_paper(self, name: str) -> float:
+        """Return what an answer in millimetres alone may miss, SI: a calculated vector by its two marks, too."""
+        question = self.questions[name]
+        if question.step.verb != "calc":
+            return self.allowed[name]
+        marks = MARKS * self.tolerance.mm * float(self.paper.mus.get(question.plan, 0.0))
+        return math.hypot(self.allowed[name], marks)
+
     def drawn_to(self, mus: Mapping[str, float]) -> Key:
         """Return the key for a sheet drawn to a student's own scale factors, by plan, value in SI per mm.
 
@@ -73,12 +83,39 @@ class Key:
         return _key(replace(self.paper, mus=within), self)
 
 
+def behind(key: Key, name: str) -> Step:
+    """Return the step that a quantity shows: of one that is read the mark that was made last, else its calculation."""
+    step = key.questions[name].step
+    if step.verb != "read":
+        return step
+    program = key.paper.program
+    return program.steps[max(program.places.get(operand, -1) for operand in step.operands)]
+
+
+def hanging_on(key: Key) -> Mapping[str, int]:
+    """Return for each quantity all steps that hang on it, or on the mark that it shows, as `Program.hanging` does."""
+    hanging = key.paper.program.hanging
+    return {name: hanging.get(name, 0) | hanging.get(behind(key, name).name, 0) for name in key.questions}
+
+
+def needed_by(key: Key) -> dict[str, float]:
+    """Return for each quantity the part of those asked after it that hang on it, on its mark or its value."""
+    places = key.paper.program.places
+    asked, found, after = list(key.questions), {}, 0
+    hanging = hanging_on(key)
+    for count, name in enumerate(reversed(asked)):
+        found[name] = (hanging[name] & after).bit_count() / count if count else 0.0
+        after |= 1 << places[name]
+    return found
+
+
 def answer_key(
     paper: Paper,
     tolerance: Tolerance,
     limits: Mapping[str, float] | None = None,
     wanted: Collection[str] | None = None,
     units: Callable[[str], str] = unit_of,
+    drawn: Mapping[str, float] | None = None,
 ) -> Key:
     """Make the answer key of one position.
 
@@ -92,10 +129,14 @@ def answer_key(
         The quantities that are asked; all when left out. What is undefined is not asked.
     units : callable
         The SI unit of each quantity by its name.
+    drawn : mapping of str to float, optional
+        What errors of drawing come to, SI, where the usual rule knows nothing of how they add up.
     """
     board = run(paper.program, paper.givens)
     asked = _questions(paper, board.values, wanted, units)
-    return _key(paper, Key(paper, tolerance, limits or {}, board.values, board.sines, {}, {}, asked))
+    own = limits or {}
+    ruled = {**(drawn or {}), **own}
+    return _key(paper, Key(paper, tolerance, ruled, board.values, board.sines, {}, {}, asked, firm=frozenset(own)))
 
 
 def _key(paper: Paper, key: Key) -> Key:

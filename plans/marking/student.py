@@ -7,13 +7,18 @@ wrong, the mark that was made last is where the student must have put it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from ..board import Program
+import numpy as np
+
+from ..board import Program, Step
 from ..boards.exact import NAN, ExactBoard
+from ..laws import cross, dot
 from .answers import Said
 
+ASIDE = 1e-9  # part of a vector that is rounding
 LAID = ("lay", "back")
 TAKEN = ("read", "calc", "distance", "measure", "arm")
 Take = Callable[[str, Any], tuple[Said | None, bool]]
@@ -42,11 +47,19 @@ class StudentBoard(ExactBoard):
         self._done = 0
         self._moved: set[str] | None = set() if made else None
 
+    def operation(self, verb: str, law: str) -> Callable[..., Any]:
+        """Return what computes a step; a student divides the length of a vector, however it is drawn."""
+        return _turning if law == "turning" else super().operation(verb, law)
+
     def go_on(self, end: int | None = None) -> None:
         """Do the steps before the place `end` that are not done yet, all without it."""
         steps = self._program.steps[self._done : end]
         self._done += len(steps)
         moved = self._moved
+        with np.errstate(all="ignore"):  # a student's numbers may be any
+            self._do(steps, moved)
+
+    def _do(self, steps: Iterable[Step], moved: set[str] | None) -> None:
         for step in steps:
             verb, name, operands = step.verb, step.name, step.operands
             if moved is None or not moved.isdisjoint(operands):
@@ -73,7 +86,10 @@ class StudentBoard(ExactBoard):
         said, _ = self._take(quantity, vector)
         if said is not None:
             self.follows[quantity] = vector
-            self._put(name, values[start] + said.taken(vector))
+            taken = said.taken(vector)
+            self._put(name, values[start] + taken)
+            turned = -1.0 if dot(taken, vector) < 0.0 else 1.0
+            self._put(f"_{quantity}", math.copysign(abs(taken), values[f"_{quantity}"] * turned))
 
     def _replace(self, verb: str, name: str, operands: tuple[str, ...]) -> None:
         value = self.values[name]
@@ -96,6 +112,12 @@ class StudentBoard(ExactBoard):
             self._put(tip, self.values[tail] + vector)
         else:
             self._put(tail, self.values[tip] - vector)
+
+
+def _turning(vector: complex, normal: complex, length: float) -> float:
+    along, across = dot(vector, normal), cross(vector, normal)
+    aside = abs(across) > ASIDE * abs(along)
+    return float((math.copysign(abs(vector), along) if aside else along) / length)
 
 
 def settled(program: Program) -> dict[str, int]:

@@ -13,15 +13,14 @@ from statistics import median
 from typing import Any, NamedTuple
 
 from ...scales.names import unknown
-from ..board import Step
-from ..hands.tolerances import MARKS
+from .allowance import Allowance
 from .answers import Answer, Said, known, measured, nearest, readings, values_of
 from .comparing import NEVER, SIZE, Miss, miss, ratio
-from .key import Key, Question
+from .key import Key, Question, behind, hanging_on
 from .lines import Line, Marking, Verdict
 from .student import StudentBoard, settled
 
-__all__ = ["CLEAR", "Line", "Marking", "Verdict", "behind", "first_wrong", "judge", "mark"]
+__all__ = ["CLEAR", "INPUTS", "Line", "Marking", "Verdict", "behind", "bounded", "first_wrong", "judge", "mark"]
 
 DECIMALS = tuple(10.0**power for power in (-3, -2, -1, 1, 2, 3))  # mm, cm, dm
 ANGLES = tuple(
@@ -42,6 +41,8 @@ SAME = 0.03  # part of a value by which a factor may miss: wide tolerances of sh
 AGREE = 0.05  # part by which segments of one plan may differ in the scale that they show
 SHOWN = 5.0  # mm from which a segment shows to which scale its plan is drawn
 CLEAR = 2.0  # tolerances from which an error is more than a slip of the hand
+MANY = 3  # answers wrong by themselves, from which a line that hangs on them may follow by chance
+INPUTS = "inputs"  # what is wrong with a line that follows from what nobody can recognise
 SLACK = 0.5  # part of a tolerance by which mm times mu may differ from the value written
 
 
@@ -78,15 +79,15 @@ def judge(key: Key, answers: Iterable[Answer], first: str = "") -> tuple[Line, .
 
 
 def count_right(key: Key, answers: Iterable[Answer], least: float) -> int:
-    """Return how many answers are right by themselves; nothing where that is less than `least`."""
+    """Return how many answers are as right as a hand draws; nothing where that is less than `least`."""
     marker = _marker(key, answers)
     marker.settle_scales()
     marker.begin()
-    left, held = len(marker.answers), marker.held
+    left = len(marker.answers)
     for name in key.questions:
         if name in marker.answers:
             marker.go_on(name)
-            left -= held[name].verdict is not Verdict.RIGHT
+            left -= marker.held[name].verdict is not Verdict.RIGHT
             if left < least:
                 return 0
     return left
@@ -110,12 +111,31 @@ def first_wrong(lines: Iterable[Line]) -> str | None:
     return None if first is None else first.name
 
 
-def behind(key: Key, name: str) -> Step:
-    """Return the step that a quantity shows: of one that is read the mark that was made last, else its calculation."""
-    step = key.questions[name].step
-    if step.verb != "read":
-        return step
-    return next(s for s in reversed(key.paper.program.steps) if s.name in step.operands)
+def bounded(marking: Marking, of_other: bool = False) -> Marking:
+    """Return the marking in which no line earns anything by following from numbers that mostly are wrong.
+
+    It does not where, of the answers on which it hangs, three or more are wrong by themselves, and more than are right
+    or carried: then nobody can say what it follows from.
+
+    Parameters
+    ----------
+    of_other : bool
+        Whether the answers are those of another variant, and no line is carried by any error.
+    """
+    bits, places = hanging_on(marking.key), marking.key.paper.program.places
+    before: list[tuple[int, Verdict]] = []
+    lines = []
+    for line in marking.lines:
+        if line.verdict is Verdict.CARRIED:
+            place = places[line.name]
+            behind_it = [verdict for found, verdict in before if found >> place & 1]
+            wrong, passed = behind_it.count(Verdict.WRONG), sum(verdict.passed for verdict in behind_it)
+            if of_other or (wrong >= MANY and wrong > passed):
+                line = replace(line, verdict=Verdict.WRONG, about=INPUTS)
+        lines.append(line)
+        if line.verdict is not Verdict.MISSING:
+            before.append((bits[line.name], line.verdict))
+    return replace(marking, lines=tuple(lines))
 
 
 def _by_name(key: Key, answers: Iterable[Answer]) -> dict[str, Answer]:
@@ -146,12 +166,13 @@ def _on_paper(key: Key, answer: Answer, said: Mapping[str, Answer]) -> Answer:
 
 
 class _Held(NamedTuple):
-    """An answer held against a value: the verdict, how it was taken, by how much it misses."""
+    """An answer held against a value: the verdict, how it was taken, by how much it misses what, and may miss it."""
 
     verdict: Verdict
     said: Said
     miss: Miss
     against: Any
+    allowed: float
 
 
 class _Marker:
@@ -159,6 +180,7 @@ class _Marker:
 
     def __init__(self, key: Key, answers: Mapping[str, Answer], mus: dict[str, float | None]) -> None:
         self.key, self.answers, self.mus = key, answers, mus
+        self.written = {name: mu is not None for name, mu in mus.items()}  # whether the scale factor is the student's
         self.true: dict[str, float] = {}  # to which scale the segments of a plan seem to be drawn
         self.ways: dict[str, tuple[Said, ...]] = {}  # to take each answer
         self.taken: dict[str, Said] = {}  # what the student goes on with
@@ -180,6 +202,7 @@ class _Marker:
             if _agree(shown):
                 self.true[plan] = median(shown)
             mu = written or self._likeliest(names)
+            self.written.update(dict.fromkeys(names, written is not None))
             self.mus.update({name: mu for name in names if not self.mus[name]})
             drawn[plan] = _nearest(mu, self.key.paper.mus.get(plan, mu))
         if redraw:
@@ -192,7 +215,7 @@ class _Marker:
         """Return the scale, of those that single segments show, at which most are right, and miss least."""
 
         def misses(mu: float) -> float:
-            missed = ((abs((self.answers[n].mm or 0.0) * mu - abs(self.key[n])), self._measured(n)) for n in names)
+            missed = ((abs((self.answers[n].mm or 0.0) * mu - abs(self.key[n])), self.key.on_paper(n)) for n in names)
             return sum(min(ratio(off, allowed), 1.0) ** 2 for off, allowed in missed)
 
         return min((self._drawn_to(name) for name in names), key=misses)
@@ -217,6 +240,15 @@ class _Marker:
         self.settled = settled(program)
         self.drawn = StudentBoard(program, key.paper.givens, lambda name, value: (self.taken.get(name), True))
         self.board = StudentBoard(program, key.values, self._judge, made=True)
+        self.allowance = Allowance(key, self.answers, self.drawn, self._sure, self._faulty)
+
+    def _sure(self, name: str) -> bool:
+        """Whether the student has said a size, and not only a segment whose scale factor is to be guessed."""
+        answer = self.answers[name]
+        return known(answer.value) or (known(answer.mm) and self.written[name])
+
+    def _faulty(self, name: str) -> bool:
+        return name in self.held and self.held[name].verdict.faulty
 
     def go_on(self, name: str) -> None:
         """Judge the lines up to that of `name`."""
@@ -238,22 +270,20 @@ class _Marker:
         right, allowed = self._right(name), self.key.allowed[name]
         if held is None:
             return Line(name, question.plan, Verdict.MISSING, None, None, right, follows, allowed, NEVER)
-        verdict, way, found, against = held
-        if verdict is Verdict.CARRIED:
-            follows = against
-        if name in self.key.also and follows == self.key[name]:
-            follows = right  # the other right value follows from nothing that has been said
+        verdict, way, found, against, allowed = held
         said = way.taken(follows if follows == follows else right)
+        if verdict is Verdict.CARRIED:
+            said = way.taken(against)
         about = found.about if verdict.faulty else ""
         answer = self.answers[name]
-        return Line(name, question.plan, verdict, answer, said, right, follows, allowed, found.off, about, way)
+        return Line(name, question.plan, verdict, answer, said, right, against, allowed, found.off, about, way)
 
     def _right(self, name: str) -> Any:
         """Return the right value, of two that which the answer is nearer to."""
         found = self.key.right(name)
         if len(found) == 1 or name not in self.held:
             return found[0]
-        return min(found, key=lambda value: self._best(self.ways[name], name, value).miss.off)
+        return min(found, key=lambda x: self._best(self.ways[name], name, x, right=True).miss.off)
 
     def _judge(self, name: str, value: Any) -> tuple[Said | None, bool]:
         """Judge a line whose value follows from what was wrong before; go on with what the student says if it differs.
@@ -266,9 +296,10 @@ class _Marker:
             self.held[name] = self._verdict(name, value)
             self.failed |= self.held[name].verdict.faulty
         held = self.held[name]
-        if self._miss(held.said, name, value).off <= 1.0:
+        wrong = held.verdict is Verdict.WRONG
+        if not wrong and self._missed(held.said, name, value, self.allowance.by_hand(name, value)).off <= 1.0:
             return None, False
-        return held.said, held.verdict is Verdict.WRONG
+        return held.said, wrong
 
     def _verdict(self, name: str, value: Any) -> _Held:
         answer = self.answers[name]
@@ -299,36 +330,36 @@ class _Marker:
 
     def _held(self, ways: tuple[Said, ...], name: str, value: Any) -> _Held:
         """Hold an answer against the right values, and against what follows."""
-        right = min((self._best(ways, name, value) for value in self.key.right(name)), key=_off)
+        right = min((self._best(ways, name, x, right=True) for x in self.key.right(name)), key=_off)
         if right.miss.off <= 1.0:
             return right
-        follows = [self._best(ways, name, x) for x in (value, self._follows(name))]
-        found = min((right, *follows), key=_off)
+        own = self._best(ways, name, self._follows(name))
+        found = min((right, self._best(ways, name, value), own), key=_off)
         if found.miss.off <= 1.0:
-            return found._replace(verdict=Verdict.CARRIED if self.failed else Verdict.RIGHT)
-        return _Held(Verdict.WRONG, self.taken[name], found.miss, value)
+            right_too = not self.failed or self._near(ways, name)
+            return found._replace(verdict=Verdict.RIGHT if right_too else Verdict.CARRIED)
+        if own.miss.off < NEVER and self.allowance.follows(name):
+            found = own
+        return found._replace(verdict=Verdict.WRONG, said=self.taken[name])
 
-    def _best(self, ways: tuple[Said, ...], name: str, value: Any) -> _Held:
+    def _near(self, ways: tuple[Said, ...], name: str) -> bool:
+        """Whether an answer is as near to what is right as hands draw."""
+        allowed = self.key.allowed[name]
+        return any(self._missed(way, name, x, allowed).off <= 1.0 for way in ways for x in self.key.right(name))
+
+    def _best(self, ways: tuple[Said, ...], name: str, value: Any, right: bool = False) -> _Held:
         """Return the way to take an answer that misses a value least."""
-        return min([_Held(Verdict.RIGHT, way, self._miss(way, name, value), value) for way in ways], key=_off)
+        if value is None or value != value:
+            return _Held(Verdict.RIGHT, ways[0], Miss(NEVER, SIZE), value, NEVER)
+        self.drawn.go_on(self.settled[name])
+        allowed = self.allowance.of(name, value, right)
+        held = [_Held(Verdict.RIGHT, way, self._missed(way, name, value, allowed), value, allowed) for way in ways]
+        return min(held, key=_off)
 
-    def _miss(self, way: Said, name: str, value: Any) -> Miss:
-        """Return the miss; a value that follows from larger ones may miss in proportion."""
+    def _missed(self, way: Said, name: str, value: Any, allowed: float) -> Miss:
         if value is None or value != value:
             return Miss(NEVER, SIZE)
-        size, allowed = abs(self.key[name]), self.key.allowed[name]
-        if size and abs(value) > size:
-            allowed *= abs(value) / size
-        if self.answers[name].value is None:
-            allowed *= self._measured(name) / self.key.allowed[name] if self.key.allowed[name] else 1.0
         return miss(way, value, allowed, self.key.angles.get(name, math.pi))
-
-    def _measured(self, name: str) -> float:
-        """Return what an answer in millimetres alone may miss, SI: a calculated vector by its two marks, too."""
-        allowed, question = self.key.allowed[name], self.key.questions[name]
-        if question.step.verb != "calc":
-            return allowed
-        return math.hypot(allowed, MARKS * self.key.tolerance.mm * float(self.key.paper.mus.get(question.plan, 0.0)))
 
     def _is_unit(self, name: str, value: Any) -> bool:
         """Whether a line is right in another unit that its quantity may have."""

@@ -211,6 +211,8 @@ class Cams(Kind[Cam, "SolvedCam"]):
         """Ask for what is found, not for what is given, nor by how much a drawing does not close."""
         return question.name not in UNASKED and question.name not in solved.givens
 
+    limits_add_up = True
+
     def limits(self, drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let pass what the errors of all chords add up to."""
         from ...plans.cams.tolerances import tolerances_of

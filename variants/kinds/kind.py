@@ -225,6 +225,8 @@ class Kind(ABC, Generic[Subject, Answer]):
         """Return what quantities of `solved` are called in `as_drawn`, those that are called otherwise there."""
         return {}
 
+    limits_add_up: ClassVar[bool] = False  # whether limits are those of errors of drawing, else of what is read off
+
     def limits(self, drawn: Answer, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Return by how much single quantities may miss, SI, where the usual rule does not hold.
 

@@ -53,6 +53,8 @@ class Line:
         1 counter-clockwise or along the axis, -1 the other way: what words, arrows, or a column of senses say.
     plus : bool
         Whether the value is written with a plus: its sense is said, too.
+    rounded : float, optional
+        Half of the last digit of the value as written, SI.
     """
 
     name: str
@@ -64,6 +66,7 @@ class Line:
     direction: float | None = None
     sense: int | None = None
     plus: bool = False
+    rounded: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

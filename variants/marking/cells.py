@@ -111,6 +111,17 @@ def value(text: str, written: str, name: str, asked: Asked) -> float:
     return own.from_si(converted(number, known(rest or written or asked.unit(name)), own, NOTHING))
 
 
+def rounded(text: str, value: float | None) -> float | None:
+    """Return half of the last digit of a number as written, in the unit of its value; None where it has none."""
+    number, rest = split_number(text)
+    written = text.strip().lower()
+    mantissa, _, power = written[: len(written) - len(rest)].strip().replace(",", ".").partition("e")
+    if not value or not number or "/" in mantissa:
+        return None
+    last = int(power.replace("−", "-") or 0) - len(mantissa.partition(".")[2])
+    return 0.5 * 10.0**last * abs(value / number)
+
+
 def bare(text: str, name: str, asked: Asked) -> float | None:
     """Return the number alone, as if it were in the form's unit; None where there is none."""
     try:

@@ -162,7 +162,7 @@ def check(
     >>> from kulman import check
     >>> asked = check("nau-slider-crank", "example", lang="en")
     >>> [asked.mark(answers).marked.mark for answers in asked.read("printed")]
-    [78.1]
+    [80.9]
     """
     found = task if isinstance(task, Task) else load_task(task)
     if variant is not None:

@@ -9,7 +9,7 @@ from functools import cached_property
 
 from ...drawing.words import Words
 from ...plans.hands.shaky import paper_of
-from ...plans.marking.key import Key, answer_key
+from ...plans.marking.key import Key, answer_key, needed_by
 from ...plans.mistakes.book import Book, book
 from ..case import Settings
 from ..sheet_id import sheet_id
@@ -78,6 +78,16 @@ class Keyed:
         return book(self.key)
 
     @cached_property
+    def needed(self) -> dict[str, float]:
+        """For each quantity the part of those asked after it that hang on it."""
+        return needed_by(self.key)
+
+    @cached_property
+    def by_plan(self) -> dict[str, str]:
+        """For each quantity the plan, or section of the form, in which it stands."""
+        return {question.name: str(number) for number, part in enumerate(self.parts) for question in part.questions}
+
+    @cached_property
     def symbols(self) -> dict[str, str]:
         """The symbols of all quantities and scale factors as plain text, no two of a form alike.
 
@@ -132,8 +142,11 @@ def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) ->
     mus = {scale.symbol: scale.mu for scale in solution.scales.values()}
     kind, drawn = solution.kind, solution.drawn_by_students
     paper = paper_of(drawn, mus)
-    limits = {**kind.limits(drawn, paper, rubric.tolerance), **rubric.limits}
-    key = answer_key(paper, rubric.tolerance, limits, units=lambda name: solution.quantities[name].unit)
+    limits, firm = kind.limits(drawn, paper, rubric.tolerance), rubric.limits
+    if not kind.limits_add_up:
+        limits, firm = {}, {**limits, **firm}
+    unit_of = {name: quantity.unit for name, quantity in solution.quantities.items()}
+    key = answer_key(paper, rubric.tolerance, firm, units=unit_of.__getitem__, drawn=limits)
     key = key.or_else(solution.solved.values)
     words = kind.lettered(solution.words, solution.solved)
     parts = tuple(sections(solution, key.questions.values(), words))

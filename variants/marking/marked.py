@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ...plans.marking.answers import Answer
-from ...plans.marking.verdicts import CLEAR, Line, Marking, Verdict, mark
+from ...plans.marking.verdicts import CLEAR, Line, Marking, Verdict, bounded, mark
 from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
@@ -27,9 +27,9 @@ KEPT = 32  # answer keys
 class Marked:
     """A student's answers, marked.
 
-    `lines` are those that count; `notes` say what was odd: cells that could not be read, another variant, another id;
-    `misfits` are scale factors written wrongly, each by the line at which it counts; `fits` is another variant that
-    the answers fit, if any.
+    `lines` are those that count, `parts` what part of the full mark each is; `notes` say what was odd: cells that could
+    not be read, another variant, another id; `misfits` are scale factors written wrongly, each by the line at which it
+    counts; `fits` is another variant that the answers fit, if any.
     """
 
     answers: Answers
@@ -39,15 +39,20 @@ class Marked:
     candidates: tuple[Candidate, ...]
     lines: tuple[Line, ...]
     mark: float
+    parts: Mapping[str, float]
     notes: tuple[KulmanError, ...]
     misfits: Mapping[str, Misfit] = field(default_factory=dict)
     fits: str = ""
 
     @property
     def slips(self) -> bool:
-        """Whether all that is wrong misses by so little that only the hand may have slipped."""
+        """Whether all that is wrong is measured, and misses by so little that only the hand may have slipped."""
         faulty = [line for line in self.marking.lines if line.verdict.faulty]
-        return bool(faulty) and all(line.verdict is Verdict.WRONG and line.off <= CLEAR for line in faulty)
+        return bool(faulty) and all(map(self._slip, faulty))
+
+    def _slip(self, line: Line) -> bool:
+        measured = self.keyed.key.questions[line.name].step.verb != "calc"
+        return measured and line.verdict is Verdict.WRONG and line.off <= CLEAR
 
     def count(self, verdict: Verdict) -> int:
         """Return how many lines have a verdict."""
@@ -95,8 +100,11 @@ class Desk:
             explanation = explain(key.book, marking)
             marking, candidates = explanation.marking, explanation.candidates
         marking, borne = counted_once(marking, found, {line.name for line in self._counted(key, marking, answers)})
+        fits = fits_other(marking, given, self._others(variant), lambda other: self.keyed(other, settings).key)
+        marking = bounded(marking, of_other=bool(fits))
         lines = self._counted(key, marking, answers)
-        marks = rubric.mark(lines)
+        parts = rubric.parts(lines, key.by_plan, key.needed)
+        marks = rubric.mark(lines, parts)
         told = [line for line in lines if line.answer is not None and isinstance(line.right, complex)]
         if (
             rubric.directions != "ignored"
@@ -105,8 +113,7 @@ class Desk:
         ):
             notes.append(InputError("marked-directions"))
         all_notes = (*answers.problems, *notes)
-        fits = fits_other(marking, given, self._others(variant), lambda other: self.keyed(other, settings).key)
-        return Marked(answers, entry, key, marking, candidates, lines, marks, all_notes, borne, fits)
+        return Marked(answers, entry, key, marking, candidates, lines, marks, parts, all_notes, borne, fits)
 
     def _others(self, variant: str) -> list[str]:
         """Return the other variants, as many as there are keys kept."""
@@ -169,5 +176,5 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
         symbol = key.solution.solved.scale_of_plan.get(question.plan, "")
         written = line.mu or answers.scales.get(symbol)
         mu = None if written is None else fits.get(symbol, written.value) if line.mu is None else line.mu.value
-        given.append(Answer(line.name, line.mm, mu, line.value, line.direction, line.sense, line.plus))
+        given.append(Answer(line.name, line.mm, mu, line.value, line.direction, line.sense, line.plus, line.rounded))
     return given, notes

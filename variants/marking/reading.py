@@ -149,7 +149,9 @@ class _Sheet:
         if self.asked.quantities[name].kind == "scalar":
             text, written, sense = self.sense(row, at.get("value"), name, (text, written, sense))
         value = self.value(row, at.get("value"), name, text, written)
-        return Line(name, place, mm, decimals, mu, value, direction, sense, value is not None and text.startswith("+"))
+        plus = value is not None and text.startswith("+")
+        last = None if value is None else cells.rounded(text, value)
+        return Line(name, place, mm, decimals, mu, value, direction, sense, plus, last)
 
     def sense(
         self, row: int, column: int | None, name: str, said: tuple[str, str, int | None]

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ...drawing.words import Words
 from ...plans.board import Step
-from ...plans.marking.verdicts import Line, Verdict, behind
+from ...plans.marking.verdicts import INPUTS, Line, Verdict, behind
 from ...plans.mistakes.rules import Broken
 from ...scales.units import format_unit
 from ..roster import WHO
@@ -128,8 +129,9 @@ class _Teller:
         tolerance = self.rubric.tolerance
         percent, degrees = short(tolerance.part * 100.0, DIGITS), short(tolerance.degrees, DIGITS)
         yield said["report.tolerance"].format(mm=short(tolerance.mm, DIGITS), percent=percent, degrees=degrees)
-        counts = ((verdict, self.marked.count(verdict)) for verdict in Verdict)
-        listed = (f"{said[f'verdict.{verdict}']} {count}" for verdict, count in counts if count)
+        counts = Counter(map(self._verdict, self.marked.lines))
+        known = (*(said[f"verdict.{verdict}"] for verdict in Verdict), said["verdict.inputs"])
+        listed = (f"{verdict} {counts[verdict]}" for verdict in known if counts[verdict])
         yield f"{said['report.counts']}: {', '.join(listed)}"
         first = self.marked.marking.first_wrong
         if first is None:
@@ -142,14 +144,19 @@ class _Teller:
 
     def again(self) -> Iterator[str]:
         """Go through what to look at again, the first wrong step first; a student is told how to go on."""
-        if self.own and self.marked.fits:
+        lines = self.marked.marking.lines
+        if self.marked.fits:
             yield self.said["again.variant"]
-        for line in self.marked.marking.lines:
+            return
+        for line in lines:
             misfit = self.marked.misfits.get(line.name)
             if misfit is not None:
                 yield self._scale(misfit)
-            if line.verdict.faulty and not (misfit and line.verdict is Verdict.SCALE):
+            if line.verdict.faulty and not (misfit and line.verdict is Verdict.SCALE) and line.about != INPUTS:
                 yield self.hint(line)
+        unknown = ", ".join(self.symbol(line.name) for line in lines if line.about == INPUTS)
+        if unknown:
+            yield self.said["again.inputs"].format(symbols=unknown)
         if self.own and self.marked.marking.first_wrong is not None:
             yield self.said["again.then"]
 
@@ -225,10 +232,17 @@ class _Teller:
         """Put a line into words."""
         right = tolerance = weight = ""
         if not self.own:
-            right, weight = self._right(line), self.words.short(self.rubric.weight(line.name), DIGITS)
+            right, weight = self._right(line), self._points(line)
             tolerance = f"± {self._number(line.name, line.allowed)}" if line.allowed else ""
-        said = self.said[f"verdict.{line.verdict}"]
+        said = self._verdict(line)
         return Row(line.name, self.symbol(line.name), self._answer(line), right, tolerance, line.verdict, said, weight)
+
+    def _verdict(self, line: Line) -> str:
+        return self.said["verdict.inputs" if line.about == INPUTS else f"verdict.{line.verdict}"]
+
+    def _points(self, line: Line) -> str:
+        """Return what part of the full mark a line is."""
+        return self.words.short(round(self.rubric.out_of * self.marked.parts[line.name], 1), DIGITS)
 
     def symbol(self, name: str) -> str:
         """Return the symbol of a quantity as plain text."""

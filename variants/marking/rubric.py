@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -30,6 +31,8 @@ WORTH = {
 }
 DIRECTIONS = ("optional", "required", "ignored")
 SIZE_ALONE = 0.5  # part of a line's worth where a direction or sense is required and left out
+NEEDED = 3.0  # how many times a line counts more on which all later ones hang
+NOTHING = 1e-6  # part of a tolerance that is rounding
 SIGNED = ("rad/s", "rad/s^2", "N*m")  # units of scalars that have a sense
 LARGEST = 100_000  # bytes
 
@@ -43,7 +46,7 @@ class Rubric:
     out_of : float
         The full mark.
     weights : mapping of str to float
-        What quantities weigh; those that are not named weigh one.
+        What quantities weigh; those that are not named weigh one. Where there are none, plans count the same.
     worth : mapping of str to float
         What a verdict is worth, in parts of the weight.
     asked : tuple of str
@@ -63,15 +66,35 @@ class Rubric:
     limits: Mapping[str, float] = field(default_factory=dict)
     directions: str = DIRECTIONS[0]
 
-    def weight(self, name: str) -> float:
-        """Return what a quantity weighs."""
-        return self.weights.get(name, 1.0)
+    def parts(
+        self, lines: Collection[Line], by_plan: Mapping[str, str], needed: Mapping[str, float]
+    ) -> dict[str, float]:
+        """Return what part of the full mark each line is: by the rubric's weights, or else by plans.
 
-    def mark(self, lines: Iterable[Line]) -> float:
+        A line counts the more the more of the later ones hang on it, and nothing where zero is right; a plan counts
+        as the root of what its lines come to, so that of four times as many lines each counts half as much.
+
+        Parameters
+        ----------
+        by_plan : mapping of str to str
+            The plan, or section of the form, in which each quantity stands.
+        needed : mapping of str to float
+            The part of the quantities asked after each that hang on it.
+        """
+        if self.weights:
+            shares = {line.name: self.weights.get(line.name, 1.0) for line in lines}
+        else:
+            shares = {line.name: 0.0 if zero(line) else 1.0 + NEEDED * needed[line.name] for line in lines}
+            whole = dict.fromkeys(by_plan.values(), 0.0)
+            for name, share in shares.items():
+                whole[by_plan[name]] += share
+            shares = {name: share / math.sqrt(whole[by_plan[name]] or 1.0) for name, share in shares.items()}
+        total = sum(shares.values())
+        return {name: share / total if total else 1.0 / len(shares) for name, share in shares.items()}
+
+    def mark(self, lines: Iterable[Line], parts: Mapping[str, float]) -> float:
         """Return the mark, to a tenth."""
-        weights = [(self.weight(line.name), self._worth(line)) for line in lines]
-        total = sum(weight for weight, _ in weights)
-        return round(self.out_of * sum(weight * worth for weight, worth in weights) / total, 1) if total else 0.0
+        return round(self.out_of * sum(parts[line.name] * self._worth(line) for line in lines), 1)
 
     def compared(self, answer: Answer, question: Question) -> Answer:
         """Return what counts of an answer; the sign of a number without a unit is no sense."""
@@ -85,6 +108,11 @@ class Rubric:
         """Return what a line is worth, in parts of its weight."""
         less = self.directions == "required" and wants_direction(line)
         return self.worth[line.verdict] * (SIZE_ALONE if less else 1.0)
+
+
+def zero(line: Line) -> bool:
+    """Whether nothing but zero is right."""
+    return bool(abs(line.right) <= NOTHING * line.allowed)
 
 
 def wants_direction(line: Line) -> bool:

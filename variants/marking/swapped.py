@@ -78,4 +78,4 @@ def _exchanged(line: Line, asked: Asked) -> Line:
     own = unit(asked.unit(line.name))
     value = None if line.mm is None else own.to_si(line.mm)
     mm = None if line.value is None else abs(own.from_si(line.value))
-    return replace(line, mm=mm, value=value)
+    return replace(line, mm=mm, value=value, rounded=None)

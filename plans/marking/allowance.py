@@ -1,0 +1,227 @@
+"""By how much a line of one student may miss: what is calculated by its rounding, what is measured as hands do.
+
+What is calculated is held against the student's own earlier numbers, each as it was written. Where one of them has not
+been said, or is wrong by itself, what a hand may miss takes the place of its rounding. What is measured may miss what
+the key allows, less where the student's own plan is smaller than the right one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ..board import POSITION, Step
+from ..hands.tolerances import MARKS, READ, longer
+from ..laws import LAWS
+from ..quantities import POINTS
+from .answers import Answer
+from .key import COARSER, ROUNDED, Key
+from .student import StudentBoard
+
+THREE = 3  # digits that a number has at the least where nobody knows how it was written
+LAYING = 0.6  # part of the tolerance in mm by which a segment that is laid off and read again may miss
+READ_TO = 0.05  # part of the tolerance in mm to which a segment is read at best
+MOST = 30  # numbers that anybody puts into a calculator; a law of more is a table or a curve
+FEWEST = 2  # vectors of a plan that tell how large the student's own is
+
+
+def half_digit(number: float) -> float:
+    """Return half of the last digit of a number, which is taken to have three digits if it has fewer."""
+    if not number or not math.isfinite(number):
+        return 0.0
+    digits, _, power = f"{abs(number):.11e}".partition("e")
+    written = len(digits.replace(".", "").rstrip("0"))
+    return 0.5 * 10.0 ** (int(power) + 1 - max(written, THREE))
+
+
+class Allowance:
+    """What the lines of one student may miss.
+
+    Parameters
+    ----------
+    answers, taken : mapping
+        What the student says, and goes on with.
+    drawn : StudentBoard
+        The construction with all of it, done as far as the line that is asked for.
+    sure : callable
+        Whether the value of an answer is known: written, or segment times a scale factor that is written.
+    faulty : callable
+        Whether the line of a quantity is wrong by itself.
+    """
+
+    def __init__(
+        self,
+        key: Key,
+        answers: Mapping[str, Answer],
+        drawn: StudentBoard,
+        sure: Callable[[str], bool],
+        faulty: Callable[[str], bool],
+    ) -> None:
+        self.key, self.answers, self.drawn, self.sure, self.faulty = key, answers, drawn, sure, faulty
+        self._steps = key.paper.program.by_name
+        self._arms = {step.operands[0]: step.name for step in key.paper.program.which(("arm",))}
+        self._slacks: dict[str, float] = {}
+        self._calculated: dict[str, float] = {}
+
+    def of(self, name: str, value: Any, right: bool = False) -> float:
+        """Return by how much an answer may miss a value, SI.
+
+        Parameters
+        ----------
+        right : bool
+            Whether the value is right, and does not follow from the student's own numbers. Who has gone on with a right
+            number after a wrong one has measured it.
+        """
+        step = self.calculation(name)
+        if step is None or (right and any(map(self.faulty, self.inputs(step)))):
+            return self.by_hand(name, value)
+        return self._marked(name, self._rounding(name, value, self._inherited(name, step)))
+
+    def follows(self, name: str) -> bool:
+        """Whether a quantity is calculated from numbers of which none is wrong by itself."""
+        step = self.calculation(name)
+        return step is not None and not any(map(self.faulty, self.inputs(step)))
+
+    def calculation(self, name: str) -> Step | None:
+        """Return the step that calculates a quantity, before it is laid off or not; None for what is measured.
+
+        That is also what has a limit of its own, and a segment whose scale factor has to be guessed.
+        """
+        if name in self.key.firm or not self.sure(name):
+            return None
+        step = self.key.questions[name].step
+        if step.verb == "read":
+            step = self._steps.get(f"_{name}", step)
+        return step if step.verb == "calc" and len(step.operands) <= MOST and not self._drawn(step) else None
+
+    def _drawn(self, step: Step) -> bool:
+        """Whether a law takes places of marks, which are measured however it goes on."""
+        before = [self._steps[name] for name in step.operands if name in self._steps]
+        return any(one.verb in POINTS or (one.verb in READ and one.name not in self.key.allowed) for one in before)
+
+    def inputs(self, step: Step) -> list[str]:
+        """Return the answers from which a step calculates."""
+        found: list[str] = []
+        seen, left = {step.name}, list(step.operands)
+        while left:
+            operand = left.pop()
+            visible = operand if operand in self.answers else operand.lstrip("_")
+            if visible in self.answers:
+                found.append(visible)
+            elif operand not in seen and (before := self._steps.get(operand)) and before.verb in ("calc", "moment"):
+                left += [*before.operands, self._arms.get(operand, operand)]
+            seen.add(operand)
+        return found
+
+    def _rounding(self, name: str, value: Any, inherited: float) -> float:
+        """Return by how much a calculator's result may differ: half a per cent, or what all roundings come to."""
+        answer = self.answers[name]
+        last = answer.rounded if answer.rounded is not None else half_digit(answer.value or 0.0)
+        return float(max(ROUNDED * abs(value), last + inherited))
+
+    def _inherited(self, name: str, step: Step) -> float:
+        """Return by how much a result may differ because the numbers are rounded that it is calculated from."""
+        if name not in self._calculated:
+            with np.errstate(all="ignore"):  # a student's numbers may be any
+                self._calculated[name] = self._through(step)
+        return self._calculated[name]
+
+    def _through(self, step: Step) -> float:
+        values, law, total = self.drawn.values, LAWS[step.law], 0.0
+        operands = [values[operand] for operand in step.operands]
+        exact = law(*operands)
+        for i, operand in enumerate(step.operands):
+            if slack := self._slack(operand):
+                changed = ([*operands[:i], x, *operands[i + 1 :]] for x in longer(operands[i], slack))
+                changes = [abs(law(*others) - exact) for others in changed]
+                total += max((change for change in changes if change == change), default=0.0)
+        return total
+
+    def _slack(self, name: str) -> float:
+        """Return by how much an operand may differ from that with which the student has gone on."""
+        if name not in self._slacks:
+            self._slacks[name] = 0.0  # of a step that takes what it makes anew
+            self._slacks[name] = self._slack_of(name)
+        return self._slacks[name]
+
+    def _slack_of(self, name: str) -> float:
+        answer, step = self.answers.get(name), self._steps.get(name)
+        if answer is not None and self.sure(name):
+            return max(self._last(name), self._read_to(name))
+        laid = name.lstrip("_")
+        if step is None:
+            return 0.0
+        if laid in self.answers and laid != name and self.sure(laid):
+            return self._between(laid)
+        if step.verb == "calc":
+            return self._through(step)
+        if step.verb == "moment":
+            return self._of_moment(step)
+        if name in self.key.questions:
+            return self.by_hand(name, self.drawn.values[name])
+        return self._of_hand(step)
+
+    def _of_hand(self, step: Step) -> float:
+        """Return what hands miss by something that is not asked, at the student's own size."""
+        name = step.name
+        allowed, size, own = self.key.allowed.get(name, 0.0), abs(self.key.values[name]), abs(self.drawn.values[name])
+        return allowed * (own / size if size and own > size and step.verb not in POINTS else 1.0)
+
+    def _last(self, name: str) -> float:
+        """Return half of the last digit of a number with which a student goes on, of few digits a part of it."""
+        size, last = abs(self.drawn.values[name]), self.answers[name].rounded
+        return half_digit(size) if last is None else float(min(last, ROUNDED * size))
+
+    def _read_to(self, name: str) -> float:
+        """Return to what a segment can be read."""
+        question = self.key.questions[name]
+        measured = question.step.verb in ("read", "measure", "distance", "arm")
+        return READ_TO * self.key.tolerance.mm * float(self.key.paper.mus.get(question.plan, 0.0)) if measured else 0.0
+
+    def _between(self, laid: str) -> float:
+        """Return how far a number that was calculated and the same one read again are apart."""
+        follows = self.drawn.follows.get(laid)
+        said = abs(self.drawn.values[laid])
+        apart = 0.0 if follows is None or follows != follows or self.faulty(laid) else abs(abs(follows) - said)
+        return self._last(laid) + float(apart)
+
+    def _of_moment(self, step: Step) -> float:
+        """Return what the moment of a force may miss: its arm as written, or else as hands measure it."""
+        force, arm = step.operands[0], self._arms.get(step.name, "")
+        size = abs(self.drawn.values[force])
+        length = abs(self.drawn.values[step.name]) / size if size else 0.0
+        if arm not in self.key.questions:
+            return self._of_hand(step)
+        missed = self._slack(arm)
+        return float(size * missed + length * self._slack(force))
+
+    def _marked(self, name: str, allowed: float) -> float:
+        """Return what may be missed by a number that is laid off on paper, and read again."""
+        question = self.key.questions[name]
+        mm = self.key.tolerance.mm * float(self.key.paper.mus.get(question.plan, 0.0))
+        if question.step.verb == "read":
+            return math.hypot(allowed, LAYING * mm)
+        return allowed if self.answers[name].value is not None else math.hypot(allowed, MARKS * mm)
+
+    def by_hand(self, name: str, value: Any) -> float:
+        """Return what a hand may miss at the size of a value."""
+        question, size = self.key.questions[name], abs(self.key[name])
+        alone = name in self.answers and self.answers[name].value is None
+        allowed = self.key.on_paper(name) if alone else self.key.allowed[name]
+        times = abs(value) / size if size else 1.0
+        return allowed * (times if times >= 1.0 else max(times, min(1.0, COARSER * self._grown(question.plan))))
+
+    def _grown(self, plan: str) -> float:
+        """Return how many times larger the student's plan is than the right one, its longest vectors compared."""
+        if plan == POSITION:
+            return 1.0
+        right, own, count = 0.0, 0.0, 0
+        for name, question in self.key.questions.items():
+            if question.plan == plan and question.vector and name in self.drawn.follows:
+                value = self.drawn.values[name]
+                right, count = max(right, abs(self.key[name])), count + 1
+                own = max(own, abs(value) if value == value else 0.0)
+        return own / right if right and count >= FEWEST else 1.0
