@@ -12,13 +12,16 @@ import pytest
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
+from kulman.plans.linkages.cycles.swept import swept
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Mechanism, Prismatic, Revolute, SlidingDriver, Start
 from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
 from kulman.plans.linkages.triads.following import Follower, followed
 from kulman.plans.linkages.triads.special_points import with_special_points
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.mechanisms import one_of
 from kulman.tests.support.presses import ORIGIN, PRESS, RAM, RAM_VALUES, VALUES, press, two_presses
+from kulman.tests.support.triads import random_triads
 
 TURN = 2.0 * math.pi
 CASES = [pytest.param(PRESS, id="hinged legs"), pytest.param(RAM, id="a ram in a guide")]
@@ -363,3 +366,21 @@ def test_revolute_pairs_alone_need_no_start() -> None:
     four_bar = replace(four_bar, pairs=(*four_bar.pairs, Revolute("C", (3, 0), ("x_E", "y_E"), None)), loads=())
 
     assert followed(four_bar, VALUES) == {}
+
+
+@pytest.mark.parametrize("kinds", ["RRR", "RRP", "PRR"])
+def test_a_sweep_has_the_names_and_values_of_the_position_of_the_task(kinds: str) -> None:
+    mechanism, values, _ = random_triads(kinds, (0, 2, 3), seed=5, count=6)
+    for i in range(6):
+        one = one_of(values, i)
+        solved, drive = solve_linkage(mechanism, one), swept(mechanism, one)
+        program = construct(drive.mechanism)[1]
+        there = drive.givens(one, np.array([drive.start]), program)
+
+        here = run(program, {name: float(np.ravel(value)[0]) for name, value in there.items()}).values
+
+        # moments of a dyad that stands flat are taken about another joint in that position alone
+        names = construct(replace(solved.mechanism, centres=()))[1].names
+        assert {*names} == {*program.names}
+        for name in (name for name in solved.quantities if name in names):
+            assert here[name] == pytest.approx(solved.values[name], rel=1e-6, abs=1e-6, nan_ok=True), name

@@ -63,8 +63,8 @@ def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
     """Return `mechanism` ready for a sweep.
 
     A literal may stand in other places too, so that the driver gets a variable of its own; a given that also stands
-    elsewhere, as the direction of a load, changes there as well. The special points of triads are made by legs that do
-    for the whole circle.
+    elsewhere, as the direction of a load, changes there as well. The special points of triads are made by the legs that
+    make them in the task's own position, where these do for the whole circle; else by others that do.
     """
     driver = mechanism.driver
     turns = isinstance(driver, Driver)
@@ -82,6 +82,10 @@ def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
 
         if triads(mechanism):
             follower = Follower(mechanism, {**values, name: start})
-            places = follower.places
-            mechanism = with_special_points(mechanism, {**values, name: places}, follower.near(places))
+            there, places = {**values, name: start}, follower.places
+            own = with_special_points(mechanism, there, follower.near(np.array([start])))
+            legs = {
+                begin.link: begin.legs for begin in own.starts
+            }  # names of the cycle are those of the task's position
+            mechanism = with_special_points(mechanism, {**values, name: places}, follower.near(places), first=legs)
     return Swept(mechanism, name, turns, start, -1.0 if sense < 0.0 else 1.0, follower)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ...board import Program, RecordingBoard
 from ...boards.batch import batch
-from ...boards.exact import SMALL, run
+from ...boards.exact import ILL, SMALL, run
 from ..bare import without_loads
 from ..chain import construct, named_groups
 from ..mechanism import Mechanism
@@ -29,7 +29,11 @@ Legs = tuple[int, int]
 
 
 def with_special_points(
-    mechanism: Mechanism, values: Mapping[str, Any], near: Mapping[str, Any] | None = None, enough: float = SMALL
+    mechanism: Mechanism,
+    values: Mapping[str, Any],
+    near: Mapping[str, Any] | None = None,
+    enough: float = SMALL,
+    first: Mapping[int, Legs | None] | None = None,
 ) -> Mechanism:
     """Return the mechanism with two legs chosen for the special point of every triad whose task names none.
 
@@ -42,11 +46,15 @@ def with_special_points(
     enough : float
         The first two legs whose sines are nowhere below are taken, so that one position is constructed like another;
         without such ones the best two.
+    first : mapping of int to pair of int, optional
+        By the number of the central link two legs that are taken where their lines meet everywhere, however flatly.
     """
     for number, (pairs, sines) in _sines(mechanism, values, near).items():
         worst = sines.min(axis=1)
-        first = int(np.argmax(np.minimum(worst, enough)))
-        mechanism = _choose(mechanism, number, pairs[first])
+        legs = pairs[int(np.argmax(np.minimum(worst, enough)))]
+        wanted = (first or {}).get(number)
+        keeps = wanted is not None and worst[pairs.index(wanted)] >= ILL
+        mechanism = _choose(mechanism, number, wanted if keeps and wanted else legs)
     return mechanism
 
 
