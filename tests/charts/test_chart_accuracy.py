@@ -180,3 +180,9 @@ def test_a_crank_that_speeds_up_is_differentiated_with_its_acceleration() -> Non
         found = way(places, ["a_C", "epsilon_3"])
         for name, value in found.items():
             assert abs(value - plan[name]).max() < 1e-5 * abs(plan[name]).max()
+
+
+def test_a_clock_too_coarse_for_a_method_divides_by_nothing() -> None:
+    race = contest(of_task("madi-four-bar"), 12, lambda: 0.0, ["V_B"], LITTLE)
+
+    assert {entry.seconds for entry in race.entries} == {0.0}

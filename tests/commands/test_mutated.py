@@ -37,6 +37,9 @@ FOUND = {
     "a length beside which others are nothing": Found(
         "sheet scheme-14-jaw-crusher --set l_AS2=295km -o x.svg", status=0
     ),
+    "a link beside which the others are points": Found(
+        "sheet scheme-13-toggle-press --set l_AS2=2.53e+10 -o x.svg", status=0
+    ),
     "a diagram of sliding that is a line": Found("sheet madi-gear --set mu_theta=643646 -o x.svg", "mu_theta = 643646"),
     "a literal beyond all drawings": Found(
         "solve x.toml",

@@ -32,6 +32,7 @@ from pathlib import Path
 from types import FrameType
 
 from kulman import cli
+from kulman.plans.contest import FULL
 from kulman.tests.support.mutated import Case, lay_out, made
 from kulman.variants.making import ranges
 
@@ -125,6 +126,8 @@ def _chunk(numbers: range, drawn: bool) -> list[Fault]:
     most = int(SECONDS * (len(numbers) + 2) + time.process_time())
     resource.setrlimit(resource.RLIMIT_CPU, (most, most))  # of what does not even hear the alarm
     ranges.TRIES = TRIES
+    object.__setattr__(FULL, "batches", (1, 10, 100))  # races are run at length, to measure times
+    object.__setattr__(FULL, "at_once", 100)
     return [fault for n in numbers if (fault := tried(n, drawn)) is not None]
 
 

@@ -102,8 +102,10 @@ def _arc(canvas: Canvas, scene: Scene, centre: str, point: str, past: float, nam
     A vector carried to the joint lies along the tangent: the arc must leave it before it ends.
     """
     way = scene.mm(point) - scene.mm(centre)
+    if not way:  # the joints coincide on paper
+        return
     past = max(past, min(math.sqrt(2.0 * abs(way) * LEAVES), FARTHEST))
-    spread = 2 * past / abs(way)
+    spread = min(2 * past / abs(way), math.tau)
     start = phase(way) - spread / 2
     canvas.add(Arc(scene.mm(centre), abs(way), start, spread, Pen.THIN, role="construction", name=name))
 

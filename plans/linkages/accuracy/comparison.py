@@ -132,7 +132,8 @@ class _Race:
                 break
             spent = self._one_by_one() if size == 1 else self._time(rivals.plan, size)
             yield self.entry(PLAN, size, errors, spent, size)
-        size = min(self.effort.at_once, max(int(LONG / spent), 100))
+        # a coarse clock may not notice what takes so little
+        size = min(self.effort.at_once, max(int(LONG / spent), 100)) if spent else self.effort.at_once
         precisions = {SINGLE: "single"}
         if np.finfo(np.longdouble).eps < np.finfo(float).eps:  # not so on every machine
             precisions[EXTENDED] = "extended"
