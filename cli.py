@@ -28,7 +28,7 @@ from .variants.commands.options import (
     titled,
 )
 from .variants.commands.teaching import all_variants, batch, check, handout
-from .variants.commands.usage import Group, usage_error
+from .variants.commands.usage import Group, refuse_long, usage_error
 from .variants.kinds import KINDS
 
 INTERRUPTED = 130
@@ -41,6 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     try:
+        refuse_long(sys.argv[1:] if arguments is None else arguments)
         status = commands.main(arguments, prog_name="kulman", standalone_mode=False)
         if sys.stdout is not None:  # as it is where nothing reads our output: started without a console, or `>&-`
             sys.stdout.flush()

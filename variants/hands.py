@@ -25,7 +25,7 @@ from .tables import aligned
 
 OWN = "own"
 NONE: Mapping[str, Any] = MappingProxyType({})
-BETWEEN = re.compile(r"\s*;\s*|,\s+|(?<=[^\d\s]),")  # not a decimal comma
+BETWEEN = re.compile(r";|,\s+|(?<=[^\d\s]),")  # not a decimal comma
 DIGITS = 4
 STEP = 7  # the column of the worst step
 LETTERED = ("diagram", "sizes", "plate", "rocker", "profile", "meshing", "sliding", "theta")  # as marks are named

@@ -178,7 +178,9 @@ def _syntax(toml: str, file: str, reason: str) -> InputError:
     """Return the fault that tomllib found, at its place."""
     lines = toml.replace("\r\n", "\n").split("\n")
     found = re.search(r"\(at line ([0-9]+), column ([0-9]+)\)", reason)
-    endless = re.search(r"[0-9_]{4000}", toml)  # Python refuses to read such a number, and tomllib does not say where
+    endless = re.search(
+        r"(?<![0-9_])[0-9_]{4000}", toml
+    )  # Python refuses to read such a number, and tomllib does not say where
     if endless and not found:
         before = toml[: endless.start()].split("\n")
         place = f"{file}:{len(before)}:{len(before[-1]) + 1}"

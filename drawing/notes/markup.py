@@ -94,8 +94,8 @@ def _base(parts: list[Node]) -> Node:
     last = parts.pop()
     if not isinstance(last, Plain):
         return last
-    letter = re.search(r"[^\s(]?[′″']*$", last.text)
-    cut = letter.start() if letter else len(last.text)
+    cut = len(last.text.rstrip("′″'"))
+    cut -= bool(re.fullmatch(r"[^\s(]", last.text[cut - 1 : cut]))
     if cut:
         parts.append(Plain(last.text[:cut]))
     return Plain(last.text[cut:])

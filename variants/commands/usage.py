@@ -3,12 +3,28 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 import click
 
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
+
+LONGEST = 10_000  # characters of a word of the command line
+
+
+def refuse_long(words: Sequence[str]) -> None:
+    """Refuse a command line with a word that is longer than any name, number or path.
+
+    Raises
+    ------
+    InputError
+        There is one.
+    """
+    for word in words:
+        if len(word) > LONGEST:
+            raise InputError("cli-long", text=quote(word), n=LONGEST)
 
 
 def usage_error(error: click.UsageError) -> InputError:

@@ -20,7 +20,7 @@ AROUND = 0.2  # a given that all variants have alike is varied by so much to eit
 STEPS = 20  # into how many steps such a range is divided, at most
 TRIES = 50  # sets looked at for each variant that is wanted
 Judgement = tuple[KulmanError | None, KulmanError | None]
-_RANGE = re.compile(r"(?P<low>.+?)\s*(?:\.\.\.?|…|–)\s*(?P<high>[^/]+?)\s*(?:/\s*(?P<step>.+))?")
+_BETWEEN = re.compile(r"\.\.\.?|…|–")  # the first and the last value of a range
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,13 +73,16 @@ def ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, Range]:
 def _read(given: Given, text: str, usual: Range | None) -> Range:
     """Read a range."""
     assert given.unit is not None
-    parts = _RANGE.fullmatch(text.strip())
-    if parts is None:
+    between = _BETWEEN.search(text.strip(), 1)
+    if between is None:
+        raise InputError("range-bad", text=quote(text))
+    first, (last, slash, by) = text.strip()[: between.start()], text.strip()[between.end() :].partition("/")
+    if not first.strip() or not last.strip() or bool(slash) != bool(by.strip()):
         raise InputError("range-bad", text=quote(text))
     unit = given.unit
     low, high, step = (
-        None if part is None else _decimal(unit.from_si(_number(given, _with(part, text))))
-        for part in parts.group("low", "high", "step")
+        _decimal(unit.from_si(_number(given, _with(part.strip(), text)))) if part else None
+        for part in (first, last, by)
     )
     assert low is not None
     assert high is not None
@@ -93,7 +96,7 @@ def _read(given: Given, text: str, usual: Range | None) -> Range:
 
 def _with(part: str, whole: str) -> str:
     """Return a part of a range with the unit that stands at the end of the whole."""
-    unit = re.search(r"[^\d\s.,/+\-eE][^\d]*$", whole)
+    unit = re.search(r"[^\s.,/+\-eE].*", re.split(r"\d", whole)[-1], re.DOTALL)
     return part if unit is None or re.search(r"[^\W\d]|°", part) else f"{part} {unit[0]}"
 
 

@@ -21,7 +21,7 @@ LETTERS = {tuple(word): int(sense) for word, sense in UNDERSTOOD["turning"]["let
 WORDIEST = 200  # characters of a cell in which a sense is looked for
 _ARROWS = "".join(word for kind in ("clockwise", "counter") for word in TURNING[kind] if not word.isalpha())
 _WORD = re.compile(rf"[^\W\d_]+|[{_ARROWS}]")
-_DECIMALS = re.compile(r"^[^0-9]*[0-9 \u00a0\u2009\u202f]*[.,]([0-9]+)")
+_DECIMALS = re.compile(r"[^0-9.,]*+[0-9 \u00a0\u2009\u202f]*+[.,]([0-9]+)")
 MM = unit("mm")
 NOTHING = 0.0  # a value may be as small as a calculator's rounding leaves it
 

@@ -13,7 +13,7 @@ Cell: TypeAlias = str | float | int | None
 Rows: TypeAlias = Sequence[Sequence[Cell]]
 DANGEROUS = tuple("=+-@|%\t\r\n＝＋－＠")  # with which programs begin a formula or a command
 # the same behind what another program, or one of another country, takes for the end of a cell; -5 mm is no formula
-_INSIDE = re.compile(r"([,;\t\r\n][^\S\r\n]*)(?=[=@|%＝＠]|[-+－＋][^,;\t\r\n]*[(|!=@])")
+_INSIDE = re.compile(r"([,;\t\r\n][^\S\t\r\n]*+)(?=[=@|%＝＠]|[-+－＋][^,;\t\r\n]*[(|!=@])")
 
 
 def csv_text(
