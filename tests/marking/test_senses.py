@@ -16,7 +16,15 @@ from kulman.variants.marking.cells import split_sense
 from kulman.variants.spreadsheets.cells_in import read_grid
 
 TASK = "nau-slider-crank"  # variant 1: omega_2 = -28.9 rad/s, M_bal = 89.27 N*m, both seen from the reader
-RIGHT_WAY = ("-28,79", "28.79 cw", "28,79 за годинниковою стрілкою", "↻ 28,79", "28,79 1/с по ч. с.")
+RIGHT_WAY = (
+    "-28,79",
+    "28.79 cw",
+    "28,79 за годинниковою стрілкою",
+    "↻ 28,79",
+    "28,79 1/с по ч. с.",
+    "− 28.79",
+    "28.79 (-)",
+)
 WRONG_WAY = (
     "+28.79",
     "28.79 проти годинникової стрілки",
@@ -27,6 +35,12 @@ WRONG_WAY = (
     "c.c.w. 28.79",
     "28,79 ↺",
     "28,79 рад/с проти",
+    "28,79 проти стрілки",
+    "28.79 counter-clock-wise",
+    "+ 28.79",
+    "28.79 (+)",
+    "28.79+",
+    "＋28.79",
 )
 HEADS = {"value": "величина;значення;напрям", "class": "student;variant;omega_2;omega_2.sense"}
 
@@ -94,6 +108,8 @@ def test_a_sign_a_word_or_an_arrow_beside_a_number_is_a_sense(tmp_path: Path, ma
         ("за ходом годинникової стрілки", "right"),
         ("по часовой", "right"),
         ("c.w.", "right"),
+        ("за год.", "right"),
+        ("clock-wise", "right"),
     ],
 )
 def test_a_sense_stands_in_a_column_of_its_own(tmp_path: Path, made: object, sense: object, found: str) -> None:

@@ -20,7 +20,6 @@ from ...scales.numbers import quote, split_number
 LONGEST = 250  # characters of a calculation
 DIGITS = 3  # from which a number with a decimal sign may be a rounded one
 ROUNDING = 1e-9  # part of a value
-SIGNS = ("+", "-", "−", "–")
 _TOKEN = re.compile(r"\d+(?:[.,]\d+)?|[^\W\d_]+|[^\s]")
 _NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
 _PI = re.compile(r"3[.,]14(?:1[56]\d*|2)?")  # written for pi
@@ -139,7 +138,7 @@ def slip_in(text: str) -> Slip | None:
     if "=" not in text or len(text) > LONGEST:
         return None
     sides = [side.strip() for side in text.split("=")]
-    worked = [(side, _ways(side)) for side in (*sides[:-1], _without_unit(result_of(text)))]
+    worked = [(side, _ways(side)) for side in (*sides[:-1], _without_unit(sides[-1]))]
     known = [(side, ways) for side, ways in worked if ways]
     for (side, ways), (written, others) in pairwise(known):
         if not any(_agree(a, b) for a in ways for b in others):
@@ -154,13 +153,13 @@ def _agree(one: _Value, other: _Value) -> bool:
 
 
 def result_of(text: str) -> str:
-    """Return what stands behind the last equals sign of a calculation, its sign beside it; else the text itself."""
-    result = text.rpartition("=")[2].strip()
-    return result[0] + result[1:].lstrip() if "=" in text and result.startswith(SIGNS) else result
+    """Return what stands behind the last equals sign of a calculation; else the text itself."""
+    return text.rpartition("=")[2].strip()
 
 
 def _without_unit(side: str) -> str:
     """Return the number of a side that is followed by its unit; a calculation stays as it is."""
+    side = re.sub(r"^([+\-−–])\s+", r"\1", side)
     try:
         rest = split_number(side)[1]
     except InputError:

@@ -16,10 +16,17 @@ NONE = frozenset(UNDERSTOOD["none"])
 CALCULATIONS = frozenset(UNDERSTOOD["calculation"])
 SENSES = {word: int(sense) for sense, words in UNDERSTOOD["senses"].items() for word in words}
 SIDES = {word: float(degrees) for degrees, words in UNDERSTOOD["directions"].items() for word in words}
-TURNING = {kind: tuple(words) for kind, words in UNDERSTOOD["turning"].items() if kind != "letters"}
-LETTERS = {tuple(word): int(sense) for word, sense in UNDERSTOOD["turning"]["letters"].items()}
+TURNING: dict[str, list[str]] = UNDERSTOOD["turning"]
+PHRASES = {
+    tuple(phrase.split()): sense
+    for kind, sense in (("counter", 1), ("clockwise", -1))
+    for phrase in (*TURNING[f"{kind}_phrases"], *TURNING[kind])
+}
 WORDIEST = 200  # characters of a cell in which a sense is looked for
+_ALONG_OR_AGAINST = frozenset((*TURNING["along"], *TURNING["against"]))
+_BEHIND = ("(+)", "(-)", "(−)", "(–)", "+")
 _ARROWS = "".join(word for kind in ("clockwise", "counter") for word in TURNING[kind] if not word.isalpha())
+_WIDE = str.maketrans("＋－", "+-")
 _WORD = re.compile(rf"[^\W\d_]+|[{_ARROWS}]")
 _DECIMALS = re.compile(r"[^0-9.,]*+[0-9 \u00a0\u2009\u202f]*+[.,]([0-9]+)")
 MM = unit("mm")
@@ -51,6 +58,16 @@ def checked(grid: Grid, row: int, column: int | None) -> str:
     if at in grid.dates:
         raise InputError("answer-date")
     return "" if text in NONE else text
+
+
+def signed(text: str) -> str:
+    """Return a number with the sign directly before it that stands apart from it, or behind it: `28.79 (+)`."""
+    text = text.translate(_WIDE)
+    if text[:1] in "+-−–" and text[1:2].isspace():
+        return text[0] + text[1:].lstrip()
+    behind = next((sign for sign in _BEHIND if text.endswith(sign)), "")
+    number = text.removesuffix(behind).strip()
+    return behind.strip("()") + number if behind and number[:1].isdigit() else text
 
 
 def segment(text: str, written: str) -> tuple[float, int]:
@@ -160,23 +177,19 @@ def _sense_at(words: list[str], at: int) -> tuple[int, int]:
 
     A lone "за" or "по" is one at the end of a text only: between two words it may mean "per".
     """
-    word, following = words[at], words[at + 1 : at + 2]
-    if word in TURNING["opposite"] and following == ["clockwise"]:
-        return 2, 1
-    if word in TURNING["clockwise"] or word in TURNING["counter"]:
-        return 1, 1 if word in TURNING["counter"] else -1
-    for letters, sense in LETTERS.items():
-        if tuple(words[at : at + len(letters)]) == letters:
-            return len(letters), sense
-    against = word in TURNING["against"]
-    if not against and word not in TURNING["along"]:
+    for phrase, sense in PHRASES.items():
+        if tuple(words[at : at + len(phrase)]) == phrase:
+            return len(phrase), sense
+    against = words[at] in TURNING["against"]
+    if not against and words[at] not in TURNING["along"]:
         return 0, 0
     end = at + 1
     while end < len(words) and _is_of(words[end], "course"):
         end += 1
     last = [_kind_of(word) for word in words[end : end + 2]]
     clocks = last[: 2 if all(last) else 1]
-    told = "clocks" in clocks or {*clocks} >= {"clock", "hand"} or (against and clocks[:1] == ["clock"])
+    told = not {"clocks", "hands"}.isdisjoint(clocks) or [*clocks] == ["clock", "hand"]
+    told = told or (against and clocks[:1] == ["clock"])
     count = end + len(clocks) - at if told else 1 if at + 1 == len(words) else 0
     return count, 1 if against else -1
 
@@ -188,7 +201,7 @@ def _is_of(word: str, kind: str) -> bool:
 
 def _kind_of(word: str) -> str:
     """Return what a word after "за" or "проти" is of a clock; nothing where it is not."""
-    return next((kind for kind in ("clocks", "clock", "hand") if _is_of(word, kind)), "")
+    return next((kind for kind in ("clocks", "hands", "clock", "hand") if _is_of(word, kind)), "")
 
 
 def direction(text: str, vector: bool = False) -> tuple[float | None, int | None]:
@@ -209,7 +222,8 @@ def direction(text: str, vector: bool = False) -> tuple[float | None, int | None
     angle, senses = split_sense(text)
     if len(senses) > 1:
         raise InputError("answer-senses", text=quote(text))
-    sense = next(iter(senses), None)
+    first = tidy(text).split()[:1]  # "за год." is no "per hour" here
+    sense = next(iter(senses), None) or next((SENSES[word] for word in first if word in _ALONG_OR_AGAINST), None)
     if sense is not None and not (vector and angle):
         return None, sense
     try:

@@ -74,7 +74,7 @@ class _Sheet:
                 makes = f"{found.makes:.7g}".replace(".", "," if "," in text else ".")
                 error = InputError("answer-calculation", text=found.text, makes=makes, written=found.written)
                 self.refuse(row, column, name, error)
-            return result_of(text)
+            return cells.signed(result_of(text))
         except InputError as error:
             self.refuse(row, column, name, error)
             return ""
