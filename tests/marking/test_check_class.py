@@ -295,7 +295,7 @@ def test_of_pairs_of_one_variant_only_those_are_told_that_copy(task: str, least:
 
     told = [len(list(shared([one, copied(one, dice)]))) for one in hands]
 
-    assert list(shared(hands)) == []
+    assert len(list(shared(hands))) <= (0 if hand == "normal" else 1)
     assert sum(len(list(shared([one, other]))) for one, other in pairwise(hands)) == 0
     assert sum(told) >= (least if hand == "normal" else 0.4) * len(hands)
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...plans.marking.key import Key
-from .answers import Answers
+from .answers import Answers, Line
 
 FOUND = ("meet", "arc", "arcs", "tangent", "similar", "divide", "template")  # verbs that find a mark by drawing
 LEAST_MM = 5.0  # shorter segments say little
@@ -21,6 +21,7 @@ UNLIKELY_PAIR = 1e-3  # that of a pair in a small class
 FEWEST = 4  # segments that two students must share
 CHANGED = 0.5  # mm by which somebody who copies changes some of them
 SAME, AGREE = 0.65, 0.9  # parts of the segments that must be the same, and at the most changed so
+SAME_OF_ALL = 0.5  # part that must be the same where all others are changed so
 COPIED, FAR = 0.65, 0.02  # how often a copied segment is the same, and another one altogether
 CERTAIN = 0.6  # the chance that two honest readings are the same is no more than this
 WIDEST = 2.0  # mm of spread
@@ -51,8 +52,8 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapp
     mus : mapping of str to float
         The student's scale factors by plan, value in SI per mm.
     """
-    made, step = {one.name: one for one in key.paper.program}, _resolution(answers)
-    found = {}
+    made = {one.name: one for one in key.paper.program}
+    found: dict[str, tuple[Line, float]] = {}
     for name, line in answers.lines.items():
         question = key.questions.get(name)
         if question is None or line.mm is None or question.step.verb not in ("read", "arm"):
@@ -61,14 +62,21 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapp
         ends = question.step.operands if question.step.verb == "read" else ()
         drawn = question.step.verb == "arm" or any(made[end].verb in FOUND for end in ends if end in made)
         if mu and drawn and abs(key[name]) / mu >= LEAST_MM:
-            spread = max(HAND, key.allowed[name] / mu / 3.0)
-            found[name] = Measured(line.mm, follows.get(name, abs(key[name])) / mu, step, spread)
-    return found
+            found[name] = line, mu
+    step = _resolution([line for line, _ in found.values()])  # what is laid off may be written to more digits
+    return {
+        name: Measured(
+            line.mm or 0.0,
+            follows.get(name, abs(key[name])) / mu,
+            step,
+            max(HAND, key.allowed[name] / mu / 3.0),
+        )
+        for name, (line, mu) in found.items()
+    }
 
 
-def _resolution(answers: Answers) -> float:
+def _resolution(lines: Sequence[Line]) -> float:
     """Return to what a student reads segments: halves of a millimetre are written with one decimal, too."""
-    lines = [line for line in answers.lines.values() if line.mm is not None]
     decimals = min(max((line.decimals for line in lines), default=0), 3)
     halves = all((2.0 * (line.mm or 0.0)).is_integer() for line in lines)
     return 0.5 if decimals == 1 and halves else 10.0**-decimals
@@ -119,7 +127,8 @@ def shared(students: Sequence[Mapping[str, Measured]]) -> Iterator[Pair]:
         apart = np.abs(mm[i + 1 :] - mm[i])
         both, same = np.isfinite(apart).sum(axis=1), (apart < ROUNDING).sum(axis=1)
         near = (apart <= np.maximum(reach[i + 1 :], reach[i])[:, None]).sum(axis=1)
-        for k in np.flatnonzero((same >= FEWEST) & (same >= SAME * both) & (near >= AGREE * both)):
+        most, all_near = (same >= SAME * both) & (near >= AGREE * both), (same >= SAME_OF_ALL * both) & (near == both)
+        for k in np.flatnonzero((same >= FEWEST) & (most | all_near)):
             other = int(i + 1 + k)
             if _likelihood(students[i], students[other]) < least:
                 alike = tuple(name for j, name in enumerate(names) if apart[k, j] < ROUNDING)
