@@ -13,7 +13,7 @@ from kulman.tests.support.mutated import Case, lay_out, made
 from kulman.tests.support.mutated_runs import faults, judged, run
 from kulman.variants.shelf import bundled_text
 
-CASES, DRAWN = 600, 60  # of each half of the soak
+CASES, DRAWN = 1000, 80  # of each half of the soak: a minute
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,9 @@ UNFINISHED = f'{DIAGRAM}over = "strok"\n'
 FOUND = {
     "a segment that nobody sees": Found(
         "sheet scheme-01-compressor -v 9 --scale pa=0.001 -o x.svg", "largest segment would be 0.001 mm"
+    ),
+    "a segment that nobody sees, over the cycle": Found(
+        "chart scheme-11-slotter --scale OA=0.0015 --chart stability", "mu_l = 73.3 m/mm"
     ),
     "a length beside which others are nothing": Found(
         "sheet scheme-14-jaw-crusher --set l_AS2=295km -o x.svg", status=0

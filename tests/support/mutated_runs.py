@@ -39,6 +39,7 @@ from kulman.variants.making import ranges
 SECONDS = 5.0  # of processor time
 MEMORY = 500_000_000  # bytes
 TRIES = 2  # sets of data, each drawn, until the search for good exercises gives up
+SHOWN = 1000  # cases after which a long run says how far it is
 CHUNK = 250  # cases a process, so that what one leaves behind is not another's
 
 
@@ -159,15 +160,16 @@ def main() -> None:
     if said.case is not None:
         return _alone(said.case, said.drawn)
     kinds: Counter[tuple[str, str]] = Counter()
-    for fault in faults(range(said.first, said.first + said.cases), said.drawn):
-        kinds[fault.what.partition(":")[0], fault.where] += 1
-        if kinds[fault.what.partition(":")[0], fault.where] == 1:
-            print(f"case {fault.n}: {fault.what}\n    {fault.where}\n    {fault.line}\n{fault.trace}", flush=True)
-        else:
-            print(f"case {fault.n}: {fault.what} ({fault.where})", flush=True)
+    last = said.first + said.cases
+    for start in range(said.first, last, SHOWN):
+        for fault in faults(range(start, min(start + SHOWN, last)), said.drawn):
+            kind = fault.what.partition(":")[0], fault.where
+            kinds[kind] += 1
+            more = f"\n    {fault.line}\n{fault.trace}" if kinds[kind] == 1 else ""
+            print(f"case {fault.n}: {fault.what} ({fault.where}){more}", flush=True)
+        print(f"{min(start + SHOWN, last) - said.first} cases, {sum(kinds.values())} faults", flush=True)
     for (what, where), count in kinds.most_common():
         print(f"{count:6} {what}  {where}")
-    print(f"{said.cases} cases, {sum(kinds.values())} faults")
 
 
 if __name__ == "__main__":

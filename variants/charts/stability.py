@@ -179,8 +179,13 @@ def scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
     """Return scale factors, by plan, at which plans of all positions find room where lines do not meet flatly.
 
     They are the coarsest that the task's own choice gives at some positions of the cycle.
+
+    Raises
+    ------
+    InputError
+        What is chosen gives none at any of them.
     """
-    case, mus = scene.case, dict[str, float]()
+    case, mus, reason = scene.case, dict[str, float](), None
     values = case.task.values(case.variant, case.settings)
     places = cycle.angles[:: max(len(cycle.angles) // LOOKED, 1)]
     plans = (*case.plans, "position")
@@ -189,8 +194,11 @@ def scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
     for solved in [solved for solved in sound if solved.worst_sine()[1] >= SMALL] or sound:
         try:
             scales = first_scales(solved, case.choosers)
-        except InputError:  # the segment that sets a scale factor is zero here
+        except InputError as error:  # the segment that sets a scale factor is zero here
+            reason = error
             continue
         for plan, scale in scales.items():
             mus[plan] = max(mus.get(plan, 0.0), scale.mu)
+    if reason is not None and not mus:
+        raise reason
     return mus
