@@ -64,6 +64,8 @@ class Allowance:
         self._steps = key.paper.program.by_name
         self._arms = {step.operands[0]: step.name for step in key.paper.program.which(("arm",))}
         self._slacks: dict[str, float] = {}
+        self._calculations: dict[str, Step | None] = {}
+        self._inputs: dict[str, list[str]] = {}
         self._calculated: dict[str, float] = {}
 
     def of(self, name: str, value: Any, right: bool = False) -> float:
@@ -90,12 +92,14 @@ class Allowance:
 
         That is also what has a limit of its own, and a segment whose scale factor has to be guessed.
         """
-        if name in self.key.firm or not self.sure(name):
-            return None
-        step = self.key.questions[name].step
-        if step.verb == "read":
-            step = self._steps.get(f"_{name}", step)
-        return step if step.verb == "calc" and len(step.operands) <= MOST and not self._drawn(step) else None
+        if name not in self._calculations:
+            step = self.key.questions[name].step
+            if step.verb == "read":
+                step = self._steps.get(f"_{name}", step)
+            by_hand = step.verb != "calc" or name in self.key.firm or not self.sure(name)
+            by_hand = by_hand or len(step.operands) > MOST or self._drawn(step)
+            self._calculations[name] = None if by_hand else step
+        return self._calculations[name]
 
     def _drawn(self, step: Step) -> bool:
         """Whether a law takes places of marks, which are measured however it goes on."""
@@ -104,7 +108,9 @@ class Allowance:
 
     def inputs(self, step: Step) -> list[str]:
         """Return the answers from which a step calculates."""
-        found: list[str] = []
+        if step.name in self._inputs:
+            return self._inputs[step.name]
+        found = self._inputs[step.name] = []
         seen, left = {step.name}, list(step.operands)
         while left:
             operand = left.pop()
@@ -196,6 +202,9 @@ class Allowance:
         if arm not in self.key.questions:
             return self._of_hand(step)
         missed = self._slack(arm)
+        follows = abs(self.drawn.follows.get(arm, length))
+        if follows <= self.key.allowed[arm]:
+            missed += 2.0 * length  # on which side the force passes a hand cannot tell
         return float(size * missed + length * self._slack(force))
 
     def _marked(self, name: str, allowed: float) -> float:

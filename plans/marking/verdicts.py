@@ -351,7 +351,8 @@ class _Marker:
         """Return the way to take an answer that misses a value least."""
         if value is None or value != value:
             return _Held(Verdict.RIGHT, ways[0], Miss(NEVER, SIZE), value, NEVER)
-        self.drawn.go_on(self.settled[name])
+        if not right or self.allowance.calculation(name) is not None:
+            self.drawn.go_on(self.settled[name])
         allowed = self.allowance.of(name, value, right)
         held = [_Held(Verdict.RIGHT, way, self._missed(way, name, value, allowed), value, allowed) for way in ways]
         return min(held, key=_off)
