@@ -20,6 +20,9 @@ SECTIONS, ROUNDS, MOST_ROUNDS, DIP_ROUNDS = 24, 4, 9, 8
 LEAST_CELLS = 48
 DIP = 4.0  # a grid value so many second differences away from zero does not come there between the points
 TOUCH = 1e-12  # part of the largest value within which a dip counts as touching zero
+REACHES = (0.3, 0.1, 0.03, 0.01, 0.003)  # radians around a touch in which it is looked for by a polynomial
+NODES, DEGREE, NEWTON = 256, 24, 6
+WORST = 1e-9  # radians that a polynomial may be off: then there is a corner
 END = 1e-6  # how near the grid comes to the ends of a stretch, in radians of its circle
 
 
@@ -148,7 +151,33 @@ def _dips(function: Function, theta: Array, values: Array, size: float) -> tuple
         going = dips.going & (not last)
         touches += list(dips.lowest[~dips.passed & ~going & (dips.depth <= TOUCH * size)])
         low, high, sign = dips.low[going], dips.high[going], sign[going]
-    return np.array(cells, float).reshape(-1, 3).T, np.array(touches)
+    return np.array(cells, float).reshape(-1, 3).T, np.array([_bottom(function, touch) for touch in touches])
+
+
+def _bottom(function: Function, touch: float) -> float:
+    """Return where a smooth function that touches zero near `touch` turns there.
+
+    Values around a touch are those of rounding within the root of it, about 1e-8; the slope of a polynomial through
+    places far enough around it has its zero where the function turns, to 1e-13. The width is taken at which what the
+    polynomial misses shifts this zero least; a corner stays where it was found.
+    """
+    from numpy.polynomial import Chebyshev
+
+    nodes = np.cos(math.pi * (np.arange(NODES) + 0.5) / NODES)
+    found, least = touch, WORST
+    for reach in REACHES:
+        values = function(touch + reach * nodes)
+        if not np.all(np.isfinite(values)):
+            continue
+        fitted = Chebyshev.fit(nodes, values, DEGREE, domain=(-1.0, 1.0))
+        slope, bend, x = fitted.deriv(), fitted.deriv(2), 0.0
+        for _ in range(NEWTON):
+            if abs(x) < 1.0:
+                x -= float(slope(x) / bend(x)) if bend(x) else 1.0
+        if abs(x) < 1.0:
+            missed = reach * DEGREE * float(np.max(np.abs(fitted(nodes) - values)) / abs(bend(x)))
+            found, least = (touch + reach * x, missed) if missed < least else (found, least)
+    return found
 
 
 class _Dips:

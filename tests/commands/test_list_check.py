@@ -94,7 +94,7 @@ def test_a_check_tells_faults_from_remarks(
     assert status == 2
     assert [one["key"] for one in data["errors"]] == ["no-assembly-here"]
     assert [one["key"] for one in data["remarks"]] == ["variant-apart", "variant-apart", "variant-change"]
-    assert data["remarks"][-1]["message"].endswith(words["variant-change"].format(angles="180°, 360°"))
+    assert data["remarks"][-1]["message"].endswith(words["variant-change"].format(angles="0°, 180°"))
     assert out.splitlines()[0] == data["errors"][0]["message"]
     assert out.splitlines()[1:] == [words["check-remark"].format(text=one["message"]) for one in data["remarks"]]
     assert err == words["check-bad"].format(file=file, n=1) + "\n"

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from mpmath import mp, mpc, mpf
 
 from kulman.plans.linkages.cycles.cycle import cycle
 from kulman.plans.linkages.cycles.limits import reach
@@ -219,3 +220,102 @@ def test_a_driver_with_a_literal_angle_turns_alone() -> None:
 
     assert np.allclose(np.angle(done.values["B"]), math.pi / 6)
     assert [spot.angle for spot in done.motions[0].dead] == pytest.approx([math.pi / 6, 7 * math.pi / 6])
+
+
+def in_line(slider: bool) -> Mechanism:
+    """Crank OA, coupler AB and rocker CB; with a slider also a link BD whose end D moves along a level guide."""
+    links: tuple[Link, ...] = (
+        Link(1, {"O": ORIGIN, "A": ("l_OA", ZERO)}),
+        Link(2, {"A": ORIGIN, "B": ("l_AB", ZERO)}),
+        Link(3, {"C": ORIGIN, "B": ("l_CB", ZERO)}),
+    )
+    pairs: tuple[Revolute | Prismatic, ...] = (
+        Revolute("O", (0, 1), ORIGIN),
+        Revolute("A", (1, 2)),
+        Revolute("B", (2, 3), branch="side"),
+        Revolute("C", (0, 3), ("x_C", "y_C")),
+    )
+    if slider:
+        links += (Link(4, {"B": ORIGIN, "D": ("l_BD", ZERO)}), Link(5, {"D": ORIGIN}))
+        pairs += (
+            Revolute("B", (3, 4)),
+            Revolute("D", (4, 5)),
+            Prismatic("D", (5, 0), (ZERO, "y_D"), ZERO, branch="near"),
+        )
+    return Mechanism(links=links, pairs=pairs, driver=CRANK)
+
+
+def random_four_bar(random: np.random.Generator) -> dict[str, float]:
+    """Return a crank-rocker whose frame stands in any direction."""
+    while True:
+        a, b, c, d = sorted(random.uniform(0.1, 1.0, 4))
+        if a + d < b + c:
+            break
+    b, c, d = random.permutation([b, c, d])
+    turned = d * np.exp(1j * random.uniform(0.0, 2.0 * math.pi))
+    lengths = {"l_OA": a, "l_AB": b, "l_CB": c, "x_C": turned.real, "y_C": turned.imag}
+    return {
+        **RATES,
+        **{name: float(x) for name, x in lengths.items()},
+        "side": float(random.choice((-1, 1))),
+        "near": 1.0,
+    }
+
+
+def off(found: tuple[float, ...], place: mpf) -> float:
+    """Return how far the nearest of some places, rad, is from a place that is known to 34 digits."""
+    return min(float(abs((mpf(x) - place + mp.pi) % (2 * mp.pi) - mp.pi)) for x in found)
+
+
+@pytest.mark.parametrize("count", [pytest.param(25, id="25"), pytest.param(150, id="150", marks=pytest.mark.soak)])
+def test_change_points_are_where_34_digits_have_them(count: int) -> None:
+    random, seen = np.random.default_rng(20261122), 0
+
+    with mp.workdps(34):
+        while seen < count:
+            values = random_four_bar(random)
+            frame = mp.hypot(values["x_C"], values["y_C"])
+            values["l_CB"] = float(frame + mpf(values["l_OA"]) - mpf(values["l_AB"]))  # all in line, A beyond O
+            if abs(values["l_CB"] - values["l_AB"]) > frame - values["l_OA"] or values["l_CB"] < 0.05:
+                continue  # no crank that turns
+            found = reach(in_line(False), values)
+            changes = found.changes
+            if not changes:  # rounding of a length has made a gap of the touch
+                assert sum(arc.high - arc.low for arc in found.apart) < 1e-6
+                continue
+            seen += 1
+            direction = mp.atan2(values["y_C"], values["x_C"])
+            assert off(changes, direction + mp.pi) < 1e-12
+            assert all(off((x,), direction) < 1e-12 or off((x,), direction + mp.pi) < 1e-12 for x in changes)
+
+
+@pytest.mark.parametrize("count", [pytest.param(12, id="12"), pytest.param(60, id="60", marks=pytest.mark.soak)])
+def test_a_link_that_just_reaches_its_guide_does_so_where_34_digits_have_it(count: int) -> None:
+    random, seen = np.random.default_rng(20261123), 0
+
+    with mp.workdps(34):
+        while seen < count:
+            values = random_four_bar(random)
+            a, b, c, side = (mpf(values[name]) for name in ("l_OA", "l_AB", "l_CB", "side"))
+            pivot = mpc(values["x_C"], values["y_C"])
+
+            def height(phi: mpf) -> mpf:
+                tip = a * mp.expj(phi)  # noqa: B023
+                across = pivot - tip  # noqa: B023
+                along = (abs(across) ** 2 + b * b - c * c) / (2 * abs(across))  # noqa: B023
+                return (tip + across / abs(across) * mpc(along, side * mp.sqrt(b * b - along * along))).imag  # noqa: B023
+
+            solved = reach(in_line(True), {**values, "l_BD": 6.0, "y_D": -2.0})
+            assert solved.free
+            best = max(np.arange(0.0, 6.28, 0.02).tolist(), key=lambda phi: float(height(mpf(phi))))
+            top = mp.findroot(
+                lambda phi: mp.diff(height, phi), (best - 0.02, best + 0.02), solver="anderson", tol=1e-25
+            )
+            if abs(mp.diff(height, top, 2)) < 0.1:  # too flat for sixteen digits
+                continue
+            seen += 1
+            values |= {"y_D": -2.0, "l_BD": float(height(top) + 2)}
+            found = reach(in_line(True), values)
+            assert off(found.changes, top) < 1e-12
+            for x in map(mpf, found.changes):  # an upright rocker passes its top twice
+                assert abs(mp.diff(height, x) / mp.diff(height, x, 2)) < 1e-12

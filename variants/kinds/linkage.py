@@ -328,7 +328,7 @@ def _always_short(task: Task) -> set[str]:
 
 
 def _degrees(angle: float) -> str:
-    return f"{math.degrees(angle):.4g}"
+    return f"{round(math.degrees(angle), 9) + 0.0:.4g}"  # nothing but rounding is nothing
 
 
 def _placed(case: Case) -> SolvedLinkage:

@@ -138,7 +138,8 @@ def reach(mechanism: Mechanism, values: Mapping[str, float], between: Arc | None
     Returns
     -------
     Reach
-        Limits to the rounding of the margins: better than 1e-12 rad, near a change point than 1e-9 rad.
+        Limits and change points to the rounding of the margins: better than 1e-12 rad; limits near a change point,
+        which are nearly double zeros, than 1e-9 rad.
     """
     return reach_of(swept(mechanism, values), values, between)
 
@@ -167,7 +168,7 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
             stretches = [piece for pieces, _ in parts for piece in pieces]
             (poles if step.verb == "meet" else changes).extend(place for _, cuts in parts for place in cuts)
     if drive.turns:
-        changes, poles = [x % TURN for x in changes], [x % TURN for x in poles]
+        changes, poles = ([0.0 if TURN - x % TURN < SAME else x % TURN for x in places] for places in (changes, poles))
     apart = _gaps(whole, stretches)
     limits = {end for arc in apart for end in (arc.low, arc.high)} - (
         set() if whole.closed else {whole.low, whole.high}
