@@ -1,7 +1,8 @@
-"""The acceleration plan: mistakes M37 to M56."""
+"""The acceleration plan: mistakes M37 to M56, M115, M116 and M121."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -23,6 +24,7 @@ from .velocity import (
     absolute_reading,
     along_links,
     drive,
+    from_swapped_points,
     middle,
     other_end,
     other_side,
@@ -104,13 +106,21 @@ def normal_laws(scene: Scene) -> Iterator[tuple[Step, Step]]:
             yield step, reading
 
 
+def _to_the_same_end(scene: Scene, reading: Step) -> Iterator[Step]:
+    """Go through the other readings of the plan that end where one does: the absolute vector, other relative ones."""
+    for other in scene.made_by("read", plan=reading.plan):
+        if other.operands[1] == reading.operands[1] and other.operands[0] != reading.operands[0]:
+            yield other
+
+
 @mistake("M40")
 def normal_from_another(scene: Scene) -> Iterator[Change]:
     """The normal part is calculated from the absolute velocity, or from the angular velocity of the crank."""
     for step, reading in normal_laws(scene):
-        absolute = absolute_reading(scene, reading)
-        if absolute is not None:
-            yield instead(step, "v", operands=operand(step, 0, absolute.name))
+        for other in _to_the_same_end(scene, reading):
+            yield instead(
+                step, "v" if other.operands[0].endswith(".p") else other.name, operands=operand(step, 0, other.name)
+            )
         if "omega_1" in scene.steps:
             yield instead(step, "omega_1", operands=operand(step, 0, "omega_1"), law="centripetal")
 
@@ -123,6 +133,50 @@ def square_lost(scene: Scene) -> Iterator[Change]:
         for how, law in (("v/l", "rate_over"), ("omega l^2", "circular_speed")):
             last = replace(step, operands=(size[-1].name, step.operands[1]), law=law)
             yield Change(step.name, {step.name: (*size, last)}, {}, how)
+
+
+def normal_sizes(scene: Scene) -> Iterator[tuple[Step, tuple[Step, ...], str, str]]:
+    """Go through normal parts: the step, steps that find omega and its name, the length.
+
+    Parts of links of groups are calculated from the relative velocity, omega being its size over the length.
+    """
+    for step, reading in normal_laws(scene):
+        size, omega = length_of(reading.name), f"_omega_of_{step.name}"
+        yield (
+            step,
+            (*size, Step("calc", omega, (size[-1].name, step.operands[1]), "rate_over")),
+            omega,
+            step.operands[1],
+        )
+    for step in scene.made_by("calc", law="centripetal"):
+        sense, omega = constant(math.copysign(1.0, scene.values[step.operands[0]])), f"_omega_of_{step.name}"
+        yield step, (Step("calc", omega, (sense, step.operands[0]), "along"),), omega, step.operands[1]
+
+
+def _signs() -> dict[str, float]:
+    return {constant(sense): sense for sense in (1.0, -1.0)}
+
+
+@mistake("M115")
+def omega_not_squared(scene: Scene) -> Iterator[Change]:
+    """The normal part is omega l."""
+    for step, found, omega, length in normal_sizes(scene):
+        product = Step("calc", step.name, (omega, length), "circular_speed")
+        yield Change(step.name, {step.name: (*found, product)}, _signs())
+
+
+@mistake("M116")
+def length_lost(scene: Scene) -> Iterator[Change]:
+    """The normal part is omega^2."""
+    for step, found, omega, _ in normal_sizes(scene):
+        square = Step("calc", step.name, (omega, constant(1.0)), "centripetal")
+        yield Change(step.name, {step.name: (*found, square)}, _signs())
+
+
+@mistake("M121")
+def lines_from_swapped_points(scene: Scene) -> Iterator[Change]:
+    """Each of two lines is drawn through the mark of the other."""
+    yield from from_swapped_points(scene, ACCELERATION)
 
 
 @mistake("M42")
@@ -194,6 +248,9 @@ def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
     for step in coriolis(scene):
         if "omega_1" in scene.steps and step.operands[0] != "omega_1":
             yield instead(step, "omega_1", operands=operand(step, 0, "omega_1"))
+            driver, own = scene.values["omega_1"], scene.values[step.operands[0]]
+            if driver * own < 0.0:
+                yield scaled(step, -driver / own, "omega_1, own sense")
         pin, slide = abs(scene.values.get(f"V_{scene.pin}", 0.0)), abs(scene.values[step.operands[1]])
         if pin and slide:
             yield scaled(step, pin / slide, "v")

@@ -62,13 +62,17 @@ class Book:
         """Return the number of signatures."""
         return len(self.signatures)
 
-    def drawn_to(self, key: Key) -> Book:
-        """Return the book for a student's own scales: what hangs on them is run again."""
+    def drawn_to(self, key: Key, mus: Mapping[str, float]) -> Book:
+        """Return the book for a student's own scale factors, by plan: what hangs on them is run again.
+
+        `key` is the key to which the answers were marked.
+        """
         if key is self.key:
             return self
         ids = [id for id, mistake in MISTAKES.items() if mistake.by_scale]
         kept = [s for s in self.signatures if s.broken.mistake not in ids]
-        return _book(key, [*kept, *signatures(key, broken(key.paper, key.values, ids))], self.turned)
+        paper = replace(key.paper, mus={**key.paper.mus, **mus})
+        return _book(key, [*kept, *signatures(key, broken(paper, key.values, ids))], self.turned)
 
 
 def book(key: Key) -> Book:

@@ -8,26 +8,31 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..marking.answers import FREE, Said
-from ..marking.verdicts import CLEAR, Line, Marking, Verdict, behind, judge
-from .book import Book, Signature, broken, key_of, signature
+from ..hands.shaky import Paper
+from ..marking.answers import FREE, Answer, Said, known, nearest
+from ..marking.verdicts import Line, Marking, Verdict, behind, judge
+from .book import MISTAKES, Book, Signature, broken, key_of, signature
 from .rules import Broken
 
 MOST = 4.0  # tolerances beyond which a miss counts no more
 ALIKE = 0.5  # tolerances by which values differ that answers cannot tell apart
 NEAR = 12  # signatures that are looked at closely
 FAR, NEARLY = 1.5, 0.3  # how much worse than the nearest a signature may be to be looked at
-MISFIT = 2.0  # mean miss in tolerances from which a mistake explains nothing
-LEFT, SECOND = 0.15, 0.25  # by how many tolerances a line left wrong, or a second mistake, is worse
-PAIRS = 8  # pairs of them
+LEFT, SPOILT, SECOND = 0.3, 0.1, 0.25  # by how many tolerances a line left wrong, or a second mistake, is worse
 ANGLES = 2  # angles of the crank that are looked at closely
 ANGLED = frozenset(("M08", "M09", "M10"))  # mistakes that put the crank at another angle
-FIRSTS = 4  # mistakes to which a second one is added
+SLIP = 1.5  # tolerances by which a line that stays wrong misses clearly
+ODD = 1e4  # times the right scale factor that none is
+BEAM = 4  # chains of mistakes that are made longer
+LOCAL = 16  # mistakes at one line that are looked at closely
+LINES = 3  # lines that stay wrong to which a mistake more is sought
+DEPTH = 4  # mistakes of one student that are named
 
 Floats = NDArray[np.float64]
 
@@ -64,6 +69,27 @@ class Explanation:
     marking: Marking
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Found:
+    """A candidate with its broken constructions, each after the one before, and the lines marked with the last."""
+
+    candidate: Candidate
+    chain: tuple[Signature, ...]
+    lines: tuple[Line, ...]
+    clear: tuple[int, ...]  # places of lines that stay wrong by more than a slip
+    spoilt: int  # how many lines are wrong by a slip that were not without it
+
+    @property
+    def fits(self) -> bool:
+        """Whether it explains everything within the tolerances."""
+        return self.candidate.misses <= 1.0 and not self.clear and not self.spoilt
+
+
+def _rank(one: _Found) -> float:
+    """Return the misses, worse for each line that stays clearly wrong, or is spoilt, and for a second mistake."""
+    return one.candidate.misses + LEFT * len(one.clear) + SPOILT * one.spoilt + SECOND * (len(one.chain) - 1)
+
+
 @dataclass(frozen=True, slots=True)
 class _Answers:
     """The answers of one student as columns: sizes, directions (unit vectors or signs, zero where not said)."""
@@ -78,19 +104,25 @@ class _Answers:
 
         What has been found on another way is held against what that gives.
         """
-        off = self._misses(book, table, most)
+        off = self.missed(book.vector, table, most)
         if np.all(book.other == 1.0):
             return off
-        return np.asarray(np.fmin(off, self._misses(book, table * book.other, most)))
+        return np.asarray(np.fmin(off, self.missed(book.vector, table * book.other, most)))
 
-    def _misses(self, book: Book, table: NDArray[np.complex128], most: Floats) -> Floats:
+    def of_line(self, place: int) -> _Answers:
+        """Return the answer of one line alone."""
+        here = slice(place, place + 1)
+        return _Answers(self.size[here], self.way[here], self.free[here], self.angle[here])
+
+    def missed(self, vector: NDArray[np.bool_], table: NDArray[np.complex128], most: Floats) -> Floats:
+        """Return the misses of rows of values; `vector` tells which of them are vectors."""
         sizes = np.abs(table)
         with np.errstate(all="ignore"):
             off = np.abs(self.size - sizes)
             off = np.where(np.isnan(self.size), 0.0, _parts(off, most))
             turned = np.abs(np.angle(np.conj(self.way) * table))
             turned = np.where(self.free, np.minimum(turned, np.pi - turned), turned)
-            astray = np.where(book.vector, turned / self.angle, _parts(2.0 * sizes, most) * (turned > 1.0))
+            astray = np.where(vector, turned / self.angle, _parts(2.0 * sizes, most) * (turned > 1.0))
             off = np.where((self.way != 0.0) & (sizes > most), np.maximum(off, astray), off)
         said = ~np.isnan(self.size) | (self.way != 0.0)
         return np.where(said, np.where(np.isnan(table), MOST, off), np.nan)
@@ -105,14 +137,26 @@ def explain(book: Book, marking: Marking) -> Explanation:
     """Find the mistakes that explain the answers of one student; none for answers without an error."""
     if marking.first_wrong is None:
         return Explanation((), marking)
-    return _Search(book.drawn_to(marking.key), marking).explanation()
+    return _Search(book.drawn_to(marking.key, _scales(marking)), marking).explanation()
+
+
+def _scales(marking: Marking) -> dict[str, float]:
+    """Return the scale factors that the student has written, by plan, SI per mm."""
+    ours, found = marking.key.paper.mus, dict[str, float]()
+    for line in marking.lines:
+        mu = line.answer.mu if line.answer is not None else None
+        if mu is not None and known(mu) and mu > 0.0 and line.plan in ours:
+            own = nearest((mu, 1.0 / mu), ours[line.plan])
+            if 1.0 / ODD < own / ours[line.plan] < ODD:
+                found.setdefault(line.plan, own)
+    return found
 
 
 class _Search:
     """The search for the mistakes of one student."""
 
     def __init__(self, book: Book, marking: Marking) -> None:
-        self.book, self.marking = book, marking
+        self.book, self.marking, self.mus = book, marking, {**book.key.paper.mus, **_scales(marking)}
         self.said = _columns(marking)
         self.faulty = {line.name: line.off for line in marking.lines if line.verdict.faulty}
         self.answers = [line.answer for line in marking.lines if line.answer is not None]
@@ -126,24 +170,95 @@ class _Search:
         likely = (means < self.without) | (off[:, self.first] <= 1.0)
         near = [int(i) for i in np.argsort(means, kind="stable") if likely[i]][:NEAR]
         near = [i for i in near if means[i] <= FAR * means[near[0]] + NEARLY]
-        found = [c for i in near if (c := self._candidate((self.book.signatures[i],))) is not None]
-        if not any(self._fits(c) and not ANGLED.intersection(c.ids) for c, _ in found):
+        found = [one for i in near if (one := self._found((self.book.signatures[i],))) is not None]
+        if not any(one.fits and not ANGLED.intersection(one.candidate.ids) for one in found):
             found += self._turned()
-        if not found:
-            found += self._adrift()
-        if all(self._clear(c) for c, _ in found):
-            found += self._pairs(off)
-        ranked = sorted(found, key=lambda pair: self._rank(pair[0]))
+        if not any(one.fits for one in found):
+            tried = {one.chain[0].broken.place for one in found}
+            local = self._at_line(self.marking.lines, self.first, (), off)
+            found += [one for one in local if one.chain[0].broken.place not in tried]
+            found += self._chained(found, off)
+        ranked = sorted(found, key=_rank)
         candidates = _simplest(_grouped(ranked, self.said))
         if not candidates or candidates[0].misses > 1.0:
             candidates = _simplest((*self._put_right(off), *candidates))
         return Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
 
-    def _fits(self, candidate: Candidate) -> bool:
-        """Whether a candidate explains everything within the tolerances."""
-        return candidate.misses <= 1.0 and not self._clear(candidate)
+    def _chained(self, found: list[_Found], off: Floats) -> list[_Found]:
+        """Add mistakes to those that leave lines clearly wrong, one at the first of these lines after another."""
+        made: list[_Found] = []
+        ends = [one for one in found if one.clear]
+        for _ in range(DEPTH - 1):
+            ends = sorted(ends, key=_rank)[:BEAM]
+            longer = [more for one in ends for more in self._longer(one, off)]
+            made += longer
+            ends = [one for one in longer if one.clear]
+        return made
 
-    def _turned(self) -> list[tuple[Candidate, Signature]]:
+    def _longer(self, one: _Found, off: Floats) -> list[_Found]:
+        """Add a mistake to a chain, at the first line clearly wrong after it that one explains."""
+        for place in one.clear[:LINES]:
+            longer = self._at_line(one.lines, place, one.chain, off)
+            if longer:
+                return longer
+        return []
+
+    def _at_line(self, lines: tuple[Line, ...], place: int, chain: tuple[Signature, ...], off: Floats) -> list[_Found]:
+        """Add a mistake to a chain: one that moves a line and none before it that passes.
+
+        The nearest come first, by what they give or by its ratio to what the chain gives.
+        """
+        earlier = [i for i, line in enumerate(lines[:place]) if line.answer is not None and line.verdict.passed]
+        fitting = np.flatnonzero(self.moved[:, place] & ~self.moved[:, earlier].any(axis=1))
+        made = self._after(chain, [self.book.signatures[i] for i in fitting])
+        if not made:
+            return []
+        table = np.array([one.row[place] for one in made])[:, None]
+        most = np.array([one.allowed[place] for one in made])[:, None]
+        usual = chain[-1].row[place] if chain else self.book.right[place]
+        near = np.minimum(
+            self._misses_of(place, table, most), self._misses_of(place, *self._times(lines[place], table, usual))
+        )
+        ordered = [made[i] for i in np.argsort(near, kind="stable") if near[i] <= 1.0]
+        return [more for one in ordered[:LOCAL] if (more := self._found((*chain, one), lines[place].name)) is not None]
+
+    def _after(self, chain: tuple[Signature, ...], others: list[Signature]) -> list[Signature]:
+        """Return mistakes as they are made after those of a chain."""
+        if not chain:
+            return others
+        last, places = chain[-1], {one.broken.place for one in others} - {one.broken.place for one in chain}
+        paper = Paper(last.broken.program, last.broken.givens, self.mus)
+        again = broken(paper, last.values, {place[0] for place in places})
+        made = (signature(self.book.key, one) for one in again if one.place in places)
+        return [one for one in made if one is not None]
+
+    def _misses_of(self, place: int, table: NDArray[np.complex128], most: Floats) -> Floats:
+        """Return by how many tolerances the answer of one line misses a column of values."""
+        return np.asarray(self.said.of_line(place).missed(self.book.vector[place], table, most)[:, 0])
+
+    def _times(
+        self, line: Line, table: NDArray[np.complex128], usual: complex
+    ) -> tuple[NDArray[np.complex128], Floats]:
+        """Return what follows from a student's own values where mistakes make a line so many times the usual value."""
+        follows = complex(line.follows)
+        with np.errstate(all="ignore"):
+            own = table * (follows / usual if usual and follows == follows else np.nan)
+            return own, line.allowed * np.maximum(1.0, np.abs(own) / abs(line.right or 1.0))
+
+    @cached_property
+    def by_value(self) -> list[Answer]:
+        """The answers by their values alone where these are written: another scale factor has other millimetres."""
+        return [one if one.value is None else replace(one, mm=None) for one in self.answers]
+
+    @cached_property
+    def moved(self) -> NDArray[np.bool_]:
+        """Which lines each mistake moves by more than a tolerance, of shape (mistakes, questions)."""
+        book, told = self.book, self.said.way != 0.0
+        with np.errstate(all="ignore"):
+            apart = np.where(told, np.abs(book.table - book.right), np.abs(np.abs(book.table) - np.abs(book.right)))
+            return np.asarray(apart > book.allowed)
+
+    def _turned(self) -> list[_Found]:
         """Return the crank at the angles that fit best, where the answers are those of another position."""
         book, table = self.book, self.book.turned.table
         with np.errstate(all="ignore"):
@@ -151,20 +266,7 @@ class _Search:
         means = _mean(self.said.misses(book, table, most))
         near = [int(i) for i in np.argsort(means, kind="stable")[:ANGLES] if means[i] <= 1.0]
         made = [signature(book.key, book.turned.broken(i)) for i in near]
-        return [c for one in made if one is not None and (c := self._candidate((one,))) is not None]
-
-    def _adrift(self) -> list[tuple[Candidate, Signature]]:
-        """Return mistakes at the first wrong line of a drawing that has gone far astray before it, by no error.
-
-        There it is the ratio to what follows from the answers before it that tells, not the size.
-        """
-        line = self.marking[str(self.marking.first_wrong)]
-        if not line.follows or line.follows != line.follows:
-            return []
-        size = self.said.size[self.first] * abs(line.right) / abs(line.follows)
-        off = _parts(np.abs(size - np.abs(self.book.table[:, self.first])), self.book.most[:, self.first])
-        near = [self.book.signatures[i] for i in np.argsort(off, kind="stable")[:FIRSTS] if off[i] <= 1.0]
-        return [c for one in near if (c := self._candidate((one,))) is not None]
+        return [found for one in made if one is not None and (found := self._found((one,))) is not None]
 
     def _put_right(self, off: Floats) -> tuple[Candidate, ...]:
         """Return the mistakes that explain every line that is not right, where right values were taken after them."""
@@ -189,59 +291,23 @@ class _Search:
         ]
         return _simplest(tuple(found))[:NEAR]
 
-    def _clear(self, candidate: Candidate) -> int:
-        """Return how many lines stay clearly wrong."""
-        return sum(self.faulty.get(name, MOST) > CLEAR for name in candidate.left)
-
-    def _rank(self, candidate: Candidate) -> float:
-        """Return the misses, worse for each line that stays clearly wrong and for a second mistake."""
-        return candidate.misses + LEFT * self._clear(candidate) + SECOND * (len(candidate.mistakes) - 1)
-
-    def _candidate(self, signatures: tuple[Signature, ...]) -> tuple[Candidate, Signature] | None:
+    def _found(self, chain: tuple[Signature, ...], first: str = "") -> _Found | None:
         """Mark the answers with a broken construction; None where it does not explain the first wrong line."""
-        last = signatures[-1]
-        misses = float(_mean(self.said.misses(self.book, last.row[None, :], last.allowed[None, :]))[0])
-        if misses > MISFIT:
-            return None
-        again = judge(key_of(self.book.key, last), self.answers, str(self.marking.first_wrong))
+        by_scale = any(MISTAKES[one.broken.mistake].by_scale for one in chain)
+        answers = self.by_value if by_scale else self.answers
+        again = judge(key_of(self.book.key, chain[-1]), answers, first or str(self.marking.first_wrong))
         if again is None:
             return None
         left = tuple(line.name for line in again if line.verdict.faulty)
         explained = tuple(name for name in self.faulty if name not in left)
         if not explained:
             return None
-        return Candidate(tuple(s.broken for s in signatures), (), explained, left, misses), last
-
-    def _pairs(self, off: Floats) -> list[tuple[Candidate, Signature]]:
-        """Add a second mistake to the first ones: as if ratios multiplied, then in truth."""
-        book, firsts = self.book, self._firsts(off)
-        with np.errstate(all="ignore"):
-            ratio = np.where(np.abs(book.right) > 0.0, book.table / book.right, 1.0)
-        tried: list[tuple[float, int, int]] = []
-        for i in firsts:
-            with np.errstate(all="ignore"):
-                both = np.where(np.isfinite(ratio), book.table[i] * ratio, book.table)
-            means = _mean(self.said.misses(book, both, np.maximum(book.most[i], book.most)))
-            tried += [(float(means[j]), i, int(j)) for j in np.argsort(means, kind="stable")[:PAIRS] if j != i]
-        found = []
-        for mean, i, j in sorted(tried)[:PAIRS]:
-            if mean < self.without and (pair := self._both(i, j)) is not None:
-                found.append(pair)
-        return found
-
-    def _firsts(self, off: Floats) -> list[int]:
-        """Return the mistakes that explain the first wrong line, those first that leave least."""
-        right = np.flatnonzero(off[:, self.first] <= 1.0)
-        means = _mean(off[right])
-        return [int(right[i]) for i in np.argsort(means, kind="stable")[:FIRSTS]]
-
-    def _both(self, i: int, j: int) -> tuple[Candidate, Signature] | None:
-        one, two = self.book.signatures[i], self.book.signatures[j]
-        paper = replace(self.book.key.paper, program=one.broken.program, givens=one.broken.givens)
-        again = broken(paper, one.values, (two.broken.mistake,))
-        then = next((b for b in again if b.place == two.broken.place), None)
-        made = None if then is None else signature(self.book.key, then)
-        return None if made is None else self._candidate((one, made))
+        off = np.array([min(line.off, MOST) for line in again if line.answer is not None])
+        misses = float(np.sqrt(np.mean(off * off)))
+        clear = tuple(i for i, line in enumerate(again) if line.verdict.faulty and line.off > SLIP)
+        spoilt = sum(name not in self.faulty for name in left if name not in {again[i].name for i in clear})
+        candidate = Candidate(tuple(s.broken for s in chain), (), explained, left, misses)
+        return _Found(candidate, chain, again, clear, spoilt)
 
     def _carried(self, candidate: Candidate) -> Marking:
         """Return the marking in which the first line that each mistake explains is wrong, and the others are carried.
@@ -292,12 +358,12 @@ def _mean(off: Floats) -> Floats:
     return np.asarray(np.sqrt(np.nansum(most * most, axis=1) / count))
 
 
-def _grouped(found: Iterable[tuple[Candidate, Signature]], said: _Answers) -> tuple[Candidate, ...]:
+def _grouped(found: Iterable[_Found], said: _Answers) -> tuple[Candidate, ...]:
     """Put candidates together that the answers cannot tell apart."""
     groups: list[tuple[Candidate, Any]] = []
     asked, turned = ~np.isnan(said.size) | (said.way != 0.0), said.way != 0.0
-    for candidate, made in found:
-        row, allowed = made.row[asked], made.allowed[asked]
+    for one in found:
+        candidate, row, allowed = one.candidate, one.chain[-1].row[asked], one.chain[-1].allowed[asked]
         for place, (first, other) in enumerate(groups):
             if len(first.mistakes) == len(candidate.mistakes) and _alike(row, other, allowed, turned[asked]):
                 groups[place] = (replace(first, same=(*first.same, candidate.mistakes)), other)

@@ -1,4 +1,4 @@
-"""Forces and force plans: mistakes M57 to M76; M74, the scale of another group, stands with the other scales."""
+"""Forces and force plans: mistakes M57 to M76, M118, M119, M122, M124; M74, another scale, stands with the scales."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from .rules import (
     Chapter,
     Scene,
     all_scaled,
+    aside,
     constant,
     instead,
     length_of,
@@ -100,10 +101,71 @@ def inertia_moment_lost(scene: Scene) -> Iterator[Change]:
         yield opposed(step, "sense")
 
 
+def sums(scene: Scene) -> Iterator[tuple[Step, list[str]]]:
+    """Go through the equations and sums of moments, the lever's too, with the couples in them."""
+    for step in scene.made_by("calc"):
+        if step.law in ("moment_equation", "closing_moment", "closing_force"):
+            first = 0 if step.law == "closing_moment" else 1
+            yield step, [name for name in step.operands[first:] if name.startswith("M_") and scene.values[name]]
+        elif step.law == "sum" and step.name.startswith("M_"):
+            yield step, [name for name in step.operands if scene.values[name]]
+
+
+@mistake("M60")
+def inertia_moment_in_equation(scene: Scene) -> Iterator[Change]:
+    """The inertia moment has the wrong sense in an equation of moments."""
+    for step, names in sums(scene):
+        for name in names:
+            against = f"_against_{name}"
+            turned = Step("calc", against, (name,), "opposite")
+            operands = tuple(against if x == name else x for x in step.operands)
+            yield Change(step.name, {step.name: (turned, replace(step, operands=operands))}, {}, f"equation {name}")
+
+
+@mistake("M119")
+def moment_left_out(scene: Scene) -> Iterator[Change]:
+    """A moment is left out of an equation or a sum of moments."""
+    for step, names in sums(scene):
+        for name in names:
+            yield instead(step, name, operands=tuple("zero" if x == name else x for x in step.operands))
+
+
+@mistake("M118")
+def sign_of_moment(scene: Scene) -> Iterator[Change]:
+    """The moment of one force has the wrong sign in an equation of moments."""
+    for step in scene.made_by("calc"):
+        if step.law in ("moment_equation", "closing_moment", "closing_force"):
+            taken = [scene.steps[name] for name in step.operands if name in scene.steps and scene.values[name]]
+            if len(taken) > 1:
+                yield from (opposed(one, step.name) for one in taken if one.verb == "moment")
+
+
+@mistake("M122")
+def another_acceleration(scene: Scene) -> Iterator[Change]:
+    """An inertia force is calculated with the acceleration of another point."""
+    read = [s.name for s in scene.made_by("read", plan="acceleration") if s.operands[0] == "acceleration.p"]
+    absolute = [name for name in read if name not in scene.laid_off or name == f"a_{scene.pin}"]
+    for step in inertia_forces(scene):
+        for name in absolute:
+            if name != step.operands[1] and abs(scene.values[name] - scene.values[step.operands[1]]):
+                yield instead(step, name, operands=operand(step, 1, name))
+
+
+@mistake("M124")
+def balance_in_millimetres(scene: Scene) -> Iterator[Change]:
+    """What balances the driver is found with arms in millimetres."""
+    for step in scene.made_by("calc"):
+        if step.law in ("closing_moment", "closing_force", "crank_moment") and "bal" in step.name:
+            yield scaled(step, 1000.0)
+
+
 @mistake("M61")
 def inertia_about_end(scene: Scene) -> Iterator[Change]:
     """The moment of inertia is taken about the end of the link: m l^2 / 3 for m l^2 / 12."""
-    yield from (scaled(step, 4.0) for step in inertia_moments(scene))
+    steps = inertia_moments(scene)
+    yield from (scaled(step, 4.0) for step in steps)
+    if len(steps) > 1:
+        yield all_scaled("M_i", steps, 4.0, "all")
 
 
 @mistake("M62")
@@ -111,13 +173,12 @@ def force_at_wrong_point(scene: Scene) -> Iterator[Change]:
     """An inertia force stands at a joint or in the middle of the link, instead of the centre of mass."""
     inertia = {step.name for step in inertia_forces(scene)}
     for step in scene.made_by("moment"):
-        force, at, about = step.operands
+        force, at, _ = step.operands
         centre = scene.steps.get(at)
         if force not in inertia or "." in at or centre is None or centre.verb not in ("divide", "similar"):
             continue
-        for end in centre.operands[:2]:
-            if end != about:
-                yield instead(step, end, operands=operand(step, 1, end))
+        for end in centre.operands[:2]:  # about the end where it is thought to act it has no moment
+            yield instead(step, end, operands=operand(step, 1, end))
         half, middle = constant(0.5), f"_middle_of_{at}"
         point = Step("divide", middle, (*centre.operands[:2], half, "one"))
         moved = replace(step, operands=operand(step, 1, middle))
@@ -172,15 +233,19 @@ def moments(scene: Scene) -> Iterator[Step]:
     return (step for step in scene.made_by("moment") if "." not in step.operands[1])
 
 
+def to_point(scene: Scene, step: Step) -> Change:
+    """Measure the arm of a moment to the point of application."""
+    force, at, about = step.operands
+    size, arm, turning = length_of(force), f"_way_{step.name}", f"_whole_{step.name}"
+    way = Step("distance", arm, (at, about))
+    product = Step("calc", turning, (size[-1].name, arm), "crank_moment")
+    return with_sign(step, (*size, way, product), scene.values[step.name])
+
+
 @mistake("M66")
 def arm_to_point(scene: Scene) -> Iterator[Change]:
     """The arm is measured to the point of application instead of the line of action."""
-    for step in moments(scene):
-        force, at, about = step.operands
-        size, arm, turning = length_of(force), f"_way_{step.name}", f"_whole_{step.name}"
-        way = Step("distance", arm, (at, about))
-        product = Step("calc", turning, (size[-1].name, arm), "crank_moment")
-        yield with_sign(step, (*size, way, product), scene.values[step.name])
+    yield from (to_point(scene, step) for step in moments(scene))
 
 
 def equations(scene: Scene) -> Iterator[tuple[Step, list[Step]]]:
@@ -260,6 +325,18 @@ def from_driver_end(scene: Scene) -> Iterator[Change]:
     for step in passed(scene):
         if step.name != driver:
             yield Change(step.name, {step.name: nothing(step)}, {})
+            yield _left_out(scene, step.name)
+
+
+def _left_out(scene: Scene, force: str) -> Change:
+    """Leave a force out of the polygons and the equations of moments, though it is known."""
+    steps = {step.name: (Step("same", step.name, step.operands[:1]),) for step in hung(scene)[force]}
+    taken = {step.name for step in scene.made_by("moment") if step.operands[0] == force}
+    for step in scene.made_by("calc", law="moment_equation"):
+        if taken & set(step.operands):
+            operands = tuple("zero" if name in taken else name for name in step.operands)
+            steps[step.name] = (replace(step, operands=operands),)
+    return Change(force, steps, {}, "left out")
 
 
 @mistake("M73")
@@ -297,3 +374,27 @@ def wrong_vertex(scene: Scene) -> Iterator[Change]:
                 other = f"{plan}.{beside}"
                 if other in scene.steps and other not in step.operands:
                     yield instead(step, f"{place} {beside}", operands=operand(step, place, other))
+    for step, outer in _inner(scene):
+        for law in ("excess", "sum"):
+            read = replace(step, name=aside(step.name))
+            yield Change(
+                step.name, {step.name: (read, Step("calc", step.name, (read.name, outer), law))}, {}, f"{law} {outer}"
+            )
+
+
+def _inner(scene: Scene) -> Iterator[tuple[Step, str]]:
+    """Go through inner reactions, each with the reactions beside it in the polygon of its group.
+
+    Those meet in the mark that closes the polygon; the inner one is read to it, or on the plan of one link alone.
+    """
+    closed = {step.name: step for step in scene.made_by("meet", plan=FORCES)}
+    outer: dict[str, list[str]] = {}
+    for step in closing(scene):
+        for mark in closed.keys() & set(step.operands):
+            outer.setdefault(closed[mark].plan, []).append(step.name)
+    for step in closing(scene):
+        if not closed.keys() & set(step.operands):
+            hung = {name for other in scene.made_by("chain", plan=step.plan) for name in other.operands[1:]}
+            for names in outer.values():
+                if hung & set(names):
+                    yield from ((step, name) for name in names if name not in hung)

@@ -1,4 +1,4 @@
-"""Zhukovsky's lever: mistakes M77 to M82."""
+"""Zhukovsky's lever: mistakes M77 to M82 and M120."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..board import POSITION, Step
+from .forces import to_point
 from .rules import Change, Chapter, Scene, instead, nothing, opposed, scaled
 
 MISTAKES = Chapter()
@@ -60,6 +61,12 @@ def _beside(scene: Scene, letter: str) -> list[str]:
     return [*found]
 
 
+@mistake("M120")
+def arm_to_point(scene: Scene) -> Iterator[Change]:
+    """The arm is measured to the point where the force hangs."""
+    yield from (to_point(scene, step) for step in moments(scene) if "_couple" not in step.operands[0])
+
+
 def couples(scene: Scene) -> list[Step]:
     """Return the couples that hang on the lever as pairs of forces, or with their powers."""
     return [s for s in scene.made_by("calc") if s.law in ("couple", "couple_on_lever")]
@@ -70,6 +77,8 @@ def moment_missing(scene: Scene) -> Iterator[Change]:
     """A moment is missing on the lever, or hangs there as it is, without ab / AB."""
     for step in couples(scene):
         yield Change(step.name, {step.name: nothing(step)}, {}, "none")
+        if step.law == "couple":
+            yield instead(step, "F = M", operands=step.operands[:1], law="given")
         length = scene.values.get(step.operands[1])
         speed = _relative(scene, step)
         if step.law == "couple" and speed and length:

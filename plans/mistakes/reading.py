@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ..board import POSITION, Step
 from ..boards.exact import run
 from .inputs import TWELFTH, angle_of_driver
 from .rules import Change, Chapter, Scene, all_scaled, constant, scaled
+from .velocity import rate_from, rates
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
@@ -53,13 +55,14 @@ def another_scale(scene: Scene) -> Iterator[Change]:
 
 @mistake("M74", by_scale=True)
 def scale_of_another_group(scene: Scene) -> Iterator[Change]:
-    """The force plan of one group is read with the scale factor of another."""
+    """The force plan of one group, or one segment of it, is read with the scale factor of another."""
     groups = [plans for plans in drawn_plans(scene) if plans[0].startswith("forces")]
     for plans in groups:
         for other in groups:
             if other != plans:
                 factor = scene.mu(other[0]) / scene.mu(plans[0])
                 yield all_scaled(plans[0], _on(scene, plans), factor, other[0])
+                yield from (scaled(step, factor, f"{other[0]} alone") for step in _on(scene, plans))
 
 
 @mistake("M16", by_scale=True)
@@ -78,6 +81,8 @@ def millimetres_for_length(scene: Scene) -> Iterator[Change]:
         if steps:
             yield all_scaled(steps[0].name, steps, scene.mu(POSITION), "all")
             yield all_scaled(steps[0].name, steps, 1e-3, "mm")
+        if len(steps) > 1:
+            yield from (scaled(step, scene.mu(POSITION), "alone") for step in steps)
 
 
 @mistake("M18")
@@ -117,7 +122,19 @@ def relative_for_absolute(scene: Scene) -> Iterator[Change]:
             if absolute is not None and step is not absolute:
                 first = Step("read", absolute.name, step.operands)
                 second = Step("read", step.name, absolute.operands)
-                yield Change(step.name, {absolute.name: (first,), step.name: (second,)}, {}, absolute.name)
+                change = Change(step.name, {absolute.name: (first,), step.name: (second,)}, {}, absolute.name)
+                yield _with_rates(scene, change, (absolute, step))
+
+
+def _with_rates(scene: Scene, change: Change, exchanged: tuple[Step, Step]) -> Change:
+    """Let the rates that follow from exchanged readings have their sizes; the senses show in the drawing."""
+    steps, givens = {**change.steps}, {**change.givens}
+    for rate, reading in rates(scene, exchanged[0].plan):
+        if reading in exchanged:
+            found = rate_from(scene, rate, reading.name)
+            steps |= found.steps
+            givens |= found.givens
+    return replace(change, steps=steps, givens=givens)
 
 
 @mistake("M22")
@@ -134,3 +151,9 @@ def another_position(scene: Scene) -> Iterator[Change]:
                 given = f"{constant(shift)}_{step.name}"
                 copied = Step("calc", step.name, (given,), "given")
                 yield Change(step.name, {step.name: (copied,)}, {given: there[step.name]}, how)
+
+
+@mistake("M123")
+def digits_transposed(scene: Scene) -> Iterator[Change]:
+    """Two digits of a number are transposed: what that gives hangs on the number, and is found from the answers."""
+    return iter(())

@@ -1,4 +1,4 @@
-"""The velocity plan: mistakes M23 to M36; M55 is the same on the acceleration plan."""
+"""The velocity plan: mistakes M23 to M36 and M117; M55 is the same on the acceleration plan."""
 
 from __future__ import annotations
 
@@ -6,10 +6,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..board import Step
+from ..laws import define, dot
+from .inputs import lengths
 from .rules import Change, Chapter, Scene, aside, constant, instead, length_of, mirrored, operand, opposed, with_sign
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
+# of a segment that may run any way: its whole size over the length, with the sense in which it turns
+define(turning_whole=lambda v, normal, length: abs(v) * ((dot(v, normal) >= 0.0) * 2.0 - 1.0) / length)
 VELOCITY, ACCELERATION = "velocity", "acceleration"
 
 
@@ -28,10 +32,12 @@ def against_rotation(scene: Scene) -> Iterator[Change]:
 
 @mistake("M24")
 def along_crank(scene: Scene) -> Iterator[Change]:
-    """The vector pa is drawn along the crank."""
+    """The vector pa is drawn along the crank: away from its pivot, or towards it."""
     step = drive(scene, VELOCITY)
     if step is not None and step.operands[1].startswith("n_"):
-        yield instead(step, operands=operand(step, 1, "e_" + step.operands[1][2:]))
+        along = operand(step, 1, "e_" + step.operands[1][2:])
+        yield instead(step, operands=along)
+        yield instead(step, "other way", operands=along, verb="back")
 
 
 def lines(scene: Scene, plan: str) -> Iterator[tuple[Step, int, str]]:
@@ -42,11 +48,14 @@ def lines(scene: Scene, plan: str) -> Iterator[tuple[Step, int, str]]:
 
 
 def along_links(scene: Scene, plan: str) -> Iterator[Change]:
-    """Draw the line of a relative vector along the link instead of normal to it."""
+    """Draw the line of a relative vector along the link instead of normal to it.
+
+    Then the vector has no sense about the link: whoever goes on takes either.
+    """
     for step, place, direction in lines(scene, plan):
         along = "e_" + direction[2:]
         if direction.startswith("n_") and along in scene.steps:
-            yield by_size(scene, instead(step, direction, operands=operand(step, place, along)))
+            yield from of_either_sense(scene, instead(step, direction, operands=operand(step, place, along)), direction)
 
 
 @mistake("M25")
@@ -68,10 +77,15 @@ def _exchanged(scene: Scene, step: Step) -> Change:
     return by_size(scene, instead(step, operands=(p, w, q, u)))
 
 
+def from_swapped_points(scene: Scene, plan: str) -> Iterator[Change]:
+    """Draw each of two lines through the mark of the other."""
+    yield from (_exchanged(scene, step) for step in scene.made_by("meet", plan=plan) if not _slotted(step))
+
+
 @mistake("M26")
 def lines_from_swapped_points(scene: Scene) -> Iterator[Change]:
     """Each of two lines is drawn through the mark of the other."""
-    yield from (_exchanged(scene, step) for step in scene.made_by("meet", plan=VELOCITY) if not _slotted(step))
+    yield from from_swapped_points(scene, VELOCITY)
 
 
 @mistake("M27")
@@ -98,15 +112,39 @@ def rate_from(scene: Scene, rate: Step, vector: str, how: str = "") -> Change:
     return with_sign(rate, (*size, over), scene.values[rate.name], how)
 
 
-def by_size(scene: Scene, change: Change) -> Change:
-    """Let the rates that follow from a mark be calculated from whole segments, whichever way these run now."""
-    steps, givens, plan = {**change.steps}, {**change.givens}, change.at.rpartition(".")[0]
+def by_size(scene: Scene, change: Change, against: str = "") -> Change:
+    """Let the rates that follow from a mark be calculated from whole segments, whichever way these run now.
+
+    Those of links whose normal is `against` get the other sense.
+    """
+    steps, plan = {**change.steps}, change.at.rpartition(".")[0]
     for rate, reading in rates(scene, plan):
         if change.at in reading.operands:
-            found = rate_from(scene, rate, reading.name)
-            steps |= found.steps
-            givens |= found.givens
-    return replace(change, steps=steps, givens=givens)
+            whole = replace(rate, law="turning_whole")
+            steps[rate.name] = (whole,)
+            if rate.operands[1] == against:
+                name = aside(rate.name)
+                steps[rate.name] = (replace(whole, name=name), Step("calc", rate.name, (name,), "opposite"))
+    return replace(change, steps=steps)
+
+
+def of_either_sense(scene: Scene, change: Change, normal: str) -> Iterator[Change]:
+    """Go through both senses of the rate of the link with a normal, which does not show in the drawing."""
+    yield replace(by_size(scene, change), how=f"with {normal}")
+    yield replace(by_size(scene, change, normal), how=f"against {normal}")
+
+
+def with_another_length(scene: Scene) -> Iterator[Change]:
+    """Calculate an angular velocity or acceleration with the length of another link, or of a part of one."""
+    spans = [name for name in lengths(scene) if name.startswith("l_")]
+    spans += [s.name for s in scene.made_by("measure") if s.name.startswith("l_")]
+    for rate in scene.made_by("calc", law="turning"):
+        for name in spans:
+            if name != rate.operands[2]:
+                yield instead(rate, name, operands=operand(rate, 2, name))
+
+
+mistake("M117")(with_another_length)
 
 
 def rates(scene: Scene, plan: str) -> Iterator[tuple[Step, Step]]:
@@ -174,7 +212,10 @@ def triangle_mirrored(scene: Scene) -> Iterator[Change]:
 @mistake("M33")
 def slide_and_rotation_exchanged(scene: Scene) -> Iterator[Change]:
     """In a slotted pair the directions of sliding and of rotation are exchanged."""
-    yield from (_exchanged(scene, step) for step in scene.made_by("meet", plan=VELOCITY) if _slotted(step))
+    for step in scene.made_by("meet", plan=VELOCITY):
+        if _slotted(step):
+            normal = next(u for u in step.operands[1::2] if u.startswith("n_"))
+            yield from of_either_sense(scene, _exchanged(scene, step), normal)
 
 
 @mistake("M34")

@@ -103,6 +103,11 @@ class Line:
     vector: complex | None = None  # as drawn, SI
 
 
+def named_value(name: str) -> bool:
+    """Whether the value of an arm is written, not its millimetres alone: not on the lever."""
+    return not name.startswith("h_lever")
+
+
 def transposed(x: float) -> float:
     """Return a number with the first two neighbouring digits that differ exchanged."""
     text = f"{x:.4g}"
@@ -155,8 +160,7 @@ class Sheet:
     def calculated(self, name: str, plan: str, value: float, vector: complex) -> float:
         """Write down a vector that is calculated, and will be laid off."""
         value = self.write(name, value, None, vector)
-        self.lines[name].mm = round(value / self.mu(plan), 1) if self.hand.dice else value / self.mu(plan)
-        self.plans[name] = plan
+        self.on_paper(name, plan)
         return value
 
     def read(self, name: str, plan: str, tail: complex, tip: complex) -> float:
@@ -175,7 +179,8 @@ class Sheet:
             if other := self.slip(id, plan):
                 value = mm * self.mu(other.way)
         if self.slip("M56", name):
-            mm = self.lines["V" + name[1:]].mm or 0.0
+            there = self.lines["V" + name[1:]]
+            mm, tail, tip = there.mm or 0.0, 0j, (there.vector or 0j) / mu
             value = mm * mu
         return self.write(name, value, mm, (tip - tail) * mu)
 
@@ -187,7 +192,10 @@ class Sheet:
         else:
             mm = self.hand.arm(about, at, along)
         self.plans[name] = plan
-        return math.copysign(self.write(name, abs(mm) * self.mu(plan), abs(mm)), mm)
+        value = self.write(name, abs(mm) * self.mu(plan), abs(mm))
+        if not named_value(name):
+            value = abs(mm) * self.mu(plan)  # who writes millimetres alone goes on with them
+        return math.copysign(value, mm)
 
     def rate(self, name: str, of: str, length: float, mm: float, sense: float) -> float:
         """Calculate an angular velocity or acceleration from a velocity or tangential acceleration."""
@@ -260,7 +268,9 @@ class Sheet:
         """Write down to what length a known force is drawn."""
         self.plans[name] = plan
         line = self.lines[name]
-        line.mm = round(line.value / self.mu(plan), 1) if self.hand.dice else line.value / self.mu(plan)
+        line.mm = line.value / self.mu(plan)
+        if self.hand.dice:
+            line.mm = round(line.mm, 1) if abs(line.mm) >= 1.0 else float(f"{line.mm:.2g}")
 
     def chain(self, plan: str, start: complex, *names: str) -> complex:
         """Hang known forces on one another; return the end."""

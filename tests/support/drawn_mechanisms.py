@@ -96,6 +96,8 @@ def lever_couple(sheet: Sheet, moment: str, ends: list[tuple[str, complex]], lin
     sign = -1.0 if sheet.slip("M80", moment) else 1.0
     size = sheet.write(pair, sheet.size(moment) / length * sign)
     whole = 0.0
+    if not size:
+        return whole
     for (letter, v), side in zip(ends, (1.0, -1.0), strict=False):
         along = 1j * link * math.copysign(1.0, size) * side
         name = f"h_lever_{moment}_{letter}"
@@ -135,7 +137,7 @@ def slider_crank(sheet: Sheet, g: Givens) -> Sheet:
     epsilon = sheet.rate("epsilon_2", "a_BA_t", rod, abs(AB), turn(AB, b1 - end))
 
     along = -1.0 if sheet.slip("M65") else 1.0
-    sheet.write("F_3", g["F_3"], None, complex(-g["side"] * along))
+    sheet.write("F_3", g["F_3"], None, complex(g["press"] * along))
     F_i2 = sheet.inertia("F_i2", g["m_2"], "a_S2")
     sheet.write("M_i2", -g["J_S2"] * epsilon * (4.0 if sheet.slip("M61") else 1.0))
     sheet.inertia("F_i3", g["m_3"], "a_B")
@@ -223,7 +225,7 @@ def four_bar(sheet: Sheet, g: Givens) -> Sheet:
 
     s1 = sheet.divided("velocity", "V_S1", 0j, b, parts["S1"])
     sheet.read("V_S1", "velocity", 0j, s1)
-    c = sheet.meet("velocity", "V_CB", b, BC, 0j, 1j * DC)
+    c = sheet.meet("velocity", "V_CB", b, BC, 0j, DC if sheet.slip("M25", "V_C") else 1j * DC)
     _swap_read(sheet, "velocity", ("V_CB", b, c), ("V_C", 0j, c))
     s2, s3 = sheet.divided("velocity", "V_S2", b, c, parts["S2"]), sheet.divided("velocity", "V_S3", 0j, c, parts["S3"])
     sheet.read("V_S2", "velocity", 0j, s2)
@@ -300,7 +302,7 @@ def _group_of_two(
     reaction(sheet, "R_12", plan, closing, one)
     reaction(sheet, "R_03_n", plan, last, closing)
     reaction(sheet, "R_03", plan, chained, closing)
-    reaction(sheet, "R_32", plan, parted, chained if sheet.slip("M76") else closing)
+    reaction(sheet, "R_32", plan, parted, last if sheet.slip("M76") else closing)
     opposite(sheet, "R_21", "R_12", "mu_F_1")
     opposite(sheet, "R_23", "R_32")
 
@@ -355,7 +357,8 @@ def shaper(sheet: Sheet, g: Givens) -> Sheet:
     _group_of_slot(sheet, (A, C, D, _acts(sheet, "F_i3", S3, C, D)), CA)
     _input(sheet, A, [("R_21", A)], "h_21")
 
-    at = {"F_i3": "S3", "G_3": "S3", "F_i4": "S4", "G_4": "S4", "F_i5": "E", "G_5": "E", "F_5": "E"}
+    at = {"F_i3": "S3", "G_3": "S3", "F_i4": "S4", "G_4": "S4", "F_i5": "E", "F_5": "E"}
+    sheet.write("h_lever_G_5", 0.0, 0.0)  # a weight does no work on a level guide: nobody measures that
     M = _lever_of_forces(sheet, [(name, points[p], p) for name, p in at.items()], points)
     M += lever_couple(sheet, "M_i4", [("E", points["E"]), ("D", points["D"])], DE, g["l_DE"])
     M += lever_couple(sheet, "M_i3", [("A3", points["A3"])], u, CA)

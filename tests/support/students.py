@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -12,12 +12,14 @@ from .drawn_by_hand import Hand, Line, Sheet, Slip
 from .drawn_mechanisms import MECHANISMS, Givens
 
 SEED = 9
+POOL = 48  # random variants of a task
 PATTERNS = 24  # honest drawings from which the spread of a line is known
 TOLERATED = 2.0, 0.05  # mm of a segment, part of a value
 SPREADS = 3.0  # rms of an honest hand that are no mistake
+LEAST_MM = 12.0  # of the vectors of the crank pin: who has shorter ones takes another scale, or sees the mistake
 CLEAR = 2.0  # tolerances by which a mistake moves at least one line, or it is not planted
 NOTHING = Line(0.0)
-TRIES = 1000  # at variants on which mistakes show
+TRIES, FEW = 1000, 40  # at variants on which mistakes show; at those that are wanted first
 SCALE_SLIPS = {"M14", "M15", "M16", "M17", "M20", "M56", "M68", "M74"}
 
 
@@ -43,7 +45,7 @@ SLIDER = [
     *ways("M22", "V_B", "V_BA", "V_S2", "a_B", "a_BA_t", "a_S2"),
     *ways("M25", "V_BA"),
     *ways("M26", "V_BA"),
-    *ways("M27", "velocity V_BA", "acceleration a_BA_t"),
+    *ways("M27", "velocity V_BA"),
     *ways("M28", "omega_2=V_B"),
     *ways("M29", "omega_2"),
     *ways("M30", "V_S2"),
@@ -97,9 +99,8 @@ FOUR_BAR = [
     *ways("M20", "V_C", "V_CB", "a_C", "a_S2", "R_12"),
     *ways("M21", ""),
     *ways("M22", "V_C", "V_CB", "V_S2", "a_C", "a_CB_t", "a_S2"),
-    *ways("M25", "V_CB"),
+    *ways("M25", "V_CB", "V_C"),
     *ways("M26", "V_CB"),
-    *ways("M27", "velocity V_CB"),
     *ways("M28", "omega_2=V_C"),
     *ways("M29", "omega_2", "omega_3"),
     *ways("M38", "a_CB_n", "a_C_n"),
@@ -178,6 +179,7 @@ SHAPER = [
 SLIPS = {"nau-slider-crank": SLIDER, "madi-four-bar": FOUR_BAR, "scheme-09-shaper": SHAPER}
 ALIKE = {  # other names of the same mistake at these places
     "M47": {"M39"},
+    "M60": {"M119"},
     "M39": {"M47", "M54"},
     "M38": {"M54"},
     "M54": {"M38", "M39"},
@@ -186,7 +188,7 @@ ALIKE = {  # other names of the same mistake at these places
 }
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Data:
     """One variant: what a roster says of it, and the givens in SI as the drawing takes them."""
 
@@ -206,7 +208,14 @@ def data_of(task: str, written: dict[str, float], turn: int, side: int) -> Data:
         settings["rotation"] = "ccw" if turn > 0 else "cw"
     if task == "nau-slider-crank":
         settings["side"] = "right" if side > 0 else "left"
-    return Data(settings, {**givens, "turn": turn, "side": side})
+    return Data(settings, {**givens, "turn": turn, "side": side, "press": -side})
+
+
+@cache
+def pool(task: str) -> tuple[Data, ...]:
+    """Return the random variants from which students have theirs."""
+    dice = random.Random(f"{SEED} {task}")
+    return tuple(random_data(task, dice) for _ in range(POOL))
 
 
 def random_data(task: str, dice: random.Random) -> Data:
@@ -359,6 +368,7 @@ def _apart(one: Sheet, other: Sheet, allowed: dict[str, float], told: bool) -> d
     return found
 
 
+@cache
 def spread(task: str, data: Data) -> dict[str, float]:
     """Return the tolerance of every line."""
     right, mus = exact(task, data.givens), scale_factors(task, data.givens, (), random.Random(SEED))
@@ -391,28 +401,38 @@ class Student:
 Dice = random.Random
 
 
-def honest(task: str, dice: Dice, told: bool = True) -> Student:
-    """Draw a variant without a mistake."""
-    data = random_data(task, dice)
+def honest(task: str, dice: Dice, among: Sequence[Data] = (), told: bool = True) -> Student:
+    """Draw a variant, one of all where not `among` some, without a mistake."""
+    data = dice.choice(among or pool(task))
     sheet = drawn(task, data.givens, Hand(dice), (), scale_factors(task, data.givens, (), dice))
     return Student(task, data, (), sheet, told, {})
 
 
-def mistaken(task: str, choose: Callable[[], tuple[Slip, ...]], dice: Dice, told: bool = True) -> Student:
-    """Draw a random variant with mistakes, each of which moves a line clearly, also beside the others.
+def mistaken(
+    task: str, choose: Callable[[], tuple[Slip, ...]], dice: Dice, among: Sequence[Data] = (), told: bool = True
+) -> Student:
+    """Draw a variant with mistakes, each of which moves a line clearly, also beside the others.
 
     Raises LookupError where none of many does.
     """
-    for _ in range(TRIES):
-        data, slips = random_data(task, dice), choose()
+    for attempt in range(TRIES):
+        data, slips = dice.choice((attempt < FEW and among) or pool(task)), choose()
         try:
             mus = scale_factors(task, data.givens, slips, dice)
             moves = moved(task, data, slips, mus, told)
+            if not drawable(exact(task, data.givens, slips, mus)):
+                continue
             if all(map(_clear, _each(task, data, slips, mus, told))):
                 return Student(task, data, slips, drawn(task, data.givens, Hand(dice), slips, mus), told, moves)
         except (ValueError, ZeroDivisionError):
             continue
     raise LookupError(task)
+
+
+def drawable(sheet: Sheet) -> bool:
+    """Whether the vectors of the crank pin are not mere dots where the longest one just fits on the sheet."""
+    pins = ("V_A", "a_A") if "V_A" in sheet.lines else ("V_B", "a_B")
+    return all(sheet.size(name) >= LEAST_MM * sheet.mu(sheet.plans[name]) for name in pins)
 
 
 def _clear(moves: dict[str, float]) -> bool:
@@ -430,9 +450,9 @@ def _each(
         yield _apart(without, whole, allowed, told)
 
 
-def at_random(task: str, dice: Dice) -> Student:
+def at_random(task: str, dice: Dice, among: Sequence[Data] = ()) -> Student:
     """Return a sheet of invented numbers: segments of 5 to 150 mm with their values, sizes within a decade."""
-    student = honest(task, dice)
+    student = honest(task, dice, among)
     sheet = student.sheet
     for name, line in sheet.lines.items():
         plan = sheet.plans.get(name)

@@ -29,8 +29,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kulman import check, load_task
+from kulman.variants.marking.marked import Desk, Marked
 
-from .drawn_by_hand import Hand, Line, Slip
+from .drawn_by_hand import Hand, Line, Slip, named_value
 from .students import (
     CLEAR,
     SLIPS,
@@ -43,6 +44,7 @@ from .students import (
     honest,
     kinds,
     mistaken,
+    pool,
     scale_factors,
 )
 
@@ -83,7 +85,8 @@ def marked(students: Iterable[Student]) -> list[Outcome]:
         by_task[student.task].append((number, student))
     found: dict[int, Outcome] = {}
     for task, group in by_task.items():
-        found |= zip((n for n, _ in group), _class(task, [student for _, student in group]), strict=True)
+        ordered = sorted(group, key=lambda one: (one[1].variant, sorted(one[1].data.settings.items())))
+        found |= zip((n for n, _ in ordered), _class(task, [student for _, student in ordered]), strict=True)
     return [found[number] for number in sorted(found)]
 
 
@@ -95,16 +98,12 @@ def _class(task: str, students: list[Student]) -> Iterator[Outcome]:
         _write(roster, [row | s.data.settings for row, s in zip(rows, students, strict=True)])
         _write(answers, [row | dict(cells(s)) for row, s in zip(rows, students, strict=True)])
         asked = check(task, roster=roster, lang="en")
-        handed_in = {read.who.student: read for read in asked.read(str(answers))}
+        desk, handed_in = Desk(asked), {read.who.student: read for read in asked.read(str(answers))}
         for i, student in enumerate(students):
-            report = asked.mark(handed_in[f"S{i}"])
-            yield _outcome(student, report.marked)
+            yield _outcome(student, desk.mark(handed_in[f"S{i}"]))
 
 
-def _outcome(student: Student, result: object) -> Outcome:
-    from kulman.variants.marking.marked import Marked
-
-    assert isinstance(result, Marked)
+def _outcome(student: Student, result: Marked) -> Outcome:
     first = result.marking.first_wrong or ""
     lines = [line for line in result.lines if line.answer is not None]
     moves = student.moved
@@ -133,7 +132,7 @@ def cells(student: Student) -> Iterator[tuple[str, str]]:
     for name, line in sheet.lines.items():
         if line.mm is not None:
             yield f"{name}.mm", f"{line.mm:.10g}"
-        if not name.startswith("h_lever") or sheet.slip("M123", name):
+        if named_value(name):
             yield name, _value(line, student.told)
         if student.told and line.degrees is not None:
             yield f"{name}.dir", f"{line.degrees:g}"
@@ -183,28 +182,33 @@ def share(outcomes: Sequence[Outcome], counts: Callable[[Outcome], bool]) -> flo
     return 100.0 * sum(map(counts, outcomes)) / max(len(outcomes), 1)
 
 
-def population(group: str, name: str, count: int, dice: random.Random) -> list[Student]:
-    """Draw one kind of students: `name` is a mistake, of the groups `one` and `sizes`, or a task."""
+def population(group: str, name: str, count: int, dice: random.Random, part: tuple[int, int] = (0, 1)) -> list[Student]:
+    """Draw one kind of students: `name` is a mistake, of the groups `one` and `sizes`, or a task.
+
+    `part` is which of several parts of all variants they have, and of how many.
+    """
+    tasks = [task for task in SLIPS if name in kinds(task)] if group in ("one", "sizes") else [name]
+    some = {task: pool(task)[part[0] :: part[1]] for task in tasks}
     if group in ("one", "sizes"):
-        tasks = [task for task in SLIPS if name in kinds(task)]
-        return [one_mistake(tasks[i % len(tasks)], name, dice, group == "one") for i in range(count)]
+        chosen = [tasks[i % len(tasks)] for i in range(count)]
+        return [one_mistake(task, name, dice, some[task], group == "one") for task in chosen]
     if group == "other":
         return list(swapped_sheets(name, count, dice))
     draw = {"honest": honest, "two": two_mistakes, "random": at_random}[group]
-    return [draw(name, dice) for _ in range(count)]
+    return [draw(name, dice, some[name]) for _ in range(count)]
 
 
-def one_mistake(task: str, id: str, dice: random.Random, told: bool = True) -> Student:
+def one_mistake(task: str, id: str, dice: random.Random, among: Sequence[Data] = (), told: bool = True) -> Student:
     """Draw a student with one mistake; one that shows in directions alone has them written."""
     slips = kinds(task)[id]
-    return mistaken(task, lambda: (dice.choice(slips),), dice, told or id in IN_SENSES)
+    return mistaken(task, lambda: (dice.choice(slips),), dice, among, told or id in IN_SENSES)
 
 
-def two_mistakes(task: str, dice: random.Random) -> Student:
+def two_mistakes(task: str, dice: random.Random, among: Sequence[Data] = ()) -> Student:
     """Draw a student with two mistakes of different numbers."""
     of_task = kinds(task)
 
     def choose() -> tuple[Slip, ...]:
         return tuple(dice.choice(of_task[id]) for id in dice.sample(sorted(of_task), 2))
 
-    return mistaken(task, choose, dice)
+    return mistaken(task, choose, dice, among)
