@@ -265,3 +265,22 @@ def test_length_of_a_bent_link_is_measured_and_listed() -> None:
     # a coordinate that is called so keeps its name
     assert hidden.quantities["l_AB"].value == VALUES["l_AB"]
     assert hidden.point("V_B") == listed.point("V_B")
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("runs", ["pin", "point"])
+def test_branch_of_an_outer_guide_is_that_of_the_dyads_own_pin(runs: str, sign: float) -> None:
+    guide = Prismatic("B", (3, 1), ORIGIN, ZERO, branch="branch")  # the pin B runs along the crank
+    if runs == "point":
+        guide = Prismatic("A", (1, 3), ORIGIN, ZERO, branch="branch")  # the crank's point A runs in a guide of link 3
+    points = ({"O": ORIGIN, "A": ("l_OA", ZERO)}, {"C": ORIGIN, "B": ("l_CB", ZERO)}, {"B": ORIGIN})
+    pairs = (Revolute("O", (0, 1), ORIGIN), Revolute("C", (0, 2), ("x_C", ZERO)), Revolute("B", (2, 3)), guide)
+    links = tuple(Link(number, at) for number, at in enumerate(points, start=1))
+    values = {"phi": 0.7, "speed": 1.0, "sense": 1.0, "l_OA": 1.0, "l_CB": 2.5, "x_C": 1.5, "branch": sign}
+
+    solved = solve_linkage(Mechanism(links, pairs, Driver(1, "O", "A", "phi", "speed", "sense")), values, ("position",))
+
+    along = solved.point("B") * complex(solved.values["u_31"]).conjugate()
+    middle = 1.5 * math.cos(0.7)  # the foot of the normal from C to the line through O
+    assert along.imag == pytest.approx(0.0, abs=1e-14)
+    assert along.real - middle == pytest.approx(sign * math.sqrt(2.5**2 - (1.5 * math.sin(0.7)) ** 2), rel=1e-13)
