@@ -14,7 +14,7 @@ from . import __version__
 from .scales.choices import HANDS, SIZES
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import system_language
-from .variants.commands.console import hand_over, lost_output, note_of, print_json, refuse, warn
+from .variants.commands.console import flush, hand_over, lost_output, note_of, print_json, refuse, warn
 from .variants.commands.options import (
     BLOCK,
     Word,
@@ -43,8 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     try:
         refuse_long(sys.argv[1:] if arguments is None else arguments)
         status = commands.main(arguments, prog_name="kulman", standalone_mode=False)
-        if sys.stdout is not None:  # as it is where nothing reads our output: started without a console, or `>&-`
-            sys.stdout.flush()
+        flush()
     except click.UsageError as error:
         status = refuse(usage_error(error))
     except KulmanError as error:

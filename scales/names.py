@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import textwrap
+import unicodedata
 from collections.abc import Iterable
 from typing import Any
 
@@ -53,3 +54,29 @@ def cyrillic(text: str) -> InputError:
     """Return the error for a name with a Cyrillic letter that looks like a Latin one."""
     letter = next(letter for letter in text if letter in _CYRILLIC)
     return InputError("name-cyrillic", text=quote(text), n=text.index(letter) + 1, letter=latin(letter))
+
+
+def seen(text: str) -> str:
+    """Return a text without the signs that nobody sees: those that turn a line about, of no width, of control.
+
+    Ends of lines and tabs stay, and letters that are no letters (lone surrogates), which `legible` refuses.
+
+    >>> seen("Ko\u202eval\u200b\x07")
+    'Koval'
+    """
+    if text.isprintable():
+        return text
+    return "".join(sign for sign in text if unicodedata.category(sign) not in ("Cf", "Cc") or sign in "\n\t")
+
+
+def legible(name: str, text: str) -> str:
+    """Return a text of a title block or a title page, of a person or a group, as it is shown.
+
+    Raises
+    ------
+    InputError
+        What stands in it is no text: bytes of a command line in another encoding.
+    """
+    if any("\ud800" <= sign <= "\udfff" for sign in text):
+        raise InputError("text-bytes", name=name, text=quote(text))
+    return " ".join(seen(text).split())

@@ -21,7 +21,7 @@ from ..scales.names import unknown
 from ..scales.packaged import packaged
 from .case import Case, Settings, solve_case
 from .sheet_id import sheet_id
-from .sheets import Sheet, draw_case
+from .sheets import Sheet, draw_case, said_of
 from .task import Task
 
 TEXTS = "kulman.drawing.notes"
@@ -67,7 +67,7 @@ class Note:
         text = markdown(self.document, names)
         pictures = zip(names, self.figures.values(), strict=True)
         return [
-            (path, text.encode("utf-8")),
+            (path, text.encode("utf-8", "surrogateescape")),  # names of figures may be any bytes
             *((path.with_name(name), self._drawn(figure, ".svg")) for name, figure in pictures),
         ]
 
@@ -123,7 +123,7 @@ def note(
 def title_page(case: Case, block: Mapping[str, str], lang: str) -> TitlePage:
     """Return what the first page of the note of a case says."""
     identity = sheet_id(case.task, case.variant, case.settings)
-    return TitlePage(case.task.title[lang], case.task.id, case.variant, identity=identity, **block)
+    return TitlePage(case.task.title[lang], case.task.id, case.variant, identity=identity, **said_of(block))
 
 
 def body_of(case: Case, drawn: Drawn | Sheet, notation: str | None = None, lang: str = "uk") -> tuple[Block, ...]:

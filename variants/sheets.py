@@ -20,7 +20,7 @@ from ..drawing.writers import write_pages
 from ..scales.arguments import of_kind
 from ..scales.choose import Fixed
 from ..scales.errors import InputError
-from ..scales.names import unknown
+from ..scales.names import legible, unknown
 from ..scales.scale import Scale
 from .case import Case, Settings, solve_case
 from .sheet_id import sheet_id
@@ -183,12 +183,23 @@ def _words(case: Case, notation: str | None, lang: str) -> Words:
     return Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
 
 
-def stamp_of(case: Case, block: Mapping[str, str], notation: str | None = None, lang: str = "uk") -> Stamp:
-    """Return what the title block of a case says."""
+def said_of(block: Mapping[str, str]) -> dict[str, str]:
+    """Return what a title block or a title page says, without signs that nobody sees.
+
+    Raises
+    ------
+    InputError
+        What is to be said is no text.
+    """
     for name, text in block.items():
         of_kind(name, text, (str,), "str")
+    return {name: legible(name, text) for name, text in block.items()}
+
+
+def stamp_of(case: Case, block: Mapping[str, str], notation: str | None = None, lang: str = "uk") -> Stamp:
+    """Return what the title block of a case says."""
     words = _words(case, notation, lang)
-    said = {name: block.get(name, "") for name in BLOCK}
+    said = dict.fromkeys(BLOCK, "") | said_of(block)
     return Stamp(
         title=case.task.title[lang],
         designation=said["designation"],

@@ -21,6 +21,7 @@ from ..kinds import kind_of
 from ..reader import load_task
 from ..record_book import SCHEME, VARIANT, Digits, Schemes
 from ..roster import read_roster
+from ..sheets import said_of
 from ..spreadsheets.cells_out import csv_table, table_bytes
 from ..spreadsheets.grid import SHOWN, SUFFIXES
 from ..task import Task
@@ -183,6 +184,7 @@ def _known(kinds: Sequence[str]) -> tuple[str, ...]:
 
 def _refuse_early(making: Making) -> None:
     """Refuse what would be wrong for every student alike."""
+    said_of(making.block)
     if making.format is not None:
         format_named(making.format)
     for task in making.tasks:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ...scales.errors import InputError, KulmanError
-from ...scales.names import cyrillic, latin, unknown
+from ...scales.names import cyrillic, latin, seen, unknown
 from ...scales.numbers import quote
 from ..task import LocatedError
 from ..toml_places import Path, Places
@@ -100,8 +100,8 @@ def as_is(checker: Checker, path: Path, raw: object) -> Any:
 
 def text(checker: Checker, path: Path, raw: object) -> str | None:
     """Read a string that is not blank."""
-    if isinstance(raw, str) and raw.strip():
-        return raw
+    if isinstance(raw, str) and seen(raw).strip():
+        return seen(raw)
     checker.wrong_type(path, "type-text")
     return None
 

@@ -14,11 +14,13 @@ import click
 
 from ...scales.errors import InputError, KulmanError, messages
 from ...scales.language import system_language
+from ...scales.numbers import quote
 
 if TYPE_CHECKING:
     from ..task import Task
 
 CLOSED = 1
+SHOWN = 200  # characters of a reason in a message
 
 
 def refuse(error: KulmanError) -> int:
@@ -28,8 +30,28 @@ def refuse(error: KulmanError) -> int:
     return error.status
 
 
+def flush() -> None:
+    """Hand over what is still to be printed."""
+    if sys.stdout is not None:  # as it is where nothing reads our output: started without a console, or `>&-`
+        sys.stdout.flush()
+
+
+def _printing(problem: OSError) -> bool:
+    """Whether an error was raised in printing: by click, which alone prints, or by `flush`."""
+    trace = problem.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    module = trace.tb_frame.f_globals.get("__name__", "") if trace is not None else ""
+    return module == __name__ or module.partition(".")[0] == "click"
+
+
 def lost_output(problem: OSError) -> int:
-    """Say why the output cannot be written, unless its reader has closed it; return the exit status."""
+    """Say why the output cannot be written, unless its reader has closed it; return the exit status.
+
+    An error without the name of a file that was not raised in printing is the system's: it is said as that.
+    """
+    if not _printing(problem):
+        return refuse(InputError("system-refused", reason=quote(problem.strerror or problem, SHOWN)))
     # without this Python would complain once more when it flushes at exit
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     if isinstance(problem, BrokenPipeError) or (sys.platform == "win32" and problem.errno == errno.EINVAL):

@@ -15,4 +15,4 @@ SUFFIXES = (*REPORTS, *TABLES)  # of all that marks can be written to
 
 def report_bytes(found: Report, suffix: str) -> bytes:
     """Return what a file of a report holds."""
-    return REPORTS[suffix.lower()](found).encode("utf-8")
+    return REPORTS[suffix.lower()](found).encode("utf-8", "replace")  # bytes in a name of a file

@@ -21,4 +21,4 @@ def csv_table(rows: Rows, language: str, separator: str | None = None) -> bytes:
 
     With a `separator` of its own the file is for another program: decimal points.
     """
-    return csv_text(rows, language, separator, rounded).encode("utf-8-sig")
+    return csv_text(rows, language, separator, rounded).encode("utf-8-sig", "replace")  # bytes in a name of a file

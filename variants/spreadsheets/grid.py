@@ -10,6 +10,7 @@ from functools import cache
 from typing import TypeAlias
 
 from ...scales.errors import InputError
+from ...scales.names import seen
 from ...scales.numbers import quote
 
 LARGEST = 20_000_000  # bytes of a file, and of what is unpacked from it: a class of 1000 needs 12
@@ -91,13 +92,14 @@ def by_row(ranges: Iterable[tuple[tuple[int, int], tuple[int, int]]], rows: int)
 
 
 def bounded(file: str, rows: list[tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
-    """Return the rows without blank ones at the end; refuse more than a class needs.
+    """Return the rows without blank ones at the end and signs that nobody sees; refuse more than a class needs.
 
     Raises
     ------
     InputError
         Too many rows or columns.
     """
+    rows = [row if all(map(str.isprintable, row)) else tuple(seen(text).strip() for text in row) for row in rows]
     while rows and not any(rows[-1]):
         rows.pop()
     if len(rows) > MOST_ROWS or max(map(len, rows), default=0) > MOST_COLUMNS:
