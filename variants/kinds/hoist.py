@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
     from ...drawing.words import Words
+    from ...plans.condition import Condition
     from ...plans.hands.hand import Tolerance
     from ...plans.hands.shaky import Paper
     from ...plans.hoist.solve import SolvedHoist
@@ -92,6 +93,13 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         from ...drawing.hoist.ladders import scales_of
 
         return scales_of(solved, choosers)
+
+    def conditions(self, case: Case) -> dict[str, Condition]:
+        """Return the condition of every quantity."""
+        from ...plans.hoist.conditions import conditions_of  # needs numpy
+        from ...plans.hoist.solve import SolvedHoist
+
+        return conditions_of(SolvedHoist.of(case.solved))
 
     def warnings(self, solved: SolvedHoist) -> tuple[InputError, ...]:
         """Tell where the formulas are not valid, and of a rope that is not strong enough."""
