@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -30,6 +31,7 @@ class Checker:
     faults: list[tuple[int, int, InputError]] = field(default_factory=list)
     remarks: list[tuple[int, int, InputError]] = field(default_factory=list)  # what is no fault, and worth knowing
     faulty: set[Path] = field(default_factory=set)  # where the faults are
+    begun: float = field(default_factory=time.process_time)  # seconds of processor time when the reading began
     unread: set[str] = field(default_factory=set)  # givens and diagrams at fault: that others name them is no fault
 
     def fault(self, path: Path, error: InputError) -> None:

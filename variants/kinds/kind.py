@@ -34,7 +34,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..checks.names import Names
     from ..sweeps.asked import SweepRequest, Swept
 
-TRIED_FOR = 1.3  # seconds of processor time in which the variants of a file are tried
+TRIED_FOR = 1.3  # seconds of processor time in which a file is read and its variants are tried
 
 Subject = TypeVar("Subject")  # what is described: a mechanism, a cam, a gear pair, a hoist
 Answer = TypeVar("Answer", bound=Solved)
@@ -76,14 +76,14 @@ class Kind(ABC, Generic[Subject, Answer]):
     def tries(self, checker: Checker, task: Task) -> None:
         """Solve every variant: one that has no solution is a fault, and what else a teacher should know a remark.
 
-        After `TRIED_FOR` seconds it is said how many variants were not tried.
+        `TRIED_FOR` seconds after the file was begun it is said how many variants were not tried.
         """
         if any(path[:1] != ("variant",) for path in checker.faulty):
             return
-        wrong, begin = {path[1] for path in checker.faulty if len(path) > 1}, time.process_time()
+        wrong = {path[1] for path in checker.faulty if len(path) > 1}
         for row, variant in enumerate(task.variants):
             path = ("variant", row)
-            if time.process_time() - begin > TRIED_FOR:
+            if time.process_time() - checker.begun > TRIED_FOR:
                 counts = {"n": len(task.variants) - row, "all": len(task.variants), "file": checker.file}
                 checker.remark_of(path, variant, InputError("check-untried", **counts))
                 return
