@@ -29,7 +29,7 @@ def on_cluster(work: Work[Item, Made], items: Sequence[Item], address: str) -> I
     Parameters
     ----------
     address : str
-        Of the scheduler, such as `tcp://10.0.0.7:8786`.
+        Of the scheduler, such as `tcp://10.0.0.7:8786`; certificates for `tls://` are those of Dask's configuration.
 
     Raises
     ------
@@ -44,6 +44,8 @@ def on_cluster(work: Work[Item, Made], items: Sequence[Item], address: str) -> I
         client: Any = Client(address, timeout=PATIENCE)  # type: ignore[no-untyped-call]
     except (OSError, ValueError) as problem:
         raise InputError("cluster-silent", address=quote(address)) from problem
+    except TypeError as problem:  # what Dask says of an address with TLS and no certificate
+        raise InputError("cluster-tls", address=quote(address)) from problem
     before = logging.root.manager.disable
     try:
         with client:

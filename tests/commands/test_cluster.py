@@ -133,3 +133,23 @@ def test_a_scheduler_that_is_not_there_is_named(monkeypatch: pytest.MonkeyPatch)
 
     with pytest.raises(InputError, match=r"tcp://127\.0\.0\.1:9"):
         next(on_cluster(Squares(), [1], "tcp://127.0.0.1:9"))
+
+
+def test_a_cluster_with_tls_lets_in_who_has_a_certificate(tmp_path: Path) -> None:
+    import dask
+    from distributed import LocalCluster, Security
+
+    keys = Security.temporary()
+    named = {"ca-file": keys.tls_ca_file, "client.key": keys.tls_client_key, "client.cert": keys.tls_client_cert}
+    for name, text in named.items():
+        (tmp_path / name).write_text(text, encoding="ascii")
+    config = {f"distributed.comm.tls.{name}": str(tmp_path / name) for name in named}
+    with LocalCluster(1, processes=True, dashboard_address=":0", security=keys, protocol="tls://") as cluster:
+        address = str(cluster.scheduler_address)
+
+        with dask.config.set(config):
+            done = [made for piece in on_cluster(Squares(), [2, 3], address) for made in piece]
+        with pytest.raises(InputError, match="no certificates for TLS"):
+            list(on_cluster(Squares(), [2, 3], address))
+
+    assert [one.made for one in done] == [4, 9]
