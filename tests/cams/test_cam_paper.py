@@ -111,8 +111,8 @@ def test_a_scale_factor_that_follows_from_the_drawing_cannot_be_chosen() -> None
 
 
 def test_what_is_drawn_on_a_small_sheet_is_marked_by_it(tmp_path: Path, small: Solution) -> None:
-    answers = tmp_path / "answers.csv"
-    answers.write_text(f"quantity,value\nS_max_chord,40.2\nmu_s,{small['mu_s'].value!r}\n", encoding="utf-8")
+    answers, own = tmp_path / "answers.csv", (small["s_max"].value or 0.0) / 40.2  # from the student's own segment
+    answers.write_text(f"quantity,value\nS_max_chord,40.2\nmu_s,{own!r}\n", encoding="utf-8")
 
     def verdicts(format: str | None) -> list[str]:
         asked = check(TASK, "17", lang="en", format=format, only="diagrams")
