@@ -76,6 +76,10 @@ FOUND = {
         task="bertyaev-six-bar",
         changes=(('mu_l = "5 cm/cm"', 'mu_l = "80 m/mm"'),),
     ),
+    "a JSON object beside files": Found("sweep nau-slider-crank --only velocity --json -o s.csv", status=0),
+    "a JSON object beside a report": Found(
+        "check nau-slider-crank printed --json -o r.txt --form f.csv --jobs 1", status=0
+    ),
     "answers to a hoist with a rigid beam": Found(
         "check karpenko-hoist --set I_0=inf --jobs 1 a.csv", status=0, files={"a.csv": "quantity,value\nS_max,1\n"}
     ),

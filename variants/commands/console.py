@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -79,6 +79,12 @@ def print_json(data: Mapping[str, Any]) -> None:
     click.echo(json.dumps(data, ensure_ascii=True, allow_nan=False, indent=2))
 
 
+def say_written(paths: Iterable[object], as_json: bool) -> None:
+    """Show the names of files that have been written; beside a JSON object, which is alone on stdout, on stderr."""
+    for path in paths:
+        click.echo(str(path), err=as_json)
+
+
 class Found(Protocol):
     """What a command has found."""
 
@@ -94,8 +100,7 @@ class Found(Protocol):
 
 def hand_over(found: Found, files: Sequence[Path], as_json: bool, tabled: bool = True) -> None:
     """Write what has been found to files and name these; print it as JSON, or as a table where no file is wanted."""
-    for path in found.save(*files):
-        click.echo(str(path))
+    say_written(found.save(*files), as_json)
     if as_json:
         print_json(found.to_json())
     elif tabled and not files:

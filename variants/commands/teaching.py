@@ -11,7 +11,7 @@ from ...scales.choices import HANDS, SIZES
 from ...scales.errors import InputError, messages
 from ...scales.language import system_language
 from ...scales.numbers import quote
-from .console import hand_over, print_json, progress, refuse, warn
+from .console import hand_over, print_json, progress, refuse, say_written, warn
 from .options import (
     BLOCK,
     Word,
@@ -231,7 +231,7 @@ def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[
         raise InputError("check-nothing")
     asked = variants.check(task, set=settings, lang=lang or system_language(), **options)
     if form is not None:
-        click.echo(str(asked.write_form(form)))
+        say_written([asked.write_form(form)], shown["as_json"])
     if answers:
         _mark(asked, asked.read(*answers, warn=lambda error: warn([error])), **shown)
 
@@ -251,8 +251,7 @@ def _mark(
     else:
         results = _mark_class(asked, found, folder, how["jobs"] or None)
         _print_class(asked, found, results, files, moodle)
-    for path in (*files, *filter(None, (folder, moodle))):
-        click.echo(str(path))
+    say_written((*files, *filter(None, (folder, moodle))), how["as_json"])
 
 
 def _mark_one(asked: Check, answers: Answers, files: tuple[Path, ...], as_json: bool) -> None:
