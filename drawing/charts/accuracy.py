@@ -139,7 +139,7 @@ def field(figure: Figure, place: tuple[float, float], contest: Contest, kind: st
             zorder=3,
             label=method,
         )
-    xs, ys = _coordinates(entry for entry in contest.front(kind) if (entry.error or 0.0) < LARGEST)
+    xs, ys = _coordinates(e for e in contest.front(kind) if e.error and e.seconds and e.error < LARGEST)
     axes.plot(xs, ys, "o", ms=9.5, mfc="none", mec=BLACK, mew=0.7, zorder=2)
     if xs:
         axes.step(xs, ys, where="post", color=BLACK, lw=0.5, zorder=1)

@@ -10,6 +10,8 @@ from functools import cache
 import numpy as np
 import pytest
 
+from kulman.drawing.charts.accuracy import accuracy_page
+from kulman.drawing.words import Words
 from kulman.plans import contest as contests
 from kulman.plans.contest import Contest, Effort, Entry
 from kulman.plans.hands.hand import preset
@@ -182,7 +184,9 @@ def test_a_crank_that_speeds_up_is_differentiated_with_its_acceleration() -> Non
             assert abs(value - plan[name]).max() < 1e-5 * abs(plan[name]).max()
 
 
-def test_a_clock_too_coarse_for_a_method_divides_by_nothing() -> None:
+def test_a_clock_too_coarse_for_every_method_leaves_the_field_empty() -> None:
     race = contest(of_task("madi-four-bar"), 12, lambda: 0.0, ["V_B"], LITTLE)
 
     assert {entry.seconds for entry in race.entries} == {0.0}
+    drawn = accuracy_page(race, Words.of("en", "madi"), "", "", "normal", "rad")  # warnings are errors
+    assert not drawn.axes[0].lines[-1].get_xdata().size
