@@ -249,6 +249,18 @@ class Program:
             found = self._which[asked] = tuple(steps)
         return found
 
+    def counting(self, counts: Callable[[Step, str], bool]) -> tuple[tuple[str, tuple[str, ...]], ...]:
+        """Return what each step makes, with those of its operands that count; kept."""
+        found = self._counting.get(counts)
+        if found is None:
+            found = tuple((s.name, tuple(name for name in s.operands if counts(s, name))) for s in self.steps)
+            self._counting[counts] = found
+        return found
+
+    @cached_property
+    def _counting(self) -> dict[Callable[[Step, str], bool], tuple[tuple[str, tuple[str, ...]], ...]]:
+        return {}
+
     @cached_property
     def _at(self) -> dict[int, tuple[Prepared, ...]]:
         return {}

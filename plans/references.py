@@ -94,7 +94,10 @@ def worst_behind(
     """
     own = intersections(program, sines)
     worst: dict[str, float] = {}
-    for step in program:
-        behind = [worst.get(name, 1.0) for name in step.operands if counts(step, name)]
-        worst[step.name] = min(own.get(step.name, 1.0), *behind, 1.0)
+    for name, operands in program.counting(counts):
+        least = own.get(name, 1.0)
+        for operand in operands:
+            if (sine := worst.get(operand, 1.0)) < least:
+                least = sine
+        worst[name] = least if least < 1.0 else 1.0
     return worst
