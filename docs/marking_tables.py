@@ -19,6 +19,7 @@ from kulman.variants.marking.wording import mistake_texts
 
 DOCUMENT = Path(__file__).resolve().parent / "marking.md"
 BEGIN, END = "<!-- students: docs/marking_tables.py -->", "<!-- end -->"
+PARTS = 8  # of the variants, marked one after the other
 TASKS = ("nau-slider-crank", "scheme-09-shaper")  # with several variants
 AIMS = {
     "lines of honest students that pass": "at least 99.5",
@@ -34,26 +35,37 @@ AIMS = {
 }
 
 
-def job(of: tuple[str, str, int, int]) -> list[Outcome]:
-    """Draw and mark one kind of students: group, mistake or task, how many, number of the job."""
-    group, name, count, number = of
-    return marked(population(group, name, count, random.Random(f"{SEED} {group} {name} {number}")))
+Found = dict[str, dict[str, list[Outcome]]]  # by group, by mistake or task
 
 
-def measured(count: int) -> dict[str, dict[str, list[Outcome]]]:
-    """Return what became of all students by group and kind."""
+def job(of: tuple[int, int]) -> list[tuple[str, str, Outcome]]:
+    """Draw and mark the students who have a part of the variants: how many a mistake, number of the part."""
+    count, part = of
     ids = sorted({slip.id for slips in SLIPS.values() for slip in slips}, key=lambda id: int(id[1:]))
-    jobs = [("one", id, count, 0) for id in ids] + [("sizes", id, max(count // 4, 1), 0) for id in ids]
-    jobs += [(group, task, 2 * count, 0) for task in SLIPS for group in ("honest", "two", "random")]
-    jobs += [("other", task, 2 * count, 0) for task in TASKS]
-    found: dict[str, dict[str, list[Outcome]]] = defaultdict(dict)
-    with ProcessPoolExecutor(2) as pool:
-        for (group, name, *_), outcomes in zip(jobs, pool.map(job, jobs), strict=True):
-            found[group][name] = outcomes
+    each, some = -(-count // PARTS), -(-count // (4 * PARTS))
+    kinds = [("one", id, each) for id in ids] + [("sizes", id, some) for id in ids]
+    kinds += [(group, task, 2 * each) for task in SLIPS for group in ("honest", "two", "random")]
+    kinds += [("other", task, 2 * each) for task in TASKS]
+    drawn = [
+        (group, name, student)
+        for group, name, number in kinds
+        for student in population(group, name, number, random.Random(f"{SEED} {group} {name} {part}"), (part, PARTS))
+    ]
+    outcomes = marked(student for *_, student in drawn)
+    return [(group, name, outcome) for (group, name, _), outcome in zip(drawn, outcomes, strict=True)]
+
+
+def measured(count: int) -> Found:
+    """Return what became of all students by group and kind."""
+    found: Found = defaultdict(lambda: defaultdict(list))
+    with ProcessPoolExecutor(2) as processes:
+        for outcomes in processes.map(job, [(count, part) for part in range(PARTS)]):
+            for group, name, outcome in outcomes:
+                found[group][name].append(outcome)
     return found
 
 
-def rates(found: dict[str, dict[str, list[Outcome]]]) -> dict[str, float]:
+def rates(found: Found) -> dict[str, float]:
     """Return what is promised, in the order of AIMS, in percent or marks."""
     flat = {group: [one for some in by_name.values() for one in some] for group, by_name in found.items()}
     honest, one, other = flat["honest"], flat["one"], flat["other"]
@@ -72,7 +84,7 @@ def rates(found: dict[str, dict[str, list[Outcome]]]) -> dict[str, float]:
     return dict(zip(AIMS, numbers, strict=True))
 
 
-def table(found: dict[str, dict[str, list[Outcome]]]) -> str:
+def table(found: Found) -> str:
     """Return both tables."""
     flat = {group: sum(map(len, by_name.values())) for group, by_name in found.items()}
     rows = [

@@ -261,9 +261,10 @@ def coriolis_along_guide(scene: Scene) -> Iterator[Change]:
     """The acceleration of Coriolis is drawn along the guide."""
     for step in coriolis(scene):
         twice = f"_twice_{step.name}"
-        double = Step("calc", twice, (constant(2.0), step.operands[0]), "along")
-        along = Step("calc", step.name, (twice, step.operands[1]), "along")
-        yield Change(step.name, {step.name: (double, along)}, {constant(2.0): 2.0})
+        for how, factor in (("with", 2.0), ("against", -2.0)):
+            double = Step("calc", twice, (constant(factor), step.operands[0]), "along")
+            along = Step("calc", step.name, (twice, step.operands[1]), "along")
+            yield Change(step.name, {step.name: (double, along)}, {constant(factor): factor}, how)
 
 
 @mistake("M53")

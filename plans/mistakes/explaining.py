@@ -14,11 +14,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..board import Step
 from ..hands.shaky import Paper
-from ..marking.answers import FREE, Answer, Said, known, nearest
+from ..marking.answers import FREE, Answer, Said, known, measured, nearest
 from ..marking.verdicts import Line, Marking, Verdict, behind, judge
 from .book import MISTAKES, Book, Signature, broken, key_of, signature
-from .rules import Broken
+from .reading import other_orders, transposed
+from .rules import Broken, Scene
 
 MOST = 4.0  # tolerances beyond which a miss counts no more
 ALIKE = 0.5  # tolerances by which values differ that answers cannot tell apart
@@ -29,6 +31,8 @@ ANGLES = 2  # angles of the crank that are looked at closely
 ANGLED = frozenset(("M08", "M09", "M10"))  # mistakes that put the crank at another angle
 SLIP = 1.5  # tolerances by which a line that stays wrong misses clearly
 ODD = 1e4  # times the right scale factor that none is
+EXACT, CLOSE = 0.006, 0.03  # parts of a number by which mm times mu, and a calculation, may differ from it
+BY_HAND = Step("read", "", ())
 BEAM = 4  # chains of mistakes that are made longer
 LOCAL = 16  # mistakes at one line that are looked at closely
 LINES = 3  # lines that stay wrong to which a mistake more is sought
@@ -171,6 +175,7 @@ class _Search:
         near = [int(i) for i in np.argsort(means, kind="stable") if likely[i]][:NEAR]
         near = [i for i in near if means[i] <= FAR * means[near[0]] + NEARLY]
         found = [one for i in near if (one := self._found((self.book.signatures[i],))) is not None]
+        found += self._written()
         if not any(one.fits and not ANGLED.intersection(one.candidate.ids) for one in found):
             found += self._turned()
         if not any(one.fits for one in found):
@@ -183,6 +188,11 @@ class _Search:
         if not candidates or candidates[0].misses > 1.0:
             candidates = _simplest((*self._put_right(off), *candidates))
         return Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
+
+    def _written(self) -> list[_Found]:
+        """Return the numbers with two digits transposed at the first wrong line."""
+        made = self._transposed(self.marking.lines[self.first], ())
+        return [found for one in made if (found := self._found((one,))) is not None]
 
     def _chained(self, found: list[_Found], off: Floats) -> list[_Found]:
         """Add mistakes to those that leave lines clearly wrong, one at the first of these lines after another."""
@@ -210,7 +220,7 @@ class _Search:
         """
         earlier = [i for i, line in enumerate(lines[:place]) if line.answer is not None and line.verdict.passed]
         fitting = np.flatnonzero(self.moved[:, place] & ~self.moved[:, earlier].any(axis=1))
-        made = self._after(chain, [self.book.signatures[i] for i in fitting])
+        made = self._after(chain, [self.book.signatures[i] for i in fitting]) + self._transposed(lines[place], chain)
         if not made:
             return []
         table = np.array([one.row[place] for one in made])[:, None]
@@ -231,6 +241,30 @@ class _Search:
         again = broken(paper, last.values, {place[0] for place in places})
         made = (signature(self.book.key, one) for one in again if one.place in places)
         return [one for one in made if one is not None]
+
+    def _transposed(self, line: Line, chain: tuple[Signature, ...]) -> list[Signature]:
+        """Return the numbers with two digits transposed that the millimetres or the earlier numbers of a line mean."""
+        answer = line.answer
+        if answer is None or not known(answer.value) or not answer.value:
+            return []
+        key, last = self.book.key, chain[-1] if chain else None
+        paper = Paper(last.broken.program, last.broken.givens, self.mus) if last else key.paper
+        scene = Scene(paper, last.values if last else key.values)
+        orders = [other for other in other_orders(answer.value) if other and self._meant(line, answer, other)]
+        made = (signature(key, transposed(scene, line.name, answer.value, other)) for other in orders)
+        return [one for one in made if one is not None]
+
+    def _meant(self, line: Line, answer: Answer, other: float) -> bool:
+        """Whether mm times mu gives another number than is written, or what is calculated from earlier numbers does."""
+        if answer.mm and any(abs(x - other) <= EXACT * other for x in measured(answer, self.mus.get(line.plan))):
+            return True
+        steps = self.book.key.paper.program.by_name
+        if line.follows != line.follows or "calc" not in (
+            steps[line.name].verb,
+            steps.get(f"_{line.name}", BY_HAND).verb,
+        ):
+            return False
+        return bool(abs(other - abs(line.follows)) <= min(line.allowed, CLOSE * other))
 
     def _misses_of(self, place: int, table: NDArray[np.complex128], most: Floats) -> Floats:
         """Return by how many tolerances the answer of one line misses a column of values."""

@@ -162,10 +162,10 @@ def balance_in_millimetres(scene: Scene) -> Iterator[Change]:
 @mistake("M61")
 def inertia_about_end(scene: Scene) -> Iterator[Change]:
     """The moment of inertia is taken about the end of the link: m l^2 / 3 for m l^2 / 12."""
-    steps = inertia_moments(scene)
-    yield from (scaled(step, 4.0) for step in steps)
-    if len(steps) > 1:
-        yield all_scaled("M_i", steps, 4.0, "all")
+    for name, steps in (("M_i", inertia_moments(scene)), ("J", list(scene.made_by("calc", law="inertia_by_length")))):
+        yield from (scaled(step, 4.0) for step in steps)
+        if len(steps) > 1:
+            yield all_scaled(name, steps, 4.0, "all")
 
 
 @mistake("M62")
@@ -298,12 +298,13 @@ def minus_lost(scene: Scene) -> Iterator[Change]:
 
 @mistake("M70")
 def component_for_whole(scene: Scene) -> Iterator[Change]:
-    """A component is taken for the full reaction."""
+    """A component is taken for the full reaction; in all that follows, or in the inner reaction the right one."""
     for step in scene.made_by("read", plan=FORCES):
         for part in ("_n", "_t"):
             other = scene.steps.get(step.name + part)
             if other is not None and other.verb == "read":
                 yield instead(step, part, operands=other.operands)
+                yield from _here_alone(scene, step, replace(step, operands=other.operands), f"alone {part}")
 
 
 def passed(scene: Scene) -> list[Step]:
@@ -360,8 +361,19 @@ def closing(scene: Scene) -> Iterator[Step]:
 
 @mistake("M75")
 def arrow_reversed(scene: Scene) -> Iterator[Change]:
-    """The polygon is closed with the arrow the wrong way round."""
-    yield from (instead(step, operands=step.operands[::-1]) for step in closing(scene))
+    """The polygon is closed with the arrow the wrong way round; all that follows too, or the inner reaction not."""
+    for step in closing(scene):
+        yield instead(step, operands=step.operands[::-1])
+        yield from _here_alone(scene, step, replace(step, operands=step.operands[::-1]), "alone")
+
+
+def _here_alone(scene: Scene, step: Step, other: Step, how: str) -> Iterator[Change]:
+    """Read a reaction otherwise, while the polygons in which it hangs are drawn with the right one."""
+    chained = hung(scene).get(step.name, [])
+    if chained:
+        right = aside(step.name)
+        steps = {one.name: (replace(one, operands=(one.operands[0], right)),) for one in chained}
+        yield Change(step.name, {step.name: (replace(step, name=right), other), **steps}, {}, how)
 
 
 @mistake("M76")

@@ -9,7 +9,7 @@ from dataclasses import replace
 from ..board import POSITION, Step
 from ..boards.exact import run
 from .inputs import TWELFTH, angle_of_driver
-from .rules import Change, Chapter, Scene, all_scaled, constant, scaled
+from .rules import Broken, Change, Chapter, Scene, all_scaled, constant, scaled
 from .velocity import rate_from, rates
 
 MISTAKES = Chapter()
@@ -153,7 +153,25 @@ def another_position(scene: Scene) -> Iterator[Change]:
                 yield Change(step.name, {step.name: (copied,)}, {given: there[step.name]}, how)
 
 
-@mistake("M123")
+@mistake("M123", by_scale=True)
 def digits_transposed(scene: Scene) -> Iterator[Change]:
-    """Two digits of a number are transposed: what that gives hangs on the number, and is found from the answers."""
+    """Two digits of a number are transposed: that hangs on the number, and is found from the answers."""
     return iter(())
+
+
+def transposed(scene: Scene, name: str, written: float, meant: float) -> Broken:
+    """Return the construction in which a number was written for another one of the same digits, and gone on with."""
+    step = scene.steps.get(f"_{name}", scene.steps[name])  # what is laid off and read again is calculated before
+    change = scaled(step, abs(written / meant))
+    givens = {**scene.paper.givens, **change.givens}
+    return Broken("M123", name, f"{meant:.4g}", scene.program, givens, change.steps)
+
+
+def other_orders(number: float) -> Iterator[float]:
+    """Go through the numbers of four digits in which two neighbouring digits of a number are exchanged."""
+    mantissa, _, power = f"{abs(number):.3e}".partition("e")
+    digits = mantissa.replace(".", "")
+    for i in range(len(digits) - 1):
+        if digits[i] != digits[i + 1]:
+            swapped = digits[:i] + digits[i + 1] + digits[i] + digits[i + 2 :]
+            yield float(f"{swapped[0]}.{swapped[1:]}e{power}")

@@ -162,6 +162,8 @@ def rate_from_absolute(scene: Scene) -> Iterator[Change]:
         absolute = absolute_reading(scene, reading)
         if absolute is not None:
             yield rate_from(scene, step, absolute.name)
+        elif f"V_{scene.pin}" in scene.steps:
+            yield rate_from(scene, step, f"V_{scene.pin}", "of the driver")
 
 
 @mistake("M29")

@@ -84,7 +84,7 @@ def test_broken_rules_of_a_slider_crank_give_the_closed_form_and_the_printed_rat
         pytest.param("M54", "none", lever(normal=0.0), "a", 1.26, id="M54 normal forgotten"),
         pytest.param("M54", "away", lever(normal=-1.0), "a", 1.53, id="M54 normal away"),
         # the list says that epsilon_3 stays right: it does not, the part across the lever is lost
-        pytest.param("M52", "", lever(lambda k, w, v: 2 * w * v * k), "epsilon", 1.717, id="M52 along the lever"),
+        pytest.param("M52", "with", lever(lambda k, w, v: 2 * w * v * k), "epsilon", 1.717, id="M52 along the lever"),
     ],
 )
 def test_broken_rules_of_a_slotted_lever_give_the_closed_form_and_the_printed_ratio(

@@ -8,7 +8,20 @@ import pytest
 
 from kulman import load_task, solve
 from kulman.tests.support.drawn_by_hand import Hand, transposed
-from kulman.tests.support.students import SEED, SLIPS, exact, honest, kinds, misread, random_data, written_value
+from kulman.tests.support.students import (
+    SEED,
+    SLIPS,
+    Data,
+    Student,
+    at_random,
+    exact,
+    honest,
+    kinds,
+    misread,
+    pool,
+    random_data,
+    written_value,
+)
 from kulman.tests.support.students_marked import marked, one_mistake, population, printed, share
 
 UNITY = 1e-9  # part by which the simulation may differ from the package
@@ -47,7 +60,8 @@ def test_a_usual_hand_errs_as_it_says() -> None:
 def test_digits_are_transposed() -> None:
     assert transposed(2.38) == 3.28
     assert transposed(-11.57) == -15.17
-    assert transposed(1000.0) == 1000.0
+    assert transposed(2200.0) == 2020.0
+    assert transposed(2222.0) == 2222.0
 
 
 @pytest.mark.soak
@@ -58,19 +72,50 @@ def test_every_planted_mistake_moves_a_line(task: str) -> None:
     for id in kinds(task):
         student = one_mistake(task, id, dice)
 
+        assert student is not None, id
         assert max(student.moved.values()) >= 2.0, id
         assert misread(student.data.givens, ()) == student.data.givens
 
 
+def first_two(task: str) -> tuple[Data, ...]:
+    """Return a few of the variants: their answer keys are made once."""
+    return pool(task)[:2]
+
+
 def test_honest_students_are_right() -> None:
-    outcomes = marked(honest(task, dice) for dice in [random.Random(SEED)] for task in SLIPS for _ in range(5))
+    dice = random.Random(SEED)
+    outcomes = marked(honest(task, dice, first_two(task)) for task in SLIPS for _ in range(12))
 
     assert 100.0 * sum(x.passed for x in outcomes) / sum(x.lines for x in outcomes) >= 99.0
 
 
-def test_mistakes_of_simulated_students_are_found() -> None:
-    ids = ("M07", "M26", "M30", "M38", "M49", "M57")
-    outcomes = [one for id in ids for one in marked(population("one", id, 3, random.Random(f"{SEED} {id}")))]
+@pytest.mark.parametrize("every", [pytest.param(9, id="few"), pytest.param(1, id="all", marks=pytest.mark.soak)])
+def test_mistakes_of_simulated_students_are_found(every: int) -> None:
+    ids = sorted({slip.id for slips in SLIPS.values() for slip in slips})
+    dice, students = random.Random(SEED), list[Student]()
+    for id in ids[::every]:
+        students += population("one", id, 3, dice, (0, 16))
+    outcomes = marked(students)
 
     assert share(outcomes, lambda x: x.step) >= 90.0
     assert share(outcomes, lambda x: x.named) >= 85.0
+    assert share(outcomes, lambda x: bool(x.names) and not x.named) <= 6.0
+    assert share(outcomes, lambda x: not x.first) <= 2.0
+
+
+def test_who_invents_numbers_or_copies_another_variant_earns_little() -> None:
+    dice = random.Random(SEED)
+    invented = marked(at_random(task, dice, first_two(task)) for task in SLIPS for _ in range(2))
+    others = marked(population("other", "nau-slider-crank", 4, dice))
+
+    assert sum(x.mark for x in invented) / len(invented) <= 10.0
+    assert sum(x.mark for x in others) / len(others) <= 20.0
+    assert all(x.fits for x in others)
+
+
+@pytest.mark.soak
+def test_both_of_two_mistakes_are_named() -> None:
+    dice = random.Random(SEED)
+    outcomes = marked([x for task in SLIPS for x in population("two", task, 20, dice, (0, 16))])
+
+    assert share(outcomes, lambda x: x.named) >= 75.0

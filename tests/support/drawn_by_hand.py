@@ -112,8 +112,9 @@ def transposed(x: float) -> float:
     """Return a number with the first two neighbouring digits that differ exchanged."""
     text = f"{x:.4g}"
     digits = [i for i, c in enumerate(text.partition("e")[0]) if c.isdigit()]
-    for i, k in pairwise(digits):
-        if text[i] != text[k] and text[k] != "0":
+    pairs = [(i, k) for i, k in pairwise(digits) if text[i] != text[k]]
+    for i, k in sorted(pairs, key=lambda pair: text[pair[1]] == "0" and pair[0] == digits[0]):
+        if float(text):
             return float(text[:i] + text[k] + text[i + 1 : k] + text[i] + text[k + 1 :])
     return x
 

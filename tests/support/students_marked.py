@@ -49,7 +49,6 @@ from .students import (
 )
 
 TOUCHED = 0.5  # tolerances by which a line is moved at all
-IN_SENSES = {"M23", "M24", "M29", "M37", "M45", "M57", "M71", "M75"}  # may show in directions and senses alone
 SYMBOLS = {"velocity": "mu_V", "acceleration": "mu_a"}
 
 
@@ -191,17 +190,20 @@ def population(group: str, name: str, count: int, dice: random.Random, part: tup
     some = {task: pool(task)[part[0] :: part[1]] for task in tasks}
     if group in ("one", "sizes"):
         chosen = [tasks[i % len(tasks)] for i in range(count)]
-        return [one_mistake(task, name, dice, some[task], group == "one") for task in chosen]
+        found = [one_mistake(task, name, dice, some[task], group == "one") for task in chosen]
+        return [student for student in found if student is not None]
     if group == "other":
         return list(swapped_sheets(name, count, dice))
     draw = {"honest": honest, "two": two_mistakes, "random": at_random}[group]
     return [draw(name, dice, some[name]) for _ in range(count)]
 
 
-def one_mistake(task: str, id: str, dice: random.Random, among: Sequence[Data] = (), told: bool = True) -> Student:
-    """Draw a student with one mistake; one that shows in directions alone has them written."""
+def one_mistake(
+    task: str, id: str, dice: random.Random, among: Sequence[Data] = (), told: bool = True
+) -> Student | None:
+    """Draw a student with one mistake; None where it moves no line clearly, as in sizes one of a sense."""
     slips = kinds(task)[id]
-    return mistaken(task, lambda: (dice.choice(slips),), dice, among, told or id in IN_SENSES)
+    return mistaken(task, lambda: (dice.choice(slips),), dice, among, told)
 
 
 def two_mistakes(task: str, dice: random.Random, among: Sequence[Data] = ()) -> Student:
@@ -211,4 +213,6 @@ def two_mistakes(task: str, dice: random.Random, among: Sequence[Data] = ()) -> 
     def choose() -> tuple[Slip, ...]:
         return tuple(dice.choice(of_task[id]) for id in dice.sample(sorted(of_task), 2))
 
-    return mistaken(task, choose, dice, among)
+    student = mistaken(task, choose, dice, among)
+    assert student is not None
+    return student
