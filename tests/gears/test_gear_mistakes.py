@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -101,6 +102,20 @@ def test_a_planted_mistake_is_the_first_that_is_told(id: str) -> None:
 
     assert [found.place for found, told_of in zip(planted, told, strict=True) if not told_of] == []
     assert [(f.place, t[0].ids) for f, t in zip(planted, told, strict=True) if id not in t[0].ids] == []
+
+
+@pytest.mark.parametrize("ids", [("M108", "M109", "M113"), ("M102", "M108", "M109", "M113")], ids=["three", "four"])
+def test_each_of_several_mistakes_is_named(ids: tuple[str, ...]) -> None:
+    paper, made = key().paper, key().values
+    for id in ids:
+        found = next(iter(broken(paper, made, (id,))))
+        made = {**made, **values(found)}
+        paper = replace(paper, program=found.program, givens=found.givens)
+
+    told = explain(mistakes(), mark(key(), answers(found))).candidates[0]
+
+    assert set(ids) <= told.ids
+    assert told.left == ()
 
 
 def test_right_answers_have_no_mistake_told() -> None:
