@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from ..scales.choices import SIZES
 from ..scales.scale import Scale
-from .formats import FORMATS, Format, drawing_area, reserved_boxes
+from .formats import GAPS, Format, reserved_boxes, usable
 from .frame import frame_shapes
 from .packing import Placement, pack
 from .page import Page
@@ -17,30 +16,7 @@ from .shapes import Group
 from .titleblock import Stamp
 from .view import View
 
-MARGIN = 4.0  # mm between the frame and any view
-GAP = 7.0  # mm between views
-CLOSE = 4.0  # mm between views on the smallest format
-# part of the area on the largest format that the same figures take on a smaller one, with its smaller letters
-LIGHTER = {"A4": 0.5, "A3": 0.55, "A2": 0.9, "A1": 1.0}
 SHARES = (0.0, 0.02, -0.02, 0.04, -0.04, 0.06, -0.06, 0.09, -0.09)  # of the width, by which halves may be unequal
-
-
-def worth_trying(views: Sequence[View]) -> list[Format]:
-    """Return the formats that views drawn for the largest one can fit by their area, and that one, small ones first."""
-    area = sum(view.size[0] * view.size[1] for view in views)
-    names = [name for name in SIZES if area * LIGHTER[name] < FORMATS[name].width * FORMATS[name].height]
-    return [FORMATS[name] for name in dict.fromkeys([*names, SIZES[-1]])]
-
-
-def room(sheet: Format, norm: Norm, first: bool = False) -> tuple[float, float]:
-    """Return width and height of the largest view that a page of its own can hold, beside nothing else.
-
-    The `first` page has the larger title block, and column 26 in another corner.
-    """
-    x0, _, x1, y1 = _area(sheet, norm)
-    block, *turned = reserved_boxes(sheet, norm, first=first)
-    top = min((box[1] - _gap(sheet) for box in turned), default=y1)
-    return x1 - x0, top - block[3] - _gap(sheet) * first - CLOSE * (not first)
 
 
 def arrange(
@@ -93,7 +69,7 @@ def arrange_parts(parts: Sequence[Sequence[Size]], sheet: Format, norm: Norm) ->
 
 def arrange_halves(sizes: Sequence[Size], boundary: int, sheet: Format, norm: Norm) -> list[Placement] | None:
     """Place views on one page: those before about the `boundary` in its left part, the others in the right one."""
-    (x0, y0, x1, y1), taken, gap = _area(sheet, norm), reserved_boxes(sheet, norm), _gap(sheet)
+    (x0, y0, x1, y1), taken, gap = usable(sheet, norm), reserved_boxes(sheet, norm), GAPS[sheet.letters]
     areas = [(wide + gap) * (high + gap) for wide, high in sizes]
     for end in (end for end in (boundary, boundary + 1, boundary - 1) if 0 < end < len(sizes)):
         for share in SHARES:
@@ -120,10 +96,10 @@ def _arranged(
 ) -> list[Placement] | None:
     return pack(
         [[size] for size in sizes],
-        _area(sheet, norm),
+        usable(sheet, norm),
         reserved_boxes(sheet, norm, first=first),
         later=reserved_boxes(sheet, norm, first=False),
-        gap=_gap(sheet),
+        gap=GAPS[sheet.letters],
         pages=pages,
         any_order=any_order,
     )
@@ -132,7 +108,9 @@ def _arranged(
 def arrange_rest(views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] | None:
     """Place views on as many following pages as they need, counted from 0; None if one has no room on a page."""
     later = reserved_boxes(sheet, norm, first=False)
-    return pack([[view.size] for view in views], _area(sheet, norm), later, gap=GAP, pages=None, any_order=False)
+    return pack(
+        [[view.size] for view in views], usable(sheet, norm), later, gap=GAPS["A1"], pages=None, any_order=False
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,18 +162,3 @@ def compose(
     for view, place in zip(views, places, strict=True):
         pages[place.page].append(view.at(place.x, place.y))
     return Drawn(tuple(views), tuple(map(tuple, pages)), scales, sheet, norm, reduction)
-
-
-def usable(sheet: Format, norm: Norm) -> tuple[float, float, float, float]:
-    """Return the box in which views may stand, but for reserved boxes."""
-    return _area(sheet, norm)
-
-
-def _gap(sheet: Format) -> float:
-    return CLOSE if sheet.letters == "A4" else GAP
-
-
-def _area(sheet: Format, norm: Norm) -> tuple[float, float, float, float]:
-    x0, y0, x1, y1 = drawing_area(sheet, norm)
-    margin = MARGIN if sheet.letters != "A4" else 2.0
-    return x0 + margin, y0 + margin, x1 - margin, y1 - margin

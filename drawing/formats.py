@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..scales.errors import InputError
 from ..scales.numbers import quote
@@ -12,6 +12,10 @@ from .text import Box
 BLOCK = {"gost": (185.0, 55.0), "iso": (180.0, 36.0)}  # the title block of a first sheet, mm
 FOLLOWING = {"gost": (185.0, 15.0), "iso": (180.0, 36.0)}
 TURNED = (70.0, 14.0)  # the additional block with the designation turned round (column 26)
+MARGINS = {"A4": 2.0, "A3": 4.0, "A2": 4.0, "A1": 4.0}  # mm between the frame and any view
+GAPS = {"A4": 4.0, "A3": 7.0, "A2": 7.0, "A1": 7.0}  # mm between views
+CLOSE = 4.0  # mm between views and the title block of a following page
+PRINTED, FOOT = 8.0, 14.0  # mm of the frame from the edges of the paper: most printers reach no farther than 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +65,11 @@ def format_named(name: str) -> Format:
     return FORMATS[wanted]
 
 
+def printable(sheet: Format) -> Format:
+    """Return a format whose frame keeps clear of where printers do not reach."""
+    return replace(sheet, margin=PRINTED, foot=FOOT)
+
+
 def drawing_area(sheet: Format, norm: Norm = "gost") -> Box:
     """Return the box inside the frame: 20 mm for binding, the rest after GOST 2.301 or ISO 5457."""
     margin = max(10.0 if norm == "iso" else 5.0, sheet.margin)
@@ -88,3 +97,22 @@ def reserved_boxes(sheet: Format, norm: Norm = "gost", first: bool = True) -> tu
     """Return the boxes inside the frame in which no view may stand."""
     block = block_box(sheet, norm, first)
     return (block, turned_box(sheet)) if norm == "gost" and first else (block,)
+
+
+def usable(sheet: Format, norm: Norm) -> Box:
+    """Return the box in which views may stand, but for reserved boxes."""
+    x0, y0, x1, y1 = drawing_area(sheet, norm)
+    margin = MARGINS[sheet.letters]
+    return x0 + margin, y0 + margin, x1 - margin, y1 - margin
+
+
+def room(sheet: Format, norm: Norm, first: bool = False) -> tuple[float, float]:
+    """Return width and height of the largest view that a page of its own can hold, beside nothing else.
+
+    The `first` page has the larger title block, and column 26 in another corner.
+    """
+    x0, _, x1, y1 = usable(sheet, norm)
+    gap = GAPS[sheet.letters]
+    block, *turned = reserved_boxes(sheet, norm, first=first)
+    top = min((box[1] - gap for box in turned), default=y1)
+    return x1 - x0, top - block[3] - gap * first - CLOSE * (not first)

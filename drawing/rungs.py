@@ -8,8 +8,8 @@ from typing import Any, Generic, Protocol, TypeVar
 
 from ..scales.choices import SIZES
 from ..scales.errors import InputError
-from .compose import arrange, room
-from .formats import Format
+from .compose import arrange
+from .formats import Format, room
 from .packing import Placement
 from .pens import Norm
 from .view import View

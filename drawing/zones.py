@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .compose import usable
-from .formats import Format, reserved_boxes
+from .formats import Format, reserved_boxes, usable
 from .nesting import Nest, names, nested
 from .packing import Placement
 from .pens import Norm

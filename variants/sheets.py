@@ -233,7 +233,7 @@ def drawn_on(case: Case, words: Words, paper: Format) -> Drawn:
 def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
     """Return the sheet of a case that has been drawn, with what a user should know of it."""
     _, fitted = case.kind.fitted(case.solved, drawn)
-    warnings = (*case.warnings, *fitted, *_coarser(case, drawn))
+    warnings = (*case.warnings, *fitted, *_coarser(case, drawn), *_others(case, drawn))
     return Sheet(drawn.pages(stamp), drawn.scales, drawn.format, warnings, drawn.views)
 
 
@@ -244,3 +244,17 @@ def _coarser(case: Case, drawn: Drawn) -> Iterator[InputError]:
         if isinstance(chosen, Fixed) and scale.mu != chosen.mu:
             said = {"mu": f"{chosen.mu:g}", "drawn": f"{scale.mu:g}", "unit": scale.per_mm_unit}
             yield InputError("scale-coarser", symbol=scale.symbol, format=drawn.format, **said)
+
+
+def _others(case: Case, drawn: Drawn) -> Iterator[InputError]:
+    """Say where format or scale factors are others than `solve` shows, which follow from the extents alone."""
+    paper, scales = case.kind.first_scales(case.solved, case.choosers, case.plans)
+    changed = dict[str, str]()
+    for plan in case.solved.scale_of_plan:
+        usual, scale = scales[plan], drawn.scales[plan]
+        if scale.mu != usual.mu and not isinstance(case.choosers.get(scale.symbol), Fixed):
+            before, now = (case.display.scale(one) for one in (usual, scale))
+            changed[scale.symbol] = f"{scale.symbol} {before.mu:g} -> {now.mu:g} {now.per_mm_unit}"
+    said = {"format": drawn.sheet.letters, "usual": paper.name}
+    if changed:
+        yield InputError("scales-changed", changes=", ".join(changed.values()), **said)

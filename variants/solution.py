@@ -49,6 +49,7 @@ class Solution:
     conditions: Mapping[str, Condition] = field(default_factory=dict)
     drawing: Drawing | None = None
     plans: tuple[str, ...] = ()
+    format: str = ""
 
     @property
     def listed(self) -> dict[str, Quantity]:
@@ -119,6 +120,7 @@ class Solution:
             **({"note": note} if (note := self.task.note_in(self.words.language)) else {}),
             "warnings": [warning.text(self.words.language) for warning in self.warnings],
             "checks": self.checks,
+            **({"format": self.format} if self.format else {}),
             "scales": {s.symbol: {"value": s.mu, "unit": s.per_mm_unit} for s in self.scales.values()},
             **({} if self.drawing is None else {"hand": self.drawing.head()}),
             "quantities": {name: self._item(quantity) for name, quantity in self.listed.items()},
@@ -183,7 +185,11 @@ class Solution:
             )
         if self.kind.judged:
             lines += ["", words[self.kind.judged], aligned(_judged(self._checks, words), (0, 1, 3))]
-        return "\n".join(lines)
+        return "\n".join((*lines, "", self.scaled(words)) if self.scales else lines)
+
+    def scaled(self, words: Words) -> str:
+        """Return the format of the sheet and its scale factors, as a line."""
+        return f"{self.format}: {', '.join(scale_said(scale, words) for scale in by_symbol(self.scales).values())}"
 
 
 def _judged(checks: Iterable[Check], words: Words) -> list[list[str]]:
@@ -274,7 +280,8 @@ def solve(
         Who draws: `cad`, `careful`, `normal`, `lenient`, or one's own standard deviations of marks, directions and
         readings, `"0.2 mm, 0.5 deg, 0.2 mm"`. Then `drawing` says for each quantity where 95 % of drawings lie.
     format : str, optional
-        `A4`, `A3`, `A2`, `A1`: the scale factors are those that a sheet of this format takes.
+        `A4`, `A3`, `A2`, `A1`: the scale factors are those drawn on the sheet of this format. Without it they, and the
+        format, follow from the extents of the plans, as those of the sheet do.
 
     Returns
     -------
@@ -293,33 +300,45 @@ def solve(
     """
     case = solve_case(task, variant, set, only, scales)
     words = case.words(lang, notation)
-    solved, by_plan, warnings = _on_paper(case, words if lang else case.words("uk"), format)
+    solved, paper, by_plan, warnings = _on_paper(case, words if lang else case.words("uk"), format)
     items = measured(solved.quantities, solved.shown_on, by_plan)
-    used = {scale.symbol: scale for scale in by_plan.values()}
+    used = by_symbol(by_plan)
     found = case.kind.conditions(case) if condition else {}
     drawn = None if hand is None else _drawing(case.kind, solved, by_plan, hand)
     said = solved.error(), warnings, words
-    return Solution(case.task, case.variant, solved, items, used, *said, found, drawn, case.plans)
+    return Solution(case.task, case.variant, solved, items, used, *said, found, drawn, case.plans, paper)
 
 
 def _on_paper(
     case: Case, words: Words, format: str | None
-) -> tuple[Solved, Mapping[str, Scale], tuple[InputError, ...]]:
-    """Return what is solved, its scale factors by plan, warnings: as they are wanted, or as on the sheet of a format.
+) -> tuple[Solved, str, Mapping[str, Scale], tuple[InputError, ...]]:
+    """Return what is solved, the format and the scale factors by plan of its sheet, and warnings.
 
-    A position without a plan has no scale factors.
+    Nothing is drawn unless a format is said. A position without a plan has neither format nor scale factors.
     """
     solved, paper = case.solved, None if format is None else format_named(format)
     if solved.trouble is not None:
-        return solved, {}, case.warnings
+        return solved, "", {}, case.warnings
     if paper is None:
-        return solved, case.kind.first_scales(solved, case.choosers), case.warnings
+        sheet, scales = case.kind.first_scales(solved, case.choosers, case.plans)
+        return solved, sheet.name, {plan: scales[plan] for plan in solved.scale_of_plan}, case.warnings
     from .sheets import drawn_on  # draws the whole sheet, which takes a second or two
 
     drawn = drawn_on(case, words, paper)
     solved, said = case.kind.fitted(solved, drawn)
     # some views are drawn larger
-    return solved, {plan: drawn.scales[plan] for plan in solved.scale_of_plan}, (*case.warnings, *said)
+    return solved, drawn.format, {plan: drawn.scales[plan] for plan in solved.scale_of_plan}, (*case.warnings, *said)
+
+
+def by_symbol(scales: Mapping[str, Scale]) -> dict[str, Scale]:
+    """Return scale factors by symbol."""
+    return {scale.symbol: scale for scale in scales.values()}
+
+
+def scale_said(scale: Scale, words: Words) -> str:
+    """Return a scale factor as a list of quantities has it: mu_V = 0.05 (m/s)/mm."""
+    shown = words.display.scale(scale)
+    return f"{shown.symbol} = {words.short(shown.mu, 6)} {format_unit(shown.per_mm_unit, words.language)}"
 
 
 def _drawing(kind: Kind[Any, Any], solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:

@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 from ...plans.cams.cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_PART
 from ...plans.cams.solve import SolvedCam, reduced
 from ...scales.scale import Scale
-from ..compose import room
 from ..contents import SheetContents
-from ..formats import Format
+from ..formats import Format, room
 from ..givens import givens_view
 from ..rungs import Figure, Kept
 from ..style import STYLES

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from ...plans.cams.cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_PART
 from ...plans.cams.solve import EQUAL, SolvedCam
 from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, rounded, steps
+from ..extents import smallest
+from ..formats import Format
 
 MU_L = 0.001  # m/mm, M 1:1
 SMALL = 0.030  # m, the least radius below which a cam is drawn at M 2:1 where nothing is said
@@ -13,6 +18,8 @@ FINER = (0.5, 0.4, 0.25, 0.2, 0.1)  # the same of one that would be too small
 LEAST = 60.0  # mm of the least radius and the stroke on such a plan, where there is room
 LARGEST = 150.0  # mm of the least radius and the stroke on a plan, where nothing is said
 DIGITS = 5  # of a scale factor that is chosen, not found
+AREAS = {DIAGRAMS_PART: 2.3e5, SIZES_PART: 9e4, PROFILE_PART: 9e4, PRESSURE_PART: 1.5e4}  # mm^2 of A1, with texts
+PARTS = tuple(AREAS)
 SYMBOLS = ("mu_l", *EQUAL)  # what may be chosen: the others follow from the drawn amplitude and the pole distances
 
 
@@ -42,10 +49,12 @@ def _profiles(solved: SolvedCam, across: float) -> float:
     return max(finest, steps(across / LARGEST)[0])
 
 
-def first_scales(solved: SolvedCam, choosers: Choosers) -> dict[str, Scale]:
-    """Return the scale factors by plan as they are wanted: those of the diagrams follow from the construction."""
+def first_scales(
+    solved: SolvedCam, choosers: Choosers, plans: Sequence[str] = PARTS
+) -> tuple[Format, dict[str, Scale]]:
+    """Return the format and the scale factors by plan: those of the diagrams follow from the construction."""
     mus = {symbol: ladder(solved, choosers, symbol)[0] for symbol in SYMBOLS}
-    return scales(solved, mus)
+    return smallest(AREAS[plan] for plan in plans), scales(solved, mus)
 
 
 def scales(solved: SolvedCam, mus: dict[str, float]) -> dict[str, Scale]:

@@ -6,18 +6,18 @@ from dataclasses import replace
 from itertools import product
 
 from ...plans.cams.solve import EQUAL
-from ...scales.choices import SIZES
 from ...scales.choose import Fixed
 from ...scales.errors import InputError
-from ..compose import Drawn, arrange, arrange_closely, compose, room, worth_trying
-from ..formats import FORMATS, Format
+from ..compose import Drawn, arrange, arrange_closely, compose
+from ..extents import from_format
+from ..formats import Format, room
 from ..packing import Placement
 from ..rungs import fitted
 from ..view import View
 from ..zones import zoned
 from .fitting import Contents as Contents
 from .fitting import Fitting, Rungs
-from .ladders import size_of
+from .ladders import first_scales, size_of
 from .zones import LAYOUTS
 
 # what may be drawn smaller for the sake of one page, and by how many rungs
@@ -35,8 +35,12 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     InputError
         When a view has no room on a page of the format.
     """
-    fitting, largest = Fitting(contents), FORMATS[SIZES[-1]]
-    formats = [sheet] if sheet is not None else worth_trying(_views(fitting, largest, Rungs()))
+    fitting = Fitting(contents)
+    formats = (
+        [sheet]
+        if sheet is not None
+        else from_format(first_scales(contents.solved, contents.choosers, contents.plans)[0])
+    )
     for candidate in formats:
         last = candidate is formats[-1]
         found = _single(fitting, candidate, last)

@@ -10,20 +10,18 @@ from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
 from ...plans.gears.sliding_plan import SLIDING, THETA
 from ...plans.gears.solve import SolvedGear
 from ...scales.scale import Scale
-from ..compose import room
 from ..contents import SheetContents
-from ..formats import Format
+from ..formats import Format, room
 from ..rungs import Figure, Kept
 from ..style import STYLES
 from ..table import note_block
 from ..view import View
 from ..words import Words
-from .ladders import mu_ladder, near_ladder, rolled_ladder
+from .ladders import mu_ladder, near_ladder, parts_of, rolled_ladder
 from .letters import lettered
 from .scene import MESHING, GearScene
 
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
-PARTS = 1.0, 0.8, 0.6, 0.5  # of the usual size of the diagrams of sliding
 GearFigure = Figure[GearScene]
 
 
@@ -59,7 +57,7 @@ class Fitting:
             "mu_l": mu_ladder(solved, self.contents.choosers),
             "near": near_ladder(solved),
             "rolled": rolled_ladder(solved),
-            "part": PARTS,
+            "part": parts_of(self.contents.plans),
         }
 
     def scene(self, sheet: Format, rungs: Rungs) -> GearScene:

@@ -7,10 +7,10 @@ from dataclasses import replace
 from functools import partial
 from itertools import product
 
-from ...scales.choices import SIZES
 from ...scales.errors import InputError
-from ..compose import Drawn, arrange, arrange_rest, compose, worth_trying
-from ..formats import FORMATS, Format
+from ..compose import Drawn, arrange, arrange_rest, compose
+from ..extents import from_format
+from ..formats import Format
 from ..nesting import Nest, names
 from ..packing import Placement
 from ..pens import Norm
@@ -18,6 +18,7 @@ from ..rungs import fitted, has_next, lower
 from ..view import View
 from ..zones import zoned
 from .fitting import Contents, Fitting, Rungs
+from .ladders import first_scales
 from .scene import MESHING
 from .zones import FIRST_PAGES, LAYOUTS
 
@@ -37,8 +38,9 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     InputError
         When a view has no room on a page of the format.
     """
-    fitting, largest, norm = Fitting(contents), FORMATS[SIZES[-1]], contents.norm
-    formats = [sheet] if sheet is not None else worth_trying([v for v, _ in fitting.views(largest, Rungs())])
+    fitting, norm = Fitting(contents), contents.norm
+    usual, _ = first_scales(contents.solved, contents.choosers, contents.plans)
+    formats = [sheet] if sheet is not None else from_format(usual)
     for candidate in formats[:-1]:
         found = _placed(fitting, candidate, Rungs(), _on_a_page)
         if found is not None:

@@ -6,19 +6,19 @@ from dataclasses import dataclass
 
 from ...plans.gears.gear import WHEELS
 from ...plans.gears.geometry import POINTS
-from ...scales.scale import Scale, steps
+from ...scales.scale import Scale
 from ..diagram import Axis, Field, axes, numbers
 from ..dimensions import linear
 from ..shapes import Circle, Group, Line, Pen
 from ..text import lay_out
 from ..view import Canvas, View
+from .ladders import cut_of, rho_mu
 from .marks import along, letter
 from .scene import GearScene
-from .theta_diagram import cut_of, place, theta_diagram, theta_field, theta_said, widest
+from .theta_diagram import place, theta_diagram, theta_field, theta_said, widest
 
 REDUCTIONS = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02, 0.01)  # of the ordinates of velocities
 TALLEST = {5.0: 130.0, 3.5: 75.0}  # mm of the highest ordinate, by the height of letters
-LONGEST = {5.0: 250.0, 3.5: 140.0}  # mm of the line of action
 BETWEEN = 4.4  # heights of letters between the diagrams
 SIDES = {1: 1.0, 2: -1.0}  # of the pole, on which a wheel's profile is the faster one
 PAST = 1.6  # heights of letters by which axes run past their ends
@@ -49,7 +49,7 @@ def sliding_view(scene: GearScene) -> View:
     _velocities(canvas, scene, above, ordinates)
     said = _pole(canvas, scene, above, ordinates)
     theta_diagram(canvas, scene, below)
-    cut = words["gear.cut"].format(theta=words.number(cut_of(scene), 0))
+    cut = words["gear.cut"].format(theta=words.number(cut_of(scene.solved), 0))
     if ordinates.reduction < 1.0:
         said.insert(0, words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / ordinates.reduction)}"))
     said.insert(0, words["gear.speeds"].format(length=words.short(scene.solved.values["PW"] * 1e3)))
@@ -75,10 +75,8 @@ def _across(scene: GearScene) -> Axis:
 
 
 def rho_scale(scene: GearScene) -> Scale:
-    """Return the scale factor of the line of action, the given one or a coarser one of its series."""
-    given = float(scene.solved.values["mu_rho"]) * 1e-3  # a millimetre, not a metre of paper
-    least = scene.size("l_N1N2") / (LONGEST[scene.style.label] * scene.part)
-    return Scale("mu_rho", steps(max(given, least))[0], "m")
+    """Return the scale factor of the line of action."""
+    return Scale("mu_rho", rho_mu(scene.solved, scene.style.label, scene.part), "m")
 
 
 def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordinates: Ordinates) -> None:

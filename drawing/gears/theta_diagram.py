@@ -11,23 +11,16 @@ from itertools import pairwise
 import numpy as np
 
 from ...plans.gears.geometry import POINTS
-from ...scales.errors import InputError
-from ...scales.scale import Scale, steps
+from ...scales.scale import Scale
 from ..areas import strokes
 from ..diagram import Axis, Field, curve, divisions
 from ..shapes import Circle, Group, Line, Pen, Text
 from ..view import Canvas
 from ..words import Words
+from .ladders import CURVES, ENDS, cut_of, theta_mu
 from .scene import GearScene
 
-CURVES = {1: "theta_12", 2: "theta_21"}
-ENDS = {"A1": "rho_p1", "A2": "rho_a1"}  # of the active line, and the quantities that are their distances from N1
 APART = 1.6  # heights of letters between lines of text
-CUTS = 2.0, 10.0  # the least and the greatest depth at which curves are cut off
-USUAL = 5.0  # where sliding has no limit on the active line
-ROOM = 1.25  # how far below the extremes
-TALL = {5.0: 125.0, 3.5: 62.0}  # mm of the axis, by the height of letters
-LOWEST = 1.0  # mm, the least height of the diagram
 PLACES = 240  # of a curve
 HATCH = 2.5  # mm between strokes
 
@@ -37,29 +30,9 @@ def place(scene: GearScene, point: str) -> float:
     return float(scene.solved.values[f"_rho_1_{point}"])
 
 
-def cut_of(scene: GearScene) -> float:
-    """Return the value at which the curves are cut off: a whole number below both extremes of the active line."""
-    lowest = min(scene.size(f"{name}_{end}") for name in CURVES.values() for end in ENDS)
-    if not math.isfinite(lowest):
-        return -USUAL
-    return -min(max(math.ceil(-ROOM * lowest), CUTS[0]), CUTS[1])
-
-
 def theta_scale(scene: GearScene) -> Scale:
-    """Return the scale factor of specific sliding, the given one or a coarser one of its series.
-
-    Raises
-    ------
-    InputError
-        The given one is so coarse that the diagram is a line.
-    """
-    wanted = float(scene.solved.values["mu_theta"]) * 1e-3  # a millimetre, not a metre of paper
-    least = (1.0 - cut_of(scene)) / (TALL[scene.style.label] * scene.part)
-    height = (1.0 - cut_of(scene)) / wanted
-    if height < LOWEST:
-        raise InputError("plan-too-small", symbol="mu_theta", mu=f"{wanted:g}", unit="1/mm", size=f"{height:.2g}")
-    mu = steps(max(least, wanted * (1.0 - 1e-9)))[0]
-    return Scale("mu_theta", mu, "1")
+    """Return the scale factor of specific sliding."""
+    return Scale("mu_theta", theta_mu(scene.solved, scene.style.label, scene.part), "1")
 
 
 def theta_said(words: Words, mu: float) -> str:
@@ -69,7 +42,7 @@ def theta_said(words: Words, mu: float) -> str:
 
 def theta_field(scene: GearScene, above: Field, apart: float) -> Field:
     """Return the axes of specific sliding under those of the velocities."""
-    words, low, scale = scene.words, cut_of(scene), theta_scale(scene)
+    words, low, scale = scene.words, cut_of(scene.solved), theta_scale(scene)
     marks = {value: words.short(value) for value in divisions(1.0, low, scale.mu, 9.0)}
     origin = above.origin - 1j * (apart + 1.0 / scale.mu)
     return Field(origin, replace(above.x, letter=""), Axis(words.symbol("theta"), scale, low, 1.0, marks))

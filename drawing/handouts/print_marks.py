@@ -5,18 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...scales.packaged import packaged
-from ..formats import Format
 from ..page import Page
 from ..shapes import Group, Line, Pen, Shape, Text
 
-MARGIN, FOOT = 8.0, 14.0  # mm of the frame from the edges of the paper: most printers reach no farther than 5
 LENGTH, TICK, LONG = 100, 1.5, 3.0  # of a ruler and its marks, mm
 LETTERS = 2.5
-
-
-def printable(sheet: Format) -> Format:
-    """Return a format whose frame keeps clear of where printers do not reach."""
-    return replace(sheet, margin=MARGIN, foot=FOOT)
 
 
 def marked(page: Page) -> Page:

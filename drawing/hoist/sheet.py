@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from ...scales.choices import SIZES
-from ..compose import Drawn, arrange, arrange_closely, compose, worth_trying
-from ..formats import FORMATS, Format
+from ..compose import Drawn, arrange, arrange_closely, compose
+from ..extents import from_format
+from ..formats import Format
 from ..rungs import fitted, on_pages
 from .fitting import PARTS, Fitting, Rungs
 from .fitting import Contents as Contents
+from .ladders import first_scales
 
 
 def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
@@ -18,8 +19,9 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     InputError
         When a view has no room on a page of the format.
     """
-    fitting, largest, norm = Fitting(contents), FORMATS[SIZES[-1]], contents.norm
-    formats = [sheet] if sheet else worth_trying([view for view, _ in fitting.views(largest, Rungs())])
+    fitting, norm = Fitting(contents), contents.norm
+    usual, _ = first_scales(contents.solved, contents.choosers, contents.plans)
+    formats = [sheet] if sheet else from_format(usual)
     rungs, places = Rungs(), None
     for candidate in formats:
         views = [view for view, _ in fitting.views(candidate, rungs)]

@@ -12,13 +12,13 @@ from .calculations.equations import Lines
 from .calculations.forces import force_parts, lines_by_plan, load_lines
 from .calculations.kinematics import PLANS as KINEMATICS
 from .calculations.kinematics import kinematics_lines
+from .layout.ladders import links_apart
 from .scene import Scene
 from .telling.compound import compound_blocks, compound_equations, compound_told
 from .telling.conclusions import conclusions
 from .telling.lever import lever_told
 from .telling.marks import TOLD
 from .telling.teller import Teller, Told
-from .views import links_apart
 
 SET = ("pole", "place")  # verbs that set a drawing up
 FORCES = "forces_"

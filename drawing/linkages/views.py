@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import ACCELERATION, Coupler, scale_symbol
-from ...plans.linkages.mechanism import Diagram, Prismatic
+from ...plans.linkages.mechanism import Diagram
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group
 from ..table import note_block
@@ -24,6 +24,7 @@ from .figures.lever import lever_view
 from .figures.load_diagram import load_diagram
 from .figures.plan import plan_view
 from .figures.scheme import scheme
+from .layout.ladders import links_apart
 from .scene import Scene
 
 if TYPE_CHECKING:
@@ -141,22 +142,6 @@ def _group(solved: SolvedLinkage, group: Group) -> Iterator[Figure]:
             yield _apart(group, int(link))
         yield _plan(plan, "heading.link_forces", symbols[plan], link=link)
     yield from (_apart(group, number) for number in apart if f"forces_{number}" not in plans)
-
-
-def links_apart(solved: SolvedLinkage, group: Group) -> tuple[int, ...]:
-    """Return the sliders of a group that have figures of their own: those with plans, or else that of a rod beside one.
-
-    None has, where no link of the group has a plan of its own.
-    """
-    sliding, alone = _sliding(group), {number for number in group.links if f"forces_{number}" in solved.scale_of_plan}
-    shown = sliding & alone or (sliding if alone else set())
-    return tuple(number for number in group.links if number in shown)
-
-
-def _sliding(group: Group) -> set[int]:
-    """Return the links of a group that have sliding pairs."""
-    pairs = (pair for pair in (*group.inner, *group.outer) if isinstance(pair, Prismatic))
-    return {number for pair in pairs for number in pair.links if number in group.links}
 
 
 def _apart(group: Group, number: int | None) -> Figure:

@@ -65,7 +65,7 @@ def cam(case: Case) -> SolvedCam:
 
 
 def told(case: Case, lang: str = "en") -> Story:
-    scales = case.kind.first_scales(case.solved, case.choosers)
+    _, scales = case.kind.first_scales(case.solved, case.choosers, case.plans)
     return case.kind.story(case, scales, case.words(lang), packaged("kulman.drawing.notes", "texts", lang))
 
 

@@ -75,7 +75,8 @@ def test_the_help_of_every_command_shows_examples_that_run(
     for arguments in shown[:count]:
         assert not command or arguments[0] == command
         status, out, err = run(arguments, capsys)
-        assert (status, err) == (0, "")
+        assert status == 0
+        assert all("kulman solve --format" in line for line in err.splitlines())  # other scale factors on small paper
         assert out
 
 

@@ -21,8 +21,7 @@ from pdfminer.utils import decode_text
 from pypdfium2 import PdfDocument
 
 from kulman import cli, handout, sheet
-from kulman.drawing.formats import FORMATS, drawing_area, reserved_boxes
-from kulman.drawing.handouts.print_marks import printable
+from kulman.drawing.formats import FORMATS, drawing_area, printable, reserved_boxes
 from kulman.drawing.layers import Layer, layered
 from kulman.drawing.page import Page
 from kulman.drawing.pdf import write_pdf
@@ -151,7 +150,7 @@ def test_all_that_a_pdf_paints_is_in_a_layer_that_its_page_knows() -> None:
 
 def test_layers_change_nothing_that_is_seen() -> None:
     """Where white covers lines, it covers them in layers too, but for lines that end in the circle of a node."""
-    (page,) = sheet(TASK, only="position,velocity,forces", format="A2").pages
+    (page,) = sheet(TASK, only="position,velocity,forces", format="A1").pages
 
     apart, whole = (picture(pdf(drawn)) for drawn in (replace(page, layers=True), page))
 

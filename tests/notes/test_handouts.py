@@ -10,8 +10,7 @@ import pytest
 
 from kulman import cli, handout, note
 from kulman.drawing.compose import Drawn
-from kulman.drawing.formats import BLOCK, FORMATS, drawing_area
-from kulman.drawing.handouts.print_marks import printable
+from kulman.drawing.formats import BLOCK, FORMATS, drawing_area, printable
 from kulman.drawing.notes.blocks import Figure, Steps
 from kulman.drawing.shapes import Arrow, Group, Line, Shape, Text, Vector
 from kulman.scales.errors import LANGUAGES

@@ -37,12 +37,12 @@ def case_of(task: str, variant: str | None = None) -> Case:
 
 
 def scene_of(case: Case, lang: str = "en") -> Any:
-    scales = KIND.first_scales(case.solved, case.choosers)  # as good as those of a format
+    _, scales = KIND.first_scales(case.solved, case.choosers, case.plans)  # as good as those of a format
     return KIND._scene(case, scales, case.words(lang))
 
 
 def story_of(case: Case, lang: str = "en", notation: str | None = None) -> Story:
-    scales = KIND.first_scales(case.solved, case.choosers)
+    _, scales = KIND.first_scales(case.solved, case.choosers, case.plans)
     return KIND.story(case, scales, case.words(lang, notation), packaged("kulman.drawing.notes", "texts", lang))
 
 

@@ -20,6 +20,7 @@ from kulman.drawing.linkages.letters import lettered
 from kulman.drawing.linkages.scene import Scene
 from kulman.drawing.style import STYLES
 from kulman.drawing.words import Words, notations
+from kulman.plans.linkages.chain import PLANS
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.scales.display import Display
@@ -41,7 +42,7 @@ def scene_of(mechanism: Mechanism, values: dict[str, float], lang: str = "en", n
     solved = solve_linkage(mechanism, values)
     assert solved.trouble is None
     words = lettered(Words.of(lang, notation), solved)
-    return Scene(solved, scales=first_scales(solved, {}), words=words, style=STYLES["A1"], givens={})
+    return Scene(solved, scales=first_scales(solved, {}, PLANS)[1], words=words, style=STYLES["A1"], givens={})
 
 
 def bundled(task: str, lang: str = "en", notation: str = "nau") -> Scene:

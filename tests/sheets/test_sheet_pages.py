@@ -12,6 +12,7 @@ from kulman.drawing.page import Page, extent
 from kulman.drawing.shapes import Group
 from kulman.scales.errors import InputError
 from kulman.variants.sheets import Sheet
+from kulman.variants.solution import Solution
 
 MADI = {"mu_l": 0.0025, "mu_V": 0.189, "mu_a": 21.318, "mu_F_23": 33.154, "mu_F_1": 54.373}
 KINEMATICS = {"givens", "structure", "position", "velocity", "acceleration", "equations_kinematics"}
@@ -19,6 +20,10 @@ KINEMATICS = {"givens", "structure", "position", "velocity", "acceleration", "eq
 
 def mus(drawn: Sheet) -> dict[str, float]:
     return {scale.symbol: scale.mu for scale in drawn.scales.values()}
+
+
+def mus_of(solved: Solution) -> dict[str, float]:
+    return {symbol: scale.mu for symbol, scale in solved.scales.items()}
 
 
 def views(page: Page) -> Iterator[Group]:
@@ -95,7 +100,11 @@ def test_two_pages_are_read_in_order_and_used(task: str) -> None:
 
 def test_plans_are_drawn_larger_where_pages_have_room() -> None:
     drawn = mus(two_pages("scheme-10-shaper-two-blocks"))
-    wanted = {symbol: scale.mu for symbol, scale in kulman.solve("scheme-10-shaper-two-blocks", "6").scales.items()}
+    solved = kulman.solve("scheme-10-shaper-two-blocks", "6")
 
-    assert any(mu < 0.9 * wanted[symbol] for symbol, mu in drawn.items() if symbol in wanted)
-    assert not any(mu > 1.1 * wanted[symbol] for symbol, mu in drawn.items() if symbol in wanted)
+    longest = {
+        symbol: max(q.mm or 0.0 for name, q in solved.quantities.items() if q.scale == symbol and q.kind == "vector")
+        for symbol in ("mu_V", "mu_a", "mu_F_23")
+    }
+    assert {symbol: drawn[symbol] for symbol in longest} == {s: mu for s, mu in mus_of(solved).items() if s in longest}
+    assert all(80.0 < millimetres < 300.0 for millimetres in longest.values())

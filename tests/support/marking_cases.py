@@ -22,12 +22,17 @@ from kulman.variants.solution import solve
 
 HAND = "normal"
 LINKAGES = bundled("mechanism")
+# scale factors of students of whom many are counted: they draw so whatever the sheet takes
+DRAWN: dict[str, dict[str, str | float]] = {
+    "nau-slider-crank": {"mu_F_23": 15.0, "mu_F_1": 25.0},
+    "scheme-08-planer": {"mu_l": 0.005, "mu_F_1": 100.0, "mu_F_23": 100.0, "mu_F_45": 50.0},
+}
 
 
 @cache
 def paper(task: str, variant: str | None = None) -> Paper:
     """Return the sheet of a task, velocities and accelerations drawn to the customary pa of the preset."""
-    solution = solve(task, variant)
+    solution = solve(task, variant, scales=DRAWN.get(task))
     solved, mus = solution.solved, {symbol: scale.mu for symbol, scale in solution.scales.items()}
     pa, point = preset(HAND).pa or 0.0, solved.mechanism.driver.point
     for symbol, name in (("mu_V", f"V_{point}"), ("mu_a", f"a_{point}")):

@@ -70,7 +70,7 @@ def _accuracy(scene: Scene, solved: SolvedHoist, givens: Mapping[str, float], ef
     """Let all methods compete, a board and a hand that draw among them."""
     found = rivals(givens, time.process_time, effort)
     case = scene.case
-    mus = {plan: scale.mu for plan, scale in case.kind.first_scales(solved, case.choosers).items()}
+    mus = {plan: scale.mu for plan, scale in case.kind.first_scales(solved, case.choosers, case.plans)[1].items()}
     drawn = (*by_board(solved, time.process_time), *by_hand(solved, mus, preset(scene.hand).hand))
     whole = replace(found, entries=(*found.entries, *drawn))
     return AccuracyChart(scene, "s", whole, "chart.hoist_compared")

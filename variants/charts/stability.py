@@ -193,7 +193,7 @@ def scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
     sound = [solved for solved in solutions if solved.trouble is None]
     for solved in [solved for solved in sound if solved.worst_sine()[1] >= SMALL] or sound:
         try:
-            scales = first_scales(solved, case.choosers)
+            _, scales = first_scales(solved, case.choosers, plans)
         except InputError as error:  # the segment that sets a scale factor is zero here
             reason = error
             continue

@@ -118,11 +118,13 @@ class Cams(Kind[Cam, "SolvedCam"]):
         """Return the symbols of the scale factors that may be chosen."""
         return SYMBOLS
 
-    def first_scales(self, solved: SolvedCam, choosers: Choosers) -> dict[str, Scale]:
-        """Return the scale factors by plan: those of the diagrams follow from the construction."""
+    def first_scales(
+        self, solved: SolvedCam, choosers: Choosers, plans: tuple[str, ...]
+    ) -> tuple[Format, dict[str, Scale]]:
+        """Return format and scale factors by plan: those of the diagrams follow from the construction."""
         from ...drawing.cams.ladders import first_scales
 
-        return first_scales(solved, choosers)
+        return first_scales(solved, choosers, plans)
 
     def sweep(self, case: Case, words: Words, asked: SweepRequest) -> CamSweep:
         """Look at a cam over its turn."""

@@ -104,11 +104,13 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         """Return the symbols of the scale factors that may be chosen."""
         return SYMBOLS
 
-    def first_scales(self, solved: SolvedGear, choosers: Choosers) -> dict[str, Scale]:
-        """Return the scale factors by plan: those of the diagrams are known before."""
-        from ...drawing.gears.ladders import scales_of
+    def first_scales(
+        self, solved: SolvedGear, choosers: Choosers, plans: tuple[str, ...]
+    ) -> tuple[Format, dict[str, Scale]]:
+        """Return format and scale factors by plan: those of the diagrams are known before."""
+        from ...drawing.gears.ladders import first_scales
 
-        return scales_of(solved, choosers)
+        return first_scales(solved, choosers, plans)
 
     def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity."""

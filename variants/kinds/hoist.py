@@ -88,11 +88,13 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         """Return the symbols of the scale factors that may be chosen."""
         return SYMBOLS
 
-    def first_scales(self, solved: SolvedHoist, choosers: Choosers) -> dict[str, Scale]:
-        """Return the scale factors by plan: those of the diagrams are known before."""
-        from ...drawing.hoist.ladders import scales_of
+    def first_scales(
+        self, solved: SolvedHoist, choosers: Choosers, plans: tuple[str, ...]
+    ) -> tuple[Format, dict[str, Scale]]:
+        """Return format and scale factors by plan: those of the diagrams are known before."""
+        from ...drawing.hoist.ladders import first_scales
 
-        return scales_of(solved, choosers)
+        return first_scales(solved, choosers, plans)
 
     def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity."""

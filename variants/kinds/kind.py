@@ -127,8 +127,13 @@ class Kind(ABC, Generic[Subject, Answer]):
         """Return the symbols of all scale factors that a task or a user may choose."""
 
     @abstractmethod
-    def first_scales(self, solved: Answer, choosers: Choosers) -> dict[str, Scale]:
-        """Return the scale factors as they are wanted, by plan, before any format has its say."""
+    def first_scales(
+        self, solved: Answer, choosers: Choosers, plans: tuple[str, ...]
+    ) -> tuple[Format, dict[str, Scale]]:
+        """Return the format and the scale factors by plan of the sheet, as they follow from the extents of its plans.
+
+        Nothing is drawn for that; where the sheet cannot keep them, it says so.
+        """
 
     def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity.

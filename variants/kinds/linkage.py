@@ -107,11 +107,13 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         """Return the symbols of all scale factors that may be chosen."""
         return scale_symbols(solved.structure, solved.program)
 
-    def first_scales(self, solved: SolvedLinkage, choosers: Choosers) -> dict[str, Scale]:
-        """Return the scale factors as they are wanted, by plan."""
+    def first_scales(
+        self, solved: SolvedLinkage, choosers: Choosers, plans: tuple[str, ...]
+    ) -> tuple[Format, dict[str, Scale]]:
+        """Return format and scale factors by plan, chosen by the areas of figures."""
         from ...drawing.linkages.layout.ladders import first_scales
 
-        return first_scales(solved, choosers)
+        return first_scales(solved, choosers, plans)
 
     def unfit(self, case: Case) -> Iterator[InputError]:
         """Go through what makes a variant a poor exercise: its crank does not turn round, a plan is a line."""

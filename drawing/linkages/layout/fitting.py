@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
@@ -10,29 +9,24 @@ from typing import TYPE_CHECKING
 from ....plans.linkages.cycles.slider_runs import Runs, slider_runs
 from ....plans.linkages.solved import SolvedLinkage
 from ....scales.choices import SIZES
-from ....scales.choose import UNITS, CrankScale, Fixed
+from ....scales.choose import UNITS
 from ....scales.errors import InputError
 from ....scales.scale import Scale, steps
-from ...compose import room
 from ...contents import SheetContents
-from ...formats import FORMATS, Format
+from ...extents import Extents, Rungs
+from ...formats import FORMATS, Format, printable, room
 from ...style import STYLES
 from ...view import View
 from ..letters import lettered
 from ..scene import Scene
 from ..views import Figure, figures, noted
-from .ladders import Ladders, by_plan, finer_of, ladders_of
+from .ladders import MARKS, by_plan, extents_of, mus_of
 
 if TYPE_CHECKING:
     from ....plans.linkages.cycles.cycle import Cycle
 
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 SURELY = 0.85  # part of the excess of a view that certainly comes from what is drawn to scale
-FORCES_ONLY = 3
-# mm below which no plan is made smaller for want of room, by format, and how many times that by kind of plan
-LEAST = {"A1": 60.0, "A2": 60.0, "A3": 45.0, "A4": 40.0}
-LARGER = {"l": 2.5, "V": 1.3, "a": 1.3, "F": 1.0}
-MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same")
 Fitted = tuple[list[View], Mapping[str, Scale]]
 
 
@@ -70,62 +64,46 @@ class Fitting:
     """Builds the views of `contents` for any format, each only once."""
 
     contents: Contents
-    ladders: Ladders = field(init=False)
-    finer: Ladders = field(init=False)
+    extents: Extents = field(init=False)
     runs: Runs = field(init=False)
-    _root: dict[str, str] = field(init=False)
-    _built: dict[tuple[str, int, bool], tuple[Fitted, dict[str, int]]] = field(default_factory=dict)
     _drawings: dict[tuple[str, int], list[tuple[dict[str, Scale], View]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Find the ladders and how long guides are; a crank scale stands on the rung of mu_l."""
-        self.runs = slider_runs(self.contents.solved)
-        choosers = self.contents.choosers
-        self.ladders = ladders_of(self.contents.solved, choosers)
-        self.finer = finer_of(self.ladders, choosers)
-        self._root = {s: "mu_l" if isinstance(choosers.get(s), CrankScale) else s for s in self.ladders}
+        """Find what figures take up, the ladders among it, and how long guides are."""
+        contents = self.contents
+        self.runs = slider_runs(contents.solved)
+        self.extents = extents_of(contents.solved, contents.choosers, contents.plans)
 
     def is_fixed(self, symbol: str) -> bool:
-        """Whether the task or the user has fixed a scale factor: several pages are better than a coarser one."""
-        chooser = self.contents.choosers.get(symbol)
-        return isinstance(chooser, Fixed) or (chooser is not None and chooser.firm)
+        """Whether the task or the user has fixed a scale factor."""
+        return self.extents.ladders[symbol].fixed
 
-    def keeps(self, scales: Mapping[str, Scale]) -> bool:
-        """Whether all fixed scale factors are among these as they were fixed."""
-        return all(s.mu == self.ladders[s.symbol][0] for s in scales.values() if self.is_fixed(s.symbol))
+    def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> tuple[Fitted, Rungs]:
+        """Return views, scale factors and rungs for pages of `sheet`: these rungs, coarser ones where they must be.
 
-    def views(self, sheet: Format, step: int = 0) -> Fitted:
-        """Return views and scale factors as `fitted` does."""
-        return self.fitted(sheet, step)[0]
-
-    def fitted(self, sheet: Format, step: int = 0, first: bool = False) -> tuple[Fitted, dict[str, int]]:
-        """Return views, scale factors and rungs for pages of `sheet`, force plans `step` rungs or more coarser.
-
-        After `FORCES_ONLY` steps the other plans follow, too: a student sooner shrinks forces than pa or OA. What is
-        fixed becomes coarser only where a page cannot hold it alone. With `first` all have room even on the first page.
+        What is fixed, too, becomes coarser only where a page cannot hold it alone. With `first` all have room even on
+        the first page.
 
         Raises
         ------
         InputError
             When a view has no room on a page even at the last rung.
         """
-        key = sheet.name, step, first
-        if key not in self._built:
-            self._built[key] = self._fitted(sheet, step, first)
-        return self._built[key]
-
-    def _fitted(self, sheet: Format, step: int, first: bool) -> tuple[Fitted, dict[str, int]]:
-        width, height = room(sheet, self.contents.norm, first)
-        rungs = self.rungs(sheet, step)
+        norm = self.contents.norm
+        rooms = {  # what may be coarser is so on any printer: a handout has the scale factors of the sheet
+            symbol: room(sheet if ladder.fixed else printable(sheet), norm, first)
+            for symbol, ladder in self.extents.ladders.items()
+        }
+        rungs = dict(rungs)
         while True:
             built, scales = self.build(sheet, rungs)
-            too_large = {s: view for view, s in built if s and (view.size[0] > width or view.size[1] > height)}
+            sized = [(s, view, max(view.size[0] / rooms[s][0], view.size[1] / rooms[s][1])) for view, s in built if s]
+            too_large = {symbol: (view, excess) for symbol, view, excess in sized if excess > 1.0}
             if not too_large:
                 return ([view for view, _ in built], scales), rungs
-            for symbol, view in too_large.items():
-                excess = max(view.size[0] / width, view.size[1] / height)
+            for symbol, (view, excess) in too_large.items():
                 rungs[symbol] = self._next(symbol, rungs[symbol], excess)
-                if rungs[symbol] >= len(self.ladders[symbol]):
+                if rungs[symbol] >= len(self.extents.ladders[symbol].values):
                     raise self._does_not_fit(sheet, symbol, view.size)
 
     def _next(self, symbol: str, rung: int, excess: float) -> int:
@@ -134,31 +112,24 @@ class Fitting:
         Letters keep their size, so that a view shrinks by less than its scale factor grows; even if they find better
         places, so far off no rung fits.
         """
-        ladder, wanted = self.ladders[symbol], self.mu(symbol, rung) * excess * SURELY
+        ladder = self.extents.ladders[symbol].values
+        wanted = ladder[rung] * excess * SURELY
         return next((k for k in range(rung + 1, len(ladder)) if ladder[k] >= wanted), rung + 1)
 
-    def rungs(self, sheet: Format, step: int) -> dict[str, int]:
-        """Return the first rung of every ladder at which the marks alone have room."""
-        return {s: self._rung(s, step, sheet) for s, root in self._root.items() if root == s}
-
-    def build(self, sheet: Format, rungs: Mapping[str, int]) -> tuple[list[tuple[View, str]], Mapping[str, Scale]]:
+    def build(self, sheet: Format, rungs: Rungs) -> tuple[list[tuple[View, str]], Mapping[str, Scale]]:
         """Draw all figures with the scale factors on these rungs; each with the ladder that sizes it, or ""."""
-        contents, root = self.contents, self._root
+        contents, ladders = self.contents, self.extents.ladders
         text_width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
-        mus = {s: self.mu(s, rungs[root[s]]) for s in self.ladders}
+        mus = mus_of(self.extents, rungs)
         scene = self._scene(sheet, mus)
         built = []
         wanted = [*noted(contents.note, text_width)]
         wanted += figures(contents.solved, contents.plans, text_width, contents.cycle)
         for number, figure in enumerate(wanted):
             view = self._drawn(sheet, number, figure, scene)
-            built.append((view, root.get(self._sizing(figure, mus), "")))
+            symbol = self._sizing(figure, mus)
+            built.append((view, (symbol and ladders[symbol].root) or symbol))
         return built, scene.scales
-
-    def mu(self, symbol: str, rung: int) -> float:
-        """Return a scale factor on a rung; those below 0 are finer than the wanted one, where there are such."""
-        finer = self.finer[symbol]
-        return self.ladders[symbol][max(rung, 0)] if rung >= 0 or not finer else finer[min(-rung, len(finer)) - 1]
 
     def _sizing(self, figure: Figure, mus: Mapping[str, float]) -> str:
         """Return the scale factor that makes a figure as large as it is: of two the one with the longer lines."""
@@ -177,21 +148,6 @@ class Fitting:
         drawings.append((watched.used, view))
         return view
 
-    def _rung(self, symbol: str, step: int, sheet: Format) -> int:
-        """Return the first rung at which the marks alone have room, before any view is built."""
-        ladder, reach = self.ladders[symbol], _reach(self.contents.solved, symbol)
-        diagonal = math.hypot(*room(sheet, self.contents.norm))
-        first = step if symbol.startswith("mu_F") else step - FORCES_ONLY
-        # several pages are better than a plan on which nothing can be measured
-        least = LEAST[sheet.letters] * LARGER[symbol.split("_")[1]]
-        if self.is_fixed(symbol):
-            first = 0
-        legible = sum(reach >= least * mu for mu in ladder) - 1
-        for rung in range(max(min(first, legible), 0), len(ladder)):
-            if reach <= diagonal * ladder[rung]:
-                return rung
-        raise self._does_not_fit(sheet, symbol, (reach / ladder[-1], reach / ladder[-1]))
-
     def _scene(self, sheet: Format, mus: Mapping[str, float]) -> Scene:
         solved, contents = self.contents.solved, self.contents
         scales = by_plan(solved, mus)
@@ -200,7 +156,7 @@ class Fitting:
 
     def _does_not_fit(self, sheet: Format, symbol: str, size: tuple[float, float]) -> InputError:
         """Say which format, or which scale factor, would do."""
-        norm, mu = self.contents.norm, self.ladders[symbol][-1]
+        norm, mu = self.contents.norm, self.extents.ladders[symbol].values[-1]
         width, height = room(sheet, norm)
         excess = max(size[0] / width, size[1] / height)
         rooms = {name: room(FORMATS[name], norm) for name in SIZES}

@@ -1,58 +1,110 @@
-"""Ladders of scale factors: for each plan the wanted one first, then coarser and coarser; finer ones for much room."""
+"""The scale factors of a linkage's plans: their ladders, and what every figure takes up at them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 
 from ....plans.board import POSITION
-from ....plans.linkages.mechanism import Driver
+from ....plans.linkages.compound import ACCELERATION
+from ....plans.linkages.mechanism import Driver, Prismatic
 from ....plans.linkages.solved import SolvedLinkage
-from ....scales.choose import UNITS, Choosers, CrankScale, Round
+from ....plans.linkages.structure import TRIAD, Group
+from ....scales.choices import SIZES
+from ....scales.choose import UNITS, Chooser, Choosers, CrankScale, Fixed, From, Round
 from ....scales.errors import InputError
 from ....scales.scale import Scale, steps
+from ...extents import Extent, Extents, Ladder, Rungs, Size, choose
+from ...formats import FORMATS, Format
 from ..scene import DRIVER
 
 Ladders = Mapping[str, tuple[float, ...]]
-LONGEST = 130.0  # mm, the longest segment of a plan whose scale factor nobody has chosen
-LARGEST = 200.0  # mm, the same for the mechanism from joint to joint, and for plans of many vectors
 SHORTEST = 1.0  # mm, the least that the longest segment of a plan may be
-CROWD, HUNG = 14, 8  # vectors on one plan; forces on the lever
-DRAWN = ("read", "chain")
+# mm, the longest segment of a plan of forces at the beginning, on one page and on several, by format; that of other
+# plans may be so many times as long
+LONGEST = {"A1": (140.0, 190.0), "A2": (140.0, 190.0), "A3": (130.0, 190.0), "A4": (130.0, 160.0)}
+WEIGHTS = {"l": 1.4, "V": 1.5, "a": 1.3, "F": 1.0}
+# mm below which no plan is made smaller for want of room, by format, and how many times that by kind of plan
+LEAST = {"A1": 60.0, "A2": 60.0, "A3": 45.0, "A4": 40.0}
+LARGER = {"l": 2.2, "V": 1.4, "a": 1.4, "F": 0.9}
 CRANK = 45.0  # mm, the least length of a crank drawn apart
-FINER = 2.05  # times that a plan may be enlarged whose pages have room to spare
+ARROW = 0.7  # of the crank, where the arrow of its rotation stands
+MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same")
+KINEMATICS, FORCES = 0, 1  # parts of the work
+# mm that letters and the heading add to the lines of a figure, and what it takes at least
+PLAN, MECHANISM, GROUP, LEVER = (28.0, 34.0), (40.0, 60.0), (62.0, 82.0), (75.0, 100.0)
+SPLIT = (150.0, 130.0)  # accelerations of compound motion, which stand on the mechanism
+HEADING = (72.0, 42.0)
+APART, INSET = (85.0, 110.0), (95.0, 125.0)  # a slider or the driver; what shows vectors that would be points
+POINT, ZERO = 0.03, 1e-9  # parts of the longest vector below which another is a point, and is nothing
+# mm^2 of equations and tables: for the structure, a link, a quantity of a plan, the equations of moments of a group,
+# a load diagram
+STRUCTURE, LINK, DIAGRAM, HEADINGS = 15000.0, 1700.0, 13500.0, 4000.0
+TEXTS = {"velocity": 3300.0, "acceleration": 3300.0, "forces": 4700.0, "lever": 2000.0, "V": 8000.0, "a": 8000.0}
+MOMENTS = {"RRR": 16000.0, TRIAD: 45000.0}
 
 
-def first_scales(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Scale]:
-    """Return the scale factors as they are wanted, by plan, before any format has its say."""
-    return by_plan(solved, {symbol: ladder[0] for symbol, ladder in ladders_of(solved, choosers).items()})
+def first_scales(
+    solved: SolvedLinkage, choosers: Choosers, plans: Sequence[str], paper: Format | None = None
+) -> tuple[Format, dict[str, Scale]]:
+    """Return the format and the scale factors by plan, as the sheet has them; on `paper` where that is said."""
+    extents = extents_of(solved, choosers, plans)
+    sheet, rungs = chosen(extents, paper)
+    return sheet, by_plan(solved, mus_of(extents, rungs))
 
 
-def ladders_of(solved: SolvedLinkage, choosers: Choosers) -> dict[str, tuple[float, ...]]:
+def chosen(extents: Extents, paper: Format | None) -> tuple[Format, Rungs]:
+    """Return the format, `paper` where that is said, and the rungs of the scale factors."""
+    return choose(extents, LONGEST, [FORMATS[name] for name in SIZES] if paper is None else [paper])
+
+
+def mus_of(extents: Extents, rungs: Rungs) -> dict[str, float]:
+    """Return the scale factors by symbol."""
+    return {symbol: extents.mu(symbol, rungs) for symbol in extents.ladders}
+
+
+def extents_of(solved: SolvedLinkage, choosers: Choosers, plans: Sequence[str]) -> Extents:
+    """Return what the figures of a linkage take up, what its texts do, and the ladders of its scale factors."""
+    figures = tuple(_figures(solved, plans)) if POSITION in solved.scale_of_plan else ()  # a structure has no extent
+    return Extents(figures, _texts(solved, plans), ladders_of(solved, choosers))
+
+
+def ladders_of(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
     """Return for each scale factor of the plans its values from the wanted one to ever coarser ones."""
     plans = solved.scale_of_plan
 
     def value(name: str) -> float:
         item = solved.quantities.get(name)
         if name in plans.values():
-            size = _largest(solved, name)
+            size = longest[name]
         else:
             size = abs(item.value or 0.0) if item is not None else abs(float(solved.values.get(name, 0.0)))
         if not size > 0.0:
             raise InputError("scale-of-zero", quantity=name)
         return size
 
-    ladders: dict[str, tuple[float, ...]] = {}
-    for symbol in dict.fromkeys(plans.values()):
-        chooser = choosers.get(symbol)
+    longest = {symbol: _largest(solved, symbol) for symbol in dict.fromkeys(plans.values())}
+    ladders: dict[str, Ladder] = {}
+    for symbol, size in longest.items():
+        chooser, kind = choosers.get(symbol), symbol.split("_")[1]
+        weight = WEIGHTS[kind]
         if chooser is None:  # nobody has chosen: round, and any at all for a plan on which everything is zero
-            longest = LARGEST if symbol == plans[POSITION] or _crowded(solved, symbol) else LONGEST
-            ladders[symbol] = Round(symbol, longest).ladder(value) if _largest(solved, symbol) > 0.0 else (1.0,)
+            values = Round(symbol, weight * max(LONGEST["A1"])).ladder(value) if size > 0.0 else (1.0,)
         elif isinstance(chooser, CrankScale):
-            ladders[symbol] = chooser.ladder(value, ladders["mu_l"])
+            values = chooser.ladder(value, ladders["mu_l"].values)
         else:
-            ladders[symbol] = chooser.ladder(value)
+            values = chooser.ladder(value)
         if chooser is not None and chooser.firm:
-            _visible(symbol, ladders[symbol][0], _largest(solved, symbol))
+            _visible(symbol, values[0], size)
+        ladders[symbol] = Ladder(
+            values,
+            size,
+            weight=weight,
+            least={name: LARGER[kind] * mm for name, mm in LEAST.items()},
+            root="mu_l" if isinstance(chooser, CrankScale) else "",
+            fixed=is_fixed(chooser),
+            chosen=chooser is not None and not isinstance(chooser, From),
+        )
     return ladders
 
 
@@ -63,21 +115,97 @@ def _visible(symbol: str, mu: float, largest: float) -> None:
         raise InputError("plan-too-small", symbol=symbol, mu=f"{mu:g}", unit=unit, size=f"{largest / mu:.2g}")
 
 
-def finer_of(ladders: Mapping[str, Sequence[float]], choosers: Choosers) -> dict[str, tuple[float, ...]]:
-    """Return for each scale factor that nobody has chosen the finer ones of the series, the nearest first."""
-    finer = {}
-    for symbol, ladder in ladders.items():
-        below = steps(ladder[0] / 100.0) if choosers.get(symbol) is None else ()
-        finer[symbol] = tuple(mu for mu in reversed(below) if ladder[0] / FINER <= mu < 0.999 * ladder[0])
-    return finer
+def is_fixed(chooser: Chooser | None) -> bool:
+    """Whether the task or the user has fixed a scale factor: several pages are better than a coarser one."""
+    return isinstance(chooser, Fixed) or (chooser is not None and chooser.firm)
 
 
-def _crowded(solved: SolvedLinkage, symbol: str) -> bool:
-    """Whether the plans of a scale factor draw so many vectors, or hang so many forces, that they need more room."""
-    plans = {plan for plan, name in solved.scale_of_plan.items() if name == symbol}
-    drawn = [step.plan for step in solved.program if step.verb in DRAWN]
-    hung = [step.operands[1].rpartition(".")[0] for step in solved.program if step.verb == "moment"]
-    return any(drawn.count(plan) > CROWD or hung.count(plan) > HUNG for plan in plans)
+def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
+    """Go through the figures that scale factors size."""
+    symbols, whole = solved.scale_of_plan, _mechanism(solved)
+    if POSITION in plans or "structure" in plans:
+        yield Extent("mu_l", whole, MECHANISM)
+    for plan in ("velocity", "acceleration"):
+        if plan in plans:
+            yield from _plan(solved, plan, KINEMATICS)
+    if "compound" in plans:
+        yield Extent("mu_l", whole, GROUP)
+        yield from (Extent(symbols[p], _box(solved, p), SPLIT) for p in symbols if p.startswith(ACCELERATION))
+    if "forces" in plans:
+        for group in solved.structure.groups:
+            points = [point for link in solved.mechanism.links if link.number in group.links for point in link.points]
+            yield Extent("mu_l", _around([solved.point(point) for point in points]), GROUP, part=FORCES)
+            yield from (Extent("", (0.0, 0.0), APART, part=FORCES) for _ in links_apart(solved, group))
+        for plan in (plan for plan in symbols if plan.startswith("forces_")):
+            yield from _plan(solved, plan, FORCES)
+        yield Extent("", (0.0, 0.0), APART, part=FORCES)
+    if "lever" in plans:
+        high, wide = _box(solved, "velocity")
+        yield Extent("mu_V", (wide, high), LEVER, HEADING, part=FORCES)
+
+
+def _plan(solved: SolvedLinkage, plan: str, part: int) -> Iterator[Extent]:
+    """Return the figure of a plan, and the inset of vectors that would be points in it."""
+    yield Extent(solved.scale_of_plan[plan], _box(solved, plan), PLAN, HEADING, part)
+    drawn = [q.value or 0.0 for name, q in solved.quantities.items() if solved.shown_on.get(name) == plan]
+    sizes = [size for size in map(abs, drawn) if size > ZERO * max(map(abs, drawn))]
+    if sizes and min(sizes) < POINT * max(sizes):
+        yield Extent("", (0.0, 0.0), INSET, part=part)
+
+
+def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> tuple[float, float]:
+    """Return what equations and tables take, mm^2 on A1, of both parts of the work."""
+    kinematics = STRUCTURE + LINK * len(solved.mechanism.links) if "structure" in plans else 0.0
+    forces = 0.0
+    count = Counter(solved.shown_on.get(name, "").partition("_")[0] for name in solved.quantities)
+    for plan in ("velocity", "acceleration", "V", "a"):
+        kinematics += TEXTS[plan] * count[plan] + HEADINGS * (count[plan] > 0)
+    for plan in {"forces", "lever"} & {*plans}:
+        forces += TEXTS[plan] * count[plan] + 2.0 * HEADINGS
+    if "forces" in plans:
+        forces += DIAGRAM * len(solved.mechanism.diagrams)
+        forces += sum(MOMENTS.get(group.kind, 0.0) for group in solved.structure.groups)
+    return kinematics, forces
+
+
+def _mechanism(solved: SolvedLinkage) -> Size:
+    """Return width and height of the mechanism with the arrow of its crank."""
+    places = [solved.point(point) for link in solved.mechanism.links for point in link.points]
+    driver = solved.mechanism.driver
+    if isinstance(driver, Driver):
+        pivot = solved.point(driver.pivot)
+        radius = abs(solved.point(driver.point) - pivot)
+        places += [pivot + ARROW * radius * way for way in (1, 1j, -1, -1j)]
+    return _around(places)
+
+
+def _box(solved: SolvedLinkage, plan: str) -> Size:
+    # an instant centre may be anywhere: its figure says so in words where it is far
+    drawn = (step.name for step in solved.program.on(plan) if step.verb in MARKS)
+    return _around([solved.point(name) for name in drawn if not name.startswith(("_", "P_"))])
+
+
+def _around(places: Sequence[complex]) -> Size:
+    if not places:
+        return 0.0, 0.0
+    across, up = [z.real for z in places], [z.imag for z in places]
+    return max(across) - min(across), max(up) - min(up)
+
+
+def links_apart(solved: SolvedLinkage, group: Group) -> tuple[int, ...]:
+    """Return the sliders of a group that have figures of their own: those with plans, or else that of a rod beside one.
+
+    None has, where no link of the group has a plan of its own.
+    """
+    sliding, alone = _sliding(group), {number for number in group.links if f"forces_{number}" in solved.scale_of_plan}
+    shown = sliding & alone or (sliding if alone else set())
+    return tuple(number for number in group.links if number in shown)
+
+
+def _sliding(group: Group) -> set[int]:
+    """Return the links of a group that have sliding pairs."""
+    pairs = (pair for pair in (*group.inner, *group.outer) if isinstance(pair, Prismatic))
+    return {number for pair in pairs for number in pair.links if number in group.links}
 
 
 def _largest(solved: SolvedLinkage, symbol: str) -> float:

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from ....plans.linkages.structure import Structure
 from ....scales.scale import Scale
 from ...compose import arrange_rest
+from ...extents import Rungs
 from ...formats import Format
 from ...packing import Placement, pack
 from ...pens import Norm
@@ -44,11 +45,10 @@ PATIENCE = 5  # rungs by which a scale factor may become coarser for the sake of
 Zoned = tuple[list[View], Mapping[str, Scale], list[Placement]]
 
 
-def zoned(fitting: Fitting, sheet: Format, norm: Norm) -> Zoned | None:
+def zoned(fitting: Fitting, sheet: Format, norm: Norm, first: Rungs) -> Zoned | None:
     """Return views, scale factors and places in zones, or None where the plan of positions has no room in its own."""
     structure = fitting.contents.solved.structure
-    first, crowded = fitting.rungs(sheet, 0), set[str]()
-    rungs = dict(first)
+    crowded, rungs = set[str](), dict(first)
     while True:
         built, scales = fitting.build(sheet, rungs)
         views = [view for view, _ in built]
@@ -63,7 +63,7 @@ def zoned(fitting: Fitting, sheet: Format, norm: Norm) -> Zoned | None:
             break
         for symbol, zone in coarser.items():
             rungs[symbol] += 1
-            if rungs[symbol] > min(first[symbol] + PATIENCE, len(fitting.ladders[symbol]) - 1):
+            if rungs[symbol] > min(first[symbol] + PATIENCE, len(fitting.extents.ladders[symbol].values) - 1):
                 rungs[symbol] = first[symbol]
                 crowded.add(zone)
     return None if "positions" in tight else _with_rest(views, scales, placed, sheet, norm)

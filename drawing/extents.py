@@ -1,0 +1,218 @@
+"""Format and scale factors from what figures take up, before anything is drawn: one rule for `solve` and for the sheet.
+
+A subject says of each of its figures how large it is in the unit of its scale factor and how many millimetres letters
+and heading add, and how many square millimetres equations and tables take. Then the smallest format is taken of which
+one sheet can hold everything, and scale factors at which it can: as long as the estimate is too large, the plan that
+takes most room with the longest segments becomes coarser by a step of the customary series. The largest format has as
+many pages as it takes, each part of the work on a page of its own where that is enough.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from ..scales.choices import SIZES
+from .formats import FORMATS, GAPS, Format, printable, room, usable
+from .pens import Norm
+
+NORMS: tuple[Norm, ...] = ("gost", "iso")
+# parts of a page that estimates may cover, since views leave gaps: of the only page, of the page of one part of the
+# work, of pages that parts share; and of two pages for which plans become smaller before there is a third
+FILL, APART, SHARED, CLOSELY = 0.79, 0.74, 0.70, 0.85
+SMALLER = {"A1": 1.0, "A2": 1.0, "A3": 0.7, "A4": 0.65}  # what letters take, in what they take on the largest format
+BLOCK = 12000.0  # mm^2 of a page that its title block takes
+MOST, MORE = 100, 3  # pages that there may be; of more than are expected, for which plans become smaller
+# parts of the width and of the height of a page that one figure may take, so that others find room beside it
+ONE = {"A1": 0.75, "A2": 0.85, "A3": 1.0, "A4": 1.0}
+Size: TypeAlias = tuple[float, float]
+Lengths: TypeAlias = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Extent:
+    """What a figure takes up: its `size` in the unit of its scale factor, and millimetres on A1 `around` it.
+
+    It takes at least `least`, mm; `part` counts the parts of the work.
+    """
+
+    symbol: str
+    size: Size
+    around: Size
+    least: Size = (0.0, 0.0)
+    part: int = 0
+
+    def on_paper(self, mu: float, letters: float) -> Size:
+        """Return width and height in mm; `letters` is how large letters are, A1 being 1."""
+        wide, high = (s / mu + letters * a for s, a in zip(self.size, self.around, strict=True))
+        return max(wide, letters * self.least[0]), max(high, letters * self.least[1])
+
+
+@dataclass(frozen=True, slots=True)
+class Ladder:
+    """The values that a scale factor may take, the wanted one first; one that is fixed stays.
+
+    `longest` is its longest segment in its unit; `weight` is how many times as long as others it may be, `least` the
+    millimetres, by format, below which it is not drawn for want of room. What a task has `chosen` becomes smaller after
+    the others. With a `root` it stands on the rung of another one.
+    """
+
+    values: tuple[float, ...]
+    longest: float
+    weight: float = 1.0
+    least: Mapping[str, float] = field(default_factory=dict)
+    root: str = ""
+    fixed: bool = False
+    chosen: bool = False
+
+    def next(self, rung: int, sheet: Format) -> bool:
+        """Whether the plan may be drawn at the rung after this one."""
+        if not self.free or rung + 1 >= len(self.values):
+            return False
+        return self.longest >= self.least.get(sheet.letters, 0.0) * self.values[rung + 1]
+
+    @property
+    def free(self) -> bool:
+        """Whether it has rungs of its own."""
+        return not self.fixed and not self.root
+
+
+Rungs: TypeAlias = dict[str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Extents:
+    """The figures of a sheet, its texts in mm^2 on A1 by part, and the ladders of its scale factors by symbol."""
+
+    figures: Sequence[Extent]
+    texts: Sequence[float]
+    ladders: Mapping[str, Ladder]
+
+    def of(self, part: int | None) -> Iterable[Extent]:
+        """Return the figures of a part, or all."""
+        return (figure for figure in self.figures if part is None or figure.part == part)
+
+    def mu(self, symbol: str, rungs: Rungs) -> float:
+        """Return a scale factor on its rung."""
+        if not symbol:
+            return 1.0
+        ladder = self.ladders[symbol]
+        return ladder.values[rungs[ladder.root or symbol]]
+
+
+def choose(extents: Extents, longest: Mapping[str, Lengths], formats: Sequence[Format]) -> tuple[Format, Rungs]:
+    """Return the format and the rungs of all scale factors.
+
+    Parameters
+    ----------
+    longest : mapping of str to Lengths
+        The longest segment of a plan at the beginning, mm, by format: on one page, and on several.
+    formats : sequence of Format
+        Those among which one is taken, the smallest first: where that is one, its sheet may have several pages.
+    """
+    for sheet in formats:
+        rungs, last = _begun(extents, sheet, longest[sheet.letters][0]), sheet is formats[-1]
+        chosen = (symbol for symbol, ladder in extents.ladders.items() if ladder.chosen and ladder.free)
+        if not last and any(rungs[symbol] for symbol in chosen):
+            continue  # what the task has chosen has no room
+        if _shrunk(extents, rungs, sheet, None, FILL * _page(sheet), last):
+            return sheet, rungs
+    return sheet, _on_pages(extents, sheet, longest[sheet.letters])
+
+
+def _begun(extents: Extents, sheet: Format, longest: float) -> Rungs:
+    """Return the rungs at which segments are so long at most and every figure has room on a page."""
+    rungs = dict.fromkeys((symbol for symbol, ladder in extents.ladders.items() if not ladder.root), 0)
+    for symbol, ladder in extents.ladders.items():
+        most = 1.0001 * longest * ladder.weight
+        while ladder.free and not ladder.chosen and ladder.longest > most * ladder.values[rungs[symbol]]:
+            if rungs[symbol] + 1 == len(ladder.values):
+                break
+            rungs[symbol] += 1
+    (wide, high), part = _room(sheet), ONE[sheet.letters]
+    for figure in extents.figures:
+        symbol = (figure.symbol and extents.ladders[figure.symbol].root) or figure.symbol
+        while symbol and extents.ladders[symbol].free and rungs[symbol] + 1 < len(extents.ladders[symbol].values):
+            w, h = figure.on_paper(extents.mu(figure.symbol, rungs), SMALLER[sheet.letters])
+            if w <= part * wide and h <= part * high:
+                break
+            rungs[symbol] += 1
+    return rungs
+
+
+def _on_pages(extents: Extents, sheet: Format, longest: Lengths) -> Rungs:
+    """Return rungs at which plans as long as on one page take as few pages, but are as large as these have room for.
+
+    Two pages have a part each where that is possible.
+    """
+    page, parts = _page(sheet), range(len(extents.texts))
+    large = _begun(extents, sheet, longest[1])
+    apart = dict(large)
+    if all(_shrunk(extents, apart, sheet, part, APART * page, True) for part in parts):
+        return apart
+    least = _area(extents, _begun(extents, sheet, longest[0]), sheet)
+    pages = 2 if least < 2.0 * CLOSELY * page else math.ceil(min(least / (SHARED * page), MOST))
+    for count in range(pages, pages + MORE):
+        together = dict(large)
+        if _shrunk(extents, together, sheet, None, SHARED * count * page, True):
+            break
+    return together
+
+
+def _area(extents: Extents, rungs: Rungs, sheet: Format) -> float:
+    """Return what all figures and texts take with their gaps, mm^2."""
+    letters, gap = SMALLER[sheet.letters], GAPS[sheet.letters]
+    sizes = (figure.on_paper(extents.mu(figure.symbol, rungs), letters) for figure in extents.figures)
+    return float(letters**1.5) * sum(extents.texts) + sum((wide + gap) * (high + gap) for wide, high in sizes)
+
+
+def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, part: int | None, most: float, shrink: bool) -> bool:
+    """Make long and large plans coarser until all has an area of `most`; tell whether it has."""
+    ladders, letters, gap = extents.ladders, SMALLER[sheet.letters], GAPS[sheet.letters]
+    by_symbol: dict[str, list[Extent]] = {}
+    for figure in extents.of(part):
+        by_symbol.setdefault((figure.symbol and ladders[figure.symbol].root) or figure.symbol, []).append(figure)
+
+    def area(symbol: str) -> float:
+        sizes = (figure.on_paper(extents.mu(figure.symbol, rungs), letters) for figure in by_symbol[symbol])
+        return sum((wide + gap) * (high + gap) for wide, high in sizes)
+
+    def worth(symbol: str) -> tuple[bool, float]:
+        ladder = ladders[symbol]
+        return not ladder.chosen, areas[symbol] * ladder.longest / extents.mu(symbol, rungs) / ladder.weight**2
+
+    areas = {symbol: area(symbol) for symbol in by_symbol}
+    left = most - letters**1.5 * (sum(extents.texts) if part is None else extents.texts[part])
+    while sum(areas.values()) > left:
+        free = [s for s in by_symbol if s and shrink and ladders[s].next(rungs[s], sheet)]
+        if not free:
+            return False
+        coarser = max(free, key=worth)
+        rungs[coarser] += 1
+        areas[coarser] = area(coarser)
+    return True
+
+
+def _page(sheet: Format) -> float:
+    x0, y0, x1, y1 = usable(printable(sheet), "gost")
+    return (x1 - x0) * (y1 - y0) - BLOCK
+
+
+def _room(sheet: Format) -> Size:
+    """Return the largest view that a page can hold, whatever its norm, and where printers do not reach the edges."""
+    rooms = [room(printable(sheet), norm, True) for norm in NORMS]
+    return min(w for w, _ in rooms), min(h for _, h in rooms)
+
+
+def smallest(areas: Iterable[float]) -> Format:
+    """Return the smallest format of which one page can hold drawings that take so many mm^2 on A1 in all."""
+    area = sum(areas)
+    names = (name for name in SIZES if SMALLER[name] ** 1.5 * area <= FILL * _page(FORMATS[name]))
+    return FORMATS[next(names, SIZES[-1])]
+
+
+def from_format(sheet: Format) -> list[Format]:
+    """Return a format and the larger ones."""
+    return [FORMATS[name] for name in SIZES[SIZES.index(sheet.letters) :]]
