@@ -76,6 +76,13 @@ FOUND = {
         task="bertyaev-six-bar",
         changes=(('mu_l = "5 cm/cm"', 'mu_l = "80 m/mm"'),),
     ),
+    "gears that slide without bounds": Found("solve madi-gear --set x_sum=-0 --set x_2=0.97 --condition", status=0),
+    "ranges of a beam that is rigid in some variants": Found(
+        "variants x.toml --make 1 --seed 1 --range L=1..2/0",
+        "L: '0': must be greater than zero",
+        task="karpenko-hoist",
+        changes=(('I_2 = "4.6e-3 m^4"', 'I_2 = "inf"'),),
+    ),
     "a JSON object beside files": Found("sweep nau-slider-crank --only velocity --json -o s.csv", status=0),
     "a JSON object beside a report": Found(
         "check nau-slider-crank printed --json -o r.txt --form f.csv --jobs 1", status=0

@@ -110,7 +110,9 @@ def _spanned(task: Task, name: str, given: Given) -> Range | None:
     """Return what a given's values span in the variants of a task; None where no variant states it."""
     assert given.unit is not None
     stated = [row.values[name] for row in task.variants.values() if name in row.values]
-    values = sorted({_decimal(given.unit.from_si(value)) for value in stated if isinstance(value, float)})
+    values = sorted(
+        {_decimal(given.unit.from_si(value)) for value in stated if isinstance(value, float) and math.isfinite(value)}
+    )
     if not values:
         return None
     low, high = values[0], values[-1]
