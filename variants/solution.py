@@ -183,9 +183,11 @@ class Solution:
                 f"{name:{widths[0]}}  {value:>{widths[1]}}  {unit:>{widths[2]}} {parts:{widths[3]}}"
                 f"  {mm:{widths[4]}}  {condition:{widths[5]}}  {sine}".rstrip()
             )
+        if self.scales:
+            lines += [*([] if headings else [""]), self.scaled(words)]
         if self.kind.judged:
             lines += ["", words[self.kind.judged], aligned(_judged(self._checks, words), (0, 1, 3))]
-        return "\n".join((*lines, "", self.scaled(words)) if self.scales else lines)
+        return "\n".join(lines)
 
     def scaled(self, words: Words) -> str:
         """Return the format of the sheet and its scale factors, as a line."""
