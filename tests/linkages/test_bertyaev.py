@@ -187,7 +187,7 @@ def test_both_routes_agree_in_the_whole_cycle(phi: int) -> None:
 
 
 def test_results_are_shown_in_centimetres_and_scales_per_centimetre(solution: Solution) -> None:
-    rows = {line.split()[0]: line for line in solution.table().splitlines()}
+    rows = {line.split()[0]: line for line in solution.table().splitlines() if line}
 
     assert rows["l_OB"].split() == ["l_OB", "101,811", "см", "20,362", "см"]
     assert "17,7694    см/с" in rows["V_B_e"]
