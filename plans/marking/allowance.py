@@ -156,7 +156,7 @@ class Allowance:
     def _slack_of(self, name: str) -> float:
         answer, step = self.answers.get(name), self._steps.get(name)
         if answer is not None and self.sure(name):
-            return max(self._last(name), self._read_to(name))
+            return max(self._last(name), self._read_to(name)) + self._unsure(name)
         laid = name.lstrip("_")
         if step is None:
             return 0.0
@@ -180,6 +180,12 @@ class Allowance:
         """Return half of the last digit of a number with which a student goes on, of few digits a part of it."""
         size, last = abs(self.drawn.values[name]), self.answers[name].rounded
         return half_digit(size) if last is None else float(min(last, ROUNDED * size))
+
+    def _unsure(self, name: str) -> float:
+        """Return what the other sense makes of a vector that is too short for a hand to tell which way it points."""
+        step, size = self.key.questions[name].step, abs(self.drawn.values[name])
+        drawn = step.verb == "read" and f"_{name}" not in self._steps
+        return 2.0 * float(size) if drawn and max(size, abs(self.key[name])) <= self.key.allowed[name] else 0.0
 
     def _read_to(self, name: str) -> float:
         """Return to what a segment can be read."""

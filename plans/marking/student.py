@@ -51,6 +51,12 @@ class StudentBoard(ExactBoard):
         """Return what computes a step; a student divides the length of a vector, however it is drawn."""
         return _turning if law == "turning" else super().operation(verb, law)
 
+    def _direction(self, start: Any, end: Any, length: Any) -> Any:
+        """Return the unit vector of a link, whose marks may be farther apart than a student has measured."""
+        exact = super()._direction(start, end, length)
+        size = abs(exact)
+        return exact / size if size > ASIDE and abs(size - 1.0) > ASIDE else exact
+
     def go_on(self, end: int | None = None) -> None:
         """Do the steps before the place `end` that are not done yet, all without it."""
         if end is not None and end <= self._done:

@@ -12,7 +12,7 @@ import pytest
 from kulman.plans.hands.hand import preset
 from kulman.plans.marking.answers import Answer
 from kulman.plans.marking.key import Key, answer_key
-from kulman.plans.marking.verdicts import Marking, Verdict, mark
+from kulman.plans.marking.verdicts import CLEAR, Marking, Verdict, mark
 from kulman.scales.errors import InputError
 from kulman.tests.support.marking_cases import LINKAGES, in_millimetres, key, paper, right_answers, students
 from kulman.tests.support.mechanisms import SEED
@@ -43,14 +43,12 @@ def size(name: str) -> float:
     ],
 )
 def test_answers_of_honest_hands_are_right(task: str, count: int, directions: bool) -> None:
-    lines = [
-        line
-        for answers in students(key(task), paper(task), count, SEED, directions)
-        for line in mark(key(task), answers).answered
+    marked = [
+        mark(key(task), answers).answered for answers in students(key(task), paper(task), count, SEED, directions)
     ]
 
-    passed = np.mean([line.verdict.passed for line in lines])
-    assert passed >= 0.97
+    assert np.mean([line.verdict.passed for lines in marked for line in lines]) >= 0.97
+    assert np.mean([any(line.off > CLEAR for line in lines) for lines in marked]) <= 0.1
 
 
 @pytest.mark.parametrize("task", ["scheme-01-compressor", "scheme-08-planer"])
@@ -60,6 +58,16 @@ def test_no_line_of_an_honest_hand_fails_often(task: str) -> None:
     failed = {name: np.mean([marking[name].verdict.faulty for marking in marked]) for name in key(task).questions}
 
     assert max(failed.values()) <= 0.25, failed
+
+
+@pytest.mark.parametrize("task", ["scheme-11-slotter", "scheme-12-shaking-conveyor", "scheme-20-press-automaton"])
+def test_what_honest_hands_calculate_from_their_own_numbers_is_right(task: str) -> None:
+    of = key(task)
+    marked = [mark(of, answers) for answers in students(of, paper(task), 24, SEED, directions=False)]
+
+    calculated = [name for name, question in of.questions.items() if question.step.verb == "calc"]
+    failed = {name: np.mean([marking[name].verdict.faulty for marking in marked]) for name in calculated}
+    assert max(failed.values()) <= 0.1, failed
 
 
 NO_SCALES = ["madi-four-bar", "scheme-13-toggle-press", "scheme-16-hay-baler", "scheme-20-press-automaton"]
