@@ -8,6 +8,7 @@ of a length stands for its opposite (a second crank on the other side of the sha
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -242,6 +243,12 @@ class Mechanism:
     def index(self, *numbers: int | str) -> str:
         """Return the numbers of several links as one index of a name: `12`, and `1_2` where `12` may be a link."""
         return ("_" if self.parted else "").join(map(str, numbers))
+
+    def numbers(self, index: str) -> tuple[int, ...]:
+        """Return the numbers of links with which an index of a name begins: 1 and 2 of `12_t`, or of `1_2_t`."""
+        found = re.match(r"(?:\d+(?:_\d+)*)?" if self.parted else r"\d*", index)
+        digits = found[0] if found else ""
+        return tuple(map(int, filter(None, digits.split("_") if self.parted else digits)))
 
     def letter_on(self, point: str, number: int) -> str:
         """Return the letter of a point as one of link `number`: `A3`, and `A1_3` where `A13` may be another point."""

@@ -6,7 +6,7 @@ joint. A straight link whose points stand on one axis from the first joint needs
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -46,6 +46,12 @@ class Passed:
     link: int
     point: str
     couple: str | None = None
+
+
+def passed_on(mechanism: Mechanism, own: int, other: int, point: str, slides: bool = False) -> Passed:
+    """Return the reaction of link `own` on the link before, `other`; that of a pair that `slides` with its moment."""
+    index = mechanism.index(own, other)
+    return Passed(f"R_{index}", other, point, f"M_{index}" if slides else None)
 
 
 class AssurGroup(Protocol):
@@ -305,14 +311,11 @@ def arm_of(force: str, link: int, arms: str = "h_{0}") -> str:
     return arms.format(link if force == f"F_i{link}" else force.removeprefix("R_"))
 
 
-def answer(board: Board, index: Callable[..., str], symbol: str, *on_by: tuple[int, int]) -> None:
-    """Note that a link answers another with the opposite force or moment; what acts on the frame needs no name.
-
-    `index` is `Mechanism.index`.
-    """
+def answer(board: Board, mechanism: Mechanism, symbol: str, *on_by: tuple[int, int]) -> None:
+    """Note that a link answers another with the opposite force or moment; what acts on the frame needs no name."""
     for on, by in on_by:
         if on != FRAME:
-            board.calc(f"{symbol}_{index(by, on)}", "opposite", f"{symbol}_{index(on, by)}")
+            board.calc(f"{symbol}_{mechanism.index(by, on)}", "opposite", f"{symbol}_{mechanism.index(on, by)}")
 
 
 def hang(board: Board, plan: str, forces: Iterable[str], first: int = 0) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable
 
 from ....plans.board import Step
@@ -72,10 +71,10 @@ def group_of(scene: Scene, number: int) -> Group | None:
 
 def link_of(scene: Scene, name: str) -> int:
     """Return the link on which a reaction or the moment of one acts: 2 of `R_12_t`, 3 of `_M_3`; else the driver."""
-    found = re.match(r"_?[RM](_\d+)+" if scene.solved.mechanism.parted else r"_?[RM]_\d{1,2}(?!\d)", name)
-    last = re.search(r"\d+$" if scene.solved.mechanism.parted else r"\d$", found[0]) if found else None
-    numbers = {link.number for link in scene.solved.mechanism.links}
-    return int(last[0]) if last and int(last[0]) in numbers else scene.solved.structure.driver
+    head, _, index = name.removeprefix("_").partition("_")
+    numbers = scene.solved.mechanism.numbers(index) if head in ("R", "M") else ()
+    moving = {link.number for link in scene.solved.mechanism.links}
+    return numbers[-1] if moving.intersection(numbers[-1:]) else scene.solved.structure.driver
 
 
 def links_in(scene: Scene, number: int, point: str) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ....plans.laws import cross
-from ....plans.linkages.mechanism import FRAME, Pair, Prismatic
+from ....plans.linkages.mechanism import Pair, Prismatic
 from ....plans.linkages.structure import Group
 from ..scene import Scene
 
@@ -108,8 +108,7 @@ def _link_of(scene: Scene, force: str) -> int | None:
     numbers = [structure.driver, *(number for group in structure.groups for number in group.links)]
     if head in ("F", "G"):
         return int(index) if index.isdigit() else None
-    ways = ((first, second) for first in (FRAME, *numbers) for second in numbers)
-    return next((on for by, on in ways if f"{rest}_".startswith(f"{mechanism.index(by, on)}_")), None)
+    return next((on for on in mechanism.numbers(rest)[1:] if on in numbers), None)
 
 
 def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int) -> Contact | None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Iterator, Mapping
 
 from ....plans.board import POSITION
@@ -18,11 +17,11 @@ from ...printed import value_text
 from ...words import Words
 from ..calculations.equations import rate_of, sensed, size_of, stated
 from ..calculations.tables import printed_segment
+from ..scene import Scene
 from .teller import Teller
 
 PLANS = ("velocity", "acceleration")
 RATES = {"velocity": "omega", "acceleration": "epsilon"}
-REACTION = re.compile(r"R_(\d)(\d)|R_(\d+)_(\d+)")  # of one link on another
 BALANCES = ("M_bal", "F_bal")
 SAME = 1e-9  # part by which values may differ that are the same by construction
 SMALL_ANGLE = 20  # degrees, as `SMALL`
@@ -37,7 +36,7 @@ def conclusions(teller: Teller) -> Iterator[str]:
     yield from _both_ways(teller)
     if any(plan.startswith("forces_") for plan in teller.scene.scales):
         quantities = teller.scene.solved.quantities
-        yield from _extremes(teller, "conclusion.reactions", [n for n in quantities if REACTION.fullmatch(n)])
+        yield from _extremes(teller, "conclusion.reactions", [n for n in quantities if _pair(teller.scene, n)])
         for name in BALANCES:
             yield from _balance(teller, name)
     for name in BALANCES:
@@ -57,7 +56,7 @@ def _extremes(teller: Teller, key: str, names: Iterable[str]) -> Iterator[str]:
     """Tell the largest and the smallest of some vectors; of forces on one another only one."""
     scene = teller.scene
     listed = tuple(names)
-    found = {name: size_of(scene, name) for name in listed if _other_side(name) not in listed}
+    found = {name: size_of(scene, name) for name in listed if _other_side(scene, name) not in listed}
     moving = sorted((name for name in found if found[name] > 0.0), key=lambda name: found[name])
     if moving and not math.isclose(found[moving[0]], found[moving[-1]], rel_tol=SAME):
         low, high = (_alike(teller, found, name) for name in (moving[0], moving[-1]))
@@ -66,14 +65,16 @@ def _extremes(teller: Teller, key: str, names: Iterable[str]) -> Iterator[str]:
         yield teller.texts[f"{key}_one"].format(value=_alike(teller, found, moving[0]))
 
 
-def _other_side(name: str) -> str:
+def _pair(scene: Scene, name: str) -> tuple[int, ...]:
+    """Return the links of a whole reaction, that which acts first; nothing where a quantity is none."""
+    numbers = scene.solved.mechanism.numbers(name.removeprefix("R_"))
+    return numbers if name == f"R_{scene.solved.mechanism.index(*numbers)}" and len(numbers) > 1 else ()
+
+
+def _other_side(scene: Scene, name: str) -> str:
     """Return the reaction that stands for this one, too, since both are as large; nothing where it is itself that."""
-    found = REACTION.fullmatch(name)
-    if found is None:
-        return ""
-    by, on = (number for number in found.groups() if number is not None)
-    parting = "_" if found[3] else ""
-    return f"R_{on}{parting}{by}" if int(by) > int(on) else ""
+    pair = _pair(scene, name)
+    return f"R_{scene.solved.mechanism.index(*pair[::-1])}" if pair and pair[0] > pair[1] else ""
 
 
 def _alike(teller: Teller, found: Mapping[str, float], name: str) -> str:

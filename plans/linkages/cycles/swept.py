@@ -84,8 +84,6 @@ def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
             follower = Follower(mechanism, {**values, name: start})
             there, places = {**values, name: start}, follower.places
             own = with_special_points(mechanism, there, follower.near(np.array([start])))
-            legs = {
-                begin.link: begin.legs for begin in own.starts
-            }  # names of the cycle are those of the task's position
+            legs = {begin.link: begin.legs for begin in own.starts}  # so that names are those of the task's position
             mechanism = with_special_points(mechanism, {**values, name: places}, follower.near(places), first=legs)
     return Swept(mechanism, name, turns, start, -1.0 if sense < 0.0 else 1.0, follower)

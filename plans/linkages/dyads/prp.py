@@ -25,6 +25,7 @@ from ..parts import (
     moments_about,
     move_points,
     normal_of,
+    passed_on,
     turn_with,
 )
 from ..structure import Group
@@ -52,10 +53,7 @@ class Dyad:
     def passed(self) -> tuple[Passed, ...]:
         """Reactions on the links before, moved to B, with couples."""
         numbers = ((slide.link.number, slide.other) for slide in self.slides)
-        return tuple(
-            Passed(f"R_{self.mechanism.index(own, other)}", other, self.B, f"M_{self.mechanism.index(own, other)}")
-            for own, other in numbers
-        )
+        return tuple(passed_on(self.mechanism, own, other, self.B, slides=True) for own, other in numbers)
 
 
 def dyad(mechanism: Mechanism, group: Group, bodies: Bodies) -> Dyad:
@@ -130,9 +128,9 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     board.read(f"R_{index(i, j)}", closing, f"{plan}.0")
     board.read(f"R_{index(m, k)}", last, closing)
     board.read(f"R_{index(k, j)}", parted, closing)
-    answer(board, index, "R", (i, j), (k, j), (m, k))
+    answer(board, d.mechanism, "R", (i, j), (k, j), (m, k))
     for other, own in ((i, j), (m, k)):
         moments = moments_about(board, loads[own], own, d.B)
         board.calc(f"M_{index(other, own)}", "closing_moment", ZERO, *moments, *couples[own])
-        answer(board, index, "M", (other, own))
+        answer(board, d.mechanism, "M", (other, own))
         board.step("arm", f"h_{index(other, own)}", f"M_{index(other, own)}", f"R_{index(other, own)}")

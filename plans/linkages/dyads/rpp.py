@@ -38,6 +38,7 @@ from ..parts import (
     moments_about,
     move_points,
     normal_of,
+    passed_on,
     turn_with,
 )
 from ..structure import Group
@@ -78,9 +79,8 @@ class Dyad:
     def passed(self) -> tuple[Passed, Passed]:
         """Reactions on the links before; that on the last is moved to A, with a couple."""
         j, k, m = self.inner.link.number, self.outer.link.number, self.outer.other
-        return Passed(f"R_{self.mechanism.index(j, self.before)}", self.before, self.A), Passed(
-            f"R_{self.mechanism.index(k, m)}", m, self.A, f"M_{self.mechanism.index(k, m)}"
-        )
+        first = passed_on(self.mechanism, j, self.before, self.A)
+        return first, passed_on(self.mechanism, k, m, self.A, slides=True)
 
 
 def dyad(mechanism: Mechanism, group: Group, bodies: Bodies) -> Dyad:
@@ -179,18 +179,18 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     board.meet(closing, last, normal_of(d.outer.u), f"{plan}.0", normal_of(d.inner.u))
     board.read(f"R_{index(j, k)}", closing, f"{plan}.0")
     board.read(f"R_{index(m, k)}", last, closing)
-    answer(board, index, "R", (j, k))
+    answer(board, d.mechanism, "R", (j, k))
 
     board.pole(f"{own}.0")
     board.read(
         f"R_{index(i, j)}", hang(board, own, [f"R_{index(k, j)}", *(force for force, _ in loads[j])]), f"{own}.0"
     )
-    answer(board, index, "R", (i, j), (m, k))
+    answer(board, d.mechanism, "R", (i, j), (m, k))
 
     board.calc(f"M_{index(k, j)}", "closing_moment", ZERO, *moments_about(board, loads[j], j, d.A), *couples[j])
-    answer(board, index, "M", (k, j))
+    answer(board, d.mechanism, "M", (k, j))
     moments = moments_about(board, loads[k], k, d.A)
     board.calc(f"M_{index(m, k)}", "closing_moment", f"M_{index(j, k)}", *moments, *couples[k])
-    answer(board, index, "M", (m, k))
+    answer(board, d.mechanism, "M", (m, k))
     board.step("arm", f"h_{index(k, j)}", f"M_{index(k, j)}", f"R_{index(k, j)}")
     board.step("arm", f"h_{index(m, k)}", f"M_{index(m, k)}", f"R_{index(m, k)}")

@@ -26,6 +26,7 @@ from ..parts import (
     moments_about,
     move_points,
     normal_of,
+    passed_on,
     place_points,
     settle,
     size_of,
@@ -84,9 +85,7 @@ class Dyad:
     def passed(self) -> tuple[Passed, Passed]:
         """Reactions on the links before."""
         (i, m), j, k = self.before, self.slider.number, self.guide.number
-        return Passed(f"R_{self.mechanism.index(j, i)}", i, self.A), Passed(
-            f"R_{self.mechanism.index(k, m)}", m, self.C
-        )
+        return passed_on(self.mechanism, j, i, self.A), passed_on(self.mechanism, k, m, self.C)
 
 
 def dyad(mechanism: Mechanism, group: Group, bodies: Bodies) -> Dyad:
@@ -176,7 +175,7 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     board.pole(f"{plan}.0")
     hung = [f"R_{index(i, j)}", *(force for n in (j, k) for force, _ in loads[n])]
     board.read(f"R_{index(m, k)}", hang(board, plan, hung), f"{plan}.0")
-    answer(board, index, "R", (i, j), (k, j), (m, k))
+    answer(board, d.mechanism, "R", (i, j), (k, j), (m, k))
 
     # the guide's reaction stands where it balances the moments of the slider's loads about A
     about_A = moments_about(board, loads[j], j, d.A, f"h_{{0}}_{d.A}")

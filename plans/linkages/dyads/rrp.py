@@ -26,6 +26,7 @@ from ..parts import (
     moments_about,
     move_link,
     move_points,
+    passed_on,
     place_link,
     turn_with,
 )
@@ -79,10 +80,8 @@ class Dyad:
     def passed(self) -> tuple[Passed, Passed]:
         """Reactions on the links before; that on the guide is moved to B, with a couple."""
         k, m = self.slider.number, self.slide.other
-        return (
-            Passed(f"R_{self.mechanism.index(self.rod.number, self.before)}", self.before, self.A),
-            Passed(f"R_{self.mechanism.index(k, m)}", m, self.B, f"M_{self.mechanism.index(k, m)}"),
-        )
+        first = passed_on(self.mechanism, self.rod.number, self.before, self.A)
+        return first, passed_on(self.mechanism, k, m, self.B, slides=True)
 
 
 def dyad(mechanism: Mechanism, group: Group, bodies: Bodies | None = None) -> Dyad:
@@ -180,10 +179,10 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     board.pole(f"{own}.0")
     board.chain(f"{own}.1", f"{own}.0", f"R_{index(i, j)}")
     board.read(f"R_{index(k, j)}", hang(board, own, [force for force, _ in loads[j]], 1), f"{own}.0")
-    answer(board, index, "R", (i, j), (k, j), (m, k))
+    answer(board, d.mechanism, "R", (i, j), (k, j), (m, k))
 
     # the guide's reaction stands where it balances the moments of the slider's loads about B
     board.calc(f"_M_{k}", "sum", ZERO, *moments_about(board, loads[k], k, d.B), *couples[k])
     board.calc(f"M_{index(m, k)}", "opposite", f"_M_{k}")
     board.step("arm", f"h_{index(m, k)}", f"M_{index(m, k)}", f"R_{index(m, k)}")
-    answer(board, index, "M", (m, k))
+    answer(board, d.mechanism, "M", (m, k))

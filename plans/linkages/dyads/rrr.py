@@ -24,6 +24,7 @@ from ..parts import (
     measure_link,
     moments_about,
     move_link,
+    passed_on,
     place_link,
 )
 from ..structure import Group
@@ -66,7 +67,7 @@ class Dyad:
     def passed(self) -> tuple[Passed, ...]:
         """Reactions on the links before."""
         return tuple(
-            Passed(f"R_{self.mechanism.index(span.link.number, before)}", before, span.start)
+            passed_on(self.mechanism, span.link.number, before, span.start)
             for span, before in zip(self.spans, self.before, strict=True)
         )
 
@@ -157,7 +158,7 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     board.read(f"R_{index(m, k)}_n", last, closing)
     board.read(f"R_{index(m, k)}", chained, closing)
     board.read(f"R_{index(k, j)}", parted, closing)
-    answer(board, index, "R", (i, j), (k, j), (m, k))
+    answer(board, d.mechanism, "R", (i, j), (k, j), (m, k))
 
 
 def _across(board: Board, d: Dyad, loads: Forces, couples: Couples) -> str | None:

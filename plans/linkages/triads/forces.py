@@ -27,7 +27,7 @@ def forces(board: Board, t: Triad, loads: Forces, couples: Couples) -> None:
     for leg in t.legs:
         if isinstance(leg, Sliding):
             board.step("arm", f"h_{_pair(leg)}", f"M_{_pair(leg)}", f"R_{_pair(leg)}")
-        answer(board, t.mechanism.index, "R", (leg.before, leg.number), (t.number, leg.number))
+        answer(board, t.mechanism, "R", (leg.before, leg.number), (t.number, leg.number))
 
 
 def _pair(leg: Leg) -> str:
@@ -52,7 +52,7 @@ def _alone(board: Board, t: Triad, leg: Leg, loads: list[tuple[str, str]], coupl
             return [*about, *couples, f"_M_{part}_{t.X}"]
         case Sliding():
             board.calc(f"M_{_pair(leg)}", "closing_moment", ZERO, *own, *couples)
-            answer(board, t.mechanism.index, "M", (leg.before, leg.number))
+            answer(board, t.mechanism, "M", (leg.before, leg.number))
             return [*about, *couples, f"M_{_pair(leg)}"]
     raise AssertionError(leg)
 

@@ -14,7 +14,18 @@ from typing import Protocol
 from ...board import Board
 from ..guides import Slide, place_slide, running_line, under_acceleration, under_velocity
 from ..mechanism import ZERO, Mechanism
-from ..parts import Body, Passed, Span, measure_link, move_link, move_points, normal_of, place_link, turn_with
+from ..parts import (
+    Body,
+    Passed,
+    Span,
+    measure_link,
+    move_link,
+    move_points,
+    normal_of,
+    passed_on,
+    place_link,
+    turn_with,
+)
 
 
 class Leg(Protocol):
@@ -172,7 +183,7 @@ class Hinged:
 
     def passed(self) -> Passed:
         """Return the reaction on the link before, at the outer joint."""
-        return Passed(f"R_{self.mechanism.index(self.number, self.before)}", self.before, self.end)
+        return passed_on(self.mechanism, self.number, self.before, self.end)
 
 
 @dataclass(frozen=True, slots=True)
@@ -266,7 +277,4 @@ class Sliding:
 
     def passed(self) -> Passed:
         """Return the reaction on the guide, moved to the pin, with a couple."""
-        number, other = self.number, self.before
-        return Passed(
-            f"R_{self.mechanism.index(number, other)}", other, self.joint, f"M_{self.mechanism.index(number, other)}"
-        )
+        return passed_on(self.mechanism, self.number, self.before, self.joint, slides=True)
