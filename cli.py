@@ -96,15 +96,15 @@ def _check(file: str, as_json: bool) -> int:
 
     language = system_language()
     faults, remarks = check_file(file)
-    said = [[{"key": one.key, "message": one.text(language)} for one in found] for found in (faults, remarks)]
     words = messages(language)
     if as_json:
-        print_json({"file": file, "ok": not faults, "errors": said[0], "remarks": said[1]})
+        errors, told = ([{"key": e.key, "message": e.text(language)} for e in listed] for listed in (faults, remarks))
+        print_json({"file": file, "ok": not faults, "errors": errors, "remarks": told})
     else:
-        for fault in said[0]:
-            click.echo(fault["message"])
-        for remark in said[1]:
-            click.echo(words["check-remark"].format(text=remark["message"]))
+        for fault in faults:
+            click.echo(fault.text(language))
+        for remark in remarks:
+            click.echo(words["check-remark"].format(text=remark.text(language)))
     if faults:
         return refuse(InputError("check-bad", file=file, n=len(faults)))
     if not as_json:

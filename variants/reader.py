@@ -96,14 +96,14 @@ def check_file(task: str | os.PathLike[str]) -> tuple[tuple[InputError, ...], tu
 
 def read_text(toml: str, file: str) -> tuple[Task | None, tuple[InputError, ...]]:
     """Read a task from the text of a file that messages call `file`: the task, or all its faults, as `read_file`."""
-    found, checker = _read(toml, file)
-    return found, checker if isinstance(checker, tuple) else _in_order(checker.faults)
+    found, faults, _ = _read(toml, file)
+    return found, faults
 
 
 def check_text(toml: str, file: str) -> tuple[tuple[InputError, ...], tuple[InputError, ...]]:
     """Return faults and remarks of the text of a file that messages call `file`, as `check_file`."""
-    _, checker = _read(toml, file, thorough=True)
-    return (checker, ()) if isinstance(checker, tuple) else (_in_order(checker.faults), _in_order(checker.remarks))
+    _, faults, remarks = _read(toml, file, thorough=True)
+    return faults, remarks
 
 
 def _in_order(located: Iterable[tuple[int, int, InputError]]) -> tuple[InputError, ...]:
@@ -111,8 +111,10 @@ def _in_order(located: Iterable[tuple[int, int, InputError]]) -> tuple[InputErro
     return tuple(error for _, _, error in sorted(located, key=lambda one: one[:2]))
 
 
-def _read(toml: str, file: str, thorough: bool = False) -> tuple[Task | None, Checker | tuple[InputError, ...]]:
-    """Read a task: with what was found at fault, or, where the text is no TOML, with that alone."""
+def _read(
+    toml: str, file: str, thorough: bool = False
+) -> tuple[Task | None, tuple[InputError, ...], tuple[InputError, ...]]:
+    """Read a task: it, unless it has faults, its faults and remarks; if `thorough` its variants are solved."""
     try:
         if _LONG_KEY.search(toml):
             raise RecursionError
@@ -121,11 +123,11 @@ def _read(toml: str, file: str, thorough: bool = False) -> tuple[Task | None, Ch
     except RecursionError as error:
         raise LocatedError(file, InputError("toml-nested")) from error
     except ValueError as error:
-        return None, (_syntax(toml, file, str(error)),)
+        return None, (_syntax(toml, file, str(error)),), ()
     found = None
     with suppress(EnoughError):
         found = _task(checker, raw, thorough)
-    return None if checker.faults else found, checker
+    return None if checker.faults else found, _in_order(checker.faults), _in_order(checker.remarks)
 
 
 @cache
@@ -178,9 +180,8 @@ def _syntax(toml: str, file: str, reason: str) -> InputError:
     """Return the fault that tomllib found, at its place."""
     lines = toml.replace("\r\n", "\n").split("\n")
     found = re.search(r"\(at line ([0-9]+), column ([0-9]+)\)", reason)
-    endless = re.search(
-        r"(?<![0-9_])[0-9_]{4000}", toml
-    )  # Python refuses to read such a number, and tomllib does not say where
+    # Python refuses to read a number of so many digits, and tomllib does not say where it stands
+    endless = re.search(r"(?<![0-9_])[0-9_]{4000}", toml)
     if endless and not found:
         before = toml[: endless.start()].split("\n")
         place = f"{file}:{len(before)}:{len(before[-1]) + 1}"

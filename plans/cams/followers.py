@@ -151,8 +151,10 @@ def roller_cam(cam: Cam, motion: Motion, values: Values) -> RollerCam:
             e = 0.5 * (ends.least + ends.most)
         sizes = RollerSizes(r_0, e, math.sqrt((r_0 - e) * (r_0 + e)))
     profile = RollerProfile(StraightPath(motion, sizes), values["R_roller"], cam.sense)
-    found = RollerCam(limits=limits, sizes=sizes, by_tangents=apex(planes), profile=profile, offsets=between)
-    return replace(found, permitted=permitted)
+    tangents = apex(planes)
+    return RollerCam(
+        limits=limits, sizes=sizes, by_tangents=tangents, profile=profile, offsets=between, permitted=permitted
+    )
 
 
 def six_digits(length: float, greatest: bool = False) -> str:

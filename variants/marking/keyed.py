@@ -107,12 +107,9 @@ class Keyed:
     def _where(self, name: str) -> str:
         """Return on which drawing a quantity or scale factor stands whose symbol stands on another one, too."""
         if name.startswith("mu_"):
-            links = name.split("_")[2:]
-            return (
-                ", ".join(links if self.words.parted else "".join(links))
-                if "".join(links).isdigit()
-                else "".join(links)
-            )
+            parts = name.split("_")[2:]
+            links = parts if self.words.parted else [*"".join(parts)]
+            return (", " if all(map(str.isdigit, links)) else "").join(links)
         return texts(self.words.language)["form.lever"] if name.startswith("h_lever_") else ""
 
     def symbol(self, name: str) -> str:
