@@ -23,6 +23,7 @@ from .laws import cross, dot
 from .quantities import unit_of
 from .references import plans_of, references, results, worst_behind
 
+STEP = 1e-5  # part of a given, of central differences where duals do not reach; what these leave out is its square
 MOST = 2.0**52  # K from which on a value is nothing but rounding
 
 

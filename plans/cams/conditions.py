@@ -1,8 +1,7 @@
 """The condition of a cam's quantities: how much of an error of the data comes through, how flatly lines meet.
 
-K = sum over the numbers of the task of |x dQ/dx| over Q, or over the size that Q is a part of (of e that is r_0): when
-every number errs by one part in a thousand, Q may miss by K thousandths of that. Much of a cam is found beside the
-board, by closed forms of its law, so that the derivatives are central differences of all of it.
+K is that of `plans.condition`, over Q, or over the size that Q is a part of (of e that is r_0). Much of a cam is found
+beside the board, by closed forms of its law, so that the derivatives are central differences of all of it.
 """
 
 from __future__ import annotations
@@ -13,12 +12,11 @@ from typing import Any
 
 from ...scales.errors import InputError
 from ..boards.exact import run
-from ..condition import Condition, ratio
+from ..condition import STEP, Condition, ratio
 from ..references import worst_behind
 from .cam import VALUES
 from .solve import SolvedCam, again
 
-STEP = 1e-5  # part of a number; what is left out of a difference is its square
 # numbers that neither the motion nor the smallest sizes depend on
 ON_BOARD = ("l_A1", "H_a", "H_v", "mu_phi", "omega", "R_roller", "rho_flat", "margin")
 # sizes beside which others count, that may be nothing

@@ -1,8 +1,7 @@
 """The condition of a gear pair's quantities: how much of an error of the data comes through, how flatly lines meet.
 
-K = sum over the numbers of the task of |x dQ/dx| over Q: when every number errs by one part in a thousand, Q may miss
-by K thousandths of itself. Lengths that are drawn count beside the module at least. Numbers of teeth do not err. Laws
-of calculation have no derivatives, so that central differences stand in their place, all numbers at once.
+K is that of `plans.condition`, over Q; lengths that are drawn count beside the module at least. Numbers of teeth do not
+err. Laws of calculation have no derivatives, so that central differences stand in their place, all numbers at once.
 """
 
 from __future__ import annotations
@@ -10,13 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..boards.arrays import ArrayBoard
-from ..condition import Condition, ratio
+from ..condition import STEP, Condition, ratio
 from ..references import worst_behind
 from .gear import VALUES
 from .solve import SolvedGear
 
 WHOLE = ("z_1", "z_2")
-STEP = 1e-5  # part of a number; what is left out of a difference is its square
 MODULE, ONE = "m", 1.0
 
 

@@ -1,7 +1,7 @@
 """The condition of a hoist's quantities: how much of an error of the data comes through.
 
-K = sum over the numbers of the task of |x dQ/dx| over Q: when every number errs by one part in a thousand, Q may miss
-by K thousandths of itself. Roots are found beside the board, so that the derivatives are differences of all of it.
+K is that of `plans.condition`, over Q. Roots are found beside the board, so that the derivatives are central
+differences of all of it.
 """
 
 from __future__ import annotations
@@ -9,13 +9,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from ..condition import Condition, ratio
+from ..condition import STEP, Condition, ratio
 from ..references import worst_behind
 from .givens import NEAREST
 from .hoist import PARTS, VALUES
 from .solve import SolvedHoist, solve_hoist
-
-STEP = 1e-5  # part of a number; what is left out of a central difference is its square
 
 
 def conditions_of(solved: SolvedHoist) -> dict[str, Condition]:

@@ -46,7 +46,7 @@ class Rubric:
     out_of : float
         The full mark.
     weights : mapping of str to float
-        What quantities weigh; those that are not named weigh one. Where there are none, plans count the same.
+        What quantities weigh; those that are not named weigh one. Where none is, lines count as `parts` says.
     worth : mapping of str to float
         What a verdict is worth, in parts of the weight.
     asked : tuple of str
@@ -131,9 +131,9 @@ def has_sense(name: str) -> bool:
 
 
 def read_rubric(file: str | Path | None, preset_name: str, asked: Asked, directions: str | None = None) -> Rubric:
-    """Read a rubric, a small TOML file; without one every quantity weighs the same.
+    """Read a rubric, a small TOML file; without weights of its own quantities count as `Rubric.parts` says.
 
-    What is said of `directions` beside it takes the place of what it says itself.
+    `directions` takes the place of what the file says of them.
 
         out_of = 100
         asked = ["V_B", "omega_2", "a_B"]
@@ -156,14 +156,14 @@ def read_rubric(file: str | Path | None, preset_name: str, asked: Asked, directi
     Raises
     ------
     InputError
-        The file cannot be read, or holds what no rubric has; with file and key. A choice of directions there is not.
+        The file cannot be read, or holds what no rubric has; with file and key; or `directions` is unknown.
     """
     tolerance = preset(preset_name).tolerance
     if directions is not None and directions not in DIRECTIONS:
         raise unknown("choice-unknown", directions, DIRECTIONS)
-    rubric = (
-        Rubric(tolerance) if file is None else _Reader(quote(file, SHOWN), _table(Path(file)), asked).rubric(tolerance)
-    )
+    rubric = Rubric(tolerance)
+    if file is not None:
+        rubric = _Reader(quote(file, SHOWN), _table(Path(file)), asked).rubric(tolerance)
     return rubric if directions is None else replace(rubric, directions=directions)
 
 
