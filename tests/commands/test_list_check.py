@@ -45,6 +45,12 @@ driver = { link = 1, pivot = "O", point = "A", angle = "phi", speed = "10 rad/s"
 """
 
 
+@pytest.fixture(autouse=True)
+def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let all variants be tried, however slow or busy the machine is."""
+    monkeypatch.setattr("kulman.variants.kinds.kind.TRIED_FOR", math.inf)
+
+
 def crank_rocker(*variants: tuple[float, ...]) -> str:
     """Return a file of variants: angle of the crank, degrees, lengths of crank, coupler, rocker, frame, mm."""
     names = ("phi", "l_OA", "l_AB", "l_CB", "l_OC")

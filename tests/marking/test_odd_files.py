@@ -175,20 +175,30 @@ print(time.process_time(), int(peak.split()[1]) / 1024, line)
 """
 
 
+def cost(folder: Path, name: str) -> tuple[float, float, str]:
+    """Return the processor time, s, and the memory, MB, in which a process reads a workbook, and the error it gives."""
+    (file := folder / "answers.xlsx").write_bytes(hostile(name))
+    run = subprocess.run([sys.executable, "-c", READ, str(file)], capture_output=True, encoding="utf-8", check=True)
+    seconds, megabytes, line = run.stdout.split(" ", 2)
+    assert run.stderr == ""
+    return float(seconds), float(megabytes), line
+
+
+@pytest.fixture(scope="module")
+def largest(tmp_path_factory: pytest.TempPathFactory) -> float:
+    """The processor time that this machine takes to read the largest class that is read, s: 1.4 to 1.9."""
+    return cost(tmp_path_factory.mktemp("largest"), "numbers, as many as are read")[0]
+
+
 @pytest.mark.soak
 @pytest.mark.skipif(sys.platform != "linux", reason="the peak of memory is read from /proc")
 @pytest.mark.parametrize("name", sorted(HOSTILE.keys() - set(SMALL)))
-def test_no_workbook_takes_long_or_much_memory(tmp_path: Path, name: str) -> None:
-    file = tmp_path / "answers.xlsx"
-    file.write_bytes(hostile(name))
+def test_no_workbook_takes_long_or_much_memory(tmp_path: Path, name: str, largest: float) -> None:
+    seconds, megabytes, line = cost(tmp_path, name)
 
-    run = subprocess.run([sys.executable, "-c", READ, str(file)], capture_output=True, encoding="utf-8", check=True)
-
-    seconds, megabytes, line = run.stdout.split(" ", 2)
     assert HOSTILE[name] in line
-    assert float(seconds) < 4.0  # 2 on a machine that does nothing else
-    assert float(megabytes) < 300
-    assert run.stderr == ""
+    assert seconds < 3.0 * largest  # two thirds at the most where nothing else runs
+    assert megabytes < 300
 
 
 def test_a_harmless_workbook_is_read_as_the_hostile_ones_are_made_of_it(tmp_path: Path) -> None:
