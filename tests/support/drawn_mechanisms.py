@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from .drawn_by_hand import Sheet, turn
+from .drawn_by_hand import Sheet, lever_arm, lever_couple, moment_sum, opposite, reaction, tangential, turn
 
 Givens = dict[str, float]
 Force = tuple[str, complex]  # name, where it acts on the plan of positions, mm
@@ -35,74 +35,6 @@ def driver(sheet: Sheet, g: Givens, pin: str) -> tuple[complex, complex, complex
     inward = A if sheet.slip("M37") else -A
     sheet.calculated(f"a_{pin}", "acceleration", square, inward)
     return A, a, hand.lay(0j, inward, sheet.size(f"a_{pin}") / sheet.mu("acceleration"))
-
-
-def moment_sum(sheet: Sheet, name: str, forces: list[tuple[str, float]], couples: list[str]) -> float:
-    """Return the moments of forces (name, arm with the sign of the moment) and couples."""
-    whole = 0.0
-    for force, arm in forces:
-        part = sheet.size(force) * arm
-        whole += -part if sheet.slip("M118", f"{name} {force}") else part
-    for couple in couples:
-        if wrong := sheet.slip("M60", couple):
-            whole += 0.0 if wrong.way == "none" else -sheet.size(couple)
-        else:
-            whole += sheet.size(couple)
-    return whole
-
-
-def tangential(sheet: Sheet, name: str, whole: float, length: float, plan: str, normal: complex) -> complex:
-    """Write a tangential reaction down; return it as a vector in mm of the force plan."""
-    size = whole / length * (-1.0 if sheet.slip("M69", name) else 1.0)
-    along = normal * math.copysign(1.0, size)
-    sheet.calculated(name, plan, abs(size), along)
-    return along / abs(along) * (sheet.size(name) / sheet.mu(plan))
-
-
-def reaction(sheet: Sheet, name: str, plan: str, tail: complex, tip: complex) -> complex:
-    """Read a reaction off the force plan; return it."""
-    if sheet.slip("M75", name):
-        tail, tip = tip, tail
-    sheet.read(name, plan, tail, tip)
-    if wrong := sheet.slip("M70", name):
-        sheet.lines[name] = sheet.lines[wrong.way]
-    return sheet.vector(name)
-
-
-def opposite(sheet: Sheet, name: str, of: str, plan: str = "") -> complex:
-    """Write down the reaction opposite to another."""
-    line = sheet.lines[of]
-    vector = (line.vector or 0j) * (1.0 if sheet.slip("M71", name) else -1.0)
-    sheet.write(name, line.value, None, vector)
-    if plan:
-        sheet.on_paper(name, plan)
-    return sheet.vector(name)
-
-
-def lever_arm(sheet: Sheet, force: str, along: complex, v: complex, name: str = "") -> float:
-    """Return the moment of a force on the turned plan; v is its point in mm of the velocity plan."""
-    if not along:
-        return 0.0
-    at = v if sheet.slip("M77") else 1j * v
-    return abs(along) * sheet.arm(name or f"h_lever_{force}", "velocity", 0j, at, along)
-
-
-def lever_couple(sheet: Sheet, moment: str, ends: list[tuple[str, complex]], link: complex, length: float) -> float:
-    """Hang a moment as two forces on the ends of its link: (letter, point of the velocity plan); return its moment."""
-    pair = moment.replace("M_", "F_") + "_couple"
-    if sheet.slip("M79", moment):
-        wrong = sheet.way("M79")
-        length = 1.0 if wrong == "whole" else math.inf
-    sign = -1.0 if sheet.slip("M80", moment) else 1.0
-    size = sheet.write(pair, sheet.size(moment) / length * sign)
-    whole = 0.0
-    if not size:
-        return whole
-    for (letter, v), side in zip(ends, (1.0, -1.0), strict=False):
-        along = 1j * link * math.copysign(1.0, size) * side
-        name = f"h_lever_{moment}_{letter}"
-        whole += abs(size) * sheet.arm(name, "velocity", 0j, 1j * v, along)
-    return whole
 
 
 def slider_crank(sheet: Sheet, g: Givens) -> Sheet:
