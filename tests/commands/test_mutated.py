@@ -55,7 +55,7 @@ FOUND = {
         changes=(('alpha_F3 = "180 deg"', 'alpha_F3 = "1e200 deg"'),),
     ),
     "a hand that no float holds": Found("solve nau-slider-crank --hand 1e308mm,1deg,1mm", "'1e+308 mm' is too large"),
-    "a hand that no drawing survives": Found("solve nau-slider-crank --hand 1e8mm,1deg,1mm", "at most 100 mm"),
+    "a hand that no drawing survives": Found("solve nau-slider-crank --hand 1e8mm,1deg,1mm", "point is at most 100 ("),
     "a place beyond all drawings": Found("sweep nau-slider-crank --from 1e300", "'1e+300 deg' is too large"),
     "a scale factor beyond all drawings": Found(
         "solve nau-slider-crank --scale mu_l=1e20m/mm", "'1e+20 m/mm' is too large"
