@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -12,10 +12,122 @@ from .exact import ILL, NAN, RIGHT, STATUSES, PlainBoard, Status
 from .graduation import cosine_of, mark_of, sine_of
 from .protractor import FARTHEST, TURN
 
+Rarely = tuple[Iterable[tuple[Status, Any]], Any]  # statuses with their conditions, and the value to go on with
 CODES = {status: code for code, status in enumerate(STATUSES)}
 
 
-class ArrayBoard(PlainBoard):
+class ManyChecks:
+    """What boards of many positions look at, written once for arrays and for numbers that are only written down.
+
+    A check says how its first operand must lie to be left alone, and else what statuses it sets and what to go on with.
+    """
+
+    parallel: float
+    touching: float
+    closed: float
+    folded: float
+
+    def _look(self, check: str, operands: tuple[Any, ...], calm: tuple[Any, ...], rare: Callable[[], Rarely]) -> Any:
+        """Return the first of the operands of a check, or what it is worth where not all is calm."""
+        raise NotImplementedError
+
+    def _calm(self, value: Any, order: str, bound: float, of: Any = None, squared: bool = False) -> Any:
+        """Return whether numbers lie so that nothing is the matter: to `bound`, or to it times the largest `of`."""
+        raise NotImplementedError
+
+    @staticmethod
+    def _choose(where: Any, value: Any, other: Any) -> Any:
+        raise NotImplementedError
+
+    @staticmethod
+    def _remainder(angle: Any) -> Any:
+        raise NotImplementedError
+
+    def _near(self, angle: Any) -> Any:
+        calm = self._calm(angle, "within", FARTHEST)
+        return self._look(
+            "near", (angle,), (calm,), lambda: ((), self._choose(abs(angle) < FARTHEST, angle, self._remainder(angle)))
+        )
+
+    def _upright(self, component: Any) -> Any:
+        size = abs(component)
+        calm = self._calm(size, "above", RIGHT)
+        return self._look(
+            "upright", (component, size), (calm,), lambda: ((), self._choose(size <= RIGHT, 0.0, component))
+        )
+
+    def _lines_sine(self, sine: Any) -> Any:
+        def rare() -> Rarely:
+            size = abs(sine)
+            flat = size < self.parallel
+            return [("ill-conditioned", size < ILL), ("singular", flat)], self._choose(flat, NAN, sine)
+
+        return self._look("sine", (sine,), (self._calm(sine, "beyond", ILL),), rare)
+
+    def _reaches(self, square: Any, radius: Any, distance: Any, *places: Any) -> Any:
+        def rare() -> Rarely:
+            touching = self.touching * radius * (radius + sum(map(abs, places)))
+            out = square < -touching
+            half = self._choose(out, NAN, self._choose(square <= touching, 0.0, square))
+            return [("ill-conditioned", square < ILL * ILL * radius * radius), ("no-assembly", out)], half
+
+        calm = self._calm(square, "at least", ILL, radius, squared=True)
+        return self._look("reaches", (square, radius, *places), (calm,), rare)
+
+    def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, *places: Any) -> Any:
+        double = first * second * 2.0
+
+        def rare() -> Rarely:
+            rounded = self.touching * (total + sum(map(abs, places)))
+            touching, together = rounded * double, base <= rounded
+            out = product < -touching * total
+            ill = product < ILL * double * (ILL * double)
+            area = self._choose(out | together, NAN, self._choose(product <= touching * base, 0.0, product))
+            return [("ill-conditioned", ill), ("singular", together), ("no-assembly", out)], area
+
+        calm = self._calm(product, "above", ILL, double, squared=True)
+        return self._look("assembles", (product, first, second, base, total, *places), (calm,), rare)
+
+    def _apart(self, distance: Any) -> Any:
+        def rare() -> Rarely:
+            together = distance == 0.0
+            return [("singular", together)], self._choose(together, NAN, distance)
+
+        return self._look("apart", (distance,), (self._calm(distance, "above", 0.0),), rare)
+
+    def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
+        size, astray = abs(determinant), abs(astray)
+
+        def rare() -> Rarely:
+            reached, folded = astray == 0.0, size < self.folded
+            apart_here = (reached & (folded | (apart <= self.closed))) == 0.0
+            marks = [("ill-conditioned", size < ILL), ("singular", reached & folded), ("no-assembly", apart_here)]
+            return marks, self._choose(folded | apart_here, NAN, determinant)
+
+        calm = self._calm(size, "at least", ILL), self._calm(apart, "at most", self.closed)
+        calm = *calm, self._calm(astray, "at most", 0.0)
+        return self._look("holds", (determinant, apart, astray), calm, rare)
+
+    def _clear(self, distance: Any, size: Any) -> Any:
+        def rare() -> Rarely:
+            together = distance <= self.parallel * size
+            marks = [("ill-conditioned", distance < ILL * size), ("singular", together)]
+            return marks, self._choose(together, NAN, distance)
+
+        return self._look("clear", (distance, size), (self._calm(distance, "at least", ILL, size),), rare)
+
+    def _divisor(self, size: Any) -> Any:
+        calm = self._calm(size, "above", 0.0)
+        return self._look("divisor", (size,), (calm,), lambda: ((), self._choose(size == 0.0, 1.0, size)))
+
+    def _bears(self, size: Any, moment: Any) -> Any:
+        def rare() -> Rarely:
+            return (), self._choose(size == 0.0, self._choose(moment == 0.0, 1.0, NAN), size)
+
+        return self._look("bears", (size, moment), (self._calm(size, "above", 0.0),), rare)
+
+
+class ArrayBoard(ManyChecks, PlainBoard):
     """N positions on arrays of shape (N,): a status per position in `codes`, NaN only where a position fails."""
 
     def __init__(self, givens: Mapping[str, Any], size: int) -> None:
@@ -39,11 +151,6 @@ class ArrayBoard(PlainBoard):
         points.real, points.imag = real, imag
         return points
 
-    def _near(self, angle: Any) -> Any:
-        if _least(angle) > -FARTHEST and _most(angle) < FARTHEST:
-            return angle
-        return np.where(np.abs(angle) < FARTHEST, angle, np.fmod(angle, TURN))
-
     def _graduation(self, rounded: Any) -> tuple[Any, Any]:
         rounded = np.asarray(rounded)
         mark, cosine, sine = (np.empty_like(rounded) for _ in range(3))
@@ -52,76 +159,29 @@ class ArrayBoard(PlainBoard):
         sine_of(mark, sine)
         return cosine[()], sine[()]
 
-    def _upright(self, component: Any) -> Any:
-        return self._straight(component, np.abs(component))
-
-    def _straight(self, component: Any, size: Any) -> Any:
-        return component if _least(size) > RIGHT else np.where(size <= RIGHT, 0.0, component)
-
     def _mark(self, where: Any, status: Status) -> None:
         np.maximum(self.codes, np.where(where, np.int8(CODES[status]), np.int8(0)), out=self.codes)
 
-    def _lines_sine(self, sine: Any) -> Any:
-        if _least(sine) >= ILL or _most(sine) <= -ILL:  # false for NaN as well
-            return sine
-        size = np.abs(sine)
-        self._mark(size < ILL, "ill-conditioned")
-        self._mark(size < self.parallel, "singular")
-        return np.where(size < self.parallel, NAN, sine)
+    def _look(self, check: str, operands: tuple[Any, ...], calm: tuple[bool, ...], rare: Callable[[], Rarely]) -> Any:
+        if all(calm):
+            return operands[0]
+        marks, result = rare()
+        for status, where in marks:
+            self._mark(where, status)
+        return result
 
-    def _reaches(self, square: Any, radius: Any, distance: Any, *places: Any) -> Any:
-        if _least(square) >= (ILL * _most(radius)) ** 2:
-            return square
-        touching = self.touching * radius * (radius + sum(map(abs, places)))
-        out = square < -touching
-        self._mark(square < ILL * ILL * radius * radius, "ill-conditioned")
-        self._mark(out, "no-assembly")
-        return np.where(out, NAN, np.where(square <= touching, 0.0, square))
+    def _calm(self, value: Any, order: str, bound: float, of: Any = None, squared: bool = False) -> bool:
+        if of is not None:
+            bound = bound * _most(of)
+        return CALM[order](value, bound * bound if squared else bound)
 
-    def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, *places: Any) -> Any:
-        double = first * second * 2.0
-        if _least(product) > (ILL * _most(double)) ** 2:
-            return product
-        rounded = self.touching * (total + sum(map(abs, places)))
-        touching, together = rounded * double, base <= rounded
-        out = product < -touching * total
-        self._mark(product < (ILL * double) ** 2, "ill-conditioned")
-        self._mark(together, "singular")
-        self._mark(out, "no-assembly")
-        return np.where(out | together, NAN, np.where(product <= touching * base, 0.0, product))
+    @staticmethod
+    def _choose(where: Any, value: Any, other: Any) -> Any:
+        return np.where(where, value, other)
 
-    def _apart(self, distance: Any) -> Any:
-        if _least(distance) > 0.0:
-            return distance
-        self._mark(distance == 0.0, "singular")
-        return np.where(distance == 0.0, NAN, distance)
-
-    def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
-        size = np.abs(determinant)
-        if _least(size) >= ILL and _most(apart) <= self.closed and not np.any(astray):
-            return determinant
-        reached, folded = astray == 0.0, size < self.folded
-        apart_here = ~(reached & (folded | (apart <= self.closed)))
-        self._mark(size < ILL, "ill-conditioned")
-        self._mark(reached & folded, "singular")
-        self._mark(apart_here, "no-assembly")
-        return np.where(folded | apart_here, NAN, determinant)
-
-    def _clear(self, distance: Any, size: Any) -> Any:
-        if _least(distance) >= ILL * _most(size):
-            return distance
-        together = distance <= self.parallel * size
-        self._mark(distance < ILL * size, "ill-conditioned")
-        self._mark(together, "singular")
-        return np.where(together, NAN, distance)
-
-    def _divisor(self, size: Any) -> Any:
-        return size if _least(size) > 0.0 else np.where(size == 0.0, 1.0, size)
-
-    def _bears(self, size: Any, moment: Any) -> Any:
-        if _least(size) > 0.0:
-            return size
-        return np.where(size == 0.0, np.where(moment == 0.0, 1.0, NAN), size)
+    @staticmethod
+    def _remainder(angle: Any) -> Any:
+        return np.fmod(angle, TURN)
 
 
 def _least(value: Any) -> Any:
@@ -130,3 +190,13 @@ def _least(value: Any) -> Any:
 
 def _most(value: Any) -> Any:
     return np.maximum.reduce(value, axis=None)
+
+
+# how arrays must lie to a bound to be left alone; never where a number is none
+CALM: dict[str, Callable[[Any, Any], bool]] = {
+    "above": lambda value, bound: _least(value) > bound,
+    "at least": lambda value, bound: _least(value) >= bound,
+    "at most": lambda value, bound: _most(value) <= bound,
+    "beyond": lambda value, bound: _least(value) >= bound or _most(value) <= -bound,
+    "within": lambda value, bound: _least(value) > -bound and _most(value) < bound,
+}

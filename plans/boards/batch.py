@@ -1,8 +1,9 @@
-"""Many positions, variants or sizes at once: arithmetic is noted once, then done in chunks that fit the cache."""
+"""Many positions, variants or sizes at once: arithmetic is written down once, then done in chunks that fit a cache."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
@@ -11,12 +12,16 @@ from numpy.typing import DTypeLike, NDArray
 
 from ..board import Program
 from .arrays import CODES, ArrayBoard
-from .chunks import Chunks, Store, room
 from .exact import run
-from .noting import NotingBoard
+from .printers import ARRAYS, Chunked, Output, compiled, plain_names
+from .trace import Real, Vector
+from .tracing import TracingBoard
 
 CHUNK = 8192
 FEW = 2000  # positions up to which preparing a batch takes longer than running them on arrays
+PADDING = 72  # numbers between two buffers, lest all of them begin at the same place of a memory page
+KEPT = 16
+PLAIN = frozenset((0.0, 1.0, -1.0))  # numbers that make a program shorter: they are written down as what they are
 
 
 def batch(
@@ -40,14 +45,14 @@ def batch(
     codes : int8 array of shape (N,)
         Index into `STATUSES`.
     """
-    return noted(program, givens, wanted, (NotingBoard, ArrayBoard({}, 0)), chunk)
+    return traced(program, givens, wanted, (TracingBoard, ArrayBoard({}, 0)), chunk)
 
 
-def noted(
+def traced(
     program: Program,
     givens: Mapping[str, Any],
     wanted: Sequence[str],
-    boards: tuple[type[NotingBoard], ArrayBoard],
+    boards: tuple[type[TracingBoard], ArrayBoard],
     chunk: int = CHUNK,
     number: DTypeLike = float,
 ) -> tuple[dict[str, NDArray[Any]], NDArray[np.int8]]:
@@ -55,34 +60,124 @@ def noted(
 
     Parameters
     ----------
-    boards : type of NotingBoard and ArrayBoard
-        The one that notes the arithmetic, and the one that looks at its numbers.
+    boards : type of TracingBoard and ArrayBoard
+        The one that writes the arithmetic down, and the one that does what is more than arithmetic.
     number : dtype
         Of the numbers, real ones.
     """
-    noting, checks = boards
     arrays = {name: np.asarray(value, number) for name, value in givens.items() if np.ndim(value)}
     size = len(next(iter(arrays.values())))
     if size > chunk:
         settle_heap()
-    values = {name: float(value) for name, value in givens.items() if name not in arrays}
-    needed = program.needed_for(wanted)
-    first = cache(lambda: run(needed, {**values, **{name: float(array[0]) for name, array in arrays.items()}}).values)
-    board = noting(values, arrays, checks, first)
-    needed.run(board)
-    results: dict[str, NDArray[Any]] = {}
-    stores: list[Store] = []
-    for name in wanted:
-        results[name], into = room(board.values[name], size, number)
-        stores += into
-    codes = np.full(size, CODES[board.status], np.int8)
-    chunks = Chunks(board.tape.entries, stores, arrays, min(size, chunk), number)
+    scalars = {name: float(value) for name, value in givens.items() if name not in arrays}
+    work = _written(program, scalars, arrays, tuple(wanted), boards)
+    results = {name: _room(value, size, number) for name, value in work.results.items()}
     with np.errstate(invalid="ignore", divide="ignore"):
+        code, shared = work.once(scalars)
+        codes = np.full(size, max(code, work.code), np.int8)
+        kept = dict(zip(work.chunked.shared, shared, strict=True))
+        outputs = [out for name, value in work.results.items() for out in _outputs(value, results[name])]
+        for (place, negative), out in zip(work.chunked.outputs, outputs, strict=True):
+            if place in kept:
+                out[:] = 0.0 - kept[place] if negative else kept[place] + 0.0
+        constants = [np.array(value, number) for value in shared]
+        block = work.buffers(min(size, chunk) + PADDING, number)
+        given = [arrays[name] for name in work.names]
         for start in range(0, size, chunk):
             part = slice(start, min(start + chunk, size))
-            checks.codes = codes[part]
-            chunks.do(part)
+            buffers = [buffer[: part.stop - start] for buffer in block]
+            work.chunk(codes[part], [a[part] for a in given], constants, buffers, [o[part] for o in outputs])
+    work.spare.append(block)
     return results, codes
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Work:
+    """A program for chunks, ready to be run: `code` is the status of what depends on no given."""
+
+    results: Mapping[str, Any]
+    chunked: Chunked
+    code: int
+    names: Sequence[str]
+    once: Callable[..., Any]
+    chunk: Callable[..., Any]
+    spare: list[NDArray[Any]] = field(default_factory=list)
+
+    def buffers(self, length: int, number: DTypeLike) -> NDArray[Any]:
+        """Return the buffers of a chunk, those of the last time where they fit."""
+        block = self.spare.pop() if self.spare else np.empty((0, 0), number)
+        shape = self.chunked.buffers, length
+        return block if block.shape == shape and block.dtype == number else np.empty(shape, number)
+
+
+_KEPT: dict[Any, _Work] = {}
+
+
+def _written(
+    program: Program,
+    scalars: Mapping[str, float],
+    arrays: Mapping[str, NDArray[Any]],
+    wanted: tuple[str, ...],
+    boards: tuple[type[TracingBoard], ArrayBoard],
+) -> _Work:
+    """Write a program down, once for all data of which the same names are arrays."""
+    plain = {name: value for name, value in scalars.items() if value in PLAIN}
+    key = program, tuple(plain.items()), frozenset(scalars), frozenset(arrays), wanted, boards[0]
+    work = _KEPT.get(key)
+    if work is None:
+        if len(_KEPT) >= KEPT:
+            del _KEPT[next(iter(_KEPT))]
+        work = _KEPT[key] = _write(program, plain, {**scalars, **arrays}, wanted, boards)
+    return work
+
+
+def _write(
+    program: Program,
+    plain: Mapping[str, float],
+    givens: Mapping[str, Any],
+    wanted: tuple[str, ...],
+    boards: tuple[type[TracingBoard], ArrayBoard],
+) -> _Work:
+    tracing, checks = boards
+    needed = program.needed_for(wanted)
+    first = cache(lambda: run(needed, {name: float(np.ravel(value)[0]) for name, value in givens.items()}).values)
+    board = tracing(plain, givens.keys() - plain.keys(), checks, first)
+    needed.run(board)
+    results = {name: board.values[name] for name in wanted}
+    outputs = [part for value in results.values() for part in _parts(value)]
+    arrays = [name for name, value in givens.items() if np.ndim(value)]
+    chunked = Chunked(board.trace, arrays, outputs)
+    whole = {i: entry.data for i, entry in enumerate(board.trace.entries) if entry.operation == "whole"}
+    once = compiled(chunked.once(), "once", plain_names())
+    chunk = compiled(chunked.chunk(), "chunk", {**ARRAYS, "whole": whole})
+    return _Work(results, chunked, CODES[board.status], chunked.names, once, chunk)
+
+
+def _parts(value: Any) -> list[Output]:
+    """Return the numbers of a trace that a value is made of."""
+    numbers = (value.real, value.imag) if isinstance(value, Vector) else (value,)
+    return [(number.place, number.negative) for number in numbers if isinstance(number, Real)]
+
+
+def _outputs(value: Any, room: NDArray[Any]) -> list[NDArray[Any]]:
+    """Return where those numbers go."""
+    if not isinstance(value, Vector):
+        return [room] if isinstance(value, Real) else []
+    parts = (value.real, room.real), (value.imag, room.imag)
+    return [into for number, into in parts if isinstance(number, Real)]
+
+
+def _room(value: Any, size: int, kind: DTypeLike) -> NDArray[Any]:
+    """Return an array for a value at all positions, filled where it is the same in any case."""
+    vectors = np.result_type(kind, np.complex64)
+    if not isinstance(value, Real | Vector):
+        return np.full(size, value + type(value)(), vectors if isinstance(value, complex) else kind)
+    room = np.empty(size, kind if isinstance(value, Real) else vectors)
+    if isinstance(value, Vector):
+        for number, into in ((value.real, room.real), (value.imag, room.imag)):
+            if not isinstance(number, Real):
+                into[:] = number + 0.0
+    return room
 
 
 def settle_heap() -> None:

@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..board import Program
-from .arithmetic import Real, Vector
 from .arrays import ArrayBoard
-from .batch import CHUNK, batch, noted
+from .batch import CHUNK, batch, traced
 from .exact import RIGHT, SINGULAR, TANGENT, run
 from .fifty_digits import fifty_digits
-from .noting import NotingBoard
 from .template import CLOSED, CORRECTIONS, FOLDED
+from .trace import Real, Vector
+from .tracing import TracingBoard
 
 NO_WORD: dict[str, Any] = dict.fromkeys(("invalid", "divide", "over", "under"), "ignore")
 LESS = 2.0**29  # how much coarser single precision is than double
@@ -78,13 +78,13 @@ class ExtendedBoard(PrecisionBoard):
     corrections = CORRECTIONS + 1
 
 
-class SingleNoting(NotingBoard):
-    """Notes the arithmetic of single precision; what depends on no array is done in double, and rounded then."""
+class SingleTracing(TracingBoard):
+    """Writes down the arithmetic of single precision; what depends on no array is done in double, and rounded then."""
 
     def _turn(self, angle: Any) -> Any:
         if not isinstance(angle, Real):
             return super()._turn(angle)
-        return Vector(*(self._upright(self.tape.apply(function, angle)) for function in (np.cos, np.sin)))
+        return Vector(*(self._upright(self.trace.apply(function, angle)) for function in ("cos", "sin")))
 
 
 BOARDS: dict[str, type[PrecisionBoard]] = {"single": SingleBoard, "extended": ExtendedBoard}
@@ -100,7 +100,7 @@ def batch_in(
     if precision == "double":
         return batch(program, givens, wanted, chunk)
     if precision == "single":
-        return noted(program, givens, wanted, (SingleNoting, SingleBoard({}, 0)), chunk, np.float32)
+        return traced(program, givens, wanted, (SingleTracing, SingleBoard({}, 0)), chunk, np.float32)
     needed, board = program.needed_for(wanted), BOARDS[precision]({}, 0)
     exact = board.taken(givens)
     size = next(len(value) for value in exact.values() if value.ndim)

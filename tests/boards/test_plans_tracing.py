@@ -1,4 +1,4 @@
-"""The tape of a batch: what it saves, what it leaves whole, and that no bit of a result depends on it."""
+"""The trace of a batch: what it saves, what it leaves whole, and that no bit of a result depends on it."""
 
 from __future__ import annotations
 
@@ -9,28 +9,40 @@ import numpy as np
 import pytest
 
 from kulman.plans.board import Program, Step
-from kulman.plans.boards.arithmetic import Real, Tape, Vector
 from kulman.plans.boards.arrays import ArrayBoard
 from kulman.plans.boards.batch import batch
-from kulman.plans.boards.chunks import Chunks, Store
 from kulman.plans.boards.exact import run
+from kulman.plans.boards.printers import ARRAYS as FUNCTIONS
+from kulman.plans.boards.printers import Chunked, Plain, compiled, in_order, plain_names
+from kulman.plans.boards.trace import Real, Trace, Vector
 from kulman.plans.laws import LAWS, cross, dot
 
 ARRAYS = {name: np.array(values) for name, values in {"x": [3.0, -2.0, 0.5], "y": [7.0, 0.25, -8.0]}.items()}
 
 
 def worked_out(value: Real) -> Any:
-    """Return the numbers that a number on a tape stands for."""
+    """Return the numbers that a number of a trace stands for, printed for chunks of two."""
     result = np.empty(3)
-    chunks = Chunks(value.tape.entries, [Store(value.place, value.negative, result)], ARRAYS, 2)
+    chunked = Chunked(value.trace, ARRAYS, [(value.place, value.negative)])
+    _, shared = compiled(chunked.once(), "once", plain_names())({})
+    chunk = compiled(chunked.chunk(), "chunk", FUNCTIONS)
     for part in (slice(0, 2), slice(2, 3)):
-        chunks.do(part)
+        buffers = np.empty((chunked.buffers, part.stop - part.start))
+        chunk(np.zeros(3, np.int8), [ARRAYS[name][part] for name in chunked.names], shared, buffers, [result[part]])
     return result
 
 
+def one_by_one(value: Real) -> list[Any]:
+    """Return the same, printed for one position."""
+    plain = Plain(value.trace, in_order(value.trace, [value.place]), [value.place])
+    one = compiled(plain.source("one", [plain.value(value.place)]), "one", plain_names())
+    found = [one({name: float(array[i]) for name, array in ARRAYS.items()})[1][0] for i in range(3)]
+    return [-number if value.negative else number for number in found]
+
+
 @pytest.fixture
-def tape() -> Tape:
-    return Tape()
+def trace() -> Trace:
+    return Trace()
 
 
 FORMULAS = {
@@ -46,19 +58,21 @@ FORMULAS = {
 
 
 @pytest.mark.parametrize("formula", FORMULAS.values(), ids=FORMULAS)
-def test_numbers_of_a_tape_are_those_of_the_formula(tape: Tape, formula: Any) -> None:
-    noted = worked_out(formula(tape.given("x"), tape.given("y")))
+def test_numbers_of_a_tape_are_those_of_the_formula(trace: Trace, formula: Any) -> None:
+    traced = formula(trace.given("x"), trace.given("y"))
 
-    assert noted.tolist() == [formula(float(x), float(y)) for x, y in zip(ARRAYS["x"], ARRAYS["y"], strict=True)]
+    numbers = [formula(float(x), float(y)) for x, y in zip(ARRAYS["x"], ARRAYS["y"], strict=True)]
+    assert worked_out(traced).tolist() == numbers
+    assert one_by_one(traced) == numbers
 
 
-def test_normal_of_a_direction_is_the_turned_direction(tape: Tape) -> None:
-    x, y = tape.given("x"), tape.given("y")
-    noted = len(tape.entries)
+def test_normal_of_a_direction_is_the_turned_direction(trace: Trace) -> None:
+    x, y = trace.given("x"), trace.given("y")
+    noted = len(trace.entries)
 
     normal = Vector(x, y) * 1j
 
-    assert len(tape.entries) == noted  # and costs nothing
+    assert len(trace.entries) == noted  # and costs nothing
     assert worked_out(normal.real).tolist() == (-ARRAYS["y"]).tolist()
     assert worked_out(normal.imag).tolist() == ARRAYS["x"].tolist()
 
@@ -73,8 +87,8 @@ def test_normal_of_a_direction_is_the_turned_direction(tape: Tape) -> None:
         pytest.param(lambda x, y: (dot(Vector(x, y), Vector(y, x)), cross(Vector(x, y), Vector(x, -y))), id="normals"),
     ],
 )
-def test_what_is_on_the_tape_is_not_noted_again(tape: Tape, again: Any) -> None:
-    first, second = again(tape.given("x"), tape.given("y"))
+def test_what_is_on_the_tape_is_not_noted_again(trace: Trace, again: Any) -> None:
+    first, second = again(trace.given("x"), trace.given("y"))
 
     assert first.place == second.place
 
@@ -91,9 +105,9 @@ def test_what_is_on_the_tape_is_not_noted_again(tape: Tape, again: Any) -> None:
         pytest.param(lambda x: Vector(x, x) * 2j, id="product with a complex number"),
     ],
 )
-def test_number_of_a_tape_cannot_be_looked_at(tape: Tape, look: Any) -> None:
+def test_number_of_a_tape_cannot_be_looked_at(trace: Trace, look: Any) -> None:
     with pytest.raises(TypeError):
-        look(tape.given("x"))
+        look(trace.given("x"))
 
 
 STEPS = Program(

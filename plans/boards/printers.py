@@ -1,0 +1,409 @@
+"""A trace, printed: as straight NumPy for chunks of positions, as plain Python for one, as JavaScript for a page.
+
+What is printed makes the same sums, products and roots in the same order, so that all printers agree to the last bit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+
+from .graduation import cosine_of, mark_of, sine_of
+from .protractor import MARKS, ROUND, graduation
+from .trace import Calm, Entry, Rare, Trace
+
+DEEPEST = 12  # brackets within brackets
+Output = tuple[int, bool]  # place of a number, and whether its negative is wanted
+# what one operation is in Python; operands that stand there twice are named before
+PYTHON = {
+    "add": "({0} + {1})",
+    "subtract": "({0} - {1})",
+    "multiply": "({0} * {1})",
+    "divide": "({0} / {1})",
+    "negative": "(-{0})",
+    "absolute": "abs({0})",
+    "sqrt": "(sqrt({0}) if {0} >= 0.0 else nan)",
+    "less": "({0} < {1})",
+    "less_equal": "({0} <= {1})",
+    "greater": "({0} > {1})",
+    "greater_equal": "({0} >= {1})",
+    "equal": "({0} == {1})",
+    "logical_and": "({0} and {1})",
+    "logical_or": "({0} or {1})",
+    "where": "({1} if {0} else {2})",
+    "floor_divide": "({0} // {1})",
+    "power": "({0} ** {1})",
+    "fmod": "(fmod({0}, {1}) if isfinite({0}) else nan)",
+    "arctan2": "float(arctan2({0}, {1}))",
+    "cos": "cos({0})",
+    "sin": "sin({0})",
+    "mark": f"(int({{0}} - {ROUND!r}) % {MARKS} if {{0}} == {{0}} else {MARKS})",
+    "cosine": "cosines[{0}]",
+    "sine": "sines[{0}]",
+}
+JAVASCRIPT = {
+    **PYTHON,
+    "absolute": "Math.abs({0})",
+    "sqrt": "Math.sqrt({0})",
+    "equal": "({0} === {1})",
+    "logical_and": "({0} && {1})",
+    "logical_or": "({0} || {1})",
+    "where": "({0} ? {1} : {2})",
+    "floor_divide": "floorDivide({0}, {1})",
+    "power": "Math.pow({0}, {1})",
+    "fmod": "({0} % {1})",
+    "arctan2": "Math.atan2({0}, {1})",
+    "mark": f"(({{0}} - {ROUND!r}) % {MARKS} + {MARKS}) % {MARKS}",
+}
+ORDERS = {
+    "above": "{0} > {1}",
+    "at least": "{0} >= {1}",
+    "at most": "{0} <= {1}",
+    "beyond": "({0} >= {1} or {0} <= -{1})",
+    "within": "-{1} < {0} < {1}",
+}
+
+ORDERS_OF_ARRAYS = {
+    "above": "least({0}) > {1}",
+    "at least": "least({0}) >= {1}",
+    "at most": "most({0}) <= {1}",
+    "beyond": "(least({0}) >= {1} or most({0}) <= -{1})",
+    "within": "least({0}) > -{1} and most({0}) < {1}",
+}
+
+# what the source of `Chunked` calls
+ARRAYS: dict[str, Any] = {
+    **{
+        name: getattr(np, name)
+        for name in (
+            *("add", "subtract", "multiply", "divide", "negative", "absolute", "sqrt", "floor_divide", "power", "fmod"),
+            *("less", "less_equal", "greater", "greater_equal", "equal", "logical_and", "logical_or"),
+            *("arctan2", "cos", "sin"),
+        )
+    },
+    "where": np.where,
+    "copyto": np.copyto,
+    "int8": np.int8,
+    "maximum": np.maximum,
+    "least": np.minimum.reduce,
+    "most": np.maximum.reduce,
+    "nan": math.nan,
+    "mark": mark_of,
+    "cosine": cosine_of,
+    "sine": sine_of,
+}
+
+
+def in_order(trace: Trace, wanted: Iterable[int]) -> list[int]:
+    """Return the entries that `wanted` and the statuses need, constants apart, each as late as it is asked for."""
+    entries, roots = trace.entries, {*wanted}
+    roots |= {i for i, e in enumerate(entries) if e.operation == "rare" and e.data.marks}
+    done = {place for place, entry in enumerate(entries) if entry.operation == "constant"}
+    order: list[int] = []
+    for root in sorted(roots):
+        waiting = [root]
+        while waiting:
+            place = waiting[-1]
+            first = [operand for operand in entries[place].operands if operand not in done]
+            if first:
+                waiting += reversed(first)
+                continue
+            waiting.pop()
+            if place not in done:
+                done.add(place)
+                order.append(place)
+    return order
+
+
+@dataclass(frozen=True)
+class Plain:
+    """The program of a trace for one position, as source of Python.
+
+    The function it defines takes the givens by name, in a mapping, and returns the code of the status and the outputs.
+    """
+
+    trace: Trace
+    order: Sequence[int]
+    outputs: Collection[int]
+    operations = PYTHON
+
+    def source(self, function: str, results: Iterable[str], code: int = 0) -> str:
+        """Return the source of a function of the givens by name that returns a code and a tuple of results."""
+        entries = self.trace.entries
+        lines = [f"code = {code}"]
+        lines += [f"v{p} = given[{entries[p].data!r}]" for p in self.order if entries[p].operation == "given"]
+        return defined(
+            function, ("given",), [*lines, *self.lines(), f"return code, ({''.join(r + ', ' for r in results)})"]
+        )
+
+    def lines(self) -> Iterator[str]:
+        """Print what makes the outputs, without indent."""
+        for place in self.order:
+            entry = self.trace.entries[place]
+            if entry.operation == "rare":
+                yield from self._look(place, entry)
+            elif entry.operation in ("whole", "second"):
+                raise TypeError("a step that is more than arithmetic")
+            elif entry.operation != "given" and place in self._named:
+                yield f"v{place} = {self._expression(place)}"
+
+    def value(self, place: int) -> str:
+        """Return what stands for a number: a constant, a name, or the expression where it is used once."""
+        entry = self.trace.entries[place]
+        if entry.operation == "constant":
+            return number(entry.data)
+        return f"v{place}" if place in self._named else self._expression(place)
+
+    def _expression(self, place: int) -> str:
+        entry = self.trace.entries[place]
+        if entry.operation == "sqrt" and self._is_square(entry.operands[0]):
+            return f"sqrt({self.value(entry.operands[0])})"
+        return self.operations[entry.operation].format(*map(self.value, entry.operands))
+
+    def _look(self, place: int, entry: Entry) -> Iterator[str]:
+        rare: Rare = entry.data
+        yield f"v{place} = {self.value(entry.operands[0])}"
+        yield f"if not ({' and '.join(map(self._calm, rare.calm)) or 'False'}):"
+        for inner in rare.block:
+            if self.trace.entries[inner].operation != "constant":
+                yield f"    v{inner} = {self._expression(inner)}"
+        for code, condition in rare.marks:
+            yield f"    if {self.value(condition)} and code < {code}:"
+            yield f"        code = {code}"
+        yield f"    v{place} = {self.value(rare.result)}"
+
+    def _calm(self, calm: Calm) -> str:
+        bound = number(calm.bound)
+        if calm.of is not None:
+            bound = f"({bound} * {self.value(calm.of)})" + (" ** 2" if calm.squared else "")
+        return ORDERS[calm.order].format(self.value(calm.place), bound)
+
+    @cached_property
+    def _named(self) -> frozenset[int]:
+        """Places that have names: used twice, looked at, deep, or wanted."""
+        entries = self.trace.entries
+        uses = Counter(operand for place in self.order for operand in entries[place].operands)
+        named, depth = {*self.outputs}, dict[int, int]()
+        for place in self.order:
+            entry = entries[place]
+            if entry.operation == "rare":
+                named |= {place, *entry.operands, *entry.data.block}
+            elif entry.operation == "given" or uses[place] > 1:
+                named.add(place)
+            elif entry.operation in ("sqrt", "mark", "fmod") and not self._is_square(entry.operands[0]):
+                named.add(entry.operands[0])
+            depth[place] = 1 + max((depth.get(o, 0) for o in entry.operands if o not in named), default=0)
+            if depth[place] > DEEPEST:
+                named.add(place)
+        return frozenset(named)
+
+    def _is_square(self, place: int) -> bool:
+        """Whether a number is a square, or a sum of squares: it has a root, or is none."""
+        entry = self.trace.entries[place]
+        if entry.operation == "add":
+            return all(map(self._is_square, entry.operands))
+        return entry.operation == "multiply" and entry.operands[0] == entry.operands[1]
+
+
+def defined(name: str, parameters: Iterable[str], lines: Iterable[str]) -> str:
+    """Return the source of a function of Python."""
+    return "\n".join([f"def {name}({', '.join(parameters)}):", *(f"    {line}" for line in lines), ""])
+
+
+def compiled(source: str, name: str, names: Mapping[str, Any]) -> Callable[..., Any]:
+    """Return the function of that name that a source defines, which calls nothing but `names`."""
+    space = dict(names)
+    exec(compile(source, f"<{name}>", "exec"), space)
+    function: Callable[..., Any] = space[name]
+    return function
+
+
+@cache
+def plain_names() -> dict[str, Any]:
+    """Return what the source of `Plain` calls; the protractor's table has no number behind its marks."""
+    cosines, sines = graduation()
+    functions = {
+        "sqrt": math.sqrt,
+        "cos": math.cos,
+        "sin": math.sin,
+        "fmod": math.fmod,
+        "isfinite": math.isfinite,
+        "arctan2": _arctan2,
+    }
+    return {**functions, "cosines": [*cosines, math.nan], "sines": [*sines, math.nan], "nan": math.nan, "inf": math.inf}
+
+
+def _arctan2(y: float, x: float) -> Any:
+    return np.arctan2(y, x)  # the C library's may differ in the last bit
+
+
+def number(value: float) -> str:
+    """Return a number as both languages write it."""
+    if math.isfinite(value):
+        return repr(float(value))
+    return "nan" if value != value else "inf" if value > 0.0 else "-inf"
+
+
+@dataclass(frozen=True)
+class Chunked:
+    """The program of a trace for chunks of positions, as source of Python with the functions of NumPy.
+
+    What depends on no array is done once, on numbers; the rest goes through few buffers, so that a chunk stays in the
+    cache: what nothing needs any more hands its own on.
+
+    Parameters
+    ----------
+    arrays : collection of str
+        Givens that are arrays.
+    outputs : sequence of (place, negative)
+        What is kept of every position.
+    """
+
+    trace: Trace
+    arrays: Collection[str]
+    outputs: Sequence[Output]
+
+    @cached_property
+    def order(self) -> list[int]:
+        """All entries that are needed, constants apart."""
+        return in_order(self.trace, [place for place, _ in self.outputs])
+
+    @cached_property
+    def varying(self) -> frozenset[int]:
+        """Entries that are other ones at each position."""
+        found: set[int] = set()
+        for place in self.order:
+            entry = self.trace.entries[place]
+            varies = entry.data in self.arrays if entry.operation == "given" else not found.isdisjoint(entry.operands)
+            if varies or entry.operation == "whole":
+                found.add(place)
+        return frozenset(found)
+
+    @cached_property
+    def each(self) -> list[int]:
+        """What is done for every chunk, in order."""
+        return [place for place in self.order if place in self.varying]
+
+    @cached_property
+    def shared(self) -> list[int]:
+        """What the chunks share: entries that are done once, and constants."""
+        needed = (o for place in self.each for o in self.trace.entries[place].operands if o not in self.varying)
+        return list(dict.fromkeys((*needed, *(place for place, _ in self.outputs if place not in self.varying))))
+
+    @cached_property
+    def _buffers(self) -> tuple[Mapping[int, int], int]:
+        """The buffer of each entry, and how many there are; first operands hand theirs on last: they are used first."""
+        entries = self.trace.entries
+        last = {operand: place for place in self.each for operand in entries[place].operands}
+        found: dict[int, int] = {}
+        free: list[int] = []
+        count = 0
+        for place in self.each:
+            entry = entries[place]
+            if entry.operation == "given":  # it is read where it lies
+                continue
+            dying = [o for o in dict.fromkeys(reversed(entry.operands)) if o in found and last[o] == place]
+            # while a number is looked at, what it is looked at with must stay
+            kept = [o for o in dying if o != entry.operands[0]] if entry.operation == "rare" else []
+            free += [found[o] for o in dying if o not in kept]
+            if not free:
+                free.append(count)
+                count += 1
+            found[place] = free.pop()
+            free += [found[o] for o in kept]
+            if place not in last:
+                free.append(found[place])
+        return found, count
+
+    @property
+    def buffers(self) -> int:
+        """How many buffers there are."""
+        return self._buffers[1]
+
+    @cached_property
+    def given(self) -> list[tuple[int, str]]:
+        """Places and names of the givens that are needed."""
+        entries = self.trace.entries
+        return [(place, entries[place].data) for place in self.order if entries[place].operation == "given"]
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the givens that are arrays, in the order in which `chunk` takes them."""
+        return [name for place, name in self.given if place in self.varying]
+
+    def once(self) -> str:
+        """Return the source of `once(given) -> (code, shared)`, for a mapping of numbers by name."""
+        plain = Plain(self.trace, [place for place in self.order if place not in self.varying], {*self.shared})
+        return plain.source("once", [plain.value(place) for place in self.shared])
+
+    def chunk(self) -> str:
+        """Return the source of `chunk(codes, given, shared, buffers, outputs)`."""
+        unpacked = {
+            "given": [f"g{place}" for place, _ in self.given if place in self.varying],
+            "shared": [f"s{place}" for place in self.shared],
+            "buffers": [f"b{index}" for index in range(self.buffers)],
+        }
+        lines = [f"{', '.join(names)}, = {what}" for what, names in unpacked.items() if names]
+        lines += [line for place in self.each for line in self._lines(place)]
+        return defined("chunk", ("codes", "given", "shared", "buffers", "outputs"), lines or ["pass"])
+
+    def _value(self, place: int, block: Collection[int] = ()) -> str:
+        entry = self.trace.entries[place]
+        if place in block:
+            return number(entry.data) if entry.operation == "constant" else f"t{place}"
+        if place not in self.varying:
+            return f"s{place}"
+        return f"g{place}" if entry.operation == "given" else f"b{self._buffers[0][place]}"
+
+    def _lines(self, place: int) -> Iterator[str]:
+        entry = self.trace.entries[place]
+        if entry.operation != "given":
+            yield from self._made(place, entry)
+        for index, (output, negative) in enumerate(self.outputs):
+            if output == place:  # zeros lose their sign
+                operands = f"0.0, {self._value(place)}" if negative else f"{self._value(place)}, 0.0"
+                yield f"{'subtract' if negative else 'add'}({operands}, outputs[{index}])"
+
+    def _made(self, place: int, entry: Entry) -> Iterator[str]:
+        into, operands = self._value(place), [self._value(o) for o in entry.operands]
+        if entry.operation == "rare":
+            yield from self._look(place, entry.data, into, operands[0])
+        elif entry.operation == "whole":
+            yield f"{into}[:], w{place} = whole[{place}](codes, {', '.join(operands)})"
+        elif entry.operation == "second":
+            yield f"{into}[:] = w{entry.operands[0]}"
+        elif entry.operation == "where":
+            yield f"copyto({into}, where({', '.join(operands)}))"
+        else:
+            yield f"{entry.operation}({', '.join(operands)}, {into})"
+
+    def _look(self, place: int, rare: Rare, into: str, value: str) -> Iterator[str]:
+        if into != value:
+            yield f"copyto({into}, {value})"
+        yield f"if not ({' and '.join(map(self._calm, rare.calm)) or 'False'}):"
+        for inner in rare.block:
+            entry = self.trace.entries[inner]
+            if entry.operation != "constant":
+                operands = (self._value(o, rare.block) for o in entry.operands)
+                yield f"    t{inner} = {entry.operation}({', '.join(operands)})"
+        for code, condition in rare.marks:
+            yield f"    maximum(codes, where({self._value(condition, rare.block)}, int8({code}), int8(0)), out=codes)"
+        yield f"    copyto({into}, {self._value(rare.result, rare.block)})"
+
+    def _calm(self, calm: Calm) -> str:
+        bound = number(calm.bound)
+        if calm.of is not None:
+            of = self._value(calm.of)
+            bound = f"({bound} * {f'most({of})' if calm.of in self.varying else of})" + (
+                " ** 2" if calm.squared else ""
+            )
+        value = self._value(calm.place)
+        if calm.place not in self.varying:
+            return ORDERS[calm.order].format(value, bound)
+        return ORDERS_OF_ARRAYS[calm.order].format(value, bound)
