@@ -12,7 +12,8 @@ from .exact import ILL, NAN, RIGHT, STATUSES, PlainBoard, Status
 from .graduation import cosine_of, mark_of, sine_of
 from .protractor import FARTHEST, TURN
 
-Rarely = tuple[Iterable[tuple[Status, Any]], Any]  # statuses with their conditions, and the value to go on with
+Marks = Iterable[tuple[Status, Any]]  # statuses with their conditions
+Rarely = tuple[Marks, Any]  # and the value to go on with
 CODES = {status: code for code, status in enumerate(STATUSES)}
 
 
@@ -101,17 +102,21 @@ class ManyChecks:
         def rare() -> Rarely:
             reached, folded = astray == 0.0, size < self.folded
             apart_here = (reached & (folded | (apart <= self.closed))) == 0.0
-            marks = [("ill-conditioned", size < ILL), ("singular", reached & folded), ("no-assembly", apart_here)]
+            marks: Marks = [
+                ("ill-conditioned", size < ILL),
+                ("singular", reached & folded),
+                ("no-assembly", apart_here),
+            ]
             return marks, self._choose(folded | apart_here, NAN, determinant)
 
-        calm = self._calm(size, "at least", ILL), self._calm(apart, "at most", self.closed)
-        calm = *calm, self._calm(astray, "at most", 0.0)
-        return self._look("holds", (determinant, apart, astray), calm, rare)
+        calm = [self._calm(size, "at least", ILL), self._calm(apart, "at most", self.closed)]
+        calm.append(self._calm(astray, "at most", 0.0))
+        return self._look("holds", (determinant, apart, astray), tuple(calm), rare)
 
     def _clear(self, distance: Any, size: Any) -> Any:
         def rare() -> Rarely:
             together = distance <= self.parallel * size
-            marks = [("ill-conditioned", distance < ILL * size), ("singular", together)]
+            marks: Marks = [("ill-conditioned", distance < ILL * size), ("singular", together)]
             return marks, self._choose(together, NAN, distance)
 
         return self._look("clear", (distance, size), (self._calm(distance, "at least", ILL, size),), rare)

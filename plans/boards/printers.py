@@ -5,12 +5,13 @@ What is printed makes the same sums, products and roots in the same order, so th
 
 from __future__ import annotations
 
+import json
 import math
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -29,6 +30,7 @@ PYTHON = {
     "negative": "(-{0})",
     "absolute": "abs({0})",
     "sqrt": "(sqrt({0}) if {0} >= 0.0 else nan)",
+    "root": "sqrt({0})",  # of what is a square
     "less": "({0} < {1})",
     "less_equal": "({0} <= {1})",
     "greater": "({0} > {1})",
@@ -51,7 +53,8 @@ JAVASCRIPT = {
     **PYTHON,
     "absolute": "Math.abs({0})",
     "sqrt": "Math.sqrt({0})",
-    "equal": "({0} === {1})",
+    "root": "Math.sqrt({0})",
+    "equal": "({0} == {1})",  # what is false is zero
     "logical_and": "({0} && {1})",
     "logical_or": "({0} || {1})",
     "where": "({0} ? {1} : {2})",
@@ -59,7 +62,7 @@ JAVASCRIPT = {
     "power": "Math.pow({0}, {1})",
     "fmod": "({0} % {1})",
     "arctan2": "Math.atan2({0}, {1})",
-    "mark": f"(({{0}} - {ROUND!r}) % {MARKS} + {MARKS}) % {MARKS}",
+    "mark": f"({{0}} === {{0}} ? (({{0}} - {ROUND!r}) % {MARKS} + {MARKS}) % {MARKS} : {MARKS})",
 }
 ORDERS = {
     "above": "{0} > {1}",
@@ -131,27 +134,35 @@ class Plain:
     trace: Trace
     order: Sequence[int]
     outputs: Collection[int]
-    operations = PYTHON
+
+    operations: ClassVar[Mapping[str, str]] = PYTHON
+    orders: ClassVar[Mapping[str, str]] = ORDERS
+    new: ClassVar[str] = "{0} = {1}"
+    again: ClassVar[str] = "{0} = {1}"
+    unless: ClassVar[str] = "if not ({0}):"
+    worse: ClassVar[str] = "if {0} and code < {1}: code = {1}"
+    end: ClassVar[tuple[str, ...]] = ()
+    both: ClassVar[str] = " and "
+    never: ClassVar[str] = "False"
 
     def source(self, function: str, results: Iterable[str], code: int = 0) -> str:
         """Return the source of a function of the givens by name that returns a code and a tuple of results."""
-        entries = self.trace.entries
-        lines = [f"code = {code}"]
-        lines += [f"v{p} = given[{entries[p].data!r}]" for p in self.order if entries[p].operation == "given"]
-        return defined(
-            function, ("given",), [*lines, *self.lines(), f"return code, ({''.join(r + ', ' for r in results)})"]
-        )
+        lines = [*self.lines(code), f"return code, ({''.join(result + ', ' for result in results)})"]
+        return defined(function, ("given",), lines)
 
-    def lines(self) -> Iterator[str]:
+    def lines(self, code: int = 0) -> Iterator[str]:
         """Print what makes the outputs, without indent."""
+        yield self.new.format("code", code)
         for place in self.order:
             entry = self.trace.entries[place]
             if entry.operation == "rare":
                 yield from self._look(place, entry)
             elif entry.operation in ("whole", "second"):
                 raise TypeError("a step that is more than arithmetic")
-            elif entry.operation != "given" and place in self._named:
-                yield f"v{place} = {self._expression(place)}"
+            elif entry.operation == "given":
+                yield self.new.format(f"v{place}", f"given[{json.dumps(entry.data)}]")
+            elif place in self._named:
+                yield self.new.format(f"v{place}", self._expression(place))
 
     def value(self, place: int) -> str:
         """Return what stands for a number: a constant, a name, or the expression where it is used once."""
@@ -163,26 +174,26 @@ class Plain:
     def _expression(self, place: int) -> str:
         entry = self.trace.entries[place]
         if entry.operation == "sqrt" and self._is_square(entry.operands[0]):
-            return f"sqrt({self.value(entry.operands[0])})"
+            return self.operations["root"].format(self.value(entry.operands[0]))
         return self.operations[entry.operation].format(*map(self.value, entry.operands))
 
     def _look(self, place: int, entry: Entry) -> Iterator[str]:
         rare: Rare = entry.data
-        yield f"v{place} = {self.value(entry.operands[0])}"
-        yield f"if not ({' and '.join(map(self._calm, rare.calm)) or 'False'}):"
+        yield self.new.format(f"v{place}", self.value(entry.operands[0]))
+        yield self.unless.format(self.both.join(map(self._calm, rare.calm)) or self.never)
         for inner in rare.block:
             if self.trace.entries[inner].operation != "constant":
-                yield f"    v{inner} = {self._expression(inner)}"
+                yield "    " + self.new.format(f"v{inner}", self._expression(inner))
         for code, condition in rare.marks:
-            yield f"    if {self.value(condition)} and code < {code}:"
-            yield f"        code = {code}"
-        yield f"    v{place} = {self.value(rare.result)}"
+            yield "    " + self.worse.format(self.value(condition), code)
+        yield "    " + self.again.format(f"v{place}", self.value(rare.result))
+        yield from self.end
 
     def _calm(self, calm: Calm) -> str:
         bound = number(calm.bound)
         if calm.of is not None:
             bound = f"({bound} * {self.value(calm.of)})" + (" ** 2" if calm.squared else "")
-        return ORDERS[calm.order].format(self.value(calm.place), bound)
+        return self.orders[calm.order].format(self.value(calm.place), bound)
 
     @cached_property
     def _named(self) -> frozenset[int]:
@@ -214,6 +225,47 @@ class Plain:
 def defined(name: str, parameters: Iterable[str], lines: Iterable[str]) -> str:
     """Return the source of a function of Python."""
     return "\n".join([f"def {name}({', '.join(parameters)}):", *(f"    {line}" for line in lines), ""])
+
+
+@dataclass(frozen=True)
+class Script(Plain):
+    """The same as source of JavaScript: a function of the givens that returns an array, the code first."""
+
+    operations = JAVASCRIPT
+    orders = {order: said.replace(" or ", " || ") for order, said in ORDERS.items()}  # noqa: RUF012
+    orders["within"] = "(-{1} < {0} && {0} < {1})"
+    new, again = "let {0} = {1};", "{0} = {1};"
+    unless, worse, end = "if (!({0})) {{", "if ({0} && code < {1}) code = {1};", ("}",)
+    both, never = " && ", "false"
+
+    def source(self, function: str, results: Iterable[str], code: int = 0) -> str:
+        """Return the source of the function; it calls what `script_names` defines."""
+        lines = [*self.lines(code), f"return [{', '.join(('code', *results))}];"]
+        return "\n".join([f"function {function}(given) {{", *(f"  {line}" for line in lines), "}", ""])
+
+
+@cache
+def script_names() -> str:
+    """Return the source of what the source of `Script` calls, the protractor's table as it is in Python."""
+    cosines, sines = graduation()
+    eighth = MARKS // 8 + 1
+    return f"""\
+const nan = NaN, inf = Infinity;
+const [cosines, sines] = (function () {{
+  const sine = {json.dumps(sines[:eighth])}, cosine = {json.dumps(cosines[:eighth])};
+  const quarter = sine.concat(cosine.slice(0, -1).reverse());
+  const half = quarter.concat(quarter.slice(1, -1).reverse());
+  const turn = half.concat(half.map(value => -value));
+  return [turn.slice({MARKS // 4}).concat(turn.slice(0, {MARKS // 4})).concat([NaN]), turn.concat([NaN])];
+}})();
+function floorDivide(a, b) {{
+  const rest = a % b;
+  let parts = (a - rest) / b;
+  if (rest !== 0 && (b < 0) !== (rest < 0)) parts -= 1;
+  const whole = Math.floor(parts);
+  return parts - whole > 0.5 ? whole + 1 : whole;
+}}
+"""
 
 
 def compiled(source: str, name: str, names: Mapping[str, Any]) -> Callable[..., Any]:

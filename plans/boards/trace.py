@@ -143,6 +143,16 @@ class Real:
     def __init__(self, trace: Trace, place: int, negative: bool = False) -> None:
         self.trace, self.place, self.negative = trace, place, negative
 
+    @property
+    def real(self) -> Real:
+        """The number itself, as with numbers of Python."""
+        return self
+
+    @property
+    def imag(self) -> float:
+        """Nothing."""
+        return 0.0
+
     def __bool__(self) -> bool:
         raise TypeError("no value while a program is traced")
 
