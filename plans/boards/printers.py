@@ -358,7 +358,7 @@ class Chunked:
         count = 0
         for place in self.each:
             entry = entries[place]
-            if entry.operation == "given":  # it is read where it lies
+            if entry.operation == "given" or self._is_looked_at_given(place):  # it is read where it lies
                 continue
             dying = [o for o in dict.fromkeys(reversed(entry.operands)) if o in found and last[o] == place]
             # while a number is looked at, what it is looked at with must stay
@@ -372,6 +372,10 @@ class Chunked:
             if place not in last:
                 free.append(found[place])
         return found, count
+
+    def _is_looked_at_given(self, place: int) -> bool:
+        entry = self.trace.entries[place]
+        return entry.operation == "rare" and self.trace.entries[entry.operands[0]].operation == "given"
 
     @property
     def buffers(self) -> int:
@@ -411,7 +415,9 @@ class Chunked:
             return number(entry.data) if entry.operation == "constant" else f"t{place}"
         if place not in self.varying:
             return f"s{place}"
-        return f"g{place}" if entry.operation == "given" else f"b{self._buffers[0][place]}"
+        if entry.operation == "given" or self._is_looked_at_given(place):
+            return f"g{place}"
+        return f"b{self._buffers[0][place]}"
 
     def _lines(self, place: int) -> Iterator[str]:
         entry = self.trace.entries[place]
@@ -436,8 +442,9 @@ class Chunked:
             yield f"{entry.operation}({', '.join(operands)}, {into})"
 
     def _look(self, place: int, rare: Rare, into: str, value: str) -> Iterator[str]:
+        own = self._is_looked_at_given(place)
         if into != value:
-            yield f"copyto({into}, {value})"
+            yield f"{into} = {value}" if own else f"copyto({into}, {value})"
         yield f"if not ({' and '.join(map(self._calm, rare.calm)) or 'False'}):"
         for inner in rare.block:
             entry = self.trace.entries[inner]
@@ -446,7 +453,8 @@ class Chunked:
                 yield f"    t{inner} = {entry.operation}({', '.join(operands)})"
         for code, condition in rare.marks:
             yield f"    maximum(codes, where({self._value(condition, rare.block)}, int8({code}), int8(0)), out=codes)"
-        yield f"    copyto({into}, {self._value(rare.result, rare.block)})"
+        result = self._value(rare.result, rare.block)
+        yield f"    {into} = {result}" if own else f"    copyto({into}, {result})"
 
     def _calm(self, calm: Calm) -> str:
         bound = number(calm.bound)
