@@ -7,7 +7,7 @@ WORKERS ?= auto
 # what the tests start is compiled once, whatever the shell says: they start some hundred processes
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: sheet test soak lint types bench speed clean
+.PHONY: sheet test soak corpus lint types bench speed clean
 
 sheet: $(READY)
 	mkdir -p out
@@ -18,6 +18,10 @@ test: $(READY)
 
 soak: $(READY)
 	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m soak
+
+# all outputs that the tests know by their digests, beside what they were
+corpus: $(READY)
+	$(PY) -m kulman.tests.corpus.corpus
 
 lint: $(READY)
 	$(PY) -m ruff check .

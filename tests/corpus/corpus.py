@@ -1,0 +1,186 @@
+"""What the program prints and writes, hashed: a change that is to change nothing proves it.
+
+    python -m kulman.tests.corpus.corpus            compare all with what is kept, on all cores: make corpus
+    python -m kulman.tests.corpus.corpus --keep     keep what there is now
+    python -m kulman.tests.corpus.corpus --write DIR --only TEXT    write the outputs of some cases, to look at them
+
+A case is a command in a folder of its own; its output is what it prints on both streams, its status, and the bytes of
+the files it writes, of workbooks the values of cells. Answers to be marked are made from the right ones.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import io
+import json
+import os
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import chdir
+from dataclasses import dataclass
+from pathlib import Path
+
+KEPT = Path(__file__).with_name("digests.txt")
+LANGUAGES = ("uk", "ru", "en")
+DIGITS = 16  # of a digest
+EVERY = {"few": 24, "many": 7}  # every how-manieth case a short and a longer run compare
+WRONG = 1.25  # how many times too large the student's answers of every fifth line are
+KINDS = {"karpenko-hoist": "hoist", "madi-cam": "cam", "madi-gear": "gear"}
+CHARTS = {"linkage": ("stability", "depth"), "cam": ("sections", "stability"), "gear": ("scale",)}
+CHARTS["hoist"] = ("roots", "depth", "stability")
+
+
+@dataclass(frozen=True)
+class Case:
+    """A command and, where it marks, the task and variant whose answers stand in `answers.csv`."""
+
+    arguments: tuple[str, ...]
+    marks: tuple[str, str] | None = None
+
+    @property
+    def name(self) -> str:
+        """The command as it is typed."""
+        return " ".join(self.arguments)
+
+
+def cases() -> Iterator[Case]:
+    """Go through all cases, always in the same order."""
+    from kulman.variants import load_task
+    from kulman.variants.shelf import bundled
+
+    yield from (Case(("list", "--lang", language)) for language in LANGUAGES)
+    yield Case(("list", "--json"))
+    for task in bundled():
+        kind, variants = KINDS.get(task, "linkage"), list(load_task(task).variants)
+        for variant in variants:
+            yield Case(("solve", task, "-v", variant, "--json"))
+            yield Case(("sheet", task, "-v", variant, "--lang", "uk", "-o", "sheet.svg"))
+        for language in LANGUAGES:
+            said = (task, "--lang", language)
+            yield Case(("solve", *said))
+            yield Case(("solve", *said, "--condition"))
+            yield Case(("sheet", *said, "--format", "A3", "-o", "sheet.svg", "-o", "sheet.pdf"))
+            yield Case(("note", *said, "-o", "note.md"))
+            yield Case(("handout", *said, "-o", "blank.svg"))
+            yield Case(("handout", *said, "--steps", "3", "-o", "begun.svg"))
+            yield Case(("check", *said, "--form", "form.csv"))
+            yield Case(("check", *said, "answers.csv"), (task, variants[-1]))
+            yield Case(("sweep", *said, "-o", "cycle.csv"))
+            for chart in CHARTS[kind]:
+                yield Case(("chart", *said, "--chart", chart, "--positions", "24", "-o", "chart.csv"))
+        yield Case(("sheet", task, "--format", "A4", "--norm", "iso", "--lang", "en", "-o", "sheet.pdf"))
+        yield Case(("handout", task, "--key", "-o", "key.pdf"))
+        yield Case(("check", task, "-v", variants[-1], "answers.csv", "--json"), (task, variants[-1]))
+        yield Case(("check", task, "--form", "form.xlsx"))
+        yield Case(("variants", task, "--lang", "en"))
+        yield Case(("sweep", task, "--json"))
+
+
+def digest(case: Case, kept: Path | None = None) -> str:
+    """Run a case and hash what comes of it; write that into the folder `kept`, too, where one is given."""
+    from kulman import cli
+
+    out, err = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8", newline="") for _ in range(2))
+    before = sys.stdout, sys.stderr, os.environ.get("LC_ALL")
+    status: object = 0
+    with tempfile.TemporaryDirectory() as folder, chdir(folder):
+        if case.marks:
+            Path("answers.csv").write_text(_answers(*case.marks), encoding="utf-8")
+        sys.stdout, sys.stderr, os.environ["LC_ALL"] = out, err, "C.UTF-8"
+        try:
+            cli.main(list(case.arguments))
+        except SystemExit as stopped:
+            status = stopped.code
+        finally:
+            sys.stdout, sys.stderr = before[:2]
+            os.environ.pop("LC_ALL") if before[2] is None else os.environ.update(LC_ALL=before[2])
+        found = hashlib.sha256(f"{status}\n".encode())
+        for stream in (out, err):
+            stream.flush()
+            found.update(stream.buffer.getvalue())  # type: ignore[attr-defined]
+        for file in sorted(Path().iterdir()):
+            content = _content(file)
+            found.update(f"\n{file.name}\n".encode() + content)
+            if kept:
+                (kept / file.name).write_bytes(content)
+        if kept:
+            (kept / "stdout").write_bytes(out.buffer.getvalue())  # type: ignore[attr-defined]
+    return found.hexdigest()[:DIGITS]
+
+
+def _content(file: Path) -> bytes:
+    """Return the bytes of a file, of a workbook the values of its cells."""
+    if file.suffix != ".xlsx":
+        return file.read_bytes()
+    from openpyxl import load_workbook
+
+    sheets = load_workbook(file).worksheets
+    return json.dumps([[[cell.value for cell in row] for row in sheet.iter_rows()] for sheet in sheets]).encode()
+
+
+def _answers(task: str, variant: str) -> str:
+    """Return a form with the right answers to four digits, every fifth too large."""
+    from kulman import check, solve
+
+    solution = solve(task, variant)
+    rows = ["quantity;mm;value"]
+    names = [name for name in check(task, variant).asked.quantities if name in solution.quantities]
+    for number, name in enumerate(names):
+        quantity = solution[name]
+        if quantity.value is None:
+            continue
+        times = WRONG if number % 5 == 3 else 1.0
+        mm = "" if quantity.mm is None else f"{quantity.mm * times:.4g}"
+        rows.append(f"{name};{mm};{quantity.value * times:.4g}")
+    return "\n".join([f"variant;{variant}", *rows, ""])
+
+
+def some(which: str) -> list[Case]:
+    """Return the cases of a short run, `few`, or of a longer one, `many`, drawn evenly from all."""
+    return [case for number, case in enumerate(cases()) if number % EVERY[which] == 0]
+
+
+def kept() -> dict[str, str]:
+    """Return the digests that are kept, by the names of their cases."""
+    lines = KEPT.read_text(encoding="utf-8").splitlines()
+    return {name: found for found, _, name in (line.partition(" ") for line in lines)}
+
+
+def digests(wanted: Sequence[Case]) -> dict[str, str]:
+    """Return the digests of cases by their names, worked out on all cores."""
+    with ProcessPoolExecutor() as pool:
+        return dict(zip((case.name for case in wanted), pool.map(digest, wanted, chunksize=4), strict=True))
+
+
+def main() -> int:
+    """Compare, keep or write; the status is 1 where something is other than it was."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--keep", action="store_true")
+    parser.add_argument("--write", type=Path)
+    parser.add_argument("--only", default="")
+    said = parser.parse_args()
+    wanted = [case for case in cases() if said.only in case.name]
+    if said.write:
+        for number, case in enumerate(wanted):
+            folder = said.write / f"{number:04d}"
+            folder.mkdir(parents=True, exist_ok=True)
+            print(digest(case, folder), case.name)
+        return 0
+    found = digests(wanted)
+    if said.keep:
+        KEPT.write_text("".join(f"{value} {name}\n" for name, value in found.items()), encoding="utf-8")
+        return 0
+    if not KEPT.exists():
+        print("nothing is kept yet to compare with: --keep", file=sys.stderr)
+        return 2
+    before = kept()
+    changed = [name for name, value in found.items() if before.get(name) != value]
+    print("\n".join(["changed:", *changed] if changed else [f"{len(found)} outputs, none changed"]))
+    return bool(changed)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
