@@ -5,15 +5,19 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from kulman import check, load_task
+from kulman import check, load_task, solve
 from kulman.tests.support.marking_cases import key, right_answers
+from kulman.variants import sheets
+from kulman.variants.case import Case
 from kulman.variants.marking.answers import Answers
 from kulman.variants.marking.report_html import report_html
 from kulman.variants.marking.result import result_of
 from kulman.variants.sheet_id import sheet_id
+from kulman.variants.sheets import drawn_on
 
 TASK = "nau-slider-crank"
 HEAD = "величина;відрізок, мм;масштаб;значення;одиниця;напрям\n"
@@ -57,6 +61,29 @@ def test_answers_to_another_variant_are_told(tmp_path: Path, rows: str, another:
     assert own.flags == ()
     assert [line.startswith("the variant:") for line in own.again[:1]] == [True] * another
     assert not any("5" in line.partition(":")[0] for line in own.again)
+
+
+def test_another_variant_is_recognised_on_any_format_without_a_sheet_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = set[str]()
+
+    def noted(case: Case, *rest: Any) -> Any:
+        drawn.add(case.variant)
+        return drawn_on(case, *rest)
+
+    monkeypatch.setattr(sheets, "drawn_on", noted)
+    asked = check(TASK, "3", lang="en", format="A3")
+    at_five = solve(TASK, "5", format="A4")  # other scale factors than those of the format that is asked for
+    rows = "".join(
+        f"{name};{q.mm:.1f};;;\n" for name in key(TASK, "5").questions if (q := at_five[name]).mm is not None
+    )
+    drawn.clear()
+
+    report = asked.mark(read(tmp_path, rows, "3"))
+
+    assert report.marked.fits == "5"
+    assert drawn == {"3"}
 
 
 @pytest.mark.parametrize(("sheet", "variant", "told"), [("", "0", True), (sheet_id(load_task(TASK), "5"), "5", False)])

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...drawing.formats import format_named
 from ...scales.errors import KulmanError
 from ..arguments import by_name, plans_wanted
 from ..case import Settings
@@ -172,9 +173,13 @@ def check(
     language = "en" if lang is None else lang
     said = by_name("set", set), plans, by_name("scales", scales), notation, language, format
     request = Request(found, variant or "", *said)
-    asked = asked_of(request.solution(variant or next(iter(found.variants)), {}))
+    if format is not None:
+        format_named(format)
+    unformatted = replace(request, format=None)  # the same is asked on every format
+    first = variant or next(iter(found.variants))
+    asked = asked_of(unformatted.solution(first, {}))
     if plans is not None:
-        whole = asked_of(replace(request, only=None, format=None).solution(variant or next(iter(found.variants)), {}))
+        whole = asked_of(replace(unformatted, only=None).solution(first, {}))
         asked = replace(asked, others=frozenset(whole.names).difference(asked.names))
     marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked, directions)
     students = None if roster is None else read_roster(os.fspath(roster), found)

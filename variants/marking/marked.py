@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ...plans.marking.answers import Answer
 from ...plans.marking.verdicts import CLEAR, Line, Marking, Verdict, bounded, mark
@@ -66,13 +66,18 @@ class Desk:
         self.check = check
         self._keys: dict[tuple[object, ...], Keyed] = {}
 
-    def keyed(self, variant: str, settings: Settings) -> Keyed:
-        """Return the key of a variant; the last few are kept."""
-        name = (variant, *sorted(settings.items()))
+    def keyed(self, variant: str, settings: Settings, own: bool = True) -> Keyed:
+        """Return the key of a variant; the last few are kept.
+
+        One that is not the student's `own` has the scale factors of the rule: no sheet is drawn for it, whatever format
+        is asked for, and answers are compared at the scale factors to which they were drawn.
+        """
+        request = self.check.request if own else replace(self.check.request, format=None)
+        name = (variant, request.format, *sorted(settings.items()))
         if name not in self._keys:
             if len(self._keys) >= KEPT:
                 self._keys.pop(next(iter(self._keys)))
-            self._keys[name] = keyed(self.check.request, variant, settings, self.check.rubric)
+            self._keys[name] = keyed(request, variant, settings, self.check.rubric)
         return self._keys[name]
 
     def mark(self, answers: Answers) -> Marked:
@@ -100,7 +105,8 @@ class Desk:
             explanation = explain(key.book, marking)
             marking, candidates = explanation.marking, explanation.candidates
         marking, borne = counted_once(marking, found, {line.name for line in self._counted(key, marking, answers)})
-        fits = fits_other(marking, given, self._others(variant), lambda other: self.keyed(other, settings).key)
+        others = self._others(variant)
+        fits = fits_other(marking, given, others, lambda other: self.keyed(other, settings, own=False).key)
         marking = bounded(marking, of_other=bool(fits))
         lines = self._counted(key, marking, answers)
         parts = rubric.parts(lines, key.by_plan, key.needed)
