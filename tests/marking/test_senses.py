@@ -258,3 +258,34 @@ def test_directions_are_an_option_of_the_command(tmp_path: Path, capsys: pytest.
 def test_another_word_for_directions_is_refused() -> None:
     with pytest.raises(InputError, match="maybe"):
         check(TASK, "1", directions="maybe")
+
+
+@pytest.mark.parametrize(
+    ("value", "direction", "told"),
+    [
+        ("3.386", "↻", "↻"),
+        ("3,386", "+", "+"),
+        (3.386, "-", "-"),
+        ("3,386", "проти", "проти"),
+        ("3,386 за год. стрілкою", "", "за год. стрілкою"),
+        ("3.386 m/s, cw", "0", "cw"),
+        ("↺ 3,386 м/с", "", "↺"),
+        ("3,386 по часовой", "right", "по часовой"),
+        ("3,386 м/с вправо", "", None),
+        ("3.386 →", "", None),
+        ("3.386 m/s (right)", "0", None),
+        ("-", "-", None),  # no answer
+    ],
+)
+def test_a_sense_is_no_direction_of_a_vector_and_that_is_told(
+    tmp_path: Path, value: object, direction: str, told: str | None
+) -> None:
+    rows = [*form("V_B", value, direction), ["omega_2", 28.9, "-"]]
+
+    answers = check(TASK, "1").read(write(tmp_path, rows, ".xlsx"))[0]
+    line = answers.lines.get("V_B")
+
+    assert len(answers.problems) == (told is not None)
+    assert all(f"V_B: '{told}' is no direction of a vector" in problem.text("en") for problem in answers.problems)
+    assert line is None or (line.value, line.sense) == (pytest.approx(3.386), None)
+    assert line is None or line.direction == (0.0 if {"right", "0"} & {direction} or told is None else None)

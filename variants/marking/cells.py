@@ -172,6 +172,17 @@ def split_sense(text: str) -> tuple[str, frozenset[int]]:
     return ((rest + text[after:]).strip(), frozenset(senses)) if senses else (text, frozenset())
 
 
+def split_side(text: str) -> tuple[str, float | None]:
+    """Return a text without the word or arrow of a side that stands last, and its angle in radians.
+
+    >>> split_side("3,4 м/с вправо")
+    ('3,4 м/с', 0.0)
+    """
+    before, _, last = text.rstrip(" .,;)").replace("(", " ").rpartition(" ")
+    side = SIDES.get(tidy(last))
+    return (text, None) if side is None else (before.rstrip(" ,;"), math.radians(side))
+
+
 def _sense_at(words: list[str], at: int) -> tuple[int, int]:
     """Return how many words from `at` on say a sense, none where they do not, and which sense.
 
@@ -210,24 +221,24 @@ def direction(text: str, vector: bool = False) -> tuple[float | None, int | None
     Raises
     ------
     InputError
-        Neither an angle in degrees nor a sense, or two senses.
+        Neither an angle in degrees nor a sense, or two senses; of a vector no angle.
     """
-    if text in ("+", "-", "−", "–"):
-        return None, 1 if text == "+" else -1
     word = tidy(text)
-    if word in SENSES and not (vector and word[-1:].isdigit()):
-        return None, SENSES[word]
     if word in SIDES:
         return math.radians(SIDES[word]), None
+    if text in ("+", "-", "−", "–") and not vector:
+        return None, 1 if text == "+" else -1
+    if word in SENSES and not vector:
+        return None, SENSES[word]
     angle, senses = split_sense(text)
     if len(senses) > 1:
         raise InputError("answer-senses", text=quote(text))
     first = tidy(text).split()[:1]  # "за год." is no "per hour" here
     sense = next(iter(senses), None) or next((SENSES[word] for word in first if word in _ALONG_OR_AGAINST), None)
-    if sense is not None and not (vector and angle):
+    if sense is not None and not vector:
         return None, sense
     try:
         number, rest = split_number(angle)
         return (sense or 1) * converted(number, unit(rest) if rest else unit("deg"), unit("deg")), None
     except InputError:
-        raise InputError("answer-direction", text=quote(text)) from None
+        raise InputError("answer-vector-direction" if vector else "answer-direction", text=quote(text)) from None

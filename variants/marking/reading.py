@@ -120,13 +120,18 @@ class _Sheet:
             self.refuse(row, column, name, error)
             return cells.bare(text, name, self.asked) if error.key.startswith("unit-") else None
 
-    def direction(self, row: int, column: int | None, name: str) -> tuple[float | None, int | None]:
-        """Read an angle or a sense; an angle is none that a scalar could have."""
+    def direction(self, row: int, at: Mapping[str, int], name: str) -> tuple[float | None, int | None]:
+        """Read an angle or a sense; an angle is none that a scalar could have, and a sense none of a vector.
+
+        A dash says that there is no answer where nothing else is answered to a vector.
+        """
+        column, vector = at.get("direction"), self.asked.quantities[name].kind == "vector"
         text = self.grid.text(row, column)
-        if text in cells.NONE - {"-", "–"}:
+        answered = any(self.grid.text(row, at.get(kind)) not in cells.NONE for kind in NUMBERS)
+        if text in cells.NONE and (text not in ("-", "–") or (vector and not answered)):
             return None, None
         try:
-            angle, sense = cells.direction(text, self.asked.quantities[name].kind == "vector")
+            angle, sense = cells.direction(text, vector)
             if angle is not None and self.asked.quantities[name].kind == "scalar":
                 raise InputError("answer-sense", text=quote(text))
         except InputError as error:
@@ -143,11 +148,13 @@ class _Sheet:
             By "mm", "mu", "value" and "direction": the columns there are, and the units over them or beside.
         """
         mm, decimals = self.segment(row, at.get("mm"), name, units.get("mm", ""))
-        direction, sense = self.direction(row, at.get("direction"), name)
+        direction, sense = self.direction(row, at, name)
         mu = self.mu(row, at.get("mu"), name, None, units.get("mu", ""))
         text, written = self.number(row, at.get("value"), name), units.get("value", "")
         if self.asked.quantities[name].kind == "scalar":
             text, written, sense = self.sense(row, at.get("value"), name, (text, written, sense))
+        else:
+            text, written, direction = self.side(row, at.get("value"), name, (text, written, direction))
         value = self.value(row, at.get("value"), name, text, written)
         plus = value is not None and text.startswith("+")
         last = None if value is None else cells.rounded(text, value)
@@ -163,6 +170,19 @@ class _Sheet:
             self.refuse(row, column, name, InputError("answer-senses", text=quote(self.grid.text(row, column))))
             return text, written, said[2]
         return text, written, next(iter(senses), None)
+
+    def side(
+        self, row: int, column: int | None, name: str, said: tuple[str, str, float | None]
+    ) -> tuple[str, str, float | None]:
+        """Take a side out of a vector's value and its unit, and note a sense; the column of directions counts first."""
+        bare = [cells.split_sense(text)[0] for text in said[:2]]
+        for text, rest in zip(said[:2], bare, strict=True):
+            if rest != text:
+                words = quote(text.replace(rest, "", 1).strip(" ,;"))
+                self.refuse(row, column, name, InputError("answer-vector-direction", text=words))
+        (text, of_value), (written, of_unit) = map(cells.split_side, bare)
+        sides = [angle for angle in (said[2], of_value, of_unit) if angle is not None]
+        return text, written, next(iter(sides), None)
 
     def add(self, line: Line, row: int, column: int | None) -> None:
         """Keep a line that says anything, the first of each name."""

@@ -269,7 +269,7 @@ class _Teller:
         if answer.mm is not None:
             parts.append(f"{self.words.short(answer.mm, DIGITS)} {format_unit('mm', self.language)}")
         if answer.value is not None:
-            parts.append(self._number(line.name, answer.value))
+            parts.append("+" * answer.plus + self._number(line.name, answer.value))
         if answer.direction is not None:
             parts.append(self._degrees(answer.direction))
         if answer.sense is not None:
