@@ -26,7 +26,7 @@ MOST = 4.0  # tolerances beyond which a miss counts no more
 ALIKE = 0.5  # tolerances by which values differ that answers cannot tell apart
 NEAR = 12  # signatures that are looked at closely
 FAR, NEARLY = 1.5, 0.3  # how much worse than the nearest a signature may be to be looked at
-LEFT, SPOILT, SECOND = 0.3, 0.1, 0.25  # by how many tolerances a line left wrong, or a second mistake, is worse
+LEFT, SPOILT, SECOND = 0.12, 0.1, 0.25  # by how many tolerances a line left wrong, or a second mistake, is worse
 ANGLES = 2  # angles of the crank that are looked at closely
 ANGLED = frozenset(("M08", "M09", "M10"))  # mistakes that put the crank at another angle
 SLIP = 1.5  # tolerances by which a line that stays wrong misses clearly
@@ -81,6 +81,7 @@ class _Found:
     chain: tuple[Signature, ...]
     lines: tuple[Line, ...]
     clear: tuple[int, ...]  # places of lines that stay wrong by more than a slip
+    missed: float  # by how many tolerances these miss together, each by MOST at most
     spoilt: int  # how many lines are wrong by a slip that were not without it
 
     @property
@@ -91,7 +92,7 @@ class _Found:
 
 def _rank(one: _Found) -> float:
     """Return the misses, worse for each line that stays clearly wrong, or is spoilt, and for a second mistake."""
-    return one.candidate.misses + LEFT * len(one.clear) + SPOILT * one.spoilt + SECOND * (len(one.chain) - 1)
+    return one.candidate.misses + LEFT * one.missed + SPOILT * one.spoilt + SECOND * (len(one.chain) - 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,6 +183,7 @@ class _Search:
             tried = {one.chain[0].broken.place for one in found}
             local = self._at_line(self.marking.lines, self.first, (), off)
             found += [one for one in local if one.chain[0].broken.place not in tried]
+            found += [] if found else self._together(off)
             found += self._chained(found, off)
         ranked = sorted(found, key=_rank)
         candidates = _simplest(_grouped(ranked, self.said))
@@ -232,11 +234,32 @@ class _Search:
         ordered = [made[i] for i in np.argsort(near, kind="stable") if near[i] <= 1.0]
         return [more for one in ordered[:LOCAL] if (more := self._found((*chain, one), lines[place].name)) is not None]
 
+    def _together(self, off: Floats) -> list[_Found]:
+        """Return pairs of which the first wrong line has its size from the one, and its direction from the other."""
+        place, name = self.first, str(self.marking.first_wrong)
+        said, signatures = self.said.of_line(place), self.book.signatures
+        if not said.way[0] or np.isnan(said.size[0]):
+            return []
+        line = self.book.vector[place], self.book.table[:, [place]], self.book.most[:, [place]]
+        apart = self.moved[:, place] & (off[:, place] > 1.0)
+        sized = apart & (replace(said, way=np.zeros(1, complex)).missed(*line)[:, 0] <= 1.0)
+        turned = apart & (replace(said, size=np.full(1, np.nan)).missed(*line)[:, 0] <= 1.0)
+        nearest_first = np.argsort(_mean(off), kind="stable")
+        firsts = [signatures[i] for i in nearest_first if sized[i]][:BEAM] if turned.any() else []
+        seconds = [signatures[i] for i in np.flatnonzero(turned)]
+        pairs = [(one, other) for one in firsts for other in self._after((one,), seconds)]
+        ends = np.array([[other.row[place], other.allowed[place]] for _, other in pairs]).reshape(-1, 2)
+        near = self._misses_of(place, ends[:, :1], ends[:, 1:].real)
+        fitting = [pairs[i] for i in np.flatnonzero(near <= 1.0)[:LOCAL]]
+        return [found for pair in fitting if (found := self._found(pair, name)) is not None]
+
     def _after(self, chain: tuple[Signature, ...], others: list[Signature]) -> list[Signature]:
         """Return mistakes as they are made after those of a chain."""
         if not chain:
             return others
         last, places = chain[-1], {one.broken.place for one in others} - {one.broken.place for one in chain}
+        if not places:
+            return []
         paper = Paper(last.broken.program, last.broken.givens, self.mus)
         again = broken(paper, last.values, {place[0] for place in places})
         made = (signature(self.book.key, one) for one in again if one.place in places)
@@ -341,7 +364,8 @@ class _Search:
         clear = tuple(i for i, line in enumerate(again) if line.verdict.faulty and line.off > SLIP)
         spoilt = sum(name not in self.faulty for name in left if name not in {again[i].name for i in clear})
         candidate = Candidate(tuple(s.broken for s in chain), (), explained, left, misses)
-        return _Found(candidate, chain, again, clear, spoilt)
+        missed = sum(min(again[i].off, MOST) for i in clear)
+        return _Found(candidate, chain, again, clear, missed, spoilt)
 
     def _carried(self, candidate: Candidate) -> Marking:
         """Return the marking in which the first line that each mistake explains is wrong, and the others are carried.

@@ -322,7 +322,8 @@ def twice_broken(of_book: Book, first: str, second: str) -> Signature:
 
 
 @pytest.mark.parametrize(
-    ("first", "second"), [("M28", "M38"), ("M30", "M57"), ("M39", "M69"), ("M07", "M60"), ("M01", "M45")]
+    ("first", "second"),
+    [("M28", "M38"), ("M30", "M57"), ("M39", "M69"), ("M07", "M60"), ("M01", "M45"), ("M07", "M23")],
 )
 def test_two_mistakes_together_are_found(first: str, second: str) -> None:
     task = "nau-slider-crank"
