@@ -289,8 +289,7 @@ def shaper(sheet: Sheet, g: Givens) -> Sheet:
     _group_of_slot(sheet, (A, C, D, _acts(sheet, "F_i3", S3, C, D)), CA)
     _input(sheet, A, [("R_21", A)], "h_21")
 
-    at = {"F_i3": "S3", "G_3": "S3", "F_i4": "S4", "G_4": "S4", "F_i5": "E", "F_5": "E"}
-    sheet.write("h_lever_G_5", 0.0, 0.0)  # a weight does no work on a level guide: nobody measures that
+    at = {"F_i3": "S3", "G_3": "S3", "F_i4": "S4", "G_4": "S4", "F_i5": "E", "G_5": "E", "F_5": "E"}
     M = _lever_of_forces(sheet, [(name, points[p], p) for name, p in at.items()], points)
     M += lever_couple(sheet, "M_i4", [("E", points["E"]), ("D", points["D"])], DE, g["l_DE"])
     M += lever_couple(sheet, "M_i3", [("A3", points["A3"])], u, CA)
