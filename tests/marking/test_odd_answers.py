@@ -86,6 +86,27 @@ def test_another_variant_is_recognised_on_any_format_without_a_sheet_of_it(
     assert drawn == {"3"}
 
 
+@pytest.mark.parametrize(
+    ("task", "rows", "found"),
+    [
+        ("madi-cam", "mu_s_d2s;;0,0005987 м/мм;;;\nr_0_flat;38,6;;38,6 мм;;\n", "right"),
+        ("madi-cam", "mu_s_d2s;;0,0005987 м/мм;;;\nr_0_flat;48,6;;38,6 мм;;\n", "arithmetic"),
+        ("karpenko-hoist", "mu_F_circle;;200 Н/мм;;;\nP_st;50;;50053 Н;;\n", "right"),
+        ("karpenko-hoist", "P_st;50;;50053 Н;;\nb_0;15;;3 м;;\n", "right"),
+    ],
+)
+def test_a_segment_may_be_that_of_the_drawing_on_which_the_sheet_shows_it(
+    tmp_path: Path, task: str, rows: str, found: str
+) -> None:
+    file = tmp_path / "answers.csv"
+    file.write_text(HEAD + rows, encoding="utf-8")
+    asked = check(task, lang="en")
+
+    report = asked.mark(asked.read(str(file))[0])
+
+    assert {str(line.verdict) for line in report.marked.marking.lines if line.answer is not None} == {found}
+
+
 @pytest.mark.parametrize(("sheet", "variant", "told"), [("", "0", True), (sheet_id(load_task(TASK), "5"), "5", False)])
 def test_a_form_without_a_variant_has_that_of_its_sheet_id(
     tmp_path: Path, sheet: str, variant: str, told: bool

@@ -14,11 +14,13 @@ from ..case import Settings
 from ..record_book import variant_of_book
 from ..roster import Entry
 from ..sheet_id import same_id, variant_of_id
+from ..solution import Solution
 from .answers import Answers
+from .answers import Line as Written
 from .checks import Check
 from .elsewhere import fits_other
 from .keyed import Keyed, keyed
-from .misfits import Misfit, counted_once, misfits
+from .misfits import NEAR, Misfit, counted_once, misfits
 
 KEPT = 32  # answer keys
 
@@ -182,5 +184,22 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
         symbol = key.solution.solved.scale_of_plan.get(question.plan, "")
         written = line.mu or answers.scales.get(symbol)
         mu = None if written is None else fits.get(symbol, written.value) if line.mu is None else line.mu.value
-        given.append(Answer(line.name, line.mm, mu, line.value, line.direction, line.sense, line.plus, line.rounded))
+        mm = None if line.mu is None and _on_other_drawing(line, symbol, answers, key.solution) else line.mm
+        given.append(Answer(line.name, mm, mu, line.value, line.direction, line.sense, line.plus, line.rounded))
     return given, notes
+
+
+def _on_other_drawing(line: Written, symbol: str, answers: Answers, solution: Solution) -> bool:
+    """Whether a segment is that of the drawing on which the sheet shows it, and not of the plan that finds it.
+
+    The scale factor of that drawing, the student's or else the sheet's, then makes its value of it.
+    """
+    shown = solution.quantities[line.name].scale
+    if not line.mm or not line.value or shown is None or shown == symbol:
+        return False
+    mu = (
+        answers.scales[shown].nearest(abs(line.value) / line.mm)
+        if shown in answers.scales
+        else solution.scales[shown].mu
+    )
+    return abs(line.mm * mu - abs(line.value)) <= NEAR * abs(line.value)
