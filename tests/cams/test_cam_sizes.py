@@ -413,6 +413,20 @@ def test_too_small_a_cam_for_a_roller_names_the_least_r_0_of_all_offsets(count: 
         assert told(cam, {**values, "e": e, "r_0": least}, "cam-r-0-at-e") == {}
 
 
+def permitted_angles(rocker: Rocker, limits: Limits, l_OC: float, most: float) -> tuple[float, ...] | None:
+    """Return the first and the last angle at the pivot that a scan permits, then finer scans about both; or None."""
+    ends = [(0.0, most)] * 2
+    for _ in range(5):
+        for k, (low, high) in enumerate(ends):
+            every = np.linspace(low, high, 41)
+            fit = np.flatnonzero(dense_slack(rocker, limits, rocker.l - l_OC * np.exp(-1j * every)) >= 0.0)
+            if not fit.size:
+                return None
+            at, step = every[fit[-k]], every[1] - every[0]
+            ends[k] = max(at - step, 0.0), min(at + step, most)
+    return tuple(sum(end) / 2.0 for end in ends)
+
+
 @pytest.mark.parametrize("count", LEAST)
 def test_a_given_r_0_beside_l_OC_of_a_rocker_is_held_against_all_that_is_permitted(count: int) -> None:
     random, checked = np.random.default_rng(SEED + 21), 0
@@ -421,19 +435,11 @@ def test_a_given_r_0_beside_l_OC_of_a_rocker_is_held_against_all_that_is_permitt
         cam, values = random_task(random, "rocker")
         rocker, l = Rocker(motion_of(cam, {**values, "h": values["psi"]}), values["l_rocker"], cam.sense), "l_rocker"
         distance = values["l_OC"] = values[l] * random.uniform(0.8, 2.5)
-        ends = [(0.0, math.pi - values["psi"])] * 2
-        for _ in range(5):  # a scan of the angle at the pivot, then finer ones about the first and the last permitted
-            for k, (low, high) in enumerate(ends):
-                every = np.linspace(low, high, 41)
-                places = values[l] - distance * np.exp(-1j * every)
-                fit = np.flatnonzero(dense_slack(rocker, limits_in(cam, values), places) >= 0.0)
-                if fit.size:
-                    at, step = every[fit[-k]], every[1] - every[0]
-                    ends[k] = max(at - step, 0.0), min(at + step, math.pi - values["psi"])
-        if not fit.size:
+        angles = permitted_angles(rocker, limits_in(cam, values), distance, math.pi - values["psi"])
+        if angles is None:
             continue
         checked += 1
-        first, last = (abs(values[l] - distance * np.exp(-1j * sum(end) / 2.0)) for end in ends)
+        first, last = (abs(values[l] - distance * np.exp(-1j * angle)) for angle in angles)
 
         small, large = (told(cam, {**values, "r_0": r_0}, "cam-r-0-at-l-OC") for r_0 in (0.99 * first, 1.01 * last))
 
