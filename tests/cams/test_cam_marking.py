@@ -63,6 +63,16 @@ def test_form_asks_for_each_size_once_by_its_plain_name(tmp_path: Any) -> None:
     assert "Zhukovsky" not in text
 
 
+@pytest.mark.parametrize("written", ["0.0001641 m/mm", "0.1641 мм/мм", "0,0001641"])
+def test_scale_factor_that_is_asked_may_stand_in_the_column_of_scales(tmp_path: Any, written: str) -> None:
+    (tmp_path / "form.csv").write_text(f"quantity;mm;scale;value\nmu_s;;{written};\n", encoding="utf-8")
+
+    (answers,) = marker().read(str(tmp_path / "form.csv"))
+
+    assert answers.problems == ()
+    assert answers.lines["mu_s"].value == pytest.approx(0.0001641)
+
+
 def test_form_asks_for_the_first_angle_of_a_rocker_and_for_no_given(tmp_path: Any) -> None:
     text = marker(ROCKER).write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
 

@@ -240,13 +240,18 @@ def _form_row(sheet: _Sheet, row: int, columns: Mapping[str, int], over: Mapping
     if not name or not filled or column_kind(name) == "name" or not sheet.known(row, columns["name"], name):
         return
     written = grid.text(row, columns.get("unit"))
+    scale_at = columns.get("mu") if grid.text(row, columns.get("mu")) not in cells.NONE else None
     if name in sheet.asked.scales:
-        at = columns.get("mu") if grid.text(row, columns.get("mu")) else columns.get("value")
+        at = columns.get("value") if scale_at is None else scale_at
         mu = sheet.mu(row, at, name, name, written)
         if mu is not None:
             sheet.scales.setdefault(name, mu)
         return
     units = {**over, "value": written or over.get("value", "")}
+    if scale_at is not None and sheet.asked.quantities[name].unit.endswith("/mm"):
+        # what is asked is a scale factor itself: that it stands in the column of scales makes it no scale of its own
+        columns = {kind: at for kind, at in columns.items() if kind != "mu"}
+        columns |= {} if grid.text(row, columns.get("value")) not in cells.NONE else {"value": scale_at}
     sheet.add(sheet.line(row, name, columns, units, grid.place(row)), row, columns["name"])
 
 
