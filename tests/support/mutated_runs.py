@@ -122,8 +122,15 @@ def tried(n: int, drawn: bool) -> Fault | None:
     return Fault(n, what, where, case.line, trace) if what else None
 
 
+def _data() -> int:
+    """Return the bytes of data that this process has."""
+    status = Path("/proc/self/status").read_text(encoding="ascii")
+    return next(int(line.split()[1]) * 1024 for line in status.splitlines() if line.startswith("VmData"))
+
+
 def _chunk(numbers: range, drawn: bool) -> list[Fault]:
-    resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
+    most_data = _data() + MEMORY  # beside what the forked process has of its parent
+    resource.setrlimit(resource.RLIMIT_DATA, (most_data, most_data))
     most = int(SECONDS * (len(numbers) + 2) + time.process_time())
     resource.setrlimit(resource.RLIMIT_CPU, (most, most))  # of what does not even hear the alarm
     ranges.TRIES = TRIES
