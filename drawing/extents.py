@@ -10,7 +10,7 @@ many pages as it takes, each part of the work on a page of its own where that is
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -20,8 +20,8 @@ from .pens import Norm
 
 NORMS: tuple[Norm, ...] = ("gost", "iso")
 # parts of a page that estimates may cover, since views leave gaps: of the only page, of the page of one part of the
-# work, of pages that parts share; and of two pages for which plans become smaller before there is a third
-FILL, APART, SHARED, CLOSELY = 0.79, 0.74, 0.70, 0.85
+# work, of that when plans that another page made coarser become finer again, of pages that parts share; and of two pages for which plans become smaller before there is a third
+FILL, APART, FULL, SHARED, CLOSELY = 0.79, 0.74, 0.78, 0.70, 0.85
 SMALLER = {"A1": 1.0, "A2": 1.0, "A3": 0.7, "A4": 0.65}  # what letters take, in what they take on the largest format
 BLOCK = 12000.0  # mm^2 of a page that its title block takes
 MOST, MORE = 100, 3  # pages that there may be; of more than are expected, for which plans become smaller
@@ -151,7 +151,9 @@ def _on_pages(extents: Extents, sheet: Format, longest: Lengths) -> Rungs:
     large = _begun(extents, sheet, longest[1])
     apart = dict(large)
     if all(_shrunk(extents, apart, sheet, part, APART * page, True) for part in parts):
-        return apart
+        return _grown(
+            extents, apart, large, lambda r: all(_shrunk(extents, r, sheet, p, FULL * page, False) for p in parts)
+        )
     least = _area(extents, _begun(extents, sheet, longest[0]), sheet)
     pages = 2 if least < 2.0 * CLOSELY * page else math.ceil(min(least / (SHARED * page), MOST))
     for count in range(pages, pages + MORE):
@@ -159,6 +161,15 @@ def _on_pages(extents: Extents, sheet: Format, longest: Lengths) -> Rungs:
         if _shrunk(extents, together, sheet, None, SHARED * count * page, True):
             break
     return together
+
+
+def _grown(extents: Extents, rungs: dict[str, int], finest: Rungs, fits: Callable[[dict[str, int]], bool]) -> Rungs:
+    """Return rungs finer again, where that still fits, of plans that were coarser than only one of their pages asks."""
+    for symbol in rungs:
+        pages = {figure.part for figure in extents.figures if figure.symbol == symbol}
+        while len(pages) > 1 and rungs[symbol] > finest[symbol] and fits({**rungs, symbol: rungs[symbol] - 1}):
+            rungs[symbol] -= 1
+    return rungs
 
 
 def _area(extents: Extents, rungs: Rungs, sheet: Format) -> float:

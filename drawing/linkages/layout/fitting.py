@@ -90,8 +90,9 @@ class Fitting:
             When a view has no room on a page even at the last rung.
         """
         norm = self.contents.norm
+        own, printed = room(sheet, norm, first), room(printable(sheet), norm, first)
         rooms = {  # what may be coarser is so on any printer: a handout has the scale factors of the sheet
-            symbol: room(sheet if ladder.fixed else printable(sheet), norm, first)
+            symbol: own if ladder.fixed else (min(own[0], printed[0]), min(own[1], printed[1]))
             for symbol, ladder in self.extents.ladders.items()
         }
         rungs = dict(rungs)
