@@ -20,7 +20,8 @@ from .pens import Norm
 
 NORMS: tuple[Norm, ...] = ("gost", "iso")
 # parts of a page that estimates may cover, since views leave gaps: of the only page, of the page of one part of the
-# work, of that when plans that another page made coarser become finer again, of pages that parts share; and of two pages for which plans become smaller before there is a third
+# work, of that when plans that another page made coarser become finer again, of pages that parts share; and of two
+# pages for which plans become smaller before there is a third
 FILL, APART, FULL, SHARED, CLOSELY = 0.79, 0.74, 0.78, 0.70, 0.85
 SMALLER = {"A1": 1.0, "A2": 1.0, "A3": 0.7, "A4": 0.65}  # what letters take, in what they take on the largest format
 BLOCK = 12000.0  # mm^2 of a page that its title block takes
