@@ -19,7 +19,7 @@ _KEPT: dict[Any, Callable[..., Any]] = {}
 def values_of(program: Program, givens: Mapping[str, float]) -> tuple[dict[str, Any], Status]:
     """Return all values of a program at one position by name, and the status of the position.
 
-    They are those of the exact board to the last bit, in a sixth of the time from the second position on; which lines
+    They are those of the exact board to the last bit, in a quarter of the time from the second position on; which lines
     meet flatly, and which step fails, it does not say.
 
     Raises
