@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
+from ..plans.laws import LAWS, form_of
+from .formulas import Symbol
 from .words import Words
 
 DIGITS = 4  # significant digits of a printed value
@@ -15,7 +18,6 @@ HUNDREDTHS = 2  # decimals of a segment, mm: a ruler reads no more
 # digits of a result, most digits of what goes into it, whether segments may have more than hundredths of a millimetre
 TRIES = ((DIGITS, 6, False), (3, 6, False), (FEWEST, 6, False), (DIGITS, DIGITS + MOST, True))
 FINEST = 12  # decimals; what is smaller still is 0
-Terms = Sequence[tuple[str, float, bool]]  # symbol, number as it is printed, whether it is exact
 POINT = 1e-6  # mm; a shorter segment is a point, and its quantity 0
 
 
@@ -24,12 +26,16 @@ class Input:
     """A number that goes into a printed calculation.
 
     One that is `exact` (a given, a scale factor) is printed as it is; one measured on the sheet has at most `places`
-    decimals, as many as its ruler shows.
+    decimals, as many as its ruler shows. In a formula it is called by its `name`, a `sign` follows its number, and its
+    law takes one of `times` of it.
     """
 
     value: float
     exact: bool = False
     places: int | None = None
+    name: str = ""
+    sign: str = ""
+    times: float = 1.0
 
     def decimals(self, digits: int, free: bool) -> int | None:
         """Return how many decimals show it with so many digits; `free` lets a segment have more than its ruler."""
@@ -103,36 +109,28 @@ def _recomputes(law: Callable[..., float], shown: Sequence[float], result: float
         return False
 
 
-@dataclass(frozen=True, slots=True)
-class Formula:
-    """How a quantity is calculated: in `text` a term stands as `{name}`, a degree sign after its number as `{deg}`.
+class Shown(NamedTuple):
+    """How a result is printed: its unit, how many of it an SI unit has, and its decimals if these are said."""
 
-    The result is in `unit`, with so many `decimals` if these are said.
-    """
-
-    name: str
-    text: str
-    law: Callable[..., float]
-    terms: Terms
     unit: str = ""
+    times: float = 1.0
     decimals: int | None = None
 
 
-def worked(words: Words, formula: Formula, more: str = "") -> tuple[str, ...]:
-    """Return `name = formula = numbers = result unit`, printed so that it recomputes."""
-    inputs = [Input(value, exact) for _, value, exact in formula.terms]
-    texts, result = calculation(words, formula.law, inputs, formula.decimals)
-    names = [term for term, _, _ in formula.terms]
-    symbols = formula.text.format(deg="", **{name: words.symbol(name) for name in names})
-    numbers = formula.text.format(deg="°", **{name: _within(text) for name, text in zip(names, texts, strict=True)})
-    gap, unit = "" if formula.unit == "deg" else " ", formula.unit
+def worked(words: Words, name: str, law: str, inputs: Sequence[Input], shown: Shown) -> tuple[str, ...]:
+    """Return `name = formula = numbers = result unit` of a law, printed so that it recomputes."""
+    unit, times, decimals = shown
+
+    def of_printed(*numbers: float) -> float:
+        return float(LAWS[law](*(number / one.times for number, one in zip(numbers, inputs, strict=True)))) * times
+
+    texts, result = calculation(words, of_printed, inputs, decimals)
+    letters = [Symbol.of(words.symbol(one.name)) for one in inputs]
+    numbers = [Symbol.of(text + one.sign) for text, one in zip(texts, inputs, strict=True)]
+    formula, reckoned = (str(form_of(law)(*terms)).replace("tan", words.symbol("tan")) for terms in (letters, numbers))
+    gap = "" if unit == "deg" else " "
     said = f"= {result}{gap}{words.unit(unit)}" if unit else f"= {result}"
-    return tuple(filter(None, (f"{words.symbol(formula.name)} = {symbols}", f"= {numbers}", said, more)))
-
-
-def _within(text: str) -> str:
-    """Return a number as it stands in a formula: a negative one in brackets."""
-    return f"({text})" if text.startswith("−") else text
+    return f"{words.symbol(name)} = {formula}", f"= {reckoned}", said
 
 
 def _texts(words: Words, values: Sequence[float], places: Sequence[int | None]) -> list[str]:

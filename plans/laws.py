@@ -17,6 +17,34 @@ REST = 1e-12  # part of the driver's rate below which another rate is rounding
 NOTHING = 1e-13  # part of what a difference is taken from, below which it is rounding
 
 
+class Sign(float):
+    """A number of a formula that stands in print as its `text` says, such as an angle in degrees; nothing if empty."""
+
+    text: str
+
+    def __new__(cls, value: float, text: str) -> Sign:
+        """Make a number with a text."""
+        found = super().__new__(cls, value)
+        found.text = text
+        return found
+
+
+HALF_TURN, WHOLE_TURN = Sign(math.pi, "180°"), Sign(TURN, "360°")
+
+
+def named(name: str, law: Law) -> Law:
+    """Return a function of one number that stands in print under its own name."""
+
+    def found(operand: Any) -> Any:
+        return operand.function(name) if hasattr(operand, "function") else law(operand)
+
+    return found
+
+
+# what stands in brackets in print, though none are needed
+bracketed = named("", lambda value: value)
+
+
 def dot(u: Any, w: Any) -> Any:
     """Return the scalar product of two plane vectors given as complex numbers."""
     product = u.real * w.real
@@ -107,6 +135,7 @@ def _piecewise(x: Any, *nodes: Any) -> Any:
     return found
 
 
+FORMS: dict[str, Law] = {}  # textbook forms of laws that are computed in another one
 LAWS: dict[str, Law] = {
     # omega = sense * speed, counter-clockwise positive
     "signed": lambda speed, sense: speed * sense,
@@ -192,8 +221,11 @@ LAWS: dict[str, Law] = {
 }
 
 
-def define(**laws: Law) -> None:
+def define(**laws: Law | tuple[Law, Law]) -> None:
     """Add the laws of a subject of its own to the table.
+
+    A law prints itself when it is called with symbols. One that is computed in another form than textbooks have it, or
+    by a procedure, is followed by that form, which is only printed.
 
     Raises
     ------
@@ -203,4 +235,11 @@ def define(**laws: Law) -> None:
     twice = LAWS.keys() & laws.keys()
     if twice:
         raise ValueError(f"laws defined twice: {', '.join(sorted(twice))}")
-    LAWS.update(laws)
+    for name, law in laws.items():
+        LAWS[name], *form = law if isinstance(law, tuple) else (law,)
+        FORMS.update({name: form[0]} if form else {})
+
+
+def form_of(name: str) -> Law:
+    """Return what prints a law: its textbook form, or the law itself."""
+    return FORMS.get(name) or LAWS[name]

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from ...plans.laws import LAWS
-from ..printed import Terms
+from ...plans.cams.formulas import ARC
+from ..printed import Input, Shown, worked
 from ..table import text_block
 from ..view import View
 from .scene import CamScene
-from .text import Lines, rules, worked
+from .text import MM, Lines, length, rules
 
-FIRST = "arccos(({l_rocker}^{{2}} + {l_OC}^{{2}} − {r_0}^{{2}})/(2·{l_rocker}·{l_OC}))"
+DEGREES = math.degrees(1.0)
 
 
 def rocker_block(scene: CamScene, width: float) -> View:
@@ -19,22 +19,14 @@ def rocker_block(scene: CamScene, width: float) -> View:
     cam, words = scene.solved.rocker, scene.words
     assert cam is not None
     sizes, swing = cam.sizes, cam.rocker.motion.h
-    travel: Terms = [("psi", math.degrees(swing), True), ("l_rocker", sizes.l * 1e3, True)]
-    sides: Terms = [
-        ("l_rocker", sizes.l * 1e3, True),
-        ("l_OC", sizes.l_OC * 1e3, "l_OC" in scene.givens),
-        ("r_0", sizes.r_0 * 1e3, False),
-    ]
+    travel = [Input(math.degrees(swing), True, name="psi", times=DEGREES), length("l_rocker", sizes.l, True)]
+    given = "l_OC" in scene.givens
+    sides = [length("l_rocker", sizes.l, True), length("l_OC", sizes.l_OC, given), length("r_0", sizes.r_0)]
     lines: Lines = [
         (f"{words['said.cam_arc']}:",),
-        worked(scene, "h", "({psi}/180)·π·{l_rocker}", lambda a, b: math.radians(a) * b, travel, "mm"),
+        worked(words, "h", ARC, travel, MM),
         (f"{words['said.cam_first_angle']}:",),
-        worked(scene, "psi_0", FIRST, _first, sides, "deg"),
+        worked(words, "psi_0", "angle_of_triangle", sides, Shown("deg", DEGREES)),
         *rules(scene),
     ]
     return text_block("equations_rocker", words["heading.cam_rocker"], lines, scene.style, width)
-
-
-def _first(l: float, l_OC: float, r_0: float) -> float:
-    """Return the angle at the pivot between the rocker in its lowest position and the line of centres, degrees."""
-    return math.degrees(LAWS["angle_of_triangle"](l, l_OC, r_0))

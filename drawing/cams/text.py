@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-
 from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.rules import Rule, rules_of
-from .. import printed
 from ..givens import choice
-from ..printed import Formula, Input, Terms, calculation
+from ..printed import Input, Shown, calculation, worked
 from ..table import text_block, words_of
 from ..view import View
 from .offsets import offsets_line
 from .scene import CamScene
 
 Lines = list[tuple[str, ...]]
+MM = Shown("mm", 1e3)
 
 
 def scales_block(scene: CamScene, width: float) -> View:
@@ -43,17 +40,8 @@ def roller_block(scene: CamScene, width: float) -> View:
     assert roller is not None
     mm = words.unit("mm")
     sizes = roller.sizes
-    e, s_0 = (sizes.e * 1e3, True), (sizes.s_0 * 1e3, True)
-    lines: Lines = [
-        worked(
-            scene,
-            "r_0",
-            "√({e}^{{2}} + {s_0}^{{2}})",
-            math.hypot,
-            [("e", abs(e[0]), False), ("s_0", s_0[0], False)],
-            "mm",
-        )
-    ]
+    legs = [length("e", abs(sizes.e)), length("s_0", sizes.s_0)]
+    lines: Lines = [worked(words, "r_0", "hypotenuse", legs, MM)]
     if "r_0_tangents" in solved.values:
         pair = ((name, float(solved.values[name]) * 1e3) for name in ("r_0_tangents", "e_tangents"))
         texts = (f"{words.symbol(name)} = {words.number(value, 2)} {mm}" for name, value in pair)
@@ -73,36 +61,21 @@ def plate_block(scene: CamScene, width: float) -> View:
         tangent = float(values["r_0_flat_tangent"]) * 1e3
         text = f"{words.symbol('r_0_flat_tangent')} = {words.number(tangent, 2)} {words.unit('mm')}"
         lines.append((f"{words['said.cam_tangents']}:", text))
-    rho_flat, r_0 = (("rho_flat", float(values["rho_flat"]) * 1e3, True), ("r_0_flat", plate.sizes.r_0 * 1e3, True))
-    least = ("r_0_flat_min", plate.sizes.r_0_min * 1e3, False)
+    rho_flat, r_0 = length("rho_flat", values["rho_flat"], True), length("r_0_flat", plate.sizes.r_0, True)
+    least = length("r_0_flat_min", plate.sizes.r_0_min)
     if plate.given:
-        more = f"≥ {words.symbol('rho_flat')} = {words.short(rho_flat[1])} {words.unit('mm')}"
-        formula = "{r_0_flat} − {r_0_flat_min}"
-        lines.append(worked(scene, "rho_flat_min", formula, lambda a, b: a - b, [r_0, least], "mm", more))
+        more = f"≥ {words.symbol('rho_flat')} = {words.short(rho_flat.value)} {words.unit('mm')}"
+        lines.append((*worked(words, "rho_flat_min", "excess", [r_0, least], MM), more))
     else:
-        formula = "{r_0_flat_min} + {rho_flat}"
-        lines.append(worked(scene, "r_0_flat", formula, lambda a, b: a + b, [least, rho_flat], "mm"))
-    lines.append(
-        worked(
-            scene,
-            "R_plate",
-            "{ds_max} + {margin}",
-            lambda a, b: a + b,
-            [
-                ("ds_max", scene.solved.motion.ds_max.value * 1e3, False),
-                ("margin", float(values["margin"]) * 1e3, True),
-            ],
-            "mm",
-        )
-    )
+        lines.append(worked(words, "r_0_flat", "enlarged", [least, rho_flat], MM))
+    reach = [length("ds_max", scene.solved.motion.ds_max.value), length("margin", values["margin"], True)]
+    lines.append(worked(words, "R_plate", "enlarged", reach, MM))
     return text_block("equations_plate", words["heading.cam_plate"], lines, scene.style, width)
 
 
-def worked(
-    scene: CamScene, name: str, formula: str, law: Callable[..., float], terms: Terms, unit: str, more: str = ""
-) -> tuple[str, ...]:
-    """Return `name = formula = numbers = result unit`, printed so that it recomputes."""
-    return printed.worked(scene.words, Formula(name, formula, law, terms, unit), more)
+def length(name: str, value: float, exact: bool = False) -> Input:
+    """Return a length, m, as it goes into a formula."""
+    return Input(float(value) * 1e3, exact, name=name, times=1e3)
 
 
 def _given_a(scene: CamScene) -> bool:
@@ -113,42 +86,38 @@ def _amplitudes(scene: CamScene) -> Lines:
     if "l_A2" not in scene.solved.values:
         return []
     u = float(scene.solved.values["u"])
-    terms = [("l_A1", scene.paper("l_A1"), True), ("u", u, False)]
-    return [worked(scene, "l_A2", "{l_A1}·{u}/(1 − {u})", lambda a, b: a * b / (1.0 - b), terms, "mm")]
+    terms = [_drawn(scene, "l_A1", True), Input(u, name="u")]
+    return [worked(scene.words, "l_A2", "second_amplitude", terms, MM)]
+
+
+def _drawn(scene: CamScene, name: str, exact: bool = False) -> Input:
+    """Return a length on paper as it goes into a formula."""
+    return Input(scene.paper(name), exact, name=name, times=1e3)
 
 
 def _factors(scene: CamScene, mark: str = "") -> Lines:
     """Return mu_s from the drawn stroke, and what follows from it; `mark` is that of chords."""
     solved, mu = scene.solved, scene.mu
-    h, omega = (float(solved.values[name]) for name in ("h", "omega"))
+    h = float(solved.values["h"])
     highest = scene.paper("S_max_chord") if mark else solved.motion.h / mu("mu_s")
-    lines = [
-        worked(
-            scene,
-            f"mu_s{mark}",
-            "{h}/{S_max" + mark + "}",
-            lambda a, b: a / b,
-            [("h", h, solved.rocker is None), (f"S_max{mark}", highest, False)],
-            "m/mm",
-        )
-    ]
-    chain = [("mu_ds", "mu_s", "H_v")] + [("mu_d2s", "mu_ds", "H_a")] * _given_a(scene)
-    for name, base, pole in chain:
-        terms = [
-            (f"{base}{mark}", mu(f"{base}{mark}"), False),
-            ("mu_phi", mu("mu_phi"), False),
-            (pole, scene.paper(pole), True),
-        ]
-        formula = f"{{{base}{mark}}}/({{mu_phi}}·{{{pole}}})"
-        lines.append(worked(scene, f"{name}{mark}", formula, lambda a, b, c: a / (b * c), terms, "m/mm"))
+    terms = [Input(h, solved.rocker is None, name="h"), Input(highest, name=f"S_max{mark}", times=1e3)]
+    lines = [worked(scene.words, f"mu_s{mark}", "scale_factor", terms, Shown("m/mm"))]
+    for name, base, pole in [("mu_ds", "mu_s", "H_v")] + [("mu_d2s", "mu_ds", "H_a")] * _given_a(scene):
+        factors = (Input(mu(factor), name=factor) for factor in (f"{base}{mark}", "mu_phi"))
+        terms = [*factors, _drawn(scene, pole, True)]
+        lines.append(worked(scene.words, f"{name}{mark}", "derived_scale", terms, Shown("m/mm")))
     if mark:
         return lines
-    terms = [("omega", omega, True), ("mu_ds", mu("mu_ds"), False)]
-    lines.append(worked(scene, "mu_v", "{omega}·{mu_ds}", lambda a, b: a * b, terms, "(m/s)/mm"))
+    lines.append(_rate(scene, "mu_v", "speed_scale", "mu_ds", mu("mu_ds"), "(m/s)/mm"))
     if _given_a(scene):
-        terms = [("omega", omega, True), ("mu_d2s", mu("mu_d2s"), False)]
-        lines.append(worked(scene, "mu_a", "{omega}^{{2}}·{mu_d2s}", lambda a, b: a * a * b, terms, "(m/s^2)/mm"))
+        lines.append(_rate(scene, "mu_a", "acceleration_scale", "mu_d2s", mu("mu_d2s"), "(m/s^2)/mm"))
     return lines
+
+
+def _rate(scene: CamScene, name: str, law: str, of: str, value: float, unit: str) -> tuple[str, ...]:
+    """Return how a rate by time follows from one by the angle of the cam."""
+    omega = Input(float(scene.solved.values["omega"]), True, name="omega")
+    return worked(scene.words, name, law, [omega, Input(value, name=of)], Shown(unit))
 
 
 def _chords(scene: CamScene) -> Lines:
@@ -181,13 +150,10 @@ def _smaller(scene: CamScene) -> tuple[str, ...]:
 
 def _rates(scene: CamScene) -> Lines:
     """Return the greatest velocity and acceleration of the follower."""
-    solved = scene.solved
-    omega = float(solved.values["omega"])
-    terms = [("omega", omega, True), ("ds_max", solved.motion.ds_max.value, False)]
-    lines = [worked(scene, "v_max", "{omega}·{ds_max}", lambda a, b: a * b, terms, "m/s")]
+    motion = scene.solved.motion
+    lines = [_rate(scene, "v_max", "speed_scale", "ds_max", motion.ds_max.value, "m/s")]
     if _given_a(scene):
-        terms = [("omega", omega, True), ("d2s_max", solved.motion.d2s_max.value, False)]
-        lines.append(worked(scene, "a_max", "{omega}^{{2}}·{d2s_max}", lambda a, b: a * a * b, terms, "m/s^2"))
+        lines.append(_rate(scene, "a_max", "acceleration_scale", "d2s_max", motion.d2s_max.value, "m/s^2"))
     return lines
 
 

@@ -5,25 +5,24 @@ Lengths on paper are metres of paper; scale factors are values in SI per millime
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from ..laws import define, dot
+import numpy as np
 
-MM_PER_M = 1e3  # millimetres in a metre of paper
+from ..laws import Sign, bracketed, define, dot
+
+MM_PER_M = Sign(1e3, "")  # millimetres in a metre of paper, in which lengths on it are printed
 ARC = "arc_length"  # the law of the stroke of a rocker
 SHARPEST = "sharpest"  # the law of the least radius of curvature
 
 
 def _angle(opposite: Any, adjacent: Any) -> Any:
-    import numpy as np
-
     found = np.arctan2(opposite, adjacent)
     return found if np.ndim(found) else float(found)
 
 
 def _angle_of_triangle(a: Any, b: Any, opposite: Any) -> Any:
-    import numpy as np
-
     cosine = (a * a + b * b - opposite * opposite) / (2.0 * a * b)
     found = np.arccos(np.clip(cosine, -1.0, 1.0))  # sides in one line may be off by rounding
     return found if np.ndim(found) else float(found)
@@ -35,8 +34,6 @@ def _touching(slope: Any, side: Any, *coordinates: Any) -> Any:
     Along the line the abscissa grows by `slope` times the ordinate. `coordinates` are the abscissas of the points, then
     their ordinates; the curve through the outermost point and its neighbours is a parabola.
     """
-    import numpy as np
-
     half = len(coordinates) // 2
     pairs = zip(coordinates[:half], coordinates[half:], strict=True)
     out = np.stack(np.broadcast_arrays(*(side * (x - slope * y) for x, y in pairs)))
@@ -56,8 +53,6 @@ def _sharpest(stroke: Any, e: Any, s_0: Any, *parts: Any) -> Any:
     `parts` are all s, then all s' with the sense of turning, then all s'', in parts of the stroke. The roller's centre
     is e + i (s_0 + s) on paper that turns with the cam.
     """
-    import numpy as np
-
     deep = max(np.ndim(size) for size in (stroke, e, s_0))
     s, ds, d2s = (stroke * np.array(third).reshape(-1, *(1,) * deep) for third in _thirds(parts))
     up, aside = s_0 + s, ds - e
@@ -69,8 +64,6 @@ def _sharpest(stroke: Any, e: Any, s_0: Any, *parts: Any) -> Any:
 
 
 def _other_leg(hypotenuse: Any, leg: Any) -> Any:
-    import numpy as np
-
     found = np.sqrt(np.maximum((hypotenuse - leg) * (hypotenuse + leg), 0.0))  # the leg may be said to be longer
     return found if np.ndim(found) else float(found)
 
@@ -81,32 +74,30 @@ def _thirds(parts: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
 
 
 def _outermost(side: Any, *places: Any) -> Any:
-    import numpy as np
-
     most = np.max(np.stack(np.broadcast_arrays(*(side * place for place in places))), axis=0)
     return most * side if np.ndim(most) else float(most) * side
 
 
 define(
-    # h = psi l: the travel of a rocker's roller runs along an arc
-    arc_length=lambda angle, radius: angle * radius,
-    # A_2 = A_1 * u / (1 - u): both lobes have the same area
+    # the travel of a rocker's roller
+    arc_length=(
+        lambda angle, radius: angle * radius,
+        lambda angle, radius: bracketed(angle / Sign(math.pi, "180")) * math.pi * radius,
+    ),
+    # both lobes have the same area
     second_amplitude=lambda amplitude, u: amplitude * u / (1.0 - u),
-    # x = phi / mu_phi
     on_axis=lambda angle, mu: angle / (mu * MM_PER_M),
     # an ordinate of the given diagram is a part of its amplitude
     part_of_amplitude=lambda amplitude, part: amplitude * part,
     # greatest ordinates of the curves drawn after a law: parts of A * x / H_a and of A * x^2 / (H_a * H_v)
     first_integral=lambda part, amplitude, length, pole: part * amplitude * length / pole,
     second_integral=lambda part, amplitude, length, pole, other: part * amplitude * length * length / (pole * other),
-    # mu = value / mm
     scale_factor=lambda value, length: value / (length * MM_PER_M),
-    # mu_ds = mu_s / (mu_phi * H_v), mu_d2s = mu_ds / (mu_phi * H_a)
+    # mu_ds and mu_d2s
     derived_scale=lambda mu, mu_axis, pole: mu / (mu_axis * pole * MM_PER_M),
-    # mu_v = omega * mu_ds, mu_a = omega^2 * mu_d2s
+    # mu_v and mu_a
     speed_scale=lambda omega, mu: omega * mu,
     acceleration_scale=lambda omega, mu: omega * omega * mu,
-    # value = mm * mu
     to_scale=lambda mu, length: mu * length * MM_PER_M,
     ordinate_to_scale=lambda mu, up, segment: dot(up, segment) * mu * MM_PER_M,
     # tg nu = mu_s / mu_ds
@@ -122,8 +113,11 @@ define(
     # s_0^2 = r_0^2 - e^2, the radius of the upper dwell
     other_leg=_other_leg,
     hypotenuse=lambda leg, other: (leg * leg + other * other) ** 0.5,
-    # psi_0 = arccos((l^2 + l_OC^2 - r_0^2) / (2 l l_OC)): the angle between the sides a and b
-    angle_of_triangle=_angle_of_triangle,
+    # the angle between the sides a and b
+    angle_of_triangle=(
+        _angle_of_triangle,
+        lambda a, b, opposite: np.arccos((a * a + b * b - opposite * opposite) / (2.0 * a * b)),
+    ),
     # rho_min = |v|^3 / (v x v'), v and v' being the derivatives of the roller's centre by the angle of the cam
     **{SHARPEST: _sharpest},
     # R = |ds/dphi|max + 5..8 mm, r_0 = r_0min + rho_min

@@ -11,8 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from ..laws import NAN, Law, define
+from ..laws import HALF_TURN, NAN, WHOLE_TURN, Law, Sign, bracketed, define, named
 from .involute import angle_of_involute, involute, unrolled
+
+inv = named("inv", involute)
+IN_DEGREES = Sign(1.0, "180°/π")  # of radians
 
 
 def _angle_of(base: Any, diameter: Any) -> Any:
@@ -50,7 +53,7 @@ def _touching(number: Any, rho_p: Any, rho_a: Any, s_b: Any, p_b: Any) -> Any:
 
 
 def _tip_thickness(m: Any, z: Any, x: Any, alpha: Any, alpha_a: Any) -> Any:
-    half = 0.5 * math.pi + 2.0 * x * np.tan(alpha) + z * (involute(alpha) - involute(alpha_a))
+    half = 0.5 * math.pi + 2.0 * x * np.tan(alpha) + z * (inv(alpha) - inv(alpha_a))
     return half * m * np.cos(alpha) / np.cos(alpha_a)
 
 
@@ -70,69 +73,57 @@ def _on_numbers(law: Law) -> Law:
     def found(*operands: Any) -> Any:
         with np.errstate(all="ignore"):
             value = law(*operands)
-        return value if np.ndim(value) else float(value)
+        return float(value) if isinstance(value, float | np.ndarray) and not np.ndim(value) else value
 
     return found
 
 
-def _define(**laws: Law) -> None:
+def _define(**laws: Law | tuple[Law, Law]) -> None:
     """Add laws to the table, for numbers and for arrays."""
-    define(**{name: _on_numbers(law) for name, law in laws.items()})
+    for name, law in laws.items():
+        define(**{name: (_on_numbers(law[0]), law[1]) if isinstance(law, tuple) else _on_numbers(law)})
 
 
 _define(
-    # a = m (z_1 + z_2) / 2
     reference_centre=lambda m, z_1, z_2: 0.5 * m * (z_1 + z_2),
-    involute=involute,
-    # inv alpha_w = inv alpha + 2 x_sum tg alpha / (z_1 + z_2)
+    involute=(involute, lambda alpha: np.tan(alpha) - alpha * math.pi / HALF_TURN),
     working_involute=lambda inv, x_sum, alpha, z_1, z_2: inv + 2.0 * x_sum * np.tan(alpha) / (z_1 + z_2),
     angle_of_involute=angle_of_involute,
-    # a_w = a cos alpha / cos alpha_w, and the angle and the sum of shifts from a given a_w
+    # the angle and the sum of shifts follow from a given a_w
     working_centre=lambda a, alpha, alpha_w: a * np.cos(alpha) / np.cos(alpha_w),
     working_angle=lambda a, alpha, a_w: _angle_of(a * np.cos(alpha), a_w),
     sum_of_shifts=lambda z_1, z_2, alpha, inv, inv_w: (z_1 + z_2) * (inv_w - inv) / (2.0 * np.tan(alpha)),
     reference_diameter=lambda m, z: m * z,
     gear_ratio=lambda z_1, z_2: z_2 / z_1,
-    # d_w1 = 2 a_w / (u + 1), d_w2 = u d_w1
     rolling_diameter_of_pinion=lambda a_w, u: 2.0 * a_w / (u + 1.0),
     rolling_diameter_of_wheel=lambda a_w, u: 2.0 * a_w * u / (u + 1.0),
-    # y = (a_w - a) / m
     perceived_shift=lambda a_w, a, m: (a_w - a) / m,
-    # d_a = d + 2 (h_a + x - delta_y) m, d_f = d - 2 (h_a + c - x) m
     tip_diameter=lambda d, h_a, x, delta_y, m: d + 2.0 * (h_a + x - delta_y) * m,
     root_diameter=lambda d, h_a, c, x, m: d - 2.0 * (h_a + c - x) * m,
     # the distance of the centres in other ways
     centre_by_rolling=lambda d_w1, d_w2: 0.5 * d_w1 + 0.5 * d_w2,
     centre_by_shift=lambda d_1, d_2, y, m: 0.5 * d_1 + 0.5 * d_2 + y * m,
     centre_by_clearance=lambda d_a, d_f, c, m: 0.5 * d_a + 0.5 * d_f + c * m,
-    # d_b = d cos alpha
     base_diameter=lambda d, alpha: d * np.cos(alpha),
-    # tau = 2 pi / z, P = d sin(tau / 2)
-    angular_pitch=lambda z: 2.0 * math.pi / z,
+    angular_pitch=(lambda z: 2.0 * math.pi / z, lambda z: WHOLE_TURN / z),
     pitch_chord=lambda d, tau: d * np.sin(0.5 * tau),
     pitch=lambda m: math.pi * m,
     base_pitch=lambda p, alpha: p * np.cos(alpha),
-    # s = (pi / 2 + 2 x tg alpha) m, and at another circle s_y = d_y (s / d + inv alpha - inv alpha_y)
+    # thickness at another circle
     tooth_thickness=lambda m, x, alpha: (0.5 * math.pi + 2.0 * x * np.tan(alpha)) * m,
     thickness_at=lambda d_y, s, d, inv, inv_y: d_y * (s / d + inv - inv_y),
-    # h = (2 h_a + c - delta_y) m
     tooth_depth=lambda h_a, c, delta_y, m: (2.0 * h_a + c - delta_y) * m,
-    # cos alpha_a = d_b / d_a
-    tip_angle=_angle_of,
-    # N1N2 = a_w sin alpha_w
+    tip_angle=(_angle_of, lambda d_b, d_a: np.arccos(d_b / d_a)),
     line_of_action=lambda a_w, alpha_w: a_w * np.sin(alpha_w),
-    # rho = r_b tg alpha, rho_p = a_w sin alpha_w - r_b tg alpha_a of the mate
+    # at the tip, and at the lower point of contact, from alpha_a of the mate
     radius_of_curvature=lambda d_b, angle: 0.5 * d_b * np.tan(angle),
     lower_curvature=lambda a_w, alpha_w, d_b, alpha_a: a_w * np.sin(alpha_w) - 0.5 * d_b * np.tan(alpha_a),
-    # nu = 2 rho / d_b, and the circle there
-    unrolled_angle=lambda rho, d_b: 2.0 * rho / d_b,
+    # to a point of the flank, and the circle there
+    unrolled_angle=(lambda rho, d_b: 2.0 * rho / d_b, lambda rho, d_b: bracketed(2.0 * rho / d_b) * IN_DEGREES),
     diameter_of_curvature=lambda rho, d_b: np.hypot(2.0 * rho, d_b),
-    # x_min = h_l - h_a - z sin^2 alpha / 2
     least_shift=lambda h_l, h_a, z, alpha: h_l - h_a - 0.5 * z * np.sin(alpha) ** 2,
-    # rho_l = (d sin alpha) / 2 - (h_l - h_a - x) m / sin alpha
     boundary_curvature=lambda d, alpha, h_l, h_a, x, m: 0.5 * d * np.sin(alpha) - (h_l - h_a - x) * m / np.sin(alpha),
     contact_ratio=_contact_ratio,
-    # s_a = (pi / 2 + 2 x tg alpha + z (inv alpha - inv alpha_a)) m cos alpha / cos alpha_a
     tip_thickness=_tip_thickness,
     # theta_12 = 1 - (rho_2 / rho_1) / u, theta_21 = 1 - u rho_1 / rho_2
     sliding_of_pinion=_sliding,

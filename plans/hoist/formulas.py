@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from ..laws import TURN, define
+from ..laws import TURN, Sign, define
 from . import roots
 
-FAR = 1.0 / (9.0 * math.sqrt(3.0))
+NINE_ROOTS = Sign(9.0 * math.sqrt(3.0), "9·√(3)")
 
 
 def _phase(k: Any, t: Any) -> tuple[Any, Any]:
@@ -60,7 +60,7 @@ def _swing(swing: Any, rate: Any, k: Any, t: Any) -> Any:
 
 def _greatest_deflection(force: Any, b: Any, l: Any, I: Any, E: Any) -> Any:
     square = (l - b) * (l + b)
-    return FAR * force * b * square * np.sqrt(square) / (l * E * I)
+    return 1.0 / NINE_ROOTS * force * b * square * np.sqrt(square) / (l * E * I)
 
 
 def _deflection_of_unit(x: Any, b: Any, l: Any, I: Any, E: Any) -> Any:
@@ -137,8 +137,11 @@ define(
     # sigma = F / S, safety = [sigma] / sigma
     stress=lambda force, S: force / S,
     # w = P b (l^2 - b^2)^(3/2) / (9 sqrt(3) l E I) at ((l^2 - b^2) / 3)^(1/2) from the far end
-    greatest_deflection=_greatest_deflection,
-    place_of_deflection=lambda b, l: np.sqrt((l - b) * (l + b) / 3.0),
+    greatest_deflection=(
+        _greatest_deflection,
+        lambda force, b, l, I, E: force * b * (l**2 - b**2) ** 1.5 / (NINE_ROOTS * E * I * l),
+    ),
+    place_of_deflection=(lambda b, l: np.sqrt((l - b) * (l + b) / 3.0), lambda b, l: np.sqrt((l**2 - b**2) / 3.0)),
     # w = P (l - b) x (l^2 - (l - b)^2 - x^2) / (6 E I l) before the load
     deflection_of_unit=_deflection_of_unit,
     # the time of one swing
