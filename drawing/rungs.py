@@ -2,29 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Generic, Protocol, TypeVar
 
 from ..scales.choices import SIZES
 from ..scales.errors import InputError
 from .compose import arrange
+from .figure import Figure, Scene
 from .formats import Format, room
 from .packing import Placement
 from .pens import Norm
 from .view import View
 
-Scene = TypeVar("Scene")
 Rungs = TypeVar("Rungs")
 Wanted = TypeVar("Wanted", contravariant=True)  # rungs again, as a protocol takes them
-
-
-@dataclass(frozen=True, slots=True)
-class Figure(Generic[Scene]):
-    """One figure of a sheet: how it is drawn, and the ladders that it depends on, the one that sizes it first."""
-
-    draw: Callable[[Scene], View]
-    ladders: tuple[str, ...] = ()
 
 
 class Drawer(Protocol[Wanted]):
@@ -45,8 +37,8 @@ class Kept(Generic[Scene]):
         self._drawn: dict[tuple[Hashable, ...], View] = {}
 
     def view(self, scene: Scene, sheet: Format, rungs: object, figure: Figure[Scene], *of: Hashable) -> View:
-        """Return the view of a figure; `of` tells it from others of the sheet, and what else it depends on."""
-        key = sheet.name, *of, *(getattr(rungs, ladder) for ladder in figure.ladders)
+        """Return the view of a figure; `of` says what else it depends on."""
+        key = sheet.name, figure.name, *of, *(getattr(rungs, ladder) for ladder in figure.ladders)
         if key not in self._drawn:
             self._drawn[key] = figure.draw(scene)
         return self._drawn[key]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import rect
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import pi
@@ -28,8 +28,8 @@ class View:
     """A finished figure: its shapes and the box that they fill, mm.
 
     What it says is kept beside the shapes: the lines of its `heading` and its `notes`, the `lines` of a text, each in
-    chunks between which it may break, and the `rows` of a table, the first of which is its head. `parts` tells of every
-    shape to which part of the work it belongs, where the view is drawn part by part.
+    chunks between which it may break, and the `rows` of a table, the first of which is its head. `stages` are those in
+    which it is drawn, in order, with the keys of the sentences that tell them; `parts` has the stage of every shape.
     """
 
     name: str
@@ -40,6 +40,7 @@ class View:
     lines: tuple[tuple[str, ...], ...] = ()
     rows: tuple[tuple[str | None, ...], ...] = ()
     parts: tuple[str, ...] = ()
+    stages: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def size(self) -> tuple[float, float]:
@@ -62,25 +63,27 @@ class Canvas:
     _markup: list[tuple[str, float]] = field(default_factory=list)
     _boxes: list[Box] = field(default_factory=list)
     _spare: dict[str, str] = field(default_factory=dict)
-    _parts: list[tuple[int, str]] = field(default_factory=list)
+    _begun: list[tuple[int, str]] = field(default_factory=list)
     _lettered: list[str] = field(default_factory=list)
     bounds: Box | None = None  # letters stay inside of it
     coarse: float = 0.0  # mm by which letters may take a curve of many points for a shorter broken line
+    parts: Mapping[str, str] = field(default_factory=dict)  # stages of a figure, with those in which they are drawn
+    stages: Mapping[str, str] = field(default_factory=dict)  # these, with the keys of their sentences
 
     def add(self, *shapes: Shape) -> None:
         """Draw shapes."""
         self.shapes.extend(shapes)
 
     def part(self, name: str) -> str:
-        """Begin, or go on with, a part of the work: what is drawn and lettered from here on belongs to it.
+        """Begin, or go on with, a stage of the figure: what is drawn and lettered from here on belongs to it.
 
         Returns
         -------
         str
-            The part to which it belonged up to here.
+            The stage to which it belonged up to here.
         """
-        before = self._parts[-1][1] if self._parts else ""
-        self._parts.append((len(self.shapes), name))
+        before = self._begun[-1][1] if self._begun else ""
+        self._begun.append((len(self.shapes), self.parts[name]))
         return before
 
     def keep_clear(self, *points: complex) -> None:
@@ -110,7 +113,7 @@ class Canvas:
         name = str(len(self._requests))
         self._requests.append(Request(name, *size, anchor, clear, prefer, priority, strict, afield=not spare))
         self._markup.append((markup, height))
-        self._lettered.append(self._parts[-1][1] if self._parts else "")
+        self._lettered.append(self._begun[-1][1] if self._begun else "")
         if spare:
             self._spare[name] = spare
 
@@ -143,13 +146,13 @@ class Canvas:
             parts.append(self._lettered[int(label)])
         x0, y0, x1, y1 = write_above(self.shapes, heading, notes, self.style)
         box = x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
-        every = (*parts, *("" for _ in self.shapes[len(parts) :])) if self._parts else ()
-        return View(name, tuple(self.shapes), box, heading, tuple(notes), parts=every)
+        every = (*parts, *("" for _ in self.shapes[len(parts) :])) if self._begun else ()
+        return View(name, tuple(self.shapes), box, heading, tuple(notes), parts=every, stages=self.stages)
 
     def _drawn_parts(self) -> list[str]:
         """Return to which part each shape belongs that is drawn so far."""
-        starts = [0, *(start for start, _ in self._parts), len(self.shapes)]
-        names = ["", *(name for _, name in self._parts)]
+        starts = [0, *(start for start, _ in self._begun), len(self.shapes)]
+        names = ["", *(name for _, name in self._begun)]
         return [name for name, (a, b) in zip(names, pairwise(starts), strict=True) for _ in range(a, b)]
 
     def _placed(self) -> tuple[list[Request], Labels]:

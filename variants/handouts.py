@@ -131,7 +131,7 @@ def begun_of_case(
     words = case.words(lang, notation)
 
     def done(count: int) -> list[Page]:
-        return begun_pages(drawn.pages, drawn.views, case.kind.begun(case, drawn.scales, words, count))
+        return begun_pages(drawn.pages, drawn.views, case.kind.begun(case, drawn.scales, words, count), count)
 
     begun = done(steps)
     stepless = steps > 0 and begun == done(0) == done(ALL)  # the first ones may set a plan up, as on the blank

@@ -11,11 +11,12 @@ from ...plans.cams.integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
 from ...plans.cams.motion import PHASES, RISE
 from ..diagram import Axis, Field, Pole, axes, numbers
 from ..dimensions import linear
+from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import Box, box
 from ..view import Canvas, View
-from .fan import AXES, aside, fan
-from .scene import CamScene, canvas_of, pieces
+from .fan import aside, fan
+from .scene import COARSE, CamScene, pieces
 
 ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a diagram shows
 LETTER = {TRAVEL: "s", VELOCITY: "ds", ACCELERATION: "d2s"}
@@ -29,7 +30,7 @@ SAME = 1e-6  # mm, of ends of a jump
 
 def diagrams_view(scene: CamScene) -> View:
     """Draw the diagrams under one another, the one that the law gives on top."""
-    canvas, solved = canvas_of(scene), scene.solved
+    canvas, solved = DIAGRAMS_FIGURE.canvas(scene, COARSE), scene.solved
     drawn = [plan for plan in DIAGRAMS if f"{plan}.0" in solved.values]
     fields: list[Field] = []
     low = 0.0
@@ -45,7 +46,7 @@ def diagrams_view(scene: CamScene) -> View:
     _section_lines(canvas, scene, fields, boxes)
     away = aside([[(i, mean.imag) for i, mean in _means(scene, plan)] for plan in drawn], scene.style.text)
     for plan, field in zip(drawn, fields, strict=True):
-        canvas.part(AXES)
+        canvas.part("axes")
         axes(canvas, field, False, PAST * scene.style.label)
         given, shown = plan == solved.layout.given, plan[-1]
         canvas.part(f"law_{shown}" if given else f"chords_{shown}")
@@ -188,3 +189,23 @@ def _phases(canvas: Canvas, scene: CamScene, field: Field) -> None:
         symbol = scene.words.symbol(f"phi_{phase.name}")
         text = f"{symbol} = {scene.degrees(phase.length)}"
         linear(canvas, ends, -1j * (2.0 * scene.style.text), text, f"phi_{phase.name}")
+
+
+DIAGRAMS_FIGURE = Figure(
+    "diagrams",
+    diagrams_view,
+    ("reduction",),
+    (
+        Stage("axes", "diagram_s.#"),
+        Stage("sections", "diagram_s.f#"),
+        Stage("law_a", "diagram_a.m#"),
+        Stage("law_v", "diagram_v.m#", "place"),
+        Stage("rays_a", "diagram_a.p#"),
+        Stage("chords_v", "diagram_v.#", "meet"),
+        Stage("means_v", "diagram_v.m#", "divide"),
+        Stage("rays_v", "diagram_v.p#"),
+        Stage("chords_s", "diagram_s.#", "meet"),
+        Stage("scales"),
+    ),
+    "cam.diagrams",
+)

@@ -15,7 +15,6 @@ from ..view import Canvas
 APART = 1.2  # heights of letters between the numbers of rays under one another
 AROUND = 0.5  # mm between a number and the broken lines beside it
 RUN = 3  # how many numbers in a row are written with a dash
-AXES = "axes"  # the part of a view that is there before the work
 PAST = 3.0  # mm of an axis beyond the pole
 
 
@@ -97,7 +96,7 @@ def fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, com
         canvas.add(Line(at, foot, Pen.THIN, role="ray", name=" ".join(str(i) for i, _ in equal)))
         nearest = min((mean for _, mean in equal), key=lambda mean: mean.real)
         canvas.add(*_broken(nearest, foot, boxes, Pen.DASHED, "projection"))
-    rays = canvas.part(AXES)
+    rays = canvas.part("axes")
     if len(feet) > 1:
         canvas.add(Line(min(feet[0], zero, key=_height), max(feet[-1], zero, key=_height), Pen.THIN, role="feet"))
     wide = lay_out(beyond.text, height).width + AROUND if beyond else 0.0
@@ -105,7 +104,7 @@ def fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, com
     if beyond:
         canvas.part(rays)
         canvas.add(Text(at - wide - 1j * (height + 2.0 * AROUND), beyond.text, height, role="number"))
-        canvas.part(AXES)
+        canvas.part("axes")
     canvas.add(Circle(at, style.node, Pen.MAIN, fill="white", role="pole"))
     canvas.label(pole.letter, at, prefer=-1.0 + 1j, clear=1.0, height=style.text)
     _distance(canvas, pole, (at, min(feet[0], zero, key=_height)))

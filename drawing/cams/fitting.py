@@ -9,9 +9,10 @@ from ...plans.cams.cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_
 from ...plans.cams.solve import SolvedCam, reduced
 from ...scales.scale import Scale
 from ..contents import SheetContents
+from ..figure import Figure
 from ..formats import Format, room
 from ..givens import givens_view
-from ..rungs import Figure, Kept
+from ..rungs import Kept
 from ..style import STYLES
 from ..view import View
 from ..words import Words
@@ -77,8 +78,8 @@ class Fitting:
         """Return the views of a sheet in the order of the work."""
         scene = self.scene(sheet, rungs)
         width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
-        wanted = enumerate(figures(self.contents, width))
-        return [(self._kept.view(scene, sheet, rungs, figure, number), figure) for number, figure in wanted]
+        wanted = figures(self.contents, width)
+        return [(self._kept.view(scene, sheet, rungs, figure), figure) for figure in wanted]
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
@@ -101,51 +102,47 @@ def _givens(scene: CamScene) -> View:
 
 
 def _diagrams(contents: Contents, width: float) -> Iterator[CamFigure]:
-    from .diagrams_view import diagrams_view
+    from .diagrams_view import DIAGRAMS_FIGURE
     from .tables import motion_table
     from .text import choices_block, scales_block
 
-    yield Figure(_givens)
-    yield Figure(lambda scene: choices_block(scene, contents.note, NARROW * width), ("reduction",))
-    yield Figure(motion_table)
-    yield Figure(diagrams_view, ("reduction",))
-    yield Figure(lambda scene: scales_block(scene, width), ("reduction",))
+    yield Figure("givens", _givens)
+    yield Figure("choices", lambda scene: choices_block(scene, contents.note, NARROW * width), ("reduction",))
+    yield Figure("motion", motion_table)
+    yield DIAGRAMS_FIGURE
+    yield Figure("equations_scales", lambda scene: scales_block(scene, width), ("reduction",))
 
 
 def _sizes(contents: Contents, width: float) -> Iterator[CamFigure]:
-    from .plate_sizes_view import plate_sizes_view
-    from .rocker_sizes_view import rocker_sizes_view
+    from . import plate_sizes_view, rocker_sizes_view, sizes_view
     from .rocker_text import rocker_block
-    from .sizes_view import sizes_view
     from .text import plate_block, roller_block
 
     if contents.solved.roller is not None:
-        yield Figure(sizes_view, ("mu_s_ds", "reduction"))
-        yield Figure(lambda scene: roller_block(scene, NARROW * width))
+        yield sizes_view.FIGURE
+        yield Figure("equations_roller", lambda scene: roller_block(scene, NARROW * width))
     if contents.solved.rocker is not None:
-        yield Figure(rocker_sizes_view, ("mu_l",))
-        yield Figure(lambda scene: rocker_block(scene, NARROW * width))
+        yield rocker_sizes_view.FIGURE
+        yield Figure("equations_rocker", lambda scene: rocker_block(scene, NARROW * width))
     if contents.solved.plate is not None:
-        yield Figure(plate_sizes_view, ("mu_s_d2s", "reduction"))
-        yield Figure(lambda scene: plate_block(scene, width))
+        yield plate_sizes_view.FIGURE
+        yield Figure("equations_plate", lambda scene: plate_block(scene, width))
 
 
 def _profiles(contents: Contents, width: float) -> Iterator[CamFigure]:
-    from .plate_view import plate_view
-    from .rocker_view import rocker_view
-    from .roller_view import roller_view
+    from . import plate_view, rocker_view, roller_view
 
     if contents.solved.roller is not None:
-        yield Figure(roller_view, ("mu_l",))
+        yield roller_view.FIGURE
     if contents.solved.rocker is not None:
-        yield Figure(rocker_view, ("mu_l",))
+        yield rocker_view.FIGURE
     if contents.solved.plate is not None:
-        yield Figure(plate_view, ("mu_l",))
+        yield plate_view.FIGURE
 
 
 def _pressure(contents: Contents, width: float) -> Iterator[CamFigure]:
+    from . import pressure_view
     from .pressing import rolls
-    from .pressure_view import pressure_view
 
     if rolls(contents.solved):
-        yield Figure(pressure_view, ("reduction",))
+        yield pressure_view.FIGURE

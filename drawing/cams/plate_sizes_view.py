@@ -7,13 +7,14 @@ from itertools import pairwise
 
 from ...plans.cams.size_plans import PLATE_SIZES
 from ..dimensions import linear
+from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension
 from ..text import lay_out
 from ..view import Canvas, View
 from .diagrams_view import SAME
 from .fan import small
-from .scene import CamScene, canvas_of, pieces
+from .scene import COARSE, CamScene, given, pieces
 from .sizes_view import on_lines
 from .transfer import transfer
 
@@ -27,7 +28,7 @@ def plate_sizes_view(scene: CamScene) -> View:
     solved, words = scene.solved, scene.words
     plate = solved.plate
     assert plate is not None
-    canvas, mu = canvas_of(scene), scene.scale(PLATE_SIZES).mu
+    canvas, mu = FIGURE.canvas(scene, COARSE), scene.scale(PLATE_SIZES).mu
     canvas.part("points")
     outline = _curve(canvas, scene)
     left, right = (end(p.real for p in outline) for end in (min, max))
@@ -113,3 +114,17 @@ def _sizes(canvas: Canvas, scene: CamScene) -> None:
         if lay_out(text, style.text).width >= between > lay_out(symbol, style.text).width:
             text = symbol  # the number stands with the calculations
         linear(canvas, (at, 0j), complex(OUT[name], 0.0), text, name)
+
+
+FIGURE = Figure(
+    PLATE_SIZES,
+    plate_sizes_view,
+    ("mu_s_d2s", "reduction"),
+    (
+        Stage("axes", "plate_sizes.#"),
+        Stage("points", "plate_sizes.#_before"),
+        Stage("tangent", "plate_sizes.T"),
+        Stage("centre", variant=given("r_0_flat")),
+    ),
+    "cam.plate_sizes",
+)

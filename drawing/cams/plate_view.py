@@ -6,6 +6,7 @@ import math
 
 from ...plans.cams.inversion import PLATE_PROFILE
 from ..dimensions import linear
+from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import Box, box, lay_out
 from ..view import Canvas, View
@@ -24,7 +25,7 @@ from .inversion import (
     unit_at,
 )
 from .roller_view import NUMBERS, PHASES
-from .scene import CamScene, canvas_of
+from .scene import COARSE, CamScene
 
 SAME = 1e-4  # part of the greatest velocity within which that of the fall is the same
 ANALOGUE = "|s′|"  # letter of the velocity analogue where there is little room
@@ -35,7 +36,7 @@ THICK = 0.5  # thickness of the plate, in heights of letters
 
 def plate_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the follower is lowest."""
-    solved, canvas, mu = scene.solved, canvas_of(scene), scene.mu_l
+    solved, canvas, mu = scene.solved, FIGURE.canvas(scene, COARSE), scene.mu_l
     plate = solved.plate
     assert plate is not None
     r_0, stroke, R = plate.sizes.r_0 / mu, solved.motion.h / mu, plate.sizes.R_plate / mu
@@ -147,3 +148,18 @@ def _numbers(scene: CamScene) -> list[str]:
     lengths = [f"{words.symbol(name)} = {scene.length(size)}" for name, size in sizes.items()]
     said = dict.fromkeys(scene.length(motion.maximum(0.0, way, 0.0).value) for way in (1.0, -1.0))
     return [*lengths, f"{ANALOGUE} = |{words.symbol('ds')}|_{{max}} = {', '.join(said)}"]
+
+
+FIGURE = Figure(
+    PLATE_PROFILE,
+    plate_view,
+    ("mu_l",),
+    (
+        Stage("shaft", "plate_profile.O"),
+        Stage("circles", "_axis#"),
+        Stage("centres", "plate_profile.B#"),
+        Stage("profile", "plate_profile.K#"),
+        Stage("follower"),
+    ),
+    "cam.plate_profile",
+)

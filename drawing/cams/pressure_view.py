@@ -8,12 +8,13 @@ from collections.abc import Sequence
 from ...plans.cams.motion import RISE
 from ...scales.scale import Scale, steps
 from ..diagram import Axis, Field, axes, divisions, numbers
+from ..figure import Figure, stages
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import Box, box
 from ..view import Canvas, View
 from .diagrams_view import broken
 from .pressing import courses, permitted, theta
-from .scene import CamScene, canvas_of
+from .scene import COARSE, CamScene
 
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)  # of the line of a limit at which its text may stand
 AROUND = 0.8  # mm around that text
@@ -26,7 +27,7 @@ TALL = {5.0: 60.0, 3.5: 45.0}  # mm of the axis of pressure angles, by the heigh
 def pressure_view(scene: CamScene) -> View:
     """Draw theta over phi with the limits dashed over their phases."""
     solved, words = scene.solved, scene.words
-    canvas, limits = canvas_of(scene), permitted(solved)
+    canvas, limits = FIGURE.canvas(scene, COARSE), permitted(solved)
     curves = [list(zip(phi.tolist(), value.tolist(), strict=True)) for phi, value in courses(solved)]
     every = [y for points in curves for _, y in points] + [limit for _, limit in limits] + [0.0]
     field = _field(scene, min(every), max(every))
@@ -87,3 +88,6 @@ def _sections(canvas: Canvas, scene: CamScene, field: Field, boxes: Sequence[Box
         for a, b in broken(field.at(phi, field.y.high), foot, boxes):
             canvas.add(Line(a, b, Pen.THIN, role="section", name=str(i)))
         canvas.add(Group((Circle(field.at(phi, value), scene.style.node, Pen.THIN, fill="white"),), "node", str(i)))
+
+
+FIGURE = Figure("pressure", pressure_view, ("reduction",), stages("axes", "curve", "limits"), "cam.pressure")

@@ -15,6 +15,7 @@ from ...plans.cams.rocker_plans import ROCKER_SIZES
 from ...plans.cams.size_plans import phase_of
 from ...plans.cams.sizes import BACK
 from ..dimensions import linear
+from ..figure import Figure, Stage
 from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension, fixed_pivot, turning_arrow
 from ..text import Box
@@ -22,7 +23,7 @@ from ..view import Canvas, View
 from .fan import small
 from .hatching import Side, hatched
 from .pressing import pressed, theta
-from .scene import Array, CamScene, canvas_of, pieces
+from .scene import COARSE, Array, CamScene, given, pieces
 from .sizes_view import SHOWN, on_lines
 
 AROUND = 24.0  # mm of the permitted places shown about the chosen one
@@ -32,7 +33,7 @@ LIMIT = 3.0  # length of a limit at the end of an analogue, in heights of letter
 
 def rocker_sizes_view(scene: CamScene) -> View:
     """Draw the rocker about its pivot, and the centre of the cam that is built."""
-    canvas, words, cam = canvas_of(scene), scene.words, scene.solved.rocker
+    canvas, words, cam = FIGURE.canvas(scene, COARSE), scene.words, scene.solved.rocker
     assert cam is not None
     centre = scene.mm(f"{ROCKER_SIZES}.C")
     _rocker(canvas, scene, cam)
@@ -240,3 +241,19 @@ def _lettered(scene: CamScene, cam: RockerCam) -> tuple[str, str]:
     said = [f"{words.symbol(name)} = {scene.degrees(angle)}" for name, angle in angles.items()]
     said.append(f"{words.symbol('gamma')}_{{{i}}} = {scene.degrees(shown)}")
     return "; ".join(f"{words.symbol(name)} = {scene.length(size)}" for name, size in lengths.items()), "; ".join(said)
+
+
+FIGURE = Figure(
+    ROCKER_SIZES,
+    rocker_sizes_view,
+    ("mu_l",),
+    (
+        Stage("pivot", "rocker_sizes.#"),
+        Stage("positions", "rocker_sizes.B#"),
+        Stage("analogues", "rocker_sizes.D#"),
+        Stage("limits", "_limit#"),
+        Stage("centre", "rocker_sizes.C", variant=given("l_OC", "r_0")),
+        Stage("pressure"),
+    ),
+    "cam.rocker_sizes",
+)

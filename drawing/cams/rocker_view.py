@@ -6,6 +6,7 @@ import cmath
 import math
 
 from ...plans.cams.inversion import PROFILE
+from ..figure import Figure, Stage
 from ..shapes import Arc, Circle, Group, Line, Pen, Text
 from ..symbols import angle_dimension, fixed_pivot, revolute
 from ..view import Canvas, View
@@ -13,7 +14,7 @@ from .inversion import centre, circle, dwelling, letter_centre, phases, radius_a
 from .pressing import pressed
 from .roller_view import NUMBERS, PHASES
 from .rolling import Contact, curves, normal, roller_radius, sharpest
-from .scene import CamScene, canvas_of
+from .scene import COARSE, CamScene, is_sharp
 from .sizes_view import SHOWN
 
 ASIDE = 0.45  # rad between the rays of two radii
@@ -22,7 +23,7 @@ OVER = 4.0  # mm of the roller's arcs beyond its extreme places
 
 def rocker_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the rocker is lowest."""
-    solved, canvas, mu = scene.solved, canvas_of(scene), scene.mu_l
+    solved, canvas, mu = scene.solved, FIGURE.canvas(scene, COARSE), scene.mu_l
     cam = solved.rocker
     assert cam is not None
     sizes, label = cam.sizes, scene.style.label
@@ -154,3 +155,20 @@ def _lettered(scene: CamScene) -> list[str]:
     }
     said = [f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size)]
     return [*said, f"{words.symbol('psi')} = {scene.degrees(cam.rocker.motion.h)}"]
+
+
+FIGURE = Figure(
+    PROFILE,
+    rocker_view,
+    ("mu_l",),
+    (
+        Stage("shaft", "profile.O"),
+        Stage("pivots", "profile.A#"),
+        Stage("pitch", "profile.B#"),
+        Stage("normal", "profile.D#"),
+        Stage("profile", "profile.K#"),
+        Stage("sharpest", when=is_sharp),
+        Stage("follower"),
+    ),
+    "cam.rocker_profile",
+)

@@ -6,6 +6,7 @@ import math
 
 from ...plans.cams.inversion import PROFILE
 from ..dimensions import linear
+from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Line, Pen
 from ..symbols import revolute
 from ..view import Canvas, View
@@ -26,7 +27,7 @@ from .inversion import (
 )
 from .pressing import pressed
 from .rolling import Contact, curves, lettered_sizes, normal, past_normal, roller_radius, sharpest
-from .scene import CamScene, canvas_of
+from .scene import COARSE, CamScene, is_aside, is_sharp
 from .sizes_view import SHOWN
 
 OUT = 1.5  # heights of letters from the roller to the dimension of the stroke
@@ -35,7 +36,7 @@ NUMBERS, PHASES = 1.7, 2.8  # heights of letters from the outermost roller to th
 
 def roller_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the follower is lowest."""
-    solved, canvas, mu = scene.solved, canvas_of(scene), scene.mu_l
+    solved, canvas, mu = scene.solved, FIGURE.canvas(scene, COARSE), scene.mu_l
     roller = solved.roller
     assert roller is not None
     e, s_0, stroke = roller.sizes.e / mu, roller.sizes.s_0 / mu, solved.motion.h / mu
@@ -129,3 +130,26 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
         ends = on_circle(rod.x, r_0 / mu, up), scene.mm(f"{PROFILE}.B{division.top}")
     linear(canvas, ends, out, words.symbol("h"), "h")
     return [left] if left else []
+
+
+def _central(scene: CamScene) -> str:
+    """Return the ending of the key of a sentence that is another one where the follower's line has no offset."""
+    return "" if is_aside(scene) else "_central"
+
+
+FIGURE = Figure(
+    PROFILE,
+    roller_view,
+    ("mu_l",),
+    (
+        Stage("shaft", "profile.O"),
+        Stage("circles", "_axis#", variant=_central),
+        Stage("lines", "profile.E#", variant=_central),
+        Stage("pitch", "profile.B#"),
+        Stage("normal", "profile.P#"),
+        Stage("profile", "profile.K#"),
+        Stage("sharpest", when=is_sharp),
+        Stage("follower"),
+    ),
+    "cam.profile",
+)

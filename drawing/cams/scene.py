@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -18,11 +19,11 @@ from ...scales.scale import Scale
 from ..givens import Given
 from ..printed import decimals_for
 from ..style import Style
-from ..view import Canvas
 from ..words import Words
 
 Array = NDArray[np.float64]
 MU_DIGITS = 5  # of a scale factor that follows from a drawing: enough for 0.01 mm
+CENTRAL = 0.05  # mm, of a circle of the offset that is not drawn
 COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
 FINE = np.radians(0.5)  # between points of a curve
 
@@ -101,11 +102,6 @@ class CamScene:
         return self.words.number(value, decimals_for(value))
 
 
-def canvas_of(scene: CamScene) -> Canvas:
-    """Return an empty canvas, on which letters keep clear of curves to a tenth of a millimetre."""
-    return Canvas(scene.style, coarse=COARSE)
-
-
 def pieces(solved: SolvedCam, phase: Phase) -> list[tuple[Array, Array, Array, Array]]:
     """Return the smooth pieces of a phase, densely: phi, s, s', s'' of each, with the limits at both its ends."""
     found = []
@@ -116,3 +112,20 @@ def pieces(solved: SolvedCam, phase: Phase) -> list[tuple[Array, Array, Array, A
             value[-1] = last[0]
         found.append((phi, *here))
     return found
+
+
+def given(*names: str) -> Callable[[CamScene], str]:
+    """Return what the key of a sentence about a size ends with: the `names` that are given."""
+    return lambda scene: "".join(f"_{name}" for name in names if name in scene.solved.givens)
+
+
+def is_aside(scene: CamScene) -> bool:
+    """Whether the follower's line has an offset that is drawn."""
+    roller = scene.solved.roller
+    return roller is not None and abs(roller.sizes.e) > CENTRAL * scene.mu_l
+
+
+def is_sharp(scene: CamScene) -> bool:
+    """Whether a pitch curve is convex anywhere, so that it has a least radius of curvature."""
+    cam = scene.solved.roller or scene.solved.rocker
+    return cam is not None and 0.0 < cam.profile.sharpest.value < math.inf

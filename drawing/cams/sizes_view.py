@@ -13,6 +13,7 @@ from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.size_plans import SIZES, phase_of
 from ...plans.cams.sizes import BACK, wedge
 from ..dimensions import linear
+from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import angle_dimension, turning_arrow
 from ..view import Canvas, View
@@ -20,7 +21,7 @@ from .fan import small
 from .hatching import hatched
 from .offsets import permitted_offsets
 from .pressing import pressed
-from .scene import CamScene, canvas_of, pieces
+from .scene import COARSE, CamScene, given, pieces
 from .transfer import transfer
 
 PAST = 8.0  # mm by which an axis runs past the curve
@@ -35,7 +36,7 @@ def sizes_view(scene: CamScene) -> View:
     solved, words = scene.solved, scene.words
     roller = solved.roller
     assert roller is not None
-    canvas = canvas_of(scene)
+    canvas = FIGURE.canvas(scene, COARSE)
     mu = scene.scale(SIZES).mu
     centre = complex(roller.sizes.e, -roller.sizes.s_0) * (1.0 / mu)
     canvas.part("points")
@@ -186,3 +187,19 @@ def on_lines(scene: CamScene) -> list[tuple[int, str]]:
     """Return the section lines of rise and fall, each with the name of its phase."""
     division = scene.solved.layout.division
     return [*((i, RISE) for i in division.rise), *((i, FALL) for i in division.fall)]
+
+
+FIGURE = Figure(
+    SIZES,
+    sizes_view,
+    ("mu_s_ds", "reduction"),
+    (
+        Stage("axes", "sizes.#"),
+        Stage("points", "sizes.#_rise"),
+        *(Stage(f"tangent_{limit}", f"sizes.T_{limit}") for limit in ("rise", "fall", "rise_back", "fall_back")),
+        Stage("permitted", "sizes.A"),
+        Stage("centre", "sizes.C", variant=given("r_0", "e")),
+        Stage("pressure"),
+    ),
+    "cam.sizes",
+)

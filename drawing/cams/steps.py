@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 
 from ...plans.cams.integration import ACCELERATION
-from ...plans.cams.inversion import PROFILE
 from ...plans.cams.rocker_plans import ROCKER_SIZES
 from ...plans.cams.size_plans import OUTWARDS, PLATE_SIZES, SIZES
 from ..notes.blocks import Sentences, Story
@@ -14,33 +13,25 @@ from ..printed import segment_decimals
 from .conclusions import conclusions
 from .offsets import offsets_line
 from .pressing import permitted, pressed, rolls, theta
-from .scene import MU_DIGITS, CamScene
+from .scene import MU_DIGITS, CamScene, is_aside
 from .sizes_view import SHOWN
-from .stages import stages
 from .transfer import ratio
 
 PAPER = 2  # decimals of segments on paper
 Said = dict[str, str]
-# choices of sizes: by view the givens that make the sentence about the centre another one
-CHOSEN = {SIZES: ("r_0", "e"), ROCKER_SIZES: ("l_OC", "r_0"), PLATE_SIZES: ("r_0_flat",)}
-CENTRAL = 0.05  # mm, of a circle of the offset that is not drawn
 
 
 def story(scene: CamScene, texts: Mapping[str, str]) -> Story:
-    """Return what the note of a cam says beside its views: the stages of each, with lengths as they are drawn.
+    """Return what the note of a cam says beside its views, and what their stages are told with: lengths as drawn.
 
     Parameters
     ----------
     texts : mapping of str to str
         The sentences, by key.
     """
-    said = _said(scene, texts)
-    told = {
-        view: [texts[_key(scene, view, part)].format(**said) for part in parts[1:]]
-        for view, parts in stages(scene.solved).items()
-    }
+    aim = Sentences((_aim(scene, texts),))
     return Story(
-        told, conclusions=tuple(conclusions(scene, texts)), before={"givens": (Sentences((_aim(scene, texts),)),)}
+        conclusions=tuple(conclusions(scene, texts)), before={"givens": (aim,)}, texts=texts, said=_said(scene, texts)
     )
 
 
@@ -49,22 +40,6 @@ def _aim(scene: CamScene, texts: Mapping[str, str]) -> str:
     followers = scene.solved.cam.followers
     named = texts["cam.and"].join(texts[f"cam.for.{follower}"] for follower in followers)
     return texts["cam.aims" if len(followers) > 1 else "cam.aim"].format(followers=named)
-
-
-def _key(scene: CamScene, view: str, part: str) -> str:
-    """Return the key of a sentence: it depends on what is given, and on whether the follower's line has an offset."""
-    solved = scene.solved
-    if part == "centre" and view in CHOSEN:
-        given = [name for name in CHOSEN[view] if name in solved.givens]
-        return "_".join([f"cam.{view}.{part}", *given])
-    of_rocker = view == PROFILE and solved.rocker is not None
-    central = view == PROFILE and part in ("circles", "lines") and not _is_aside(scene)
-    return f"cam.{'rocker_' * of_rocker}{view}.{part}{'_central' * central}"
-
-
-def _is_aside(scene: CamScene) -> bool:
-    roller = scene.solved.roller
-    return roller is not None and abs(roller.sizes.e) > CENTRAL * scene.mu_l
 
 
 def _said(scene: CamScene, texts: Mapping[str, str]) -> Said:
@@ -173,7 +148,7 @@ def _of_profiles(scene: CamScene) -> Said:
         radii = {"r_0": solved.rocker.sizes.r_0, "l_OC": solved.rocker.sizes.l_OC}
     elif solved.roller is not None:
         radii = {"r_0": solved.roller.sizes.r_0}
-        if _is_aside(scene):
+        if is_aside(scene):
             radii["e"] = abs(solved.roller.sizes.e)
     drawn = ", ".join(scene.stated(name, radius) for name, radius in radii.items())
     return {"scale": scene.words.drawn_at(scene.mu_l), "radii": drawn}

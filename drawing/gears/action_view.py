@@ -7,6 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from ..dimensions import linear
+from ..figure import ANSWERS, Figure, stages
 from ..printed import Input, calculation
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import lay_out
@@ -16,15 +17,19 @@ from .scene import GearScene
 LEVEL = 2.2  # heights of letters for each pair that touches
 ROW = 1.8  # heights of letters between dimension lines
 FIRST = 3.0  # heights of letters from the line to the first of them
+# in which points of the line are marked; all others with the pitches
+STAGE = {"P": "pole", "N1": "line_of_action", "N2": "line_of_action", "A1": "active_line", "A2": "active_line"}
 SAME = 1e-9  # part of the base pitch: places that are one
 
 
 def action_view(overall: GearScene) -> View:
     """Draw N1N2 along the abscissa, N1 on the left."""
     scene = replace(overall, mu_l=overall.rolled)
-    canvas = Canvas(scene.style)
+    canvas = FIGURE.canvas(scene)
+    canvas.part(ANSWERS)
     _zones(canvas, scene)
     _line(canvas, scene)
+    canvas.part(ANSWERS)
     _dimensions(canvas, scene)
     heading = scene.words["heading.gear_action"], scene.factor(scene.mu_l)
     return canvas.finish(
@@ -97,7 +102,9 @@ def _line(canvas: Canvas, scene: GearScene) -> None:
     ends = {name: scene.size(size) / mu for name, size in (("A1", "rho_p1"), ("P", "rho_w1"), ("A2", "rho_a1"))}
     line = scene.size("l_N1N2") / mu
     low, high = min(0.0, *ends.values()), max(line, *ends.values())
+    canvas.part("line_of_action")
     canvas.add(Line(complex(low, 0.0), complex(high, 0.0), Pen.THIN, role="line-of-action", name="N1N2"))
+    canvas.part("active_line")
     first, last = (rho_1 / mu for rho_1 in scene.touching) if scene.lacking else (ends["A1"], ends["A2"])
     canvas.add(Line(complex(first, 0.0), complex(last, 0.0), Pen.MAIN, role="active", name="A1A2"))
     pitch = scene.size("p_b") / mu
@@ -106,6 +113,7 @@ def _line(canvas: Canvas, scene: GearScene) -> None:
         if 0.0 < x < line:
             ends[f"H{i}"] = x
     for name, x in ends.items():
+        canvas.part(STAGE.get(name, "pitches"))
         canvas.add(Group((Circle(complex(x, 0.0), style.node, Pen.THIN, fill="white"),), "point", name))
         letter = f"{name[0]}_{{{name[1:]}}}" if name[1:] else name
         canvas.label(letter, complex(x, 0.0), prefer=-1j, clear=style.node + 0.8)
@@ -132,3 +140,8 @@ def _dimensions(canvas: Canvas, scene: GearScene) -> None:
             at = ends[0] + 1j * y, ends[1] + 1j * y
             canvas.label(scene.stated(quantity), at, prefer=1j, clear=0.8, height=scene.style.text)
         y -= ROW * scene.style.label * bool(shown)
+
+
+FIGURE = Figure(
+    "action", action_view, ("rolled",), stages("pole", "line_of_action", "active_line", "pitches"), "gear.action"
+)

@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 
 from ..dimensions import linear
+from ..figure import ANSWERS
 from ..shapes import Anchor, Arc, Circle, Group, Line, Pen, Text
 from ..symbols import angle_dimension, fixed_pivot, right_angle, turning_arrow
 from ..view import Canvas
@@ -19,6 +20,7 @@ PAST = 8.0  # mm of a line beyond what it goes to
 PITCH = 1.9  # heights of letters between diameters written under one another
 SHELF = 5.0  # mm from the longest arc to the diameters
 SAME = 0.02  # mm between circles that are one line
+STAGE = {"w": "rolling_circles", "b": "line_of_action"}  # of the circles, but for those of the teeth
 WIDEST = 0.9 * math.pi  # half the angle of circles at most
 TURNING = 3.2  # radius of the arrows of omega, in heights of letters
 
@@ -41,6 +43,7 @@ def circles(canvas: Canvas, wheel: Wheel, span: Span, to_end: bool) -> None:
             low = -wheel.side * max(abs(low), wheel.sizes["alpha_w"] + PAST / wheel.radius("b"))
         same = abs(wheel.radius(name) - wheel.radius("")) < SAME
         arc = Arc(wheel.centre, wheel.radius(name), cmath.phase(wheel.up) + low, high - low, PENS["" if same else name])
+        canvas.part(STAGE.get(name, "circles"))
         canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
 
 
@@ -53,6 +56,7 @@ def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float, othe
     height, side = scene.style.text, -wheel.up.imag  # in which the wheel is from the pole: +1 above, -1 below
     out = wheel.side * side  # to the right, or to the left
     ends = {f"d_{name}{wheel.number}": wheel.on(wheel.radius(name), angle) for name in CIRCLES}
+    stage_of = {f"d_{name}{wheel.number}": STAGE.get(name, "circles") for name in CIRCLES}
     names = sorted(ends, key=lambda name: side * ends[name].imag)
     apart = _apart([side * ends[name].imag for name in names], PITCH * height)
     levels = [max(level, (k + 1) * PITCH * height) for k, level in enumerate(apart)]  # clear of t-t and its letters
@@ -61,6 +65,7 @@ def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float, othe
     anchor: Anchor = "left" if out > 0.0 else "right"
     for name, level in zip(names, levels, strict=True):
         at = complex(out * x, side * level)
+        canvas.part(stage_of[name])
         canvas.add(Line(ends[name], at, Pen.THIN, role="leader", name=name))
         text = scene.words.symbol(name) if scene.close else scene.stated(name)
         place = at + complex(out, -0.5 * height)
@@ -84,12 +89,16 @@ def centres(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel], left: f
     """Draw both centres on the line of centres, their distance as a dimension at the abscissa `left`."""
     style, sense = scene.style, scene.meshing.sense
     below, above = (scene.mm(f"O{wheel.number}") for wheel in pair)
+    canvas.part("centres")
     canvas.add(Line(below - 2j * PAST, above + 2j * PAST, Pen.AXIS, role="axis", name="O1O2"))
     for wheel, at in zip(pair, (below, above), strict=True):
         canvas.add(fixed_pivot(at, f"O{wheel.number}", style, -wheel.up))
         canvas.label(f"O_{{{wheel.number}}}", at, prefer=complex(1.0, 0.3), clear=style.pair + 0.8)
         turns = sense if wheel.number == 1 else -sense
+        canvas.part(ANSWERS)
         _turning(canvas, scene, wheel, float(turns))
+        canvas.part("centres")
+    canvas.part(ANSWERS)
     linear(canvas, (below, above), complex(left, 0.0), scene.stated("a_w"), "a_w")
 
 
@@ -104,6 +113,7 @@ def _turning(canvas: Canvas, scene: GearScene, wheel: Wheel, turns: float) -> No
 
 def tangent(canvas: Canvas, left: float, right: float) -> None:
     """Draw the common tangent t-t of the rolling circles through the pole."""
+    canvas.part("rolling_circles")
     canvas.add(Line(complex(left, 0.0), complex(right, 0.0), Pen.THIN, role="tangent", name="t"))
     for end in (left, right):
         canvas.label("t", complex(end, 0.0), prefer=complex(end, 0.0), clear=0.8)
@@ -113,12 +123,15 @@ def line_of_action(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel]) 
     """Draw N1N2 with the radii to its ends."""
     along, size = scene.meshing.along, 0.6 * scene.style.label
     ends = [scene.mm(f"N{wheel.number}") for wheel in pair]
+    canvas.part("line_of_action")
     canvas.add(Line(ends[0] - PAST * along, ends[1] + PAST * along, Pen.THIN, role="line-of-action", name="N1N2"))
     for wheel, end, inside in zip(pair, ends, (along, -along), strict=True):
         name = f"N{wheel.number}"
         canvas.add(Line(wheel.centre, end, Pen.THIN, role="radius", name=name))
         radius = (wheel.centre - end) / abs(wheel.centre - end)
+        canvas.part(ANSWERS)
         canvas.add(right_angle(end, radius, inside, size))
+        canvas.part("line_of_action")
         node(canvas, scene, name, -radius)
 
 
@@ -129,6 +142,7 @@ def active_line(canvas: Canvas, scene: GearScene, inner: bool = True) -> None:
     """
     along = scene.meshing.along
     first, last = scene.mm("A1"), scene.mm("A2")
+    canvas.part("active_line")
     if inner or scene.lacking:
         canvas.add(Line(first - PAST * along, last + PAST * along, Pen.THIN, role="line-of-action", name="A1A2"))
     if scene.lacking:
@@ -136,7 +150,9 @@ def active_line(canvas: Canvas, scene: GearScene, inner: bool = True) -> None:
     canvas.add(Line(first, last, Pen.MAIN, role="active", name="A1A2"))
     node(canvas, scene, "A1", -along - 1j)
     node(canvas, scene, "A2", along + 1j)
+    canvas.part("centres")
     node(canvas, scene, "P", along.conjugate() * -1j)
+    canvas.part("single_contact")
     for name in ("K1", "K2") if inner else ():
         node(canvas, scene, name, 1j * along)
 
@@ -144,6 +160,7 @@ def active_line(canvas: Canvas, scene: GearScene, inner: bool = True) -> None:
 def middle(canvas: Canvas, pair: tuple[Wheel, Wheel]) -> None:
     """Draw the line of centres as far as the teeth go."""
     low, high = (wheel.on(wheel.radius("f") - PAST, 0.0) for wheel in pair)
+    canvas.part("centres")
     canvas.add(Line(low, high, Pen.AXIS, role="axis", name="O1O2"))
 
 
@@ -154,6 +171,7 @@ def angle_of_action(canvas: Canvas, scene: GearScene) -> None:
     reach = 0.85 * abs(far)
     start = math.pi if far.real < 0.0 else 0.0
     sweep = math.remainder(cmath.phase(far) - start, 2.0 * math.pi)
+    canvas.part(ANSWERS)
     canvas.add(angle_dimension(0j, reach, start, sweep, "alpha_w", scene.style))
     middle = cmath.rect(reach, start + 0.5 * sweep)
     canvas.label(scene.angle("alpha_w"), middle, prefer=middle, clear=1.0, height=scene.style.text)

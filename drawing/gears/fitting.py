@@ -11,8 +11,9 @@ from ...plans.gears.sliding_plan import SLIDING, THETA
 from ...plans.gears.solve import SolvedGear
 from ...scales.scale import Scale
 from ..contents import SheetContents
+from ..figure import Figure
 from ..formats import Format, room
-from ..rungs import Figure, Kept
+from ..rungs import Kept
 from ..style import STYLES
 from ..table import note_block
 from ..view import View
@@ -71,8 +72,8 @@ class Fitting:
         scene = self.scene(sheet, rungs)
         width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
         return [
-            (self._kept.view(scene, sheet, rungs, figure, name, name == MESHING and scene.apart), figure)
-            for name, figure in figures(self.contents, scene, width)
+            (self._kept.view(scene, sheet, rungs, figure, figure.name == MESHING and scene.apart), figure)
+            for figure in figures(self.contents, scene, width)
         ]
 
     def least(self, sheet: Format) -> Rungs:
@@ -100,16 +101,16 @@ class Fitting:
         return {plan: made[plan](scene) for plan in self.contents.solved.scale_of_plan}
 
 
-def figures(contents: Contents, scene: GearScene, width: float) -> Iterator[tuple[str, GearFigure]]:
-    """Go through the figures of a sheet, by name, in the order of the work; lines of text are at most `width` long."""
-    made: tuple[tuple[str, Callable[[], Iterator[tuple[str, GearFigure]]]], ...] = (
+def figures(contents: Contents, scene: GearScene, width: float) -> Iterator[GearFigure]:
+    """Go through the figures of a sheet in the order of the work; lines of text are at most `width` long."""
+    made: tuple[tuple[str, Callable[[], Iterator[GearFigure]]], ...] = (
         (GEOMETRY_PART, _data),
         (MESHING_PART, partial(_meshing, scene.apart)),
         (GEOMETRY_PART, partial(_quality, width)),
         (SLIDING_PART, _sliding),
     )
     if contents.note:
-        yield "note", Figure(lambda scene: note_block(scene.words, contents.note, scene.style, width))
+        yield Figure("note", lambda scene: note_block(scene.words, contents.note, scene.style, width))
     for part, figures_of in made:
         if part in contents.plans:
             yield from figures_of()
@@ -118,40 +119,38 @@ def figures(contents: Contents, scene: GearScene, width: float) -> Iterator[tupl
 # A view is imported when its plan is wanted.
 
 
-def _data() -> Iterator[tuple[str, GearFigure]]:
+def _data() -> Iterator[GearFigure]:
     from .tables import data_table
 
-    yield "data", Figure(data_table)
+    yield Figure("data", data_table)
 
 
-def _meshing(apart: bool) -> Iterator[tuple[str, GearFigure]]:
-    from .action_view import action_view
-    from .meshing_view import meshing_view, near_view
-    from .rolling_view import rolling_view
+def _meshing(apart: bool) -> Iterator[GearFigure]:
+    from . import action_view, meshing_view, rolling_view
 
-    yield "meshing", Figure(meshing_view, ("mu_l",))
+    yield meshing_view.FIGURE
     if apart:
-        yield "near", Figure(near_view, ("near",))
-    yield "rolling", Figure(rolling_view, ("rolled",))
-    yield "action", Figure(action_view, ("rolled",))
+        yield meshing_view.NEAR
+    yield rolling_view.FIGURE
+    yield action_view.FIGURE
 
 
-def _quality(width: float) -> Iterator[tuple[str, GearFigure]]:
+def _quality(width: float) -> Iterator[GearFigure]:
     from .contour_view import contour_view
     from .rack_view import rack_view
     from .tables import checks_table
     from .text import auxiliary_block, quality_block, sizes_block
 
-    yield "checks", Figure(checks_table)
-    yield "contour", Figure(contour_view)
-    yield "rack", Figure(rack_view, ("near",))
+    yield Figure("checks", checks_table)
+    yield Figure("contour", contour_view)
+    yield Figure("rack", rack_view, ("near",))
     for name, block in (("sizes", sizes_block), ("auxiliary", auxiliary_block), ("quality", quality_block)):
-        yield f"equations_{name}", Figure(partial(block, width=width))
+        yield Figure(f"equations_{name}", partial(block, width=width))
 
 
-def _sliding() -> Iterator[tuple[str, GearFigure]]:
-    from .sliding_view import sliding_view
+def _sliding() -> Iterator[GearFigure]:
+    from . import sliding_view
     from .tables import points_table
 
-    yield "sliding", Figure(sliding_view, ("part",))
-    yield "points", Figure(points_table)
+    yield sliding_view.FIGURE
+    yield Figure("points", points_table)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ..figure import ANSWERS, Figure, stages
 from ..page import extent
 from ..view import Canvas, View
 from . import along_circles, circles, teeth
 from .ladders import TOOTH
-from .scene import GearScene
+from .scene import MESHING, GearScene
 from .wheels import Wheel
 
 BESIDE = 10.0  # mm from the circles to the dimension of the distance of the centres
@@ -17,7 +18,7 @@ Pair = tuple[Wheel, Wheel]
 
 def meshing_view(scene: GearScene) -> View:
     """Draw the pair about its centres while a pair of teeth touches at the pole."""
-    canvas, pair = Canvas(scene.style), scene.wheels()
+    canvas, pair = FIGURE.canvas(scene), scene.wheels()
     left, right = _circles(canvas, scene, pair, to_end=True)
     circles.centres(canvas, scene, pair, extent(canvas.shapes)[0] - BESIDE)
     circles.tangent(canvas, left, right)
@@ -28,6 +29,7 @@ def meshing_view(scene: GearScene) -> View:
         teeth.outlines(canvas, pair)
     else:
         _details(canvas, scene, pair)
+    canvas.part(ANSWERS)
     for wheel in pair:
         along_circles.pitch(canvas, scene, wheel, to_centre=True)
     along_circles.action(canvas, scene, pair)
@@ -37,7 +39,7 @@ def meshing_view(scene: GearScene) -> View:
 def near_view(overall: GearScene) -> View:
     """Draw the middle of the meshing apart, larger."""
     scene = replace(overall, mu_l=overall.near, close=True)
-    canvas, pair = Canvas(scene.style), scene.wheels()
+    canvas, pair = NEAR.canvas(scene), scene.wheels()
     circles.tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
     circles.middle(canvas, pair)
     circles.active_line(canvas, scene)
@@ -76,6 +78,21 @@ def _details(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
     teeth.outlines(canvas, pair)
     teeth.active_flanks(canvas, scene, pair)
     teeth.lowest_points(canvas, scene, pair)
+    canvas.part(ANSWERS)
     for wheel in pair:
         along_circles.thickness(canvas, scene, wheel)
     along_circles.gaps(canvas, scene, pair)
+
+
+STAGES = stages(
+    "centres",
+    "rolling_circles",
+    "line_of_action",
+    "circles",
+    "active_line",
+    "teeth",
+    "lowest_points",
+    "single_contact",
+)
+FIGURE = Figure(MESHING, meshing_view, ("mu_l",), STAGES, "gear.meshing")
+NEAR = Figure("near", near_view, ("near",), STAGES)  # told with the meshing

@@ -6,6 +6,7 @@ import cmath
 import math
 from dataclasses import replace
 
+from ..figure import ANSWERS, Figure, stages
 from ..shapes import Arc, Circle, Group, Line, Pen, Polyline
 from ..symbols import right_angle
 from ..view import Canvas, View
@@ -23,14 +24,16 @@ LINE = "line-of-action"
 def rolling_view(overall: GearScene) -> View:
     """Draw how the flanks that touch at the pole are constructed."""
     scene = replace(overall, mu_l=overall.rolled)
-    canvas, pair, along = Canvas(scene.style), scene.wheels(), overall.meshing.along
+    canvas, pair, along = FIGURE.canvas(scene), scene.wheels(), overall.meshing.along
     for wheel in pair:
         _circles(canvas, scene, wheel)
         _involute(canvas, scene, wheel)
     for wheel, inside in zip(pair, (along, -along), strict=True):
         _foot(canvas, scene, wheel, inside)
     ends = (_end(scene, wheel) for wheel in pair)
+    canvas.part("line_of_action")
     canvas.add(Line(next(ends) - PAST * along, next(ends) + PAST * along, Pen.THIN, role=LINE, name="N1N2"))
+    canvas.part("pole")
     node(canvas, scene, "P", 1j * along)
     heading = scene.words["heading.gear_rolling"], scene.factor(scene.mu_l)
     return canvas.finish("rolling", heading, tuple(scene.words["said.gear_rolling"].split("|")))
@@ -53,9 +56,11 @@ def _circles(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
     for name, (low, high) in spans.items():
         start = cmath.phase(wheel.up) + low - BESIDE
         arc = Arc(wheel.centre, wheel.radius(name), start, high - low + 2.0 * BESIDE, PENS[name])
+        canvas.part("line_of_action" if name == "b" else "involutes")
         canvas.add(Group((arc,), "circle", f"d_{name}{i}"))
     far = max(base, key=abs)
     at = wheel.on(wheel.radius("b"), far + math.copysign(BESIDE, far))
+    canvas.part(ANSWERS)
     canvas.label(scene.stated(f"d_b{i}"), at, prefer=-wheel.up, clear=1.0, height=height)
     out = wheel.side * wheel.up * -1j  # away from N
     tip = wheel.on(wheel.radius("a"), end - wheel.side * beside)
@@ -67,11 +72,15 @@ def _involute(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
     i = wheel.number
     for k in (*_divisions(scene, wheel), TIP):
         foot, end = scene.mm(f"T{i}_{k}"), scene.mm(f"E{i}_{k}")
+        canvas.part("tangents")
         canvas.add(Line(foot, end, Pen.THIN, role="tangent", name=f"{i}_{k}"))
-        for letter, at in (("T", foot), ("E", end)):
+        for letter, at, stage in (("T", foot, "arcs"), ("E", end, "involutes")):
+            canvas.part(stage)
             canvas.add(_division(scene, at, f"{letter}{i}_{k}"))
+    canvas.part("parts")
     for k in _divisions(scene, wheel):
         _number(canvas, scene, wheel, k)
+    canvas.part("involutes")
     curve = wheel.flank(0.0, wheel.sizes[f"rho_a{i}"])
     canvas.add(Group((Polyline(curve, Pen.MAIN),), "curve", f"involute_{i}"))
 
@@ -96,11 +105,23 @@ def _foot(canvas: Canvas, scene: GearScene, wheel: Wheel, inside: complex) -> No
     name, label = f"N{wheel.number}", scene.style.label
     at = scene.mm(name)
     inward = (wheel.centre - at) / abs(wheel.centre - at)
+    canvas.part("line_of_action")
     canvas.add(Line(at, at + 3.0 * label * inward, Pen.THIN, role="radius", name=name))
+    canvas.part(ANSWERS)
     canvas.add(right_angle(at, inward, inside, 0.6 * label))
+    canvas.part("line_of_action")
     node(canvas, scene, name, inward - inside)
 
 
 def _divisions(scene: GearScene, wheel: Wheel) -> range:
     """Return the numbers of the divisions."""
     return range(scene.solved.layout.rollings[wheel.number - 1].last + 1)
+
+
+FIGURE = Figure(
+    "rolling",
+    rolling_view,
+    ("rolled",),
+    stages("pole", "line_of_action", "parts", "arcs", "tangents", "involutes"),
+    "gear.rolling",
+)

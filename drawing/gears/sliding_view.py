@@ -9,6 +9,7 @@ from ...plans.gears.geometry import POINTS
 from ...scales.scale import Scale
 from ..diagram import Axis, Field, axes, numbers
 from ..dimensions import linear
+from ..figure import ANSWERS, Figure, stages
 from ..shapes import Circle, Group, Line, Pen
 from ..text import lay_out
 from ..view import Canvas, View
@@ -38,11 +39,12 @@ class Ordinates:
 
 def sliding_view(scene: GearScene) -> View:
     """Draw both diagrams over N1N2, with the points of the table as section lines through both."""
-    canvas, words = Canvas(scene.style), scene.words
+    canvas, words = FIGURE.canvas(scene), scene.words
     ordinates = _ordinates(scene)
     above = Field(0j, _across(scene), Axis(words.symbol("V_k"), Scale("", 1.0, "mm"), 0.0, ordinates.highest, {}))
     below = theta_field(scene, above, BETWEEN * scene.style.label)
     past = PAST * scene.style.label
+    canvas.part("axes")
     for field in (above, below):
         axes(canvas, field, False, past)
     _sections(canvas, scene, above, below, ordinates)
@@ -87,6 +89,7 @@ def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordi
     height = scene.style.text
     foot = below.at(0.0, below.y.low).imag - 1.5
     lines = []
+    canvas.part(ANSWERS)
     for i, point in enumerate(POINTS, start=1):
         top = above.at(place(scene, point), max(ordinates.mm(scene.size(f"y_{k}_{point}")) for k in WHEELS))
         canvas.add(Line(top, complex(top.real, foot), Pen.THIN, role="section", name=str(i)))
@@ -94,6 +97,7 @@ def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordi
     canvas.add(*numbers(lines, foot - 0.8 - height, height, first=1))
     for name, rho in along(scene.solved.sizes).items():
         at = above.at(rho, 0.0)
+        canvas.part("active_line" if name in ("A1", "A2") else "axes")
         canvas.add(Group((Circle(at, scene.style.node, Pen.MAIN, fill="white"),), "point", name))
         canvas.label(letter(name), at, prefer=-0.6 - 1j if name == "N1" else 0.6 - 1j, clear=1.0, priority=1)
 
@@ -104,12 +108,14 @@ def _velocities(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordin
     for i in WHEELS:
         heights = [ordinates.mm(scene.size(f"y_{i}_{point}")) for point in POINTS]
         tips = [field.at(place(scene, point), y) for point, y in zip(POINTS, heights, strict=True)]
+        canvas.part("velocities")
         canvas.add(Group((Line(tips[0], tips[-1], Pen.MAIN),), "curve", f"V_k{i}"))
         for point, tip in zip(POINTS, tips, strict=True):
             canvas.add(Group((Circle(tip, style.node, Pen.THIN, fill="white"),), "ordinate", f"y_{i}_{point}"))
         far = [tip for tip in tips if (tip - w).real * SIDES[i] > -1e-6]
         canvas.label(words.symbol(f"V_k{i}"), widest(far, w), prefer=1j, clear=1.0)
         point, tip = (POINTS[-1], tips[-1]) if i == 1 else (POINTS[0], tips[0])
+        canvas.part(ANSWERS)
         text = f"{words.symbol(f'y_{i}')} = {words.number(scene.size(f'y_{i}_{point}') * 1e3, 2)}"
         linear(canvas, (complex(tip.real, 0.0), tip), 2.0 * style.label * SIDES[i], text, f"y_{i}_{point}")
 
@@ -123,8 +129,15 @@ def _pole(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) 
     """Mark W over the pole, and dimension PW; return its text where it has no room along its line."""
     w, words = w_of(scene, field, ordinates), scene.words
     text = f"{words.symbol('PW')} = {words.short(round(scene.size('PW') * 1e3, 6))}"
+    canvas.part(ANSWERS)
     fits = w.imag - 2.0 * scene.style.arrow > lay_out(text, scene.style.text).width
     linear(canvas, (complex(w.real, 0.0), w), 0j, text if fits else "", "PW")
+    canvas.part("pole")
     canvas.add(Group((Circle(w, scene.style.node, Pen.MAIN, fill="white"),), "point", "W"))
     canvas.label("W", w, prefer=1j, clear=1.2, priority=1)
     return [] if fits else [f"{text} {words.unit('mm')}"]
+
+
+FIGURE = Figure(
+    "sliding", sliding_view, ("part",), stages("axes", "pole", "velocities", "active_line", "sliding"), "gear.sliding"
+)

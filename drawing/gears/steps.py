@@ -8,7 +8,6 @@ from ...plans.gears.gear import WHEELS
 from ...plans.gears.sliding_plan import THETA
 from ...scales.scale import Scale
 from ..notes.blocks import Story
-from .begun import STAGES
 from .conclusions import conclusions
 from .scene import MESHING, GearScene
 from .theta_diagram import theta_said
@@ -18,7 +17,6 @@ SIZES = ("g_alpha", "p", "p_b", "rho_f", "l_N1N2", "PW", *(f"s_{i}" for i in WHE
 LAID_OFF = tuple(name for name in SIZES if name != "PW")  # at the scale of the meshing; PW is a segment itself
 ANGLES = ("alpha_w", *(f"phi_alpha{i}" for i in WHEELS))
 RADII = tuple(f"{circle}{i}" for circle in ("w", "b", "a", "f", "") for i in WHEELS)
-TOLD = ("meshing", "rolling", "action", "sliding")
 
 
 def story(scene: GearScene, scales: Mapping[str, Scale], texts: Mapping[str, str]) -> Story:
@@ -33,8 +31,7 @@ def story(scene: GearScene, scales: Mapping[str, Scale], texts: Mapping[str, str
     """
     theta = scales[THETA].mu if THETA in scales else scene.size("mu_theta") * 1e-3
     said = _said(scene, scales[MESHING].mu if MESHING in scales else 1e-3, theta)
-    steps = {view: [texts[f"gear.{view}.{k}"].format(**said) for k in range(1, len(STAGES[view]))] for view in TOLD}
-    return Story(steps, conclusions=tuple(conclusions(scene, texts)))
+    return Story(conclusions=tuple(conclusions(scene, texts)), texts=texts, said=said)
 
 
 def _said(scene: GearScene, mu: float, mu_theta: float) -> dict[str, str]:

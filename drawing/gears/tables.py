@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from ...plans.check import Check
-from ...plans.gears.gear import WHEELS
+from ...plans.gears.gear import SHIFTS, WHEELS
 from ...plans.gears.geometry import POINTS
+from ..handouts.begun import Shown
 from ..table import table
 from ..view import View
 from .marks import along, letter, marks
@@ -154,3 +155,20 @@ CENTRES: dict[str, Callable[[Symbol], str]] = {
     "a_w_tip1": lambda s: f"({s('d_a1')} + {s('d_f2')})/2 + {s('c')}·{s('m')}",
     "a_w_tip2": lambda s: f"({s('d_a2')} + {s('d_f1')})/2 + {s('c')}·{s('m')}",
 }
+
+
+def begun(scene: GearScene) -> dict[str, Shown]:
+    """Return what handouts show of the tables: the rows of what is given."""
+    nothing = frozenset[str]()
+    found = {name: Shown(nothing, nothing, rows=nothing) for name in ("points", "checks")}
+    return found | {"data": Shown(nothing, nothing, rows=frozenset(_given(scene)), columns=2)}
+
+
+def _given(scene: GearScene) -> Iterator[str]:
+    """Go through the first cells of the rows of what is given, and of the heads between them."""
+    shifts = [name for name in SHIFTS if name in scene.givens]
+    yield ""
+    for name, kind in (*PAIR, *OF_WHEELS):
+        known = name in ("m", "alpha", "h_a", "h_l", "c", "z") or name in shifts
+        if known or (name == "x" and shifts[:2] == ["x_1", "x_2"]):
+            yield named(scene, name, kind)

@@ -19,6 +19,7 @@ ENDS = ("start", "end")  # of the engagement
 
 def outlines(canvas: Canvas, pair: Sequence[Wheel]) -> None:
     """Draw the teeth of both wheels."""
+    canvas.part("teeth")
     for wheel in pair:
         line = Polyline(wheel.outline(), Pen.MAIN, role="profile", name=f"teeth_{wheel.number}")
         canvas.add(Group((line,), "wheel", str(wheel.number)))
@@ -26,6 +27,7 @@ def outlines(canvas: Canvas, pair: Sequence[Wheel]) -> None:
 
 def positions(canvas: Canvas, scene: GearScene) -> None:
     """Draw with thin lines the teeth that touch at both ends of the active line."""
+    canvas.part("single_contact")
     for name, rho_1 in zip(ENDS, scene.meshing.touching, strict=True):
         for wheel in scene.wheels(rho_1):
             line = Polyline(wheel.outline(1), Pen.THIN, role="profile", name=f"{name}_{wheel.number}")
@@ -35,6 +37,7 @@ def positions(canvas: Canvas, scene: GearScene) -> None:
 def active_flanks(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
     """Double the active flanks of the teeth in contact with a strip of strokes."""
     label = scene.style.label
+    canvas.part("lowest_points")
     for wheel in pair:
         flank = wheel.flank(*active_part(scene, wheel))
         strip = [point + STRIP * label * wheel.inward(point) for point in flank]
@@ -54,6 +57,7 @@ def active_part(scene: GearScene, wheel: Wheel) -> tuple[float, float]:
 
 def lowest_points(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
     """Swing the ends of the active line about the wheel's centre to its flank: there the flank begins to touch."""
+    canvas.part("lowest_points")
     for wheel in pair:
         name = f"L{wheel.number}"
         if active_part(scene, wheel)[0] > scene.size(f"rho_p{wheel.number}") * ROUNDING:

@@ -14,6 +14,7 @@ from ...plans.gears.geometry import POINTS
 from ...scales.scale import Scale
 from ..areas import strokes
 from ..diagram import Axis, Field, curve, divisions
+from ..figure import ANSWERS
 from ..shapes import Circle, Group, Line, Pen, Text
 from ..view import Canvas
 from ..words import Words
@@ -50,6 +51,7 @@ def theta_field(scene: GearScene, above: Field, apart: float) -> Field:
 
 def theta_diagram(canvas: Canvas, scene: GearScene, field: Field) -> None:
     """Draw both curves with the points of the table, the active part hatched, its extremes with their values."""
+    canvas.part("sliding")
     for i, name in CURVES.items():
         places = _places(scene, i, field.y.low)
         curve(canvas, field, places, name)
@@ -63,6 +65,7 @@ def theta_diagram(canvas: Canvas, scene: GearScene, field: Field) -> None:
         )
         _active(canvas, scene, field, i)
         canvas.label(scene.words.symbol(name), _free(scene, field, i), prefer=1j, clear=1.0)
+    canvas.part(ANSWERS)
     _extremes(canvas, scene, field)
 
 

@@ -24,9 +24,9 @@ class Shown:
     """What is drawn of a view: names of points, links, construction lines and quantities, and the letters.
 
     `notes` are the lines under its heading, which may hold results. A table keeps its first `columns`, and the `rows`
-    with these first cells; without any said, its last column where that is one of units. Of a view that is drawn part
-    by part these `parts` are drawn, whatever their names and letters. What is enlarged beside a view is drawn when the
-    view is drawn `whole`.
+    with these first cells; without any said, its last column where that is one of units. Of a view that is drawn in
+    stages the shapes of these `stages` are drawn, whatever their names and letters. What is enlarged beside a view is
+    drawn when the view is drawn `whole`.
     """
 
     names: frozenset[str]
@@ -34,21 +34,28 @@ class Shown:
     notes: bool = True
     rows: frozenset[str] | None = None
     columns: int = 1
-    parts: frozenset[str] | None = None
+    stages: frozenset[str] | None = None
     whole: bool = False
 
 
 NOTHING = Shown(frozenset(), frozenset(), notes=False)
 
 
-def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str, Shown]) -> list[Page]:
-    """Return pages on which views show no more than is `shown` of them; tables keep their heads and first columns.
+def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str, Shown], steps: int = 0) -> list[Page]:
+    """Return pages on which so many steps are done, and views without stages show no more than is `shown` of them.
 
-    All of it is given to the student, and in that layer.
+    Tables keep their heads and first columns. All of it is given to the student, and in that layer.
     """
     by_name = {view.name: view for view in views}
+    shown = {**shown, **{view.name: begun_stages(view, steps) for view in by_name.values() if view.stages}}
     begun = [replace(page, shapes=tuple(_page_shape(shape, by_name, shown) for shape in page.shapes)) for page in pages]
     return [replace(page, shapes=tuple(map(_given, page.shapes))) for page in begun]
+
+
+def begun_stages(view: View, steps: int) -> Shown:
+    """Return what is drawn of a view in its first stages; what stands under its heading is known when all are done."""
+    drawn = frozenset(list(view.stages)[: steps + 1])
+    return Shown(frozenset(), frozenset(), notes=drawn.issuperset({*view.parts, *view.stages} - {""}), stages=drawn)
 
 
 def _given(shape: Shape) -> Shape:
@@ -74,9 +81,9 @@ def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Sho
 
 def _belongs(shape: Shape, part: str, shown: Shown) -> bool:
     """Whether a shape of this part is shown, or without parts by its name or letter."""
-    if shown.parts is None or _is_heading(shape):
+    if shown.stages is None or _is_heading(shape):
         return _is_shown(shape, shown)
-    return part in shown.parts
+    return part in shown.stages
 
 
 def _is_heading(shape: Shape) -> bool:

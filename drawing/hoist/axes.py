@@ -6,7 +6,6 @@ from ..diagram import Field
 from ..shapes import Head, Line, Pen, Text
 from ..view import Canvas
 
-AXES = "axes"  # the part of the work that is there from the start
 TICK = 1.4  # mm
 PAST = 6.0  # mm by which an axis runs past its end
 

@@ -7,11 +7,11 @@ import numpy as np
 from ...plans.hoist.beam_plans import BENT, FORCE, LETTERS, SECTIONS
 from ...plans.laws import LAWS
 from ..dimensions import linear
+from ..figure import Figure, stages
 from ..shapes import Group, Line, Pen, Polyline
 from ..symbols import revolute
 from ..view import Canvas, View
-from .axes import AXES
-from .scene import HoistScene, canvas_of
+from .scene import COARSE, HoistScene
 
 APART = 14.0  # mm between the beams
 SAME = 0.5  # mm
@@ -20,7 +20,7 @@ PLACES = 121  # of a bent beam
 
 def beams_view(scene: HoistScene) -> View:
     """Draw the bent beams under their axes."""
-    canvas, words, low = canvas_of(scene), scene.words, 0.0
+    canvas, words, low = BEAMS.canvas(scene, COARSE), scene.words, 0.0
     for i in scene.solved.layout.bent:
         low = _beam(canvas, scene, i, low) - APART
     heading = (words["heading.hoist_beams"], scene.factors("mu_w", "mu_x"))
@@ -31,7 +31,7 @@ def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:
     """Draw one beam with its axis at `top`; return how low it reaches, mm."""
     plan, words, by = BENT[i], scene.words, 1j * top
     feet = [scene.mm(f"{plan}.f{n}") + by for n in range(SECTIONS + 1)]
-    canvas.part(AXES)
+    canvas.part("axes")
     canvas.add(Line(feet[0], feet[-1], Pen.AXIS, role="axis", name=plan))
     canvas.part("bent")
     for letter, force in zip(LETTERS, FORCE[i], strict=False):
@@ -40,7 +40,7 @@ def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:
         pen = Pen.MAIN if letter == LETTERS[0] else Pen.THIN
         canvas.add(Group((Polyline(points, pen),), "curve", f"{plan}_{letter}"), *nodes)
         canvas.label(words.symbol(force), points[2 * PLACES // 3], prefer=-1j, clear=1.2, height=scene.style.text)
-    canvas.part(AXES)
+    canvas.part("axes")
     for end in (feet[0], feet[-1]):
         canvas.add(revolute(end, plan, scene.style))
     canvas.label(words["hoist.beam_0" if i == 0 else "hoist.beam_2"], feet[0], prefer=-1.0 + 0j, clear=2.0)
@@ -67,3 +67,6 @@ def _bent(scene: HoistScene, i: int, force: str, top: float) -> tuple[complex, .
     w = np.asarray(LAWS["deflection_of_unit"](x, b, l, I, E)) * found[force]
     xs, ws = x / scene.scale("mu_x").mu, w / scene.scale("mu_w").mu
     return tuple(complex(x, top - w) for x, w in zip(xs.tolist(), ws.tolist(), strict=True))
+
+
+BEAMS = Figure("beams", beams_view, ("part",), stages("axes", "bent", "greatest"), "hoist.beams")

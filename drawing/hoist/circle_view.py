@@ -6,11 +6,11 @@ from cmath import phase
 from math import acos, cos, pi, sin
 
 from ...plans.hoist.model import CIRCLE
+from ..figure import Figure, Stage, stages
 from ..shapes import Arc, Group, Head, Line, Pen
 from ..symbols import angle_dimension
 from ..view import Canvas, View
-from .axes import AXES
-from .scene import HoistScene, canvas_of
+from .scene import COARSE, HoistScene
 
 PAST = 14.0  # mm by which the axis runs past the circle
 SAME = 1e-6  # part of the radius
@@ -19,11 +19,11 @@ ANGLE = 0.3  # part of the radius at which the angle is dimensioned
 
 def circle_view(scene: HoistScene) -> View:
     """Draw the circle with its start, its diameter and the angle run through."""
-    canvas, words = canvas_of(scene), scene.words
+    canvas, words = CIRCLE_FIGURE.canvas(scene, COARSE), scene.words
     centre, start = (scene.mm(f"{CIRCLE}.{mark}") for mark in ("C", "1"))
     start -= centre
     radius = abs(start)
-    canvas.part(AXES)
+    canvas.part("axes")
     left, right, top = complex(-radius - PAST), complex(radius + PAST), complex(0.0, radius + PAST)
     for a, b in ((left, right), (-top, top)):
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
@@ -69,3 +69,10 @@ def _circle(canvas: Canvas, scene: HoistScene, radius: float) -> None:
 def _unit(angle: float) -> tuple[float, float]:
 
     return cos(angle), sin(angle)
+
+
+# a rope that goes slack need not reach the ends of the diameter: they are no step of their own
+ENDS = Stage("ends", when=lambda scene: scene.solved.forces.motion is None)
+CIRCLE_FIGURE = Figure(
+    "circle", circle_view, ("mu_F_circle",), (*stages("axes", "start", "circle"), ENDS), "hoist.circle"
+)

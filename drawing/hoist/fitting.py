@@ -9,8 +9,9 @@ from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PAR
 from ...plans.hoist.solve import SCALES, SolvedHoist, reduced
 from ...scales.scale import Scale
 from ..contents import SheetContents
+from ..figure import Figure
 from ..formats import Format
-from ..rungs import Figure, Kept
+from ..rungs import Kept
 from ..style import STYLES
 from ..table import note_block, text_block
 from ..view import View
@@ -75,7 +76,7 @@ class Fitting:
     def views(self, sheet: Format, rungs: Rungs) -> list[tuple[View, HoistFigure]]:
         """Return the views of a sheet in the order of the work."""
         scene, wanted = self.scene(sheet, rungs), figures(self.contents)
-        return [(self._kept.view(scene, sheet, rungs, figure, name), figure) for name, figure in wanted]
+        return [(self._kept.view(scene, sheet, rungs, figure), figure) for figure in wanted]
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
@@ -83,46 +84,46 @@ class Fitting:
         return {plan: scene.scale(SCALES[plan]) for plan in self.contents.solved.scale_of_plan}
 
 
-def figures(contents: Contents) -> Iterator[tuple[str, HoistFigure]]:
-    """Go through the figures of a sheet, by name, in the order of the work."""
-    from .model_view import model_view
+def figures(contents: Contents) -> Iterator[HoistFigure]:
+    """Go through the figures of a sheet in the order of the work."""
     from .tables import checks_table, data_table, results_table, scales_table
 
     layout, plans = contents.solved.layout, contents.plans
-    yield "givens", Figure(data_table)
+    yield Figure("givens", data_table)
     if contents.note:
-        yield "note", Figure(lambda scene: note_block(scene.words, contents.note, scene.style, TEXT_WIDTH))
+        yield Figure("note", lambda scene: note_block(scene.words, contents.note, scene.style, TEXT_WIDTH))
     if SCHEME_PART in plans:
-        from .scheme_view import scheme_view
+        from .model_view import MODEL
+        from .scheme_view import SCHEME_FIGURE
 
-        yield "scheme", Figure(scheme_view, ("mu_l",))
-        yield "model", Figure(model_view)
-    yield "results", Figure(results_table)
+        yield SCHEME_FIGURE
+        yield MODEL
+    yield Figure("results", results_table)
     if FORCES_PART in plans:
-        from .forces_view import forces_view
+        from .forces_view import FORCES_FIGURE
 
-        yield "forces", Figure(forces_view, ("part",))
+        yield FORCES_FIGURE
     if ROOTS_PART in plans and layout.roots is not None:
-        from .roots_view import extremes_view, lift_off_view
+        from .roots_view import EXTREMES_FIGURE, LIFT_OFF_FIGURE
 
-        yield "lift_off", Figure(lift_off_view, ("part",))
+        yield LIFT_OFF_FIGURE
         if layout.roots.waves:
-            yield "extremes", Figure(extremes_view, ("part",))
+            yield EXTREMES_FIGURE
     if CIRCLE_PART in plans:
-        from .circle_view import circle_view
+        from .circle_view import CIRCLE_FIGURE
 
-        yield "circle", Figure(circle_view, ("mu_F_circle",))
+        yield CIRCLE_FIGURE
     if BEAMS_PART in plans and layout.bent:
-        from .beams_view import beams_view
+        from .beams_view import BEAMS
 
-        yield "beams", Figure(beams_view, ("part",))
+        yield BEAMS
     if FORCES_PART in plans:
         from .flow_view import flow_view
 
-        yield "strength", Figure(strength_block)
-        yield "checks", Figure(checks_table)
-        yield "flow", Figure(flow_view)
-    yield "scales", Figure(scales_table, ("mu_l", "mu_F_circle", "part"))
+        yield Figure("strength", strength_block)
+        yield Figure("checks", checks_table)
+        yield Figure("flow", flow_view)
+    yield Figure("scales", scales_table, ("mu_l", "mu_F_circle", "part"))
 
 
 def strength_block(scene: HoistScene) -> View:

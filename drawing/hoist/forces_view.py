@@ -9,21 +9,22 @@ from ...plans.hoist.course import course, end_of, marks
 from ...plans.hoist.diagram_plan import FORCES
 from ...plans.laws import TURN
 from ..diagram import Axis, Field, curve, divisions
+from ..figure import Figure, Stage, stages
 from ..shapes import Line, Pen, Text
 from ..view import Canvas, View
-from .axes import AXES, ruled
-from .scene import POINTS, HoistScene, canvas_of
+from .axes import ruled
+from .scene import COARSE, POINTS, HoistScene
 
 TALLEST = 1.05
-RESTING, HANGING = "resting", "hanging"  # parts of the work: until the lift-off, after it
+RESTING, HANGING = "resting", "hanging"  # stages: until the lift-off, after it
 ROW = 1.7  # heights of letters from time to time above the diagram
 
 
 def forces_view(scene: HoistScene) -> View:
     """Draw the forces over time."""
-    canvas, words = canvas_of(scene), scene.words
+    canvas, words = FORCES_FIGURE.canvas(scene, COARSE), scene.words
     field = _field(scene)
-    canvas.part(AXES)
+    canvas.part("axes")
     ruled(canvas, field)
     canvas.part("levels")
     _levels(canvas, scene, field)
@@ -127,3 +128,14 @@ def _values(canvas: Canvas, scene: HoistScene, field: Field) -> None:
         canvas.part(HANGING if name == "P_12_min" else RESTING)
         canvas.add(scene.node(at, name, filled=True))
         canvas.label(scene.stated(name), at, prefer=1j if "max" in name else -1j, clear=1.2, height=scene.style.text)
+
+
+# where the closed formulas are not valid, the first step says so, and draws nothing
+MOVED = Stage("moved", when=lambda scene: scene.solved.forces.motion is not None)
+FORCES_FIGURE = Figure(
+    "forces",
+    forces_view,
+    ("part",),
+    (Stage("axes"), MOVED, *stages("levels", RESTING, HANGING, "article")),
+    "hoist.forces",
+)

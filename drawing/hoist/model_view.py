@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from ..figure import Figure, stages
 from ..shapes import Arrow, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import hatching
 from ..view import Canvas, View
-from .scene import HoistScene, canvas_of
+from .scene import COARSE, HoistScene
 
 SPRING, COILS, HALF = 26.0, 5, 4.0  # mm: length of a spring, its coils, half its width
 MASS = 11.0, 13.0  # mm: half the width and the height of the mass
@@ -15,7 +16,7 @@ FORCE = 13.0  # mm, an arrow
 
 def model_view(scene: HoistScene) -> View:
     """Draw the model with its axis, springs, forces."""
-    canvas, words = canvas_of(scene), scene.words
+    canvas, words = MODEL.canvas(scene, COARSE), scene.words
     canvas.part("model")
     half, tall = MASS
     bottom = 1j * SPRING
@@ -55,3 +56,6 @@ def spring(a: complex, b: complex, name: str) -> Group:
         side = HALF if k % 2 == 0 else -HALF
         places.append(a + along * (LEG + inner * (k + 0.5) / (2 * COILS)) + 1j * along * side)
     return Group((Polyline((*places, b - along * LEG, b), Pen.THIN),), "spring", name)
+
+
+MODEL = Figure("model", model_view, stages=stages("blank", "model"), key="hoist.model")

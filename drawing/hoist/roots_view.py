@@ -10,16 +10,17 @@ from ...plans.hoist.construction import Roots
 from ...plans.hoist.root_plans import EXTREMES, LIFT_OFF
 from ...plans.laws import LAWS
 from ..diagram import Axis, Field, curve, divisions
+from ..figure import Figure, stages
 from ..shapes import Line, Pen
 from ..view import Canvas, View
-from .axes import AXES, ruled
+from .axes import ruled
 from .magnified import magnified
-from .scene import POINTS, HoistScene, canvas_of
+from .scene import COARSE, POINTS, HoistScene
 
 MANY, BESIDE_CROSSING = 48, 4  # section lines
 BELOW = 1.08  # times the least ordinate, the foot of the diagram
 FEW = 4  # crossings with their times beside them, and times in a line
-CROSSING = "crossing"  # the part of the work in which times are read
+CROSSING = "crossing"  # the stage in which times are read
 BESIDE = 24.0  # mm from a diagram to what is magnified of it
 
 
@@ -50,7 +51,12 @@ def _field(scene: HoistScene, letter: str, symbol: str, ends: tuple[float, float
 
 def lift_off_view(scene: HoistScene) -> View:
     """Draw the crossing of parabola and sinusoid."""
-    canvas, words, found, roots = canvas_of(scene), scene.words, scene.solved.forces.found, _roots(scene)
+    canvas, words, found, roots = (
+        LIFT_OFF_FIGURE.canvas(scene, COARSE),
+        scene.words,
+        scene.solved.forces.found,
+        _roots(scene),
+    )
     t = _times(scene)
     V, a, k = found["V_t"], found["a"], found["k"]
     with np.errstate(invalid="ignore"):
@@ -58,7 +64,7 @@ def lift_off_view(scene: HoistScene) -> View:
     parabola = np.asarray(LAWS["wound"](V, a, roots.begin + t)) - found["P_st"] / found["C"]
     low, high = float(min(parabola.min(), wave.min())), float(max(parabola.max(), wave.max()))
     field = _field(scene, f"y, {words.unit('m')}", "mu_y", (low, high))
-    canvas.part(AXES)
+    canvas.part("axes")
     ruled(canvas, field)
     canvas.part("curves")
     for name, ordinates in (("parabola", parabola), ("sinusoid", wave)):
@@ -81,7 +87,12 @@ def lift_off_view(scene: HoistScene) -> View:
 
 def extremes_view(scene: HoistScene) -> View:
     """Draw the crossings of sinusoid and straight line."""
-    canvas, words, found, roots = canvas_of(scene), scene.words, scene.solved.forces.found, _roots(scene)
+    canvas, words, found, roots = (
+        EXTREMES_FIGURE.canvas(scene, COARSE),
+        scene.words,
+        scene.solved.forces.found,
+        _roots(scene),
+    )
     t = _times(scene)
     V, a, k = found["V_t"], found["a"], found["k"]
     wave = np.asarray(LAWS["oscillation_rate"](V, a, k, roots.begin + t))
@@ -89,7 +100,7 @@ def extremes_view(scene: HoistScene) -> View:
     mu = scene.scale("mu_v").mu
     levels = [end.imag * mu for end in ends]
     field = _field(scene, words.unit("m/s"), "mu_v", (BELOW * min(*levels, float(wave.min())), float(wave.max())))
-    canvas.part(AXES)
+    canvas.part("axes")
     ruled(canvas, field)
     canvas.part("curves")
     curve(canvas, field, zip(t.tolist(), wave.tolist(), strict=True), "sinusoid")
@@ -142,3 +153,9 @@ def _crossing(canvas: Canvas, scene: HoistScene, plan: str, mark: str, name: str
         clear=1.2,
         height=scene.style.text,
     )
+
+
+LIFT_OFF_FIGURE = Figure(
+    "lift_off", lift_off_view, ("part",), stages("axes", "points", "curves", CROSSING), "hoist.lift_off"
+)
+EXTREMES_FIGURE = Figure("extremes", extremes_view, ("part",), stages("axes", "curves", CROSSING), "hoist.extremes")

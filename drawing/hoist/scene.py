@@ -13,7 +13,6 @@ from ..givens import Given
 from ..printed import decimals_for
 from ..shapes import Circle, Group, Pen
 from ..style import Style
-from ..view import Canvas
 from ..words import Words
 
 COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
@@ -62,8 +61,3 @@ class HoistScene:
     def node(self, at: complex, name: str, filled: bool = False) -> Group:
         """Return the mark of a point of a diagram."""
         return Group((Circle(at, self.style.node, Pen.THIN, fill="black" if filled else "white"),), "node", name)
-
-
-def canvas_of(scene: HoistScene) -> Canvas:
-    """Return an empty canvas, on which letters keep clear of curves to a tenth of a millimetre."""
-    return Canvas(scene.style, coarse=COARSE)

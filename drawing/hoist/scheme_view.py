@@ -6,22 +6,23 @@ from dataclasses import replace
 
 from ...plans.hoist.beam_plans import SCHEME
 from ..dimensions import linear
+from ..figure import Figure, stages
 from ..layers import Layer
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..symbols import fixed_pivot, hatching
 from ..text import lay_out
 from ..view import Canvas, View
-from .scene import HoistScene, canvas_of
+from .scene import COARSE, HoistScene
 
 LOAD = 0.45  # of the rope's length, the height of the load at most
 BOX = 12.0  # mm, the load's height at most
 DRUM = 3.0  # mm, radius
-BEAMS = {"0": "support", "2": "bridge"}  # parts of the work
+BEAMS = {"0": "support", "2": "bridge"}  # stages
 
 
 def scheme_view(scene: HoistScene) -> View:
     """Draw the scheme with its dimensions."""
-    canvas, words, style = canvas_of(scene), scene.words, scene.style
+    canvas, words, style = SCHEME_FIGURE.canvas(scene, COARSE), scene.words, scene.style
     at = {mark: scene.mm(f"{SCHEME}.{mark}") for mark in ("O1", "O2", "A0", "A2", "B1", "B2")}
     rope = abs(at["A2"] - at["A0"])
     canvas.part("support")
@@ -78,3 +79,6 @@ def rolling_support(at: complex, name: str, scene: HoistScene) -> Group:
     kept = tuple(shape for shape in pivot.shapes if not (isinstance(shape, Line) and shape.role == "hatch"))
     ground = Line(*ends), *hatching(*ends, -1j, scene.style)
     return Group((Group(kept, "pivot", name), Group((*rollers, *ground), "rollers", name)), "support", name)
+
+
+SCHEME_FIGURE = Figure("scheme", scheme_view, ("mu_l",), stages("blank", "support", "rope", "bridge"), "hoist.scheme")

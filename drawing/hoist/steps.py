@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from ...plans.hoist.model import CIRCLE
 from ...scales.scale import Scale
 from ..notes.blocks import Story
-from .begun import STAGES
 from .conclusions import conclusions
 from .scene import HoistScene
 
@@ -63,7 +62,6 @@ BENT = tuple(
         Formula(f"x_w{i}", f"sqrt((l_{i}**2 - b_{i}**2)/3)", "m"),
     )
 )
-TOLD = {view: len(table) - 1 for view, table in STAGES.items()}  # sentences
 
 
 def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, str]) -> Story:
@@ -76,12 +74,7 @@ def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, st
     texts : mapping of str to str
         The sentences, by key.
     """
-    said = _said(scene, scales)
     moved = scene.solved.forces.motion is not None
-    steps = {view: [texts[f"hoist.{view}.{k}"].format(**said) for k in range(1, n + 1)] for view, n in TOLD.items()}
-    if moved:
-        steps["forces"] = [texts["hoist.moved"], *steps["forces"]]
-        del steps["circle"][2:]  # the ends of the diameter hold for a rope that pulls all the time
     slack = (SLACK,) if scene.size("slack") > 0.0 else ()
     circle = (*_lines(scene, STARTED[:2]), _value(scene, "D_1", "F′_{12}(t_{1})/k_{1}"), *_lines(scene, STARTED[2:]))
     equations = {
@@ -91,7 +84,9 @@ def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, st
         "circle": circle if moved else (*circle, *_lines(scene, HANGING)),
         "beams": _lines(scene, BENT),
     }
-    return Story(steps, equations, conclusions=tuple(conclusions(scene, texts)))
+    return Story(
+        equations=equations, conclusions=tuple(conclusions(scene, texts)), texts=texts, said=_said(scene, scales)
+    )
 
 
 def formula(scene: HoistScene, told: Formula) -> tuple[str, ...]:

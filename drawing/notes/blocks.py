@@ -104,8 +104,9 @@ class Document:
 class Story:
     """What a note says beside the views of the sheet, by their names.
 
-    `equations` stand before the steps of a plan, and in the place of views that are `told` so; `conclusions` are
-    sentences for the end; the blocks `before` a view have headings of their own.
+    `steps` are those of a view that has no stages: the sentences of these stand in `texts` under their keys, with what
+    is `said` put in. `equations` stand before the steps of a plan, and in the place of views that are `told` so;
+    `conclusions` are sentences for the end; the blocks `before` a view have headings of their own.
     """
 
     steps: Mapping[str, Sequence[str]] = field(default_factory=dict)
@@ -113,6 +114,13 @@ class Story:
     told: frozenset[str] = frozenset()
     conclusions: tuple[str, ...] = ()
     before: Mapping[str, Sequence[Block]] = field(default_factory=dict)
+    texts: Mapping[str, str] = field(default_factory=dict)
+    said: Mapping[str, str] = field(default_factory=dict)
+
+    def steps_of(self, view: View) -> tuple[str, ...]:
+        """Return what is done, step by step, until a view is drawn."""
+        keys = (key for key in view.stages.values() if key)
+        return (*self.steps.get(view.name, ()), *(self.texts[key].format(**self.said) for key in keys))
 
 
 def blocks_of(views: Iterable[View], story: Story) -> Iterator[Block]:
@@ -134,7 +142,7 @@ def blocks_of(views: Iterable[View], story: Story) -> Iterator[Block]:
 
 
 def _plan(view: View, story: Story) -> Iterator[Block]:
-    equations, steps = story.equations.get(view.name, ()), tuple(story.steps.get(view.name, ()))
+    equations, steps = story.equations.get(view.name, ()), story.steps_of(view)
     if equations:
         yield Equations(tuple(map(tuple, equations)))
     if steps:

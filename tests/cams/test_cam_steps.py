@@ -7,11 +7,14 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from kulman import note
-from kulman.drawing.cams.stages import family, stages, tables
+from kulman.drawing.cams.fitting import Contents, Fitting, Rungs, figures
+from kulman.drawing.figure import Figure, families, family
+from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts.begun import begun_pages
 from kulman.drawing.notes.blocks import Sentences, Steps, Story
 from kulman.drawing.page import Page
@@ -54,6 +57,18 @@ def solved(task: str, variant: str, settings: Settings) -> Case:
     return solve_case(task, variant, dict(settings), None, None)
 
 
+def tables(case: Case) -> dict[str, tuple[Figure[Any], Any]]:
+    """Return the figures that are drawn in stages, each with its scene, by name."""
+    contents = Contents(cam(case), case.plans, case.choosers, case.givens, case.words("en"))
+    scene = Fitting(contents).scene(FORMATS["A1"], Rungs())
+    return {figure.name: (figure, scene) for figure in figures(contents, 200.0) if figure.stages}
+
+
+def stages(case: Case) -> dict[str, tuple[str, ...]]:
+    """Return the stages that the views of a case have, in order."""
+    return {name: tuple(figure.keys(scene)) for name, (figure, scene) in tables(case).items()}
+
+
 @cache
 def drawn(task: str, variant: str, settings: Settings) -> Sheet:
     return draw_case(solved(task, variant, settings), {}, lang="en")
@@ -69,14 +84,20 @@ def told(case: Case, lang: str = "en") -> Story:
     return case.kind.story(case, scales, case.words(lang), packaged("kulman.drawing.notes", "texts", lang))
 
 
-def said(story: Story) -> str:
+def said(case: Case, story: Story) -> str:
     aims = [text for block in story.before["givens"] if isinstance(block, Sentences) for text in block.texts]
-    return " ".join([*aims, *(text for steps in story.steps.values() for text in steps), *story.conclusions])
+    return " ".join([*aims, *(text for steps in sentences(case, story).values() for text in steps), *story.conclusions])
+
+
+def sentences(case: Case, story: Story) -> dict[str, list[str]]:
+    """Return what is told of every view."""
+    keys = {name: [*figure.keys(scene).values()] for name, (figure, scene) in tables(case).items()}
+    return {name: [story.texts[key].format(**story.said) for key in own[1:]] for name, own in keys.items()}
 
 
 @pytest.mark.parametrize("case", DRAWN)
 def test_views_are_drawn_in_the_stages_that_are_told(case: tuple[str, str, Settings]) -> None:
-    known = stages(cam(solved(*case)))
+    known = stages(solved(*case))
     figures = [view for view in drawn(*case).views if not (view.rows or view.lines)]
 
     assert {view.name for view in figures} == known.keys()
@@ -88,20 +109,18 @@ def test_views_are_drawn_in_the_stages_that_are_told(case: tuple[str, str, Setti
 
 @pytest.mark.parametrize("case", CASES)
 def test_every_mark_of_the_construction_has_its_stage(case: tuple[str, str, Settings]) -> None:
-    own = cam(solved(*case))
-    found = {stage.family for table in tables(own).values() for stage in table}
+    found = {stage.marks for figure, _ in tables(solved(*case)).values() for stage in figure.stages}
 
-    marks = {family(step.name) for step in own.program if "." in step.name}
+    program = solved(*case).solved.program
+    marks = {family(step.name) for step in program if "." in step.name}
     assert len(marks) >= 15
     assert not [mark for mark in marks if mark not in found and not any(re.fullmatch(p, mark) for p, _ in BESIDE)]
-    known = {part for parts in stages(own).values() for part in parts}
+    known = {part for parts in stages(solved(*case)).values() for part in parts}
     assert {part for _, part in BESIDE} <= known | {"points"}
 
 
 def test_stages_follow_the_construction() -> None:
-    first = stages(cam(solved(*CASES[0])))
-    once = stages(cam(solved(*CASES[1])))
-    rocks = stages(cam(solved(*CASES[6])))
+    first, once, rocks = (stages(solved(*CASES[k])) for k in (0, 1, 6))
 
     assert first["diagrams"] == (
         "axes", "sections", "law_a", "rays_a", "chords_v", "means_v", "rays_v", "chords_s", "scales",
@@ -110,10 +129,19 @@ def test_stages_follow_the_construction() -> None:
     assert once["diagrams"] == ("axes", "sections", "law_v", "rays_v", "chords_s", "scales")
     assert {"tangent_rise_back", "tangent_fall_back"} <= {*once["sizes"]}
     assert "plate_sizes" not in once
-    flat = (stages(cam(solved(*CASES[k])))["plate_sizes"] for k in (0, 5))
+    flat = (stages(solved(*CASES[k]))["plate_sizes"] for k in (0, 5))
     assert [*flat] == [("axes", "points", "tangent", "centre")] * 2  # r_0 of a plate found, and given
     assert rocks["rocker_sizes"] == ("pivot", "positions", "analogues", "limits", "centre", "pressure")
     assert rocks["profile"] == ("shaft", "pivots", "pitch", "normal", "profile", "sharpest", "follower")
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_stages_stand_in_the_order_of_the_construction(case: tuple[str, str, Settings]) -> None:
+    firsts = families(solved(*case).solved.program)
+    for name, (figure, scene) in tables(solved(*case)).items():
+        own = [stage for stage in figure.stages if stage.marks and stage.name in figure.keys(scene)]
+        places = [firsts[stage.marks, stage.verb] for stage in own[1:]]  # the first is there before any step
+        assert places == sorted(places), name
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
@@ -121,18 +149,19 @@ def test_stages_follow_the_construction() -> None:
 def test_a_note_tells_every_stage_but_the_first(case: tuple[str, str, Settings], lang: str) -> None:
     story = told(solved(*case), lang)
 
-    known = stages(cam(solved(*case)))
-    assert {view: len(steps) + 1 for view, steps in story.steps.items()} == {v: len(p) for v, p in known.items()}
-    text = said(story)
+    known = stages(solved(*case))
+    told_of = sentences(solved(*case), story)
+    assert {view: len(steps) + 1 for view, steps in told_of.items()} == {v: len(p) for v, p in known.items()}
+    text = said(solved(*case), story)
     assert not re.search(r"(?<![_^])(?<!bar)\{[a-z]\w+\}|\b(nan|inf|None)\b|  ", text), text
     assert bool(re.search("[іїєґ]", text)) == (lang == "uk")
     assert bool(re.search("[ыэъ]", text)) == (lang == "ru")
-    assert all(step.endswith((".", ". ")) for steps in story.steps.values() for step in steps)
+    assert all(step.endswith((".", ". ")) for steps in told_of.values() for step in steps)
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_what_is_read_from_a_plan_recomputes(case: tuple[str, str, Settings]) -> None:
-    products = PRODUCT.findall(said(told(solved(*case))))
+    products = PRODUCT.findall(said(solved(*case), told(solved(*case))))
 
     assert products or {"r_0", "l_OC"} & dict(case[2]).keys()
     for segment, mu, value in products:
@@ -142,14 +171,16 @@ def test_what_is_read_from_a_plan_recomputes(case: tuple[str, str, Settings]) ->
 
 @pytest.mark.parametrize("task", [TASK, pytest.param(ROCKER, marks=pytest.mark.soak)])
 def test_parts_of_the_work_are_told_alone(task: str) -> None:
-    whole = told(solve_case(task, None, None, None, None))
+    every = solve_case(task, None, None, None, None)
+    whole = told(every)
+    steps = sentences(every, whole)
 
     for only in PLANS:
         case = solve_case(task, None, None, only, None)
         story = told(case)
 
-        assert story.steps.keys() == stages(cam(case)).keys() <= whole.steps.keys()
-        assert all(steps == whole.steps[view] for view, steps in story.steps.items())
+        own = sentences(case, story)
+        assert own.items() <= steps.items()
         assert {*story.conclusions} <= {*whole.conclusions}
 
 
@@ -157,13 +188,14 @@ def test_sizes_that_are_all_given_are_marked_and_not_sought(tmp_path: Path) -> N
     text = Path(ROCKER).read_text(encoding="utf-8").replace("[givens]\n", '[givens]\nr_0 = { unit = "mm" }\n')
     (tmp_path / "all.toml").write_text(text, encoding="utf-8")
 
-    sentences = told(solve_case(tmp_path / "all.toml", "2", {"r_0": "60"}, None, None)).steps["rocker_sizes"]
-    assert any("given sizes l_{OC} = 130 mm, r_{0} = 60 mm" in sentence for sentence in sentences)
+    case = solve_case(tmp_path / "all.toml", "2", {"r_0": "60"}, None, None)
+    steps = sentences(case, told(case))["rocker_sizes"]
+    assert any("given sizes l_{OC} = 130 mm, r_{0} = 60 mm" in sentence for sentence in steps)
 
 
 def test_sentences_have_the_numbers_of_the_solution() -> None:
     case = solved(*CASES[0])
-    values, text = case.solved.values, said(told(case))
+    values, text = case.solved.values, said(case, told(case))
 
     for name in ("r_0", "r_0_tangents", "r_0_flat", "r_0_flat_min", "r_0_flat_tangent", "rho_min", "R_plate", "e"):
         assert f"{1e3 * float(values[name]):.2f} mm" in text, name
@@ -213,7 +245,7 @@ def parts(shapes: Iterable[Shape]) -> Iterator[Shape]:
             yield from parts(shape.shapes)
 
 
-def figures(pages: Iterable[Page]) -> list[Shape]:
+def shapes_of(pages: Iterable[Page]) -> list[Shape]:
     """Return all parts of the figures of pages: what stages build up."""
     own = {"diagrams", "sizes", "rocker_sizes", "plate_sizes", "profile", "plate_profile", "pressure"}
     views = [shape for page in pages for shape in page.shapes if isinstance(shape, Group) and shape.role == "view"]
@@ -223,15 +255,15 @@ def figures(pages: Iterable[Page]) -> list[Shape]:
 @pytest.mark.parametrize("case", DRAWN)
 def test_handouts_grow_from_axes_to_the_whole_drawing(case: tuple[str, str, Settings]) -> None:
     own, sheet = solved(*case), drawn(*case)
-    most = max(len(names) for names in stages(cam(own)).values())
+    most = max(len(names) for names in stages(own).values())
 
     def begun(steps: int) -> list[Shape]:
         shown = own.kind.begun(own, sheet.scales, own.words("en"), steps)
-        return figures(begun_pages(sheet.pages, sheet.views, shown))
+        return shapes_of(begun_pages(sheet.pages, sheet.views, shown, steps))
 
     counts = [len(begun(steps)) for steps in range(most)]
     assert all(a < b for a, b in pairwise(counts))
-    assert begun(most - 1) == figures(sheet.pages)
+    assert begun(most - 1) == shapes_of(sheet.pages)
     blank = [text for text in begun(0) if isinstance(text, Text)]
     numbers = [text.markup for text in blank if text.role != "heading" and re.search(r"\d", text.markup)]
     assert all(re.match(r"H_|−?\d+°$|d\^\{2\}s", text) for text in numbers), numbers

@@ -256,10 +256,10 @@ class Cams(Kind[Cam, "SolvedCam"]):
         return smaller, (InputError("cam-smaller", format=drawn.format, **said),)
 
     def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
-        """Return what the first stages of every view draw."""
-        from ...drawing.cams.begun import begun
+        """Show of the table of the motion the section lines, and their angles from the first step on."""
+        from ...drawing.handouts.begun import Shown
 
-        return begun(cam(case.solved), steps)
+        return {"motion": Shown(frozenset(), frozenset(), notes=False, columns=2 if steps else 1)}
 
     def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
         """Tell the drawing stage by stage, with the lengths that it has on the sheet."""

@@ -180,10 +180,10 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         return words[f"heading.gear_{plan}"]
 
     def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
-        """Return what the first steps of the drawing draw."""
-        from ...drawing.gears.begun import begun
+        """Return what is drawn of the tables; drawings have stages."""
+        from ...drawing.gears.tables import begun
 
-        return begun(self._scene(case, words), steps)
+        return begun(self._scene(case, words))
 
     def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
         """Tell the drawing step by step."""

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from ..sweeps.asked import SweepRequest
     from ..sweeps.hoist import HoistSweep
 
+CONDITIONS = 2  # columns of the table of checks that say what is asked
 DRAWN = "_drawn"  # what the name of a quantity ends with that is drawn
 UNASKED = ("s_min", "t_P12_max")
 RULES = {  # what is told of a check that fails
@@ -175,10 +176,10 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         return lettered(words, len(solved.layout.roots.times) if solved.layout.roots else 0)
 
     def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
-        """Return what the first steps of every drawing draw."""
-        from ...drawing.hoist.begun import begun
+        """Show what the table of checks asks; drawings have stages."""
+        from ...drawing.handouts.begun import Shown
 
-        return begun(self._scene(case, words), steps)
+        return {"checks": Shown(frozenset(), frozenset(), notes=False, rows=frozenset(), columns=CONDITIONS)}
 
     def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
         """Tell formulas with their numbers, and the drawings step by step."""

@@ -206,7 +206,7 @@ class Kind(ABC, Generic[Subject, Answer]):
         return Story()
 
     def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
-        """Return what is drawn of every view when the first steps of its plan have been done; nothing of others."""
+        """Return what is drawn, after the first steps, of views that are not drawn in stages; nothing of others."""
         return {}
 
     # Marking.
