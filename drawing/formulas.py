@@ -69,7 +69,9 @@ class Symbol:
 
         The exponent of its powers stands behind `base`, before `rest`; behind the text if these are not given.
         """
-        return cls(Term(((Atom(f"({text})" if text.startswith("−") else text, base, rest), 1),)))
+        if text.startswith("−"):
+            text = base = f"({text})"
+        return cls(Term(((Atom(text, base, rest), 1),)))
 
     @property
     def real(self) -> Symbol:

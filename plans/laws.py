@@ -211,6 +211,7 @@ LAWS: dict[str, Law] = {
     "sum": _sum,
     # where an instant centre divides the line of two pivots: it is nowhere while the link does not turn
     "part_of": _part_of,
+    "hypotenuse": lambda leg, other: (leg * leg + other * other) ** 0.5,
     "excess": lambda whole, part: whole - part,
     # the moment of a couple on the lever, turned by +90 degrees, is minus its power, like those of forces
     "couple_on_lever": lambda moment, omega: -moment * omega,

@@ -112,7 +112,6 @@ define(
     negative=lambda value: -value,
     # s_0^2 = r_0^2 - e^2, the radius of the upper dwell
     other_leg=_other_leg,
-    hypotenuse=lambda leg, other: (leg * leg + other * other) ** 0.5,
     # the angle between the sides a and b
     angle_of_triangle=(
         _angle_of_triangle,

@@ -72,30 +72,29 @@ def _deflection_of_unit(x: Any, b: Any, l: Any, I: Any, E: Any) -> Any:
 
 
 define(
-    # (4) m = (G_1 + G_2 / 3) / g
+    # (4)
     reduced_mass=lambda G_1, G_2, g: (G_1 + G_2 / 3.0) / g,
-    # (6) alpha = 1 / (beta^2 (1 - beta)^2)
+    # (6)
     place_factor=lambda beta: 1.0 / (beta * beta * ((1.0 - beta) * (1.0 - beta))),
-    # (5) C = 3 E I alpha / l^3
+    # (5)
     beam_stiffness=lambda E, I, alpha, l: 3.0 * E * I * alpha / (l * l * l),
-    # (7) C_k = S E_k / L
+    # (7)
     rope_stiffness=lambda S, E_k, L: S * E_k / L,
-    # (7) C_12 = C_k C_2 / (C_k + C_2), and likewise C of C_01 and C_12
-    in_series=lambda first, second: 1.0 / (1.0 / first + 1.0 / second),
-    # k^2 = (C_01 + C_12) / m, k_1^2 = C_12 / m
+    # (7)
+    in_series=(
+        lambda first, second: 1.0 / (1.0 / first + 1.0 / second),
+        lambda first, second: first * second / (first + second),
+    ),
     frequency_between=lambda first, second, m: np.sqrt((first + second) / m),
     frequency=lambda stiffness, m: np.sqrt(stiffness / m),
     # C_12 / (C_01 + C_12), of C_12 once more
     support_share=lambda C_12, C_01: C_12 / (C_01 + C_12),
-    # m g
     static_force=lambda m, g: m * g,
-    # V_t = (V_0^2 + 2 a slack)^(1/2)
     taut_speed=lambda V_0, a, slack: np.sqrt(V_0 * V_0 + 2.0 * a * slack),
     ratio=lambda part, whole: part / whole,
     product=lambda first, second: first * second,
     # (11) y - osc = m g / C
     lift_off=roots.lift_off,
-    # y = V t + a t^2 / 2, V + a t
     wound=lambda V, a, t: V * t + 0.5 * a * t * t,
     winding_speed=lambda V, a, t: V + a * t,
     # osc = (a / k^2) (1 - cos k t) + (V / k) sin k t
@@ -134,9 +133,8 @@ define(
     ),
     article_maximum=lambda m, g, a, V, C_12: m * g + m * a + np.sqrt((m * a) * (m * a) + V * V * m * C_12),
     article_time=lambda V, k_1, a: np.arctan2(V * k_1, -a) / k_1,
-    # sigma = F / S, safety = [sigma] / sigma
     stress=lambda force, S: force / S,
-    # w = P b (l^2 - b^2)^(3/2) / (9 sqrt(3) l E I) at ((l^2 - b^2) / 3)^(1/2) from the far end
+    # the greatest deflection, and its place from the far end
     greatest_deflection=(
         _greatest_deflection,
         lambda force, b, l, I, E: force * b * (l**2 - b**2) ** 1.5 / (NINE_ROOTS * E * I * l),
