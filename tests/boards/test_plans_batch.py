@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from typing import Any
 
 import numpy as np
@@ -81,3 +83,27 @@ def test_any_one_given_may_vary_while_the_others_stay() -> None:
             board = run(program, board_givens(mechanism, {**fixed, given: float(value)}))
             assert STATUSES[codes[index]] == board.status
             assert [name for name in names if bits(board.values[name]) != bits(results[name][index])] == []
+
+
+FAULTS = """
+import resource
+import numpy as np
+from kulman.plans.board import Program, Step
+from kulman.plans.boards.batch import batch
+
+program = Program(tuple(Step("turn", f"u{i}", ("phi",)) for i in range(8)))
+givens, wanted = {"phi": np.linspace(0.0, 6.0, 700_000)}, [f"u{i}" for i in range(8)]
+kept = batch(program, givens, wanted)  # a first one that is still in use
+for _ in range(3):
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+    batch(program, givens, wanted)
+    print(resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="counts page faults")
+def test_memory_of_a_large_batch_serves_the_next() -> None:
+    output = subprocess.run([sys.executable, "-c", FAULTS], capture_output=True, text=True, check=True).stdout
+
+    first, _, last = map(int, output.split())
+    assert last * 10 <= first
