@@ -2,18 +2,78 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import json
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from ..board import Program
 from .arrays import CODES
 from .exact import STATUSES, Status
-from .printers import Plain, Script, compiled, in_order, number, plain_names
+from .printers import ORDERS, PYTHON, Plain, compiled, in_order, number, plain_names
+from .protractor import MARKS, ROUND, graduation
 from .trace import Real, Vector
 from .tracing import TracingBoard
 
 KEPT = 64
+JAVASCRIPT = {
+    **PYTHON,
+    "absolute": "Math.abs({0})",
+    "sqrt": "Math.sqrt({0})",
+    "root": "Math.sqrt({0})",
+    "equal": "({0} == {1})",  # what is false is zero
+    "logical_and": "({0} && {1})",
+    "logical_or": "({0} || {1})",
+    "where": "({0} ? {1} : {2})",
+    "floor_divide": "floorDivide({0}, {1})",
+    "power": "Math.pow({0}, {1})",
+    "fmod": "({0} % {1})",
+    "arctan2": "Math.atan2({0}, {1})",
+    "mark": f"({{0}} === {{0}} ? (({{0}} - {ROUND!r}) % {MARKS} + {MARKS}) % {MARKS} : {MARKS})",
+}
 _KEPT: dict[Any, Callable[..., Any]] = {}
+
+
+@dataclass(frozen=True)
+class Script(Plain):
+    """The same as source of JavaScript: a function of the givens that returns an array, the code first."""
+
+    operations = JAVASCRIPT
+    orders = {order: said.replace(" or ", " || ") for order, said in ORDERS.items()}  # noqa: RUF012
+    orders["within"] = "(-{1} < {0} && {0} < {1})"
+    new, again = "let {0} = {1};", "{0} = {1};"
+    unless, worse, end = "if (!({0})) {{", "if ({0} && code < {1}) code = {1};", ("}",)
+    both, never = " && ", "false"
+
+    def source(self, function: str, results: Iterable[str], code: int = 0) -> str:
+        """Return the source of the function; it calls what `script_names` defines."""
+        lines = [*self.lines(code), f"return [{', '.join(('code', *results))}];"]
+        return "\n".join([f"function {function}(given) {{", *(f"  {line}" for line in lines), "}", ""])
+
+
+@cache
+def script_names() -> str:
+    """Return the source of what the source of `Script` calls, the protractor's table as it is in Python."""
+    cosines, sines = graduation()
+    eighth = MARKS // 8 + 1
+    return f"""\
+const nan = NaN, inf = Infinity;
+const [cosines, sines] = (function () {{
+  const sine = {json.dumps(sines[:eighth])}, cosine = {json.dumps(cosines[:eighth])};
+  const quarter = sine.concat(cosine.slice(0, -1).reverse());
+  const half = quarter.concat(quarter.slice(1, -1).reverse());
+  const turn = half.concat(half.map(value => -value));
+  return [turn.slice({MARKS // 4}).concat(turn.slice(0, {MARKS // 4})).concat([NaN]), turn.concat([NaN])];
+}})();
+function floorDivide(a, b) {{
+  const rest = a % b;
+  let parts = (a - rest) / b;
+  if (rest !== 0 && (b < 0) !== (rest < 0)) parts -= 1;
+  const whole = Math.floor(parts);
+  return parts - whole > 0.5 ? whole + 1 : whole;
+}}
+"""
 
 
 def values_of(program: Program, givens: Mapping[str, float]) -> tuple[dict[str, Any], Status]:

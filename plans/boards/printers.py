@@ -1,4 +1,4 @@
-"""A trace, printed: as straight NumPy for chunks of positions, as plain Python for one, as JavaScript for a page.
+"""A trace, printed: as straight NumPy for chunks of positions, as plain Python for one, as a loop over many.
 
 What is printed makes the same sums, products and roots in the same order, so that all printers agree to the last bit.
 """
@@ -45,24 +45,9 @@ PYTHON = {
     "arctan2": "float(arctan2({0}, {1}))",
     "cos": "cos({0})",
     "sin": "sin({0})",
-    "mark": f"(int({{0}} - {ROUND!r}) % {MARKS} if {{0}} == {{0}} else {MARKS})",
+    "mark": f"(int({{0}} - {ROUND!r}) & {MARKS - 1} if {{0}} == {{0}} else {MARKS})",
     "cosine": "cosines[{0}]",
     "sine": "sines[{0}]",
-}
-JAVASCRIPT = {
-    **PYTHON,
-    "absolute": "Math.abs({0})",
-    "sqrt": "Math.sqrt({0})",
-    "root": "Math.sqrt({0})",
-    "equal": "({0} == {1})",  # what is false is zero
-    "logical_and": "({0} && {1})",
-    "logical_or": "({0} || {1})",
-    "where": "({0} ? {1} : {2})",
-    "floor_divide": "floorDivide({0}, {1})",
-    "power": "Math.pow({0}, {1})",
-    "fmod": "({0} % {1})",
-    "arctan2": "Math.atan2({0}, {1})",
-    "mark": f"({{0}} === {{0}} ? (({{0}} - {ROUND!r}) % {MARKS} + {MARKS}) % {MARKS} : {MARKS})",
 }
 ORDERS = {
     "above": "{0} > {1}",
@@ -137,6 +122,7 @@ class Plain:
 
     operations: ClassVar[Mapping[str, str]] = PYTHON
     orders: ClassVar[Mapping[str, str]] = ORDERS
+    given: ClassVar[str] = "given[{name}]"
     new: ClassVar[str] = "{0} = {1}"
     again: ClassVar[str] = "{0} = {1}"
     unless: ClassVar[str] = "if not ({0}):"
@@ -160,7 +146,7 @@ class Plain:
             elif entry.operation in ("whole", "second"):
                 raise TypeError("a step that is more than arithmetic")
             elif entry.operation == "given":
-                yield self.new.format(f"v{place}", f"given[{json.dumps(entry.data)}]")
+                yield self.new.format(f"v{place}", self.given.format(place=place, name=json.dumps(entry.data)))
             elif place in self._named:
                 yield self.new.format(f"v{place}", self._expression(place))
 
@@ -227,47 +213,6 @@ def defined(name: str, parameters: Iterable[str], lines: Iterable[str]) -> str:
     return "\n".join([f"def {name}({', '.join(parameters)}):", *(f"    {line}" for line in lines), ""])
 
 
-@dataclass(frozen=True)
-class Script(Plain):
-    """The same as source of JavaScript: a function of the givens that returns an array, the code first."""
-
-    operations = JAVASCRIPT
-    orders = {order: said.replace(" or ", " || ") for order, said in ORDERS.items()}  # noqa: RUF012
-    orders["within"] = "(-{1} < {0} && {0} < {1})"
-    new, again = "let {0} = {1};", "{0} = {1};"
-    unless, worse, end = "if (!({0})) {{", "if ({0} && code < {1}) code = {1};", ("}",)
-    both, never = " && ", "false"
-
-    def source(self, function: str, results: Iterable[str], code: int = 0) -> str:
-        """Return the source of the function; it calls what `script_names` defines."""
-        lines = [*self.lines(code), f"return [{', '.join(('code', *results))}];"]
-        return "\n".join([f"function {function}(given) {{", *(f"  {line}" for line in lines), "}", ""])
-
-
-@cache
-def script_names() -> str:
-    """Return the source of what the source of `Script` calls, the protractor's table as it is in Python."""
-    cosines, sines = graduation()
-    eighth = MARKS // 8 + 1
-    return f"""\
-const nan = NaN, inf = Infinity;
-const [cosines, sines] = (function () {{
-  const sine = {json.dumps(sines[:eighth])}, cosine = {json.dumps(cosines[:eighth])};
-  const quarter = sine.concat(cosine.slice(0, -1).reverse());
-  const half = quarter.concat(quarter.slice(1, -1).reverse());
-  const turn = half.concat(half.map(value => -value));
-  return [turn.slice({MARKS // 4}).concat(turn.slice(0, {MARKS // 4})).concat([NaN]), turn.concat([NaN])];
-}})();
-function floorDivide(a, b) {{
-  const rest = a % b;
-  let parts = (a - rest) / b;
-  if (rest !== 0 && (b < 0) !== (rest < 0)) parts -= 1;
-  const whole = Math.floor(parts);
-  return parts - whole > 0.5 ? whole + 1 : whole;
-}}
-"""
-
-
 def compiled(source: str, name: str, names: Mapping[str, Any]) -> Callable[..., Any]:
     """Return the function of that name that a source defines, which calls nothing but `names`."""
     space = dict(names)
@@ -300,6 +245,35 @@ def number(value: float) -> str:
     if math.isfinite(value):
         return repr(float(value))
     return "nan" if value != value else "inf" if value > 0.0 else "-inf"
+
+
+@dataclass(frozen=True)
+class Loop(Plain):
+    """The same for many positions, as a loop over arrays `g...` of givens and `out...` of results that numba compiles.
+
+    Parameters
+    ----------
+    shared : collection of int
+        Places of what is the same at all positions.
+    """
+
+    shared: Collection[int]
+
+    given = "g{place}[i]"
+
+    def source(self, function: str, results: Iterable[str], code: int = 0) -> str:
+        """Return the source of a function of the codes, the arrays of givens, what is shared, and those of results."""
+        arrays = [f"g{place}" for place in self.order if self.trace.entries[place].operation == "given"]
+        results = list(results)
+        outputs = [f"out{index}" for index in range(len(results))]
+        lines = [*self.lines(code), *(f"{out}[i] = {result}" for out, result in zip(outputs, results, strict=True))]
+        lines += ["if code > codes[i]: codes[i] = code"]
+        parameters = ["codes", *arrays, *(f"v{place}" for place in self.shared), *outputs]
+        return defined(function, parameters, ["for i in range(codes.size):", *("    " + line for line in lines)])
+
+    @cached_property
+    def _named(self) -> frozenset[int]:
+        return super()._named | {*self.shared}
 
 
 @dataclass(frozen=True)
@@ -347,6 +321,11 @@ class Chunked:
         """What the chunks share: entries that are done once, and constants."""
         needed = (o for place in self.each for o in self.trace.entries[place].operands if o not in self.varying)
         return list(dict.fromkeys((*needed, *(place for place, _ in self.outputs if place not in self.varying))))
+
+    @property
+    def computed(self) -> list[int]:
+        """What the chunks share, constants apart."""
+        return [place for place in self.shared if self.trace.entries[place].operation != "constant"]
 
     @cached_property
     def _buffers(self) -> tuple[Mapping[int, int], int]:
@@ -408,6 +387,12 @@ class Chunked:
         lines = [f"{', '.join(names)}, = {what}" for what, names in unpacked.items() if names]
         lines += [line for place in self.each for line in self._lines(place)]
         return defined("chunk", ("codes", "given", "shared", "buffers", "outputs"), lines or ["pass"])
+
+    def loop(self) -> str:
+        """Return the source of `loop(codes, *given, *computed, *outputs)`, for the outputs that vary."""
+        loop = Loop(self.trace, self.each, [place for place, _ in self.outputs], self.computed)
+        kept = [(loop.value(place), negative) for place, negative in self.outputs if place in self.varying]
+        return loop.source("loop", [f"0.0 - {value}" if negative else f"{value} + 0.0" for value, negative in kept])
 
     def _value(self, place: int, block: Collection[int] = ()) -> str:
         entry = self.trace.entries[place]

@@ -1,22 +1,25 @@
-"""A program printed for one position, in Python and in JavaScript: the numbers and statuses of the exact board."""
+"""A program printed as plain Python, as JavaScript and as a loop: numbers and statuses of the exact board."""
 
 from __future__ import annotations
 
 import json
 import math
 import struct
+import sys
 from collections.abc import Iterator, Mapping
+from functools import cache
 from typing import Any
 
+import numpy as np
 import pytest
 import quickjs
 
 from kulman.plans.board import Program, Step
+from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, ExactBoard, run
-from kulman.plans.boards.one import script_of, values_of
-from kulman.plans.boards.printers import script_names
+from kulman.plans.boards.one import script_names, script_of, values_of
 from kulman.plans.linkages.solved import solve_linkage
-from kulman.scales.errors import KulmanError
+from kulman.scales.errors import InputError, KulmanError
 from kulman.variants import load_task
 from kulman.variants.shelf import bundled
 
@@ -28,7 +31,13 @@ CALL = "JSON.stringify(solve({}).flat().map(String))"
 Case = tuple[Program, Mapping[str, float]]
 
 
-def cases(name: str, count: int) -> Iterator[Case]:
+@cache
+def cases(name: str, count: int) -> tuple[Case, ...]:
+    """Return what `positions` finds, once for all printers that a process tests."""
+    return tuple(positions(name, count))
+
+
+def positions(name: str, count: int) -> Iterator[Case]:
     """Go through positions of a task's first variant, every third with links so long that not all of them assemble."""
     task = load_task(name)
     given = task.values(next(iter(task.variants)))
@@ -116,3 +125,49 @@ def test_step_that_is_more_than_arithmetic_is_refused(monkeypatch: pytest.Monkey
 
     with pytest.raises(TypeError):
         values_of(program, {"x": 1.0})
+
+
+LOOPS = [pytest.param(name, 360, id=name, marks=pytest.mark.soak) for name in LINKAGES]
+
+
+@pytest.mark.parametrize(("name", "count"), [pytest.param("nau-slider-crank", 12, id="few"), *LOOPS])
+def test_compiled_loop_gives_the_bits_and_statuses_of_the_exact_board(name: str, count: int) -> None:
+    pytest.importorskip("numba", reason="the extra `fast` is not installed")
+    alike: dict[Any, list[Mapping[str, float]]] = {}
+    for program, givens in cases(name, count):
+        alike.setdefault((program, tuple(givens)), []).append(givens)
+    (program, names), rows = max(alike.items(), key=lambda item: len(item[1]))
+    assert len(rows) > count // 2
+    wanted = [*program.names[:: len(program.names) // 4], *program.names[-3:]]
+    same = {n for n in names if all(row[n] == rows[0][n] for row in rows)}
+    givens = {n: rows[0][n] if n in same else np.array([row[n] for row in rows]) for n in names}
+
+    results, codes = batch(program, givens, wanted, loop=True)
+
+    boards = [run(program, row) for row in rows]
+    assert [STATUSES[code] for code in codes] == [board.status for board in boards]
+    for n in {*wanted} - rounded(program):
+        ours = [part for board in boards for part in numbers(board.values[n])]
+        assert [*map(bits, ours)] == [bits(part) for value in results[n].tolist() for part in numbers(value)], n
+
+
+def test_loop_without_its_extra_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "numba", None)
+    program = Program((Step("turn", "u", ("phi",)),))
+
+    with pytest.raises(InputError) as error:
+        batch(program, {"phi": np.array([1.0])}, ["u"], loop=True)
+
+    assert error.value.key == "fast-extra"
+
+
+def test_loop_leaves_steps_that_are_more_than_arithmetic_to_arrays(monkeypatch: pytest.MonkeyPatch) -> None:
+    from kulman.plans.laws import LAWS
+
+    pytest.importorskip("numba", reason="the extra `fast` is not installed")
+    monkeypatch.setitem(LAWS, "more", lambda value: np.sin(value) if np.ndim(value) else math.sin(value))
+    program = Program((Step("calc", "z", ("x",), "more"),))
+
+    results, _ = batch(program, {"x": np.array([1.0, 2.0])}, ["z"], loop=True)
+
+    assert results["z"].tolist() == np.sin([1.0, 2.0]).tolist()
