@@ -8,7 +8,7 @@ the key allows, less where the student's own plan is smaller than the right one.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
 import numpy as np
@@ -67,6 +67,19 @@ class Allowance:
         self._calculations: dict[str, Step | None] = {}
         self._inputs: dict[str, list[str]] = {}
         self._calculated: dict[str, float] = {}
+        self.sized: set[str] = set()  # what was held against the size of its plan
+
+    def after(self, other: Allowance, anew: Collection[str]) -> None:
+        """Take over what another one has found, but for the names that are made `anew`."""
+        for found, before in (
+            (self._slacks, other._slacks),
+            (self._calculations, other._calculations),
+            (self._inputs, other._inputs),
+            (self._calculated, other._calculated),
+        ):
+            found |= before  # type: ignore[operator]
+            for name in anew:
+                found.pop(name, None)
 
     def of(self, name: str, value: Any, right: bool = False) -> float:
         """Return by how much an answer may miss a value, SI.
@@ -227,15 +240,18 @@ class Allowance:
         alone = name in self.answers and self.answers[name].value is None
         allowed = self.key.on_paper(name) if alone else self.key.allowed[name]
         times = abs(value) / size if size else 1.0
-        return allowed * (times if times >= 1.0 else max(times, min(1.0, COARSER * self._grown(question.plan))))
+        if times >= 1.0:
+            return allowed * times
+        self.sized.add(name)
+        return allowed * max(times, min(1.0, COARSER * self._grown(question.plan)))
 
     def _grown(self, plan: str) -> float:
         """Return how many times larger the student's plan is than the right one, its longest vectors compared."""
         if plan == POSITION:
             return 1.0
         right, own, count = 0.0, 0.0, 0
-        for name, question in self.key.questions.items():
-            if question.plan == plan and question.vector and name in self.drawn.follows:
+        for name in self.key.vectors.get(plan, ()):
+            if name in self.drawn.follows:
                 value = self.drawn.values[name]
                 right, count = max(right, abs(self.key[name])), count + 1
                 own = max(own, abs(value) if value == value else 0.0)

@@ -37,7 +37,7 @@ class Key:
     """The answer key; `allowed` are sizes in SI, `angles` directions in radians.
 
     `values` are those of the construction; `also` has what is right, too, because another way leads to it. What is
-    `firm` has a tolerance of the teacher's own, whatever it follows from.
+    `firm` has a tolerance of the teacher's own, whatever it follows from. `vectors` are those of each plan.
     """
 
     paper: Paper
@@ -50,6 +50,7 @@ class Key:
     questions: Mapping[str, Question]
     also: Mapping[str, Any] = field(default_factory=dict)
     firm: frozenset[str] = frozenset()
+    vectors: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Any:
         """Return the right value, a float or complex."""
@@ -136,7 +137,12 @@ def answer_key(
     asked = _questions(paper, board.values, wanted, units)
     own = limits or {}
     ruled = {**(drawn or {}), **own}
-    return _key(paper, Key(paper, tolerance, ruled, board.values, board.sines, {}, {}, asked, firm=frozenset(own)))
+    vectors: dict[str, tuple[str, ...]] = {}
+    for name, question in asked.items():
+        if question.vector:
+            vectors[question.plan] = (*vectors.get(question.plan, ()), name)
+    key = Key(paper, tolerance, ruled, board.values, board.sines, {}, {}, asked, firm=frozenset(own), vectors=vectors)
+    return _key(paper, key)
 
 
 def _key(paper: Paper, key: Key) -> Key:

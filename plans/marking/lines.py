@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
@@ -67,12 +67,16 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Marking:
-    """All lines in order of construction, the first one with an error of its own, and the step that it shows."""
+    """All lines in order of construction, the first one with an error of its own, and the step that it shows.
+
+    `marker` is the `Marker` that has judged them.
+    """
 
     key: Key
     lines: tuple[Line, ...]
     first_wrong: str | None
     step: Step | None
+    marker: Any = field(default=None, repr=False, compare=False)
 
     def __getitem__(self, name: str) -> Line:
         """Return the line of a quantity."""

@@ -8,7 +8,8 @@ wrong, the mark that was made last is where the student must have put it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -36,14 +37,24 @@ class StudentBoard(ExactBoard):
     take : callable
         For the name of a quantity and its value on this board: what the student says and goes on with, or None, and
         whether the mark behind it moves.
+    steps : sequence of Step, optional
+        The steps to do, when others have been done on a board that this one comes `after`; all when left out.
     """
 
-    def __init__(self, program: Program, values: Mapping[str, Any], take: Take, made: bool = False) -> None:
+    def __init__(
+        self,
+        program: Program,
+        values: Mapping[str, Any],
+        take: Take,
+        made: bool = False,
+        steps: Sequence[Step] | None = None,
+    ) -> None:
         super().__init__({} if made else values)
         if made:
             self.values = {**values}
         self.follows: dict[str, Any] = {}
         self._program, self._take = program, take
+        self._steps = program.steps if steps is None else steps
         self._done = 0
         self._moved: set[str] | None = set() if made else None
 
@@ -57,11 +68,23 @@ class StudentBoard(ExactBoard):
         size = abs(exact)
         return exact / size if size > ASIDE and abs(size - 1.0) > ASIDE else exact
 
+    def after(self, other: StudentBoard, anew: Collection[str]) -> None:
+        """Take over what another board has made, but for the names that are made `anew`."""
+        if self._moved is None or other._moved is None:
+            data = {n: x for n, x in self.values.items() if n in anew or n not in other.values}
+            self.values = other.values | data
+        else:
+            self._moved = other._moved.difference(anew)
+            self.values.update((name, other.values[name]) for name in self._moved)
+        self.follows = other.follows.copy()
+        for name in anew:
+            self.follows.pop(name, None)
+
     def go_on(self, end: int | None = None) -> None:
         """Do the steps before the place `end` that are not done yet, all without it."""
         if end is not None and end <= self._done:
             return
-        steps = self._program.steps[self._done : end]
+        steps = self._steps[self._done : end]
         self._done += len(steps)
         moved = self._moved
         with np.errstate(all="ignore"):  # a student's numbers may be any
@@ -115,11 +138,25 @@ class StudentBoard(ExactBoard):
 
     def _move(self, tail: str, tip: str, vector: complex) -> None:
         """Put the mark that was made last where the vector that was read says it is; a pole stays."""
-        places = self._program.places
-        if places.get(tip, -1) >= places.get(tail, -1):
+        if made_last(self._program, tail, tip) == tip:
             self._put(tip, self.values[tail] + vector)
         else:
             self._put(tail, self.values[tip] - vector)
+
+
+def made_last(program: Program, tail: str, tip: str) -> str:
+    """Return which of two marks was made last."""
+    places = program.places
+    return tip if places.get(tip, -1) >= places.get(tail, -1) else tail
+
+
+def shifted(step: Step, program: Program) -> str:
+    """Return what else changes on the board where a student's quantity takes the place of what a step makes."""
+    if step.verb == "read":
+        return made_last(program, *step.operands)
+    if step.verb in LAID:
+        return step.operands[2] if step.operands[2].startswith("_") else ""
+    return step.operands[0] if step.verb == "arm" else ""
 
 
 def _turning(vector: complex, normal: complex, length: float) -> float:
@@ -128,10 +165,11 @@ def _turning(vector: complex, normal: complex, length: float) -> float:
     return float((math.copysign(abs(vector), along) if aside else along) / length)
 
 
-def settled(program: Program) -> dict[str, int]:
+@lru_cache(maxsize=64)
+def settled(steps: Program | tuple[Step, ...]) -> Mapping[str, int]:
     """Return for each quantity how many steps must be done until it is known what follows for it."""
     found = {}
-    for place, step in enumerate(program.steps, start=1):
+    for place, step in enumerate(steps, start=1):
         if step.verb in LAID and step.operands[2].startswith("_"):
             found[step.operands[2][1:]] = place
         elif step.verb in TAKEN and not step.name.startswith("_"):

@@ -7,18 +7,20 @@ of drawing do not add up), and against what follows from what was wrong before (
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from copy import copy
 from dataclasses import replace
 from statistics import median
 from typing import Any, NamedTuple
 
 from ...scales.names import unknown
+from ..board import Step
 from .allowance import Allowance
 from .answers import Answer, Said, known, measured, nearest, readings, values_of
 from .comparing import NEVER, SIZE, Miss, miss, ratio
 from .key import Key, Question, behind, hanging_on
 from .lines import Line, Marking, Verdict
-from .student import StudentBoard, settled
+from .student import StudentBoard, Take, settled
 
 __all__ = ["CLEAR", "INPUTS", "Line", "Marking", "Verdict", "behind", "bounded", "first_wrong", "judge", "mark"]
 
@@ -54,12 +56,12 @@ def mark(key: Key, answers: Iterable[Answer]) -> Marking:
     InputError
         A quantity that is not asked.
     """
-    marker = _marker(key, answers)
+    marker = Marker.of(key, answers)
     marker.settle_scales()
     marker.begin()
     lines = tuple(marker.lines())
     first = first_wrong(lines)
-    return Marking(marker.key, lines, first, None if first is None else behind(key, first))
+    return Marking(marker.key, lines, first, None if first is None else behind(key, first), marker)
 
 
 def judge(key: Key, answers: Iterable[Answer], first: str = "") -> tuple[Line, ...] | None:
@@ -67,20 +69,19 @@ def judge(key: Key, answers: Iterable[Answer], first: str = "") -> tuple[Line, .
 
     Where the line `first` is clearly wrong, None: lines after it are not looked at.
     """
-    marker = _marker(key, answers)
+    marker = Marker.of(key, answers)
     marker.settle_scales(redraw=False)
     marker.begin()
     if first:
         marker.go_on(first)
-        held = marker.held.get(first)
-        if held is not None and held.verdict.faulty and held.miss.off > CLEAR:
+        if marker.misses(first):
             return None
     return tuple(marker.lines())
 
 
 def count_right(key: Key, answers: Iterable[Answer], least: float) -> int:
     """Return how many answers are as right as a hand draws; nothing where that is less than `least`."""
-    marker = _marker(key, answers)
+    marker = Marker.of(key, answers)
     marker.settle_scales()
     marker.begin()
     left = len(marker.answers)
@@ -91,12 +92,6 @@ def count_right(key: Key, answers: Iterable[Answer], least: float) -> int:
             if left < least:
                 return 0
     return left
-
-
-def _marker(key: Key, answers: Iterable[Answer]) -> _Marker:
-    said = _by_name(key, answers)
-    said = _by_name(key, [_on_paper(key, answer, said) for answer in said.values()])
-    return _Marker(key, said, {name: (known(a.mu) and a.mu) or None for name, a in said.items()})
 
 
 def first_wrong(lines: Iterable[Line]) -> str | None:
@@ -175,32 +170,46 @@ class _Held(NamedTuple):
     allowed: float
 
 
-class _Marker:
+class Marker:
     """Marks the lines of one student, one after the other."""
 
     def __init__(self, key: Key, answers: Mapping[str, Answer], mus: dict[str, float | None]) -> None:
         self.key, self.answers, self.mus = key, answers, mus
         self.written = {name: mu is not None for name, mu in mus.items()}  # whether the scale factor is the student's
-        self.true: dict[str, float] = {}  # to which scale the segments of a plan seem to be drawn
+        self.guessed = False  # whether a scale factor is taken from the key
+        self.segments: dict[str, list[str]] = {}  # the lines of a plan with millimetres
         self.ways: dict[str, tuple[Said, ...]] = {}  # to take each answer
         self.taken: dict[str, Said] = {}  # what the student goes on with
         self.held: dict[str, _Held] = {}
         self.failed = False
 
+    @classmethod
+    def of(cls, key: Key, answers: Iterable[Answer]) -> Marker:
+        """Return what marks the answers of one student."""
+        said = _by_name(key, answers)
+        said = _by_name(key, [_on_paper(key, answer, said) for answer in said.values()])
+        return cls(key, said, {name: (known(a.mu) and a.mu) or None for name, a in said.items()})
+
+    def again(self, key: Key, anew: Collection[str], steps: tuple[Step, ...]) -> Marker:
+        """Return what marks the same answers under another key: `steps`, that make names `anew`; else all is as here.
+
+        No scale factor is guessed.
+        """
+        made = copy(self)
+        made.key = key
+        made.begin(self, anew, steps)
+        return made
+
     def settle_scales(self, redraw: bool = True) -> None:
         """Find the scale factor of every line with millimetres, and draw the key to the student's scales."""
-        by_plan: dict[str, list[str]] = {}
         for name, answer in self.answers.items():
             plan = self.key.questions[name].plan
             if answer.mm and known(answer.mm) and answer.mm > 0.0 and plan not in self.key.paper.unscaled:
-                by_plan.setdefault(plan, []).append(name)
+                self.segments.setdefault(plan, []).append(name)
         drawn = {}
-        for plan, names in by_plan.items():
+        for plan, names in self.segments.items():
             written = next((mu for name in names if (mu := self.mus[name])), None) or self._from_pairs(names)
-            long = [name for name in names if abs(self.answers[name].mm or 0.0) >= SHOWN and not self._is_arm(name)]
-            shown = [self._drawn_to(name) for name in long]
-            if _agree(shown):
-                self.true[plan] = median(shown)
+            self.guessed |= written is None
             mu = written or self._likeliest(names)
             self.written.update(dict.fromkeys(names, written is not None))
             self.mus.update({name: mu for name in names if not self.mus[name]})
@@ -229,18 +238,46 @@ class _Marker:
         found = [abs(value / mm) for mm, value in values if value and mm]
         return median(found) if found else None
 
-    def begin(self) -> None:
-        """Find how every answer may be taken, and begin the constructions with it."""
-        key, program = self.key, self.key.paper.program
-        for name, answer in self.answers.items():
-            values = values_of(answer, self.mus[name])
+    def _true(self, plan: str) -> float | None:
+        """Return to which scale the segments of a plan seem to be drawn."""
+        names = self.segments.get(plan, ())
+        long = [name for name in names if abs(self.answers[name].mm or 0.0) >= SHOWN and not self._is_arm(name)]
+        shown = [self._drawn_to(name) for name in long]
+        return median(shown) if _agree(shown) else None
+
+    def begin(
+        self, before: Marker | None = None, anew: Collection[str] = (), steps: tuple[Step, ...] | None = None
+    ) -> None:
+        """Find how every answer may be taken, and begin the constructions with it.
+
+        Parameters
+        ----------
+        before : Marker, optional
+            Has judged the same answers, and all is taken over from it but for the names that `steps` make `anew`.
+        """
+        paper = self.key.paper
+        self.settled = settled(paper.program if steps is None else steps)
+        take: Take = lambda name, value: (self.taken.get(name), True)  # noqa: E731
+        self.drawn = StudentBoard(paper.program, paper.givens, take, steps=steps)
+        self.board = StudentBoard(paper.program, self.key.values, self._judge, made=True, steps=steps)
+        self.allowance = Allowance(self.key, self.answers, self.drawn, self._sure, self._faulty)
+        if before is None:
+            self._take(self.answers)
+            return
+        self.ways, self.taken, self.held = before.ways.copy(), before.taken.copy(), before.held.copy()
+        for name in anew:
+            self.held.pop(name, None)
+        self._take(name for name, ways in before.ways.items() if len(ways) > 1 and name in anew)
+        self.drawn.after(before.drawn, anew)
+        self.board.after(before.board, anew)
+        self.allowance.after(before.allowance, anew)
+
+    def _take(self, names: Iterable[str]) -> None:
+        for name in names:
+            values = values_of(self.answers[name], self.mus[name])
             self.ways[name] = self._readings(name, values)
-            near = (nearest(values, abs(key[name])),) if len(values) > 1 else values
+            near = (nearest(values, abs(self.key[name])),) if len(values) > 1 else values
             self.taken[name] = self.ways[name][0] if near == values else self._readings(name, near)[0]
-        self.settled = settled(program)
-        self.drawn = StudentBoard(program, key.paper.givens, lambda name, value: (self.taken.get(name), True))
-        self.board = StudentBoard(program, key.values, self._judge, made=True)
-        self.allowance = Allowance(key, self.answers, self.drawn, self._sure, self._faulty)
 
     def _sure(self, name: str) -> bool:
         """Whether the student has said a size, and not only a segment whose scale factor is to be guessed."""
@@ -252,13 +289,25 @@ class _Marker:
 
     def go_on(self, name: str) -> None:
         """Judge the lines up to that of `name`."""
-        self.board.go_on(self.settled[name])
+        self.board.go_on(self.settled.get(name, 0))
 
-    def lines(self) -> Iterator[Line]:
-        """Judge every line in order of construction."""
+    def misses(self, name: str) -> bool:
+        """Whether a line that is judged is clearly wrong by itself."""
+        held = self.held.get(name)
+        return held is not None and held.verdict.faulty and held.miss.off > CLEAR
+
+    def likely(self, name: str) -> bool:
+        """Whether a line is of the right size, so that it probably passes."""
+        size, most = abs(self.key[name]), self.key.allowed[name]
+        return any(way.size is None or abs(way.size - size) <= most for way in self.ways.get(name, ()))
+
+    def lines(self, before: Iterable[Line] = (), anew: Collection[str] = ()) -> Iterator[Line]:
+        """Judge every line in order of construction; of lines that were judged `before` those `anew`."""
         self.board.go_on()
         follows = self.board.follows
-        return (self._line(question, follows[question.name]) for question in self.key.questions.values())
+        kept = {line.name: line for line in before if line.name not in anew}
+        for question in self.key.questions.values():
+            yield kept.get(question.name) or self._line(question, follows[question.name])
 
     def _follows(self, name: str) -> Any:
         """Return what follows from all that the student said before: constructed as far as it is asked for."""
@@ -372,8 +421,8 @@ class _Marker:
     def _is_scale(self, name: str, value: Any) -> bool:
         """Whether only the convention of the scale factor, or the scale itself, makes a line wrong."""
         answer, others = self.answers[name], list(measured(self.answers[name], self.mus[name]))
-        true = self.true.get(self.key.questions[name].plan)
-        if true is not None and answer.mm and not self._is_arm(name):
+        true = self._true(self.key.questions[name].plan) if answer.mm and not self._is_arm(name) else None
+        if true is not None and answer.mm:
             others.append(answer.mm * true)
         return self._fits(name, value, others)
 

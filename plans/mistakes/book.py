@@ -15,9 +15,9 @@ from ..marking.key import Key
 from . import acceleration, cam_sizes, cams, forces, gears, inputs, lever, reading, velocity
 from .angles import Turned
 from .rules import Broken, Mistake, Scene, breaks, put_together
-from .signatures import Columns, Signature, signature, signatures
+from .signatures import Columns, Signature, signature, signatures, signatures_after
 
-__all__ = ["MISTAKES", "Book", "Signature", "book", "broken", "key_of", "signature"]
+__all__ = ["MISTAKES", "Book", "Signature", "book", "broken", "key_of", "signature", "signatures_after"]
 
 CHAPTERS = (inputs, reading, velocity, acceleration, forces, lever, cams, cam_sizes, gears)
 MISTAKES: dict[str, Mistake] = put_together(chapter.MISTAKES for chapter in CHAPTERS)

@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 
 from ..board import Step
 from ..hands.shaky import Paper
+from ..marking.again import Judged
 from ..marking.answers import FREE, Answer, Said, known, measured, nearest
-from ..marking.verdicts import Line, Marking, Verdict, behind, judge
-from .book import MISTAKES, Book, Signature, broken, key_of, signature
+from ..marking.verdicts import Line, Marking, Verdict, behind
+from .book import MISTAKES, Book, Signature, broken, key_of, signature, signatures_after
 from .reading import other_orders, transposed
 from .rules import Broken, Scene
 
@@ -164,7 +165,7 @@ class _Search:
         self.book, self.marking, self.mus = book, marking, {**book.key.paper.mus, **_scales(marking)}
         self.said = _columns(marking)
         self.faulty = {line.name: line.off for line in marking.lines if line.verdict.faulty}
-        self.answers = [line.answer for line in marking.lines if line.answer is not None]
+        self.as_said = Judged(marking.marker, marking.lines)
         self.first = next(i for i, line in enumerate(marking.lines) if line.name == marking.first_wrong)
         self.without = _mean(self.said.misses(book, book.right[None, :], book.allowed[None, :]))[0]
 
@@ -262,8 +263,7 @@ class _Search:
             return []
         paper = Paper(last.broken.program, last.broken.givens, self.mus)
         again = broken(paper, last.values, {place[0] for place in places})
-        made = (signature(self.book.key, one) for one in again if one.place in places)
-        return [one for one in made if one is not None]
+        return list(signatures_after(self.book.key, last, (one for one in again if one.place in places)))
 
     def _transposed(self, line: Line, chain: tuple[Signature, ...]) -> list[Signature]:
         """Return the numbers with two digits transposed that the millimetres or the earlier numbers of a line mean."""
@@ -274,8 +274,8 @@ class _Search:
         paper = Paper(last.broken.program, last.broken.givens, self.mus) if last else key.paper
         scene = Scene(paper, last.values if last else key.values)
         orders = [other for other in other_orders(answer.value) if other and self._meant(line, answer, other)]
-        made = (signature(key, transposed(scene, line.name, answer.value, other)) for other in orders)
-        return [one for one in made if one is not None]
+        made = (transposed(scene, line.name, answer.value, other) for other in orders)
+        return list(signatures_after(key, last, made))
 
     def _meant(self, line: Line, answer: Answer, other: float) -> bool:
         """Whether mm times mu gives another number than is written, or what is calculated from earlier numbers does."""
@@ -303,9 +303,9 @@ class _Search:
             return own, line.allowed * np.maximum(1.0, np.abs(own) / abs(line.right or 1.0))
 
     @cached_property
-    def by_value(self) -> list[Answer]:
+    def by_value(self) -> Judged:
         """The answers by their values alone where these are written: another scale factor has other millimetres."""
-        return [one if one.value is None else replace(one, mm=None) for one in self.answers]
+        return self.as_said.by_value()
 
     @cached_property
     def moved(self) -> NDArray[np.bool_]:
@@ -351,8 +351,8 @@ class _Search:
     def _found(self, chain: tuple[Signature, ...], first: str = "") -> _Found | None:
         """Mark the answers with a broken construction; None where it does not explain the first wrong line."""
         by_scale = any(MISTAKES[one.broken.mistake].by_scale for one in chain)
-        answers = self.by_value if by_scale else self.answers
-        again = judge(key_of(self.book.key, chain[-1]), answers, first or str(self.marking.first_wrong))
+        judged = self.by_value if by_scale else self.as_said
+        again = judged.under(key_of(self.book.key, chain[-1]), first or str(self.marking.first_wrong))
         if again is None:
             return None
         left = tuple(line.name for line in again if line.verdict.faulty)

@@ -32,6 +32,7 @@ class Signature:
 
     broken: Broken
     values: Mapping[str, Any]
+    sines: Mapping[str, float]
     row: NDArray[np.complex128]
     allowed: NDArray[np.float64]
 
@@ -54,8 +55,13 @@ class Columns:
 
 
 def signature(key: Key, found: Broken) -> Signature | None:
-    """Run a broken construction; None where it cannot be drawn."""
+    """Run the right construction with a rule broken; None where it cannot be drawn."""
     return next(_made(key, (found,), Columns.of(key)), None)
+
+
+def signatures_after(key: Key, last: Signature | None, found: Iterable[Broken]) -> Iterator[Signature]:
+    """Run constructions in which one that is broken already, or the right one, is broken once more; go through them."""
+    return _made(key, found, Columns.of(key), last)
 
 
 def signatures(key: Key, found: Iterable[Broken]) -> Iterator[Signature]:
@@ -67,8 +73,8 @@ def signatures(key: Key, found: Iterable[Broken]) -> Iterator[Signature]:
             yield made
 
 
-def _made(key: Key, found: Iterable[Broken], columns: Columns) -> Iterator[Signature]:
-    runs = [(one, board) for one in found if (board := _run(key, one)) is not None]
+def _made(key: Key, found: Iterable[Broken], columns: Columns, last: Signature | None = None) -> Iterator[Signature]:
+    runs = [(one, board) for one in found if (board := _run(key, one, last)) is not None]
     asked = itemgetter(*key.questions) if len(key.questions) > 1 else lambda values: [values[n] for n in key.questions]
     rows = np.array([asked(board.values) for _, board in runs], complex).reshape(len(runs), len(key.questions))
     sizes = np.abs(columns.right)
@@ -80,7 +86,7 @@ def _made(key: Key, found: Iterable[Broken], columns: Columns) -> Iterator[Signa
         flat = min(board.sines.values(), default=1.0)
         if 0.0 < flat < SMALL and flat < FLATTER * flattest:
             most = _wider(key, one, board, most)
-        yield Signature(one, board.values, row, most)
+        yield Signature(one, board.values, board.sines, row, most)
 
 
 def _wider(key: Key, found: Broken, board: ExactBoard, most: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -91,19 +97,20 @@ def _wider(key: Key, found: Broken, board: ExactBoard, most: NDArray[np.float64]
     return np.where(np.isnan(wider), most, np.maximum(most, wider))
 
 
-def _run(key: Key, found: Broken) -> ExactBoard | None:
-    """Run what is different in a broken construction, and all that hangs on it; the rest is as in the right one.
+def _run(key: Key, found: Broken, last: Signature | None) -> ExactBoard | None:
+    """Run what is different in a broken construction, and all that hangs on it; the rest is as in the one before it.
 
     None where lines are parallel, arcs do not reach, or a number is out of range: nobody goes on from there.
     """
-    givens = key.paper.givens
+    before = key if last is None else last
+    givens = key.paper.givens if last is None else last.broken.givens
     changed = [name for name, value in found.givens.items() if name not in givens or givens[name] is not value]
     board = ExactBoard({})
-    board.values = {**key.values}
+    board.values = {**before.values}
     board.values.update((name, found.givens[name]) for name in changed)
-    board.sines.update(key.sines)
+    board.sines.update(before.sines)
     try:
-        board.do(_at_once(found, changed) if found.before is key.paper.program else _in_turn(key, found, changed))
+        board.do(_at_once(found, changed))
     except (ZeroDivisionError, OverflowError):
         return None
     return board if board.trouble is None else None
@@ -126,12 +133,3 @@ def _at_once(found: Broken, changed: Iterable[str]) -> Iterable[Prepared]:
         return (*map(prepared, *found.steps.values()), *before.at(bits & ~replaced))
     new = {name: tuple(map(prepared, steps)) for name, steps in found.steps.items()}
     return [step for one in before.at(bits | replaced) for step in new.get(one[0].name, (one,))]
-
-
-def _in_turn(key: Key, found: Broken, changed: Iterable[str]) -> Iterator[Prepared]:
-    """Go through the same steps of a construction that was not made from the right one at once."""
-    same, other = set(map(id, key.paper.program)), set(changed)
-    for step in found.program:
-        if id(step) not in same or not other.isdisjoint(step.operands):
-            other.add(step.name)
-            yield prepared(step)

@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 
 from kulman.plans.boards.exact import run
+from kulman.plans.marking.again import Judged
 from kulman.plans.marking.answers import Answer, Said
 from kulman.plans.marking.student import StudentBoard, settled
-from kulman.plans.marking.verdicts import CLEAR, Verdict, count_right, judge, mark
+from kulman.plans.marking.verdicts import CLEAR, Line, Verdict, count_right, judge, mark
 from kulman.plans.mistakes.book import key_of
 from kulman.tests.support.marking_cases import LINKAGES, key, mistakes, planted, right_answers
 
@@ -79,6 +80,31 @@ def test_lines_after_a_first_one_that_is_clearly_wrong_are_not_looked_at(task: s
             assert some is None or [found.verdict for found in some] == [found.verdict for found in whole]
             given_up += some is None
     assert given_up > 0
+
+
+def like(line: Line, other: Line) -> bool:
+    faulty = line.verdict.faulty is other.verdict.faulty
+    return faulty and all(same(getattr(line, x), getattr(other, x)) for x in ("off", "follows", "said", "allowed"))
+
+
+@pytest.mark.parametrize("by_value", [False, True])
+@pytest.mark.parametrize("task", TASKS)
+def test_answers_judged_again_are_judged_as_by_the_whole_construction(task: str, by_value: bool) -> None:
+    of, kept = mistakes(task), 0
+    for found in of.signatures[5::70]:
+        marking = mark(of.key, planted(of, found, 1))
+        judged = Judged(marking.marker, marking.lines)
+        judged = judged.by_value() if by_value else judged
+        for other in of.signatures[::60] if marking.first_wrong else ():
+            under = key_of(marking.key, other)
+            whole, again = judge(under, judged.answers), judged.under(under)
+
+            assert whole is not None
+            assert again is not None
+            wrong = [line.name for line, one in zip(again, whole, strict=True) if not like(line, one)]
+            assert not wrong, (found.broken.place, other.broken.place)
+            kept += sum(line is one for line, one in zip(again, marking.lines, strict=True))
+    assert kept > 0
 
 
 @pytest.mark.parametrize("task", TASKS)
