@@ -13,7 +13,8 @@ import click
 from . import __version__
 from .scales.choices import HANDS, SIZES
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
-from .scales.language import system_language
+from .scales.language import VARIABLE, speaking, system_language
+from .scales.numbers import quote
 from .variants.commands.console import flush, hand_over, lost_output, note_of, print_json, refuse, warn
 from .variants.commands.options import (
     BLOCK,
@@ -21,6 +22,7 @@ from .variants.commands.options import (
     count_if_given,
     example,
     given,
+    of_language,
     of_norm,
     of_task,
     output,
@@ -40,12 +42,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+    words = sys.argv[1:] if arguments is None else arguments
+    with speaking(words):
+        sys.exit(_run(words))
+
+
+def _run(words: Sequence[str]) -> int:
+    """Run a command and return its status."""
     try:
-        refuse_long(sys.argv[1:] if arguments is None else arguments)
-        status = commands.main(arguments, prog_name="kulman", standalone_mode=False)
+        refuse_long(words)
+        status = commands.main(list(words), prog_name="kulman", standalone_mode=False)
         flush()
     except click.UsageError as error:
-        status = refuse(usage_error(error))
+        status = refuse(usage_error(error, words, commands))
     except KulmanError as error:
         status = refuse(error)
     except (KeyboardInterrupt, click.Abort):
@@ -54,14 +63,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if problem.filename is not None:  # not what a stream of ours raises
             raise
         status = lost_output(problem)
-    sys.exit(status if isinstance(status, int) else 0)
+    return status if isinstance(status, int) else 0
 
 
 @click.group(cls=Group, invoke_without_command=True, epilog=example("kulman solve nau-slider-crank -v 3"))
 @click.version_option(__version__, message="%(version)s")
+@of_language
 @click.pass_context
-def commands(ctx: click.Context) -> None:
+def commands(ctx: click.Context, lang: str | None) -> None:
     """Solve and draw problems of the theory of mechanisms and machines, to scale."""
+    said = lang or os.environ.get(VARIABLE)
+    if said and said not in LANGUAGES:
+        raise InputError("cli-choice", option=VARIABLE, text=quote(said), known=", ".join(LANGUAGES))
+    ctx.default_map = {name: {"lang": said} for name in commands.commands} if said else None
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())
 
@@ -69,7 +83,8 @@ def commands(ctx: click.Context) -> None:
 @commands.command("list", epilog=example("kulman list", "kulman list --json"))
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @click.option("--check", "file", metavar="FILE", help="Show every fault of a task file instead.")
-def list_tasks(as_json: bool, file: str | None) -> int:
+@of_language
+def list_tasks(as_json: bool, file: str | None, lang: str | None) -> int:
     """Show the tasks, their variants, and what each draws."""
     from .variants.shelf import bundled, summary
 
@@ -275,7 +290,7 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 )
 @click.argument("file")
 @click.option("--kind", type=Word(*KINDS), default=KINDS[0], show_default=True, help="What the task is about.")
-@click.option("--lang", type=Word(*LANGUAGES), help="Language of the comments.")
+@of_language
 def new(file: str, kind: str, lang: str | None) -> None:
     """Write FILE, a task file with comments, ready to solve: a four-bar linkage, a cam, a gear pair or a hoist."""
     from .variants.starter import start

@@ -190,8 +190,8 @@ LAWS: dict[str, Law] = {
     "in_working": lambda size, working: size * working,
     "in_idle": lambda size, working: size * (1.0 - working),
     "by_stroke": lambda working, forth, back: forth * working + back * (1.0 - working),
-    # part of the stroke that is done, from 0 to 1
-    "stroke_part": lambda place, begin, end: _within((place - begin) / (end - begin), 1.0),
+    # part of the stroke that is done, from 0 to 1; 0 of a stroke that is nothing
+    "stroke_part": lambda place, begin, end: _within((place - begin) / (end - begin + (end == begin) * 1.0), 1.0),
     "middle": lambda begin, end: (begin + end) * 0.5,
     # an angle within the turn that begins at `first`
     "within_turn": lambda angle, first: angle - TURN * ((angle - first) // TURN),

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from .packaged import packaged
 
 LANGUAGES = ("uk", "ru", "en")
+WRITTEN = frozenset(("text", "file", "like", "known", "expected", "reason", "place", "task", "variant", "command"))
+_DECIMAL = re.compile(r"(?<![\w.=/])(\d+)\.(\d+(?:e[-+]?\d+)?)(?![\w.])")  # no part of a name, a path, a date
 
 
 def messages(language: str) -> dict[str, str]:
@@ -38,12 +41,20 @@ class KulmanError(Exception):
 
     def text(self, language: str = "en") -> str:
         """Return the message as one line in `language`."""
-        line = messages(language)[self.key].format(**self.data)
+        data = self.data if language == "en" else {name: _comma(name, value) for name, value in self.data.items()}
+        line = messages(language)[self.key].format(**data)
         return " ".join(line.split())
 
     def __str__(self) -> str:
         """Return the message in English."""
         return self.text()
+
+
+def _comma(name: str, value: object) -> object:
+    """Return a value of a message with decimal commas, unless it is what the user has written or may type."""
+    if name in WRITTEN or not isinstance(value, (str, float)):
+        return value
+    return _DECIMAL.sub(r"\1,\2", str(value))
 
 
 def _again(kind: type[KulmanError], arguments: tuple[Any, ...], state: dict[str, Any]) -> KulmanError:

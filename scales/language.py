@@ -1,15 +1,43 @@
-"""The language of messages: that of the user's system."""
+"""The language of messages: what the user has said, else that of the system."""
 
 from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from itertools import pairwise
 
 from .errors import LANGUAGES
 
+VARIABLE = "KULMAN_LANG"
+_spoken: ContextVar[str | None] = ContextVar("spoken", default=None)
+
+
+@contextmanager
+def speaking(words: Sequence[str]) -> Iterator[None]:
+    """Take the language of messages from the words of a command line, wrong ones too, or from `KULMAN_LANG`.
+
+    >>> with speaking(["solve", "--lang=ru"]): system_language()
+    'ru'
+    """
+    said = [os.environ.get(VARIABLE, "")]
+    said += [word for before, word in pairwise(words) if before == "--lang"]
+    said += [word.partition("=")[2] for word in words if word.startswith("--lang=")]
+    known = [word.strip().lower() for word in said if word.strip().lower() in LANGUAGES]
+    token = _spoken.set(known[-1] if known else None)
+    try:
+        yield
+    finally:
+        _spoken.reset(token)
+
 
 def system_language() -> str:
-    """Return the language of messages: that of the environment, or of Windows; English for any other."""
+    """Return the language of messages: what has been said, else that of the system, English for any other."""
+    spoken = _spoken.get()
+    if spoken is not None:
+        return spoken
     for variable in ("LC_ALL", "LC_MESSAGES", "LANG"):
         if os.environ.get(variable):
             name = os.environ[variable]

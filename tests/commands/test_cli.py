@@ -285,6 +285,49 @@ def test_the_language_of_messages_is_that_of_the_system(
     assert cli.system_language() == language
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--lang", "uk", "solve", TASK, "-v", "щось"], "не має варіанта"),
+        (["solve", TASK, "-v", "щось", "--lang=ru"], "нет варианта"),
+        (["solve", "--lang", "uk", TASK, "--nothing"], "невідомий параметр"),
+        (["list", "--lang", "uk", "--check", "no.toml"], "немає"),
+        (["--lang", "ru", "list", "--lang", "uk"], "варіанти"),
+        (["--lang", "uk", "solve", TASK, "--only", "position"], "0,025"),
+        (["--lang", "uk", "chart", "scheme-11-slotter", "--scale", "OA=0.0015", "--chart", "stability"], " 73,3 "),
+    ],
+)
+def test_the_language_of_messages_stands_anywhere(
+    words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _, out, err = run(words, capsys)
+
+    assert said in out + err
+    assert cli.system_language() == "en"
+
+
+@pytest.mark.parametrize(
+    ("language", "status", "said"), [("uk", 2, "не має варіанта"), ("xx", 2, "KULMAN_LANG: 'xx' is unknown")]
+)
+def test_the_language_stands_in_the_environment(
+    language: str, status: int, said: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("KULMAN_LANG", language)
+
+    found, _, err = run(["solve", TASK, "-v", "щось"], capsys)
+
+    assert found == status
+    assert said in err
+
+
+def test_documents_have_the_language_before_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    note = tmp_path / "note.md"
+
+    run(["--lang", "ru", "note", TASK, "-o", str(note)], capsys)
+
+    assert "Пояснительная записка" in note.read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize("encoding", ["cp1251", "cp866", "ascii"])
 def test_output_is_utf8_on_every_console(encoding: str, tmp_path: Path) -> None:
     done = shell(["solve", TASK, "--lang", "uk"], tmp_path, PYTHONIOENCODING=encoding, LC_ALL="uk_UA")

@@ -96,6 +96,21 @@ FOUND = {
         0,
         files={"a.csv": "quantity,value,unit\nV_B,1e308,m/s\nomega_2,1e300,kg\n"},
     ),
+    "the cycle of a structure": Found(
+        "sweep nau-slider-crank --only structure -o s.svg", "need the plans of velocities"
+    ),
+    "a point hundreds of kilometres off": Found("sheet bertyaev-six-bar --set l_AM=34064609cm -o x.svg", "fits on A1"),
+    "a stroke that is nothing": Found(
+        "solve scheme-02-forging-press --set e=0 --set l_AB=4.0391552127004423e-09 --only forces", "are missing at B", 3
+    ),
+    "an option whose file is missing": Found("list --check", "--check needs FILE after it; see kulman list --help"),
+    "a flag with a value": Found("list --json=3", "--json takes no value"),
+    "a hand of one's own that draws a chart": Found(
+        "chart nau-slider-crank --hand 0mm,0deg,0mm", "is a hand of one's own"
+    ),
+    "a quantity that is a table": Found(
+        "check nau-slider-crank printed --rubric r.toml", "list of quantities", files={"r.toml": "asked = [{a = 1}]"}
+    ),
     "an answer that is nothing": Found(
         "check nau-slider-crank --jobs 1 a.csv", "", 0, files={"a.csv": "quantity,value\nV_B,1e-320\na_B,-5e-324\n"}
     ),

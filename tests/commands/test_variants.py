@@ -68,6 +68,7 @@ def test_a_variant_without_a_solution_does_not_hide_the_others() -> None:
     [
         (TASK, 2, {"l_OA": "20..60/5 mm", "phi": "0..345/15"}),
         ("madi-four-bar", 1, {}),
+        ("scheme-06-opposed-compressor", 1, {}),
         pytest.param(TASK, 40, {"l_OA": "20..90/5 mm", "phi": "0..355/5"}, marks=pytest.mark.soak),
         pytest.param("madi-four-bar", 12, {"l_AB": "80..300/5 mm", "phi": "0..350/10"}, marks=pytest.mark.soak),
     ],
@@ -76,6 +77,7 @@ def test_made_variants_are_good_exercises(task: str, count: int, ranges: dict[st
     new = all_variants(task, make=count, ranges=ranges, seed=7).new
 
     assert new is not None
+    own = len(sheet(task).pages)  # of most tasks one
     rows = [tuple(row.values.values()) for row in new.task.variants.values()]
     assert len(set(rows)) == count
     for variant in new.task.variants:
@@ -84,7 +86,8 @@ def test_made_variants_are_good_exercises(task: str, count: int, ranges: dict[st
         assert solution.warnings == ()
         assert solution.solved.worst_sine()[1] >= SMALL
         drawn = sheet(new.task, variant)
-        assert (len(drawn.pages), drawn.warnings) == (1, ())
+        assert drawn.warnings == ()
+        assert len(drawn.pages) <= own
         speeds = {name: item.value for name, item in solution.quantities.items() if re.match(r"V_\w+$", name)}
         assert min(speeds.values()) >= 0.01 * max(speeds.values())  # no plan is a line
         for step in range(0, 360, 20):  # the crank turns round

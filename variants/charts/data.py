@@ -8,9 +8,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ...drawing.words import Words
-from ...plans.hands.hand import preset
+from ...plans.hands.hand import PRESETS, preset
 from ...plans.laws import TURN
 from ...plans.linkages.cycles.cycle import Cycle
+from ...scales.errors import InputError
+from ...scales.numbers import quote
 from ...scales.units import format_unit, unit
 from ..case import Case
 from ..spreadsheets.csv_write import Cell, csv_bytes, csv_text
@@ -30,7 +32,9 @@ class Scene:
     hand: str
 
     def __post_init__(self) -> None:
-        """Refuse a hand that nobody knows."""
+        """Refuse a hand that nobody knows, and one of the user's own."""
+        if any(sign.isdigit() for sign in self.hand):
+            raise InputError("hand-chart", text=quote(self.hand), known=", ".join(PRESETS))
         preset(self.hand)
 
     def title(self, key: str) -> str:

@@ -115,11 +115,16 @@ def _about_task(command: Command) -> Command:
         ),
         click.option("--only", metavar="PLAN,...", multiple=True, callback=given, help="Only these plans."),
         click.option("--notation", help="Letters of another school: artobolevsky, bauman, bertyaev, iso, madi, nau."),
-        click.option("--lang", type=Word(*LANGUAGES), help="Language of the results."),
+        of_language,
     )
     for option in reversed(options):
         command = option(command)
     return command
+
+
+def of_language(command: Command) -> Command:
+    """Add the language, which `main` has already taken for messages."""
+    return click.option("--lang", type=Word(*LANGUAGES), help="Language of the results and of messages.")(command)
 
 
 def example(*lines: str) -> str:

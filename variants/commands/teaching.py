@@ -117,8 +117,9 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
 def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Show the answers of all variants of TASK beside one another; make new variants, or read them from a spreadsheet.
 
-    A variant that is made can be solved and drawn on one sheet; of a linkage the crank turns round, lines meet at no
-    small angles, plans fit at the task's scale factors; cams, gears and hoists keep the rules of good design.
+    A variant that is made can be solved and drawn on no more pages than the task's first one; of a linkage the crank
+    turns round, lines meet at no small angles, plans fit at the task's scale factors; cams, gears and hoists keep the
+    rules of good design.
     """
     from ... import variants
 

@@ -27,16 +27,21 @@ def refuse_long(words: Sequence[str]) -> None:
             raise InputError("cli-long", text=quote(word), n=LONGEST)
 
 
-def usage_error(error: click.UsageError) -> InputError:
+def usage_error(error: click.UsageError, words: Sequence[str], commands: click.Group) -> InputError:
     """Return click's error as one of ours, which has a message in every language."""
-    command = error.ctx.command_path if error.ctx else "kulman"
+    called = next((commands.commands[word] for word in words if word in commands.commands), commands)
+    command = "kulman" if called is commands else f"kulman {called.name}"
     if isinstance(error, click.NoSuchOption):
         text, like = quote(error.option_name), next(iter(error.possibilities or ()), None)
         if like:
             return InputError("cli-option-unknown-like", text=text, like=like)
         return InputError("cli-option-unknown", text=text, command=command)
     if isinstance(error, click.BadOptionUsage):
-        return InputError("cli-option-value", text=quote(error.option_name), command=command)
+        option = next((one for one in called.params if error.option_name in one.opts), None)
+        if isinstance(option, click.Option) and option.is_flag:
+            return InputError("cli-option-flag", text=quote(error.option_name), command=command)
+        value = (option.metavar or "|".join(getattr(option.type, "words", ()))) if option is not None else ""
+        return InputError("cli-option-value", text=quote(error.option_name), value=value or "TEXT", command=command)
     if isinstance(error, click.MissingParameter) and error.param is not None:
         name = error.param.human_readable_name if isinstance(error.param, click.Argument) else error.param.opts[0]
         return InputError("cli-missing", text=name, command=command)

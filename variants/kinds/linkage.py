@@ -195,7 +195,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
             values = case.task.values(case.variant, case.settings)
             whole = cycle(case.task.mechanism, values, ("position", "velocity", "acceleration"))
-        solved = _placed(case)
+        solved = placed(case)
         plans = case.plans if solved is case.solved else (*case.plans, POSITION)
         note = case.task.note_in(words.language)
         contents = Contents(solved, plans, case.choosers, case.givens, words, norm, whole, note=note)
@@ -217,7 +217,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         from ...drawing.linkages.scene import Scene
         from ...drawing.style import STYLES
 
-        solved = _placed(case)
+        solved = placed(case)
         return Scene(solved, scales, self.lettered(words, solved), STYLES["A4"], case.givens)
 
     def lettered(self, words: Words, solved: SolvedLinkage) -> Words:
@@ -333,7 +333,7 @@ def _degrees(angle: float) -> str:
     return f"{round(math.degrees(angle), 9) + 0.0:.4g}"  # nothing but rounding is nothing
 
 
-def _placed(case: Case) -> SolvedLinkage:
+def placed(case: Case) -> SolvedLinkage:
     """Return what is drawn, in its position: a structure is drawn with its scheme.
 
     Raises
@@ -345,8 +345,8 @@ def _placed(case: Case) -> SolvedLinkage:
     if POSITION in solved.program.plans:
         return solved
     values, words = case.task.values(case.variant, case.settings), case.task.words(case.variant, case.settings)
-    placed = KIND.solve(case.task.mechanism, values, words, (*case.plans, POSITION))
-    error = placed.error()
+    found = KIND.solve(case.task.mechanism, values, words, (*case.plans, POSITION))
+    error = found.error()
     if error is not None:
         raise error
-    return placed
+    return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from ...scales.arguments import of_kind
@@ -14,7 +14,7 @@ from ..case import Settings
 from ..crew import Advance
 from ..reader import TaskFileError, load_task, read_text
 from ..task import LocatedError, Task
-from .ranges import looked_at, made, ranges_of
+from .ranges import looked_at, made, most_pages, ranges_of
 from .table_in import Read, read_variants
 from .task_text import with_variants
 
@@ -87,10 +87,11 @@ def import_variants(task: str | os.PathLike[str] | Task, file: str | os.PathLike
     """
     found = task if isinstance(task, Task) else load_task(task)
     rows: dict[str, Mapping[str, str]] = {}
+    pages = most_pages(found)
     left_out: list[KulmanError] = []
     remarks: list[KulmanError] = []
     for read in read_variants(os.fspath(file), found):
-        reasons, remark = _judged(found, read)
+        reasons, remark = _judged(found, read, pages)
         if not reasons and read.id in rows:
             reasons = (InputError("variant-twice"),)
         left_out.extend(_at(read, reason) for reason in reasons)
@@ -103,7 +104,7 @@ def import_variants(task: str | os.PathLike[str] | Task, file: str | os.PathLike
     return replace(_task_with(found, rows), left_out=tuple(left_out), remarks=tuple(remarks))
 
 
-def _judged(task: Task, read: Read) -> tuple[tuple[KulmanError, ...], KulmanError | None]:
+def _judged(task: Task, read: Read, pages: Callable[[], int]) -> tuple[tuple[KulmanError, ...], KulmanError | None]:
     """Return why a variant is left out, if it is, and what makes it a poor exercise."""
     if read.problems:
         return read.problems, None
@@ -111,7 +112,7 @@ def _judged(task: Task, read: Read) -> tuple[tuple[KulmanError, ...], KulmanErro
         alone = _task_with(task, {read.id: read.row}).task
     except TaskFileError as error:
         return tuple(map(_plainly, error.faults)), None
-    reason, remark = looked_at(alone, read.id, {})
+    reason, remark = looked_at(alone, read.id, {}, pages)
     return (() if reason is None else (reason,)), remark
 
 

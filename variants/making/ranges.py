@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import random
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
+from functools import cache
 
 from ...scales.errors import InputError, KulmanError, messages
 from ...scales.numbers import quote
@@ -175,7 +176,7 @@ def made(
         So few of the sets are good, or there are so few, that the wanted number is not found: what was wrong last.
     """
     luck, seen = random.Random(seed), set[tuple[str, ...]]()
-    first = next(iter(task.variants))
+    first, pages = next(iter(task.variants)), most_pages(task)
     for number in range(count):
         reason: KulmanError | None = InputError("variants-few", found=number)
         for _ in range(TRIES):
@@ -184,7 +185,7 @@ def made(
                 continue
             seen.add(tuple(row.values()))
             row |= fixed
-            reason = next(filter(None, looked_at(task, first, row, through=False)), None)
+            reason = next(filter(None, looked_at(task, first, row, pages, through=False)), None)
             if reason is None:
                 yield row
                 break
@@ -193,10 +194,12 @@ def made(
             raise _given_up(f"--make {count}", reason, number)
 
 
-def looked_at(task: Task, variant: str, settings: Settings, through: bool = True) -> Judgement:
+def looked_at(
+    task: Task, variant: str, settings: Settings, pages: Callable[[], int], through: bool = True
+) -> Judgement:
     """Return why data have no solution or no sheet, and what makes them a poor exercise; None where nothing does.
 
-    Unless `through`, what makes a poor exercise is not drawn.
+    A sheet may have so many `pages`. Unless `through`, what makes a poor exercise is not drawn.
     """
     try:
         case = solve_case(task, variant, settings, None, None)
@@ -207,5 +210,21 @@ def looked_at(task: Task, variant: str, settings: Settings, through: bool = True
     except KulmanError as error:
         return error, None
     if remark is None and len(drawn.pages) > case.kind.pages:
-        remark = InputError("variant-pages", n=len(drawn.pages))
+        most = pages()
+        if len(drawn.pages) > most:
+            remark = InputError("variant-pages", n=len(drawn.pages), most=most)
     return None, remark or next(iter(drawn.warnings), None)
+
+
+def most_pages(task: Task) -> Callable[[], int]:
+    """Return what says how many pages a good sheet has at most: as many as that of the task's own first variant."""
+
+    @cache
+    def own() -> int:
+        case = solve_case(task, None, None, None, None)
+        try:
+            return max(case.kind.pages, len(draw_case(case, {}).pages))
+        except KulmanError:
+            return case.kind.pages
+
+    return own

@@ -221,7 +221,7 @@ class _Reader:
     def _names(self) -> tuple[str, ...]:
         """Return the quantities asked."""
         names = self.raw.get("asked", [])
-        if not isinstance(names, list):
+        if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
             raise self._at("asked", InputError("rubric-names"))
         for name in names:
             if name not in self.asked.quantities or self.asked.quantities[name].kind == "point":

@@ -7,8 +7,8 @@ from ...drawing.linkages.layout.sheet import draw
 from ...drawing.titleblock import Stamp
 from ...drawing.words import Words
 from ...plans.linkages.cycles.cycle import Cycle
-from ...plans.linkages.solved import SolvedLinkage
 from ..case import Case
+from ..kinds.linkage import placed
 from ..sheets import Sheet, sheet_of
 
 
@@ -25,5 +25,5 @@ def cycle_sheet(case: Case, whole: Cycle, words: Words) -> Sheet:
         raise error
     language = words.language
     stamp = Stamp(title=case.task.title[language], document_type=words["sheet.document"], language=language)
-    contents = Contents(SolvedLinkage.of(case.solved), ("cycle",), case.choosers, case.givens, words, "gost", whole)
+    contents = Contents(placed(case), ("cycle",), case.choosers, case.givens, words, "gost", whole)
     return sheet_of(case, draw(contents), stamp)

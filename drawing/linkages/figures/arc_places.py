@@ -16,6 +16,7 @@ CLEAR = 3.5  # mm that should be left between an arc and what it passes
 CROSSED, CROSSING = 1.2, 3.0  # mm between points of an arc that crosses a line and the line; what that costs
 APART = 0.25  # lengths of the arrow of a force between two arcs about one joint
 NEAREST, STEP = 14.0, 1.0  # mm from the joint: the least radius, and between radii that are tried
+FARTHEST = 1200.0  # mm: on no sheet two points are so far apart
 SAMPLES = 13  # points of an arc at which its neighbours are looked for
 LENGTHS, SHORTER = (1.0, 0.6, 0.4), 0.3  # of an arc, and the cost of each step shorter
 LIGHT = 0.35  # how much a thin line counts beside a main one
@@ -138,7 +139,7 @@ def _gaps(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
 def _tries(ray: Stroke, busy: Sequence[Obstacle], force: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return radii and spreads of arcs about the start of a ray, and how much each is in the way of what is drawn."""
     reach, along = abs(ray[1] - ray[0]), phase(ray[1] - ray[0])
-    every = np.arange(NEAREST, max(reach - CLEAR, NEAREST + 3 * APART * force), STEP)
+    every = np.arange(NEAREST, min(max(reach - CLEAR, NEAREST + 3 * APART * force), FARTHEST), STEP)
     radii, lengths = np.repeat(every, len(LENGTHS)), np.tile(LENGTHS, len(every))
     spreads = lengths * np.minimum(0.9, 1.1 * force / radii)  # long enough to be seen as arcs
     costs = crowd(_along_arcs(np.array([ray[0]]), np.array([along]), radii, spreads), busy)
