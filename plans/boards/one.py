@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -46,9 +46,9 @@ class Script(Plain):
     unless, worse, end = "if (!({0})) {{", "if ({0} && code < {1}) code = {1};", ("}",)
     both, never = " && ", "false"
 
-    def source(self, function: str, results: Iterable[str], code: int = 0) -> str:
+    def source(self, function: str, result: str, code: int = 0, lines: Sequence[str] = ()) -> str:
         """Return the source of the function; it calls what `script_names` defines."""
-        lines = [*self.lines(code), f"return [{', '.join(('code', *results))}];"]
+        lines = [*self.lines(code), *lines, f"return [code, {result}];"]
         return "\n".join([f"function {function}(given) {{", *(f"  {line}" for line in lines), "}", ""])
 
 
@@ -76,26 +76,27 @@ function floorDivide(a, b) {{
 """
 
 
-def values_of(program: Program, givens: Mapping[str, float]) -> tuple[dict[str, Any], Status]:
-    """Return all values of a program at one position by name, and the status of the position.
+def values_of(
+    program: Program, givens: Mapping[str, float], wanted: tuple[str, ...] | None = None
+) -> tuple[dict[str, Any], Status]:
+    """Return all values of a program at one position by name, or the `wanted` ones, and the status of the position.
 
     They are those of the exact board to the last bit, in a quarter of the time from the second position on; which lines
-    meet flatly, and which step fails, it does not say.
+    meet flatly, and which step fails, it does not say. Steps that the wanted names do not need are not done.
 
     Raises
     ------
     TypeError
         The program has steps that are more than arithmetic.
     """
-    zeros = frozenset([name for name, value in givens.items() if value == 0.0])
-    key = program, zeros, len(givens)
-    found = _KEPT.get(key)
-    if found is None:
+    key = program, tuple([name for name, value in givens.items() if value == 0.0]), len(givens), wanted
+    function = _KEPT.get(key)
+    if function is None:
         if len(_KEPT) >= KEPT:
             del _KEPT[next(iter(_KEPT))]
-        found = _KEPT[key] = _write(program, givens)
-    code, values = found(givens)
-    return dict(zip(program.names, values, strict=True)), STATUSES[code]
+        function = _KEPT[key] = _write(program, givens, wanted)
+    code, values = function(givens)
+    return values, STATUSES[code]
 
 
 def script_of(program: Program, givens: Mapping[str, float], wanted: Sequence[str]) -> str:
@@ -115,34 +116,31 @@ def script_of(program: Program, givens: Mapping[str, float], wanted: Sequence[st
     TypeError
         The program has steps that are more than arithmetic.
     """
-    return _printed(Script, program.needed_for(wanted), givens, wanted, "solve", "[{}, {}]")
+    script, results, code = _printed(Script, program, givens, wanted, "[{}, {}]")
+    return script.source("solve", ", ".join(results), code)
 
 
-def _write(program: Program, givens: Mapping[str, float]) -> Callable[..., Any]:
-    source = _printed(Plain, program, givens, program.names, "one", "complex({}, {})")
-    return compiled(source, "one", plain_names())
+def _write(program: Program, givens: Mapping[str, float], wanted: tuple[str, ...] | None) -> Callable[..., Any]:
+    names = wanted or program.names
+    plain, results, code = _printed(Plain, program, givens, names, "complex({}, {})")
+    alike: dict[str, list[str]] = {}
+    for name, result in zip(names, results, strict=True):
+        alike.setdefault(result, []).append(f"values[{name!r}] = ")
+    lines = ["values = blank.copy()", *("".join(into) + result for result, into in alike.items())]
+    return compiled(plain.source("one", "values", code, lines), "one", {**plain_names(), "blank": dict.fromkeys(names)})
 
 
 def _printed(
-    printer: type[Plain],
-    program: Program,
-    givens: Mapping[str, float],
-    wanted: Sequence[str],
-    function: str,
-    vector: str,
-) -> str:
-    """Print a program with a function that returns the wanted names."""
+    printer: type[Plain], program: Program, givens: Mapping[str, float], wanted: Sequence[str], vector: str
+) -> tuple[Plain, list[str], int]:
+    """Return the printer of a program, expressions of the wanted names, and the code of what depends on no given."""
     zeros = [name for name, value in givens.items() if value == 0.0]
     board = TracingBoard(dict.fromkeys(zeros, 0.0), givens.keys() - zeros)
-    program.run(board)
+    program.needed_for(wanted).run(board)
     values = [board.values[name] for name in wanted]
-    places = [part.place for value in values for part in _parts(value) if isinstance(part, Real)]
+    places = [part.place for value in values for part in (value.real, value.imag) if isinstance(part, Real)]
     plain = printer(board.trace, in_order(board.trace, places), places)
-    return plain.source(function, [_result(plain, value, vector) for value in values], CODES[board.status])
-
-
-def _parts(value: Any) -> tuple[Any, Any]:
-    return value.real, value.imag
+    return plain, [_result(plain, value, vector) for value in values], CODES[board.status]
 
 
 def _result(plain: Plain, value: Any, vector: str) -> str:

@@ -113,7 +113,7 @@ def in_order(trace: Trace, wanted: Iterable[int]) -> list[int]:
 class Plain:
     """The program of a trace for one position, as source of Python.
 
-    The function it defines takes the givens by name, in a mapping, and returns the code of the status and the outputs.
+    The function it defines takes the givens by name, in a mapping, and returns the code of the status and a result.
     """
 
     trace: Trace
@@ -131,10 +131,9 @@ class Plain:
     both: ClassVar[str] = " and "
     never: ClassVar[str] = "False"
 
-    def source(self, function: str, results: Iterable[str], code: int = 0) -> str:
-        """Return the source of a function of the givens by name that returns a code and a tuple of results."""
-        lines = [*self.lines(code), f"return code, ({''.join(result + ', ' for result in results)})"]
-        return defined(function, ("given",), lines)
+    def source(self, function: str, result: str, code: int = 0, lines: Sequence[str] = ()) -> str:
+        """Return the source of a function of the givens by name that returns a code and, after more lines, a result."""
+        return defined(function, ("given",), [*self.lines(code), *lines, f"return code, {result}"])
 
     def lines(self, code: int = 0) -> Iterator[str]:
         """Print what makes the outputs, without indent."""
@@ -261,15 +260,14 @@ class Loop(Plain):
 
     given = "g{place}[i]"
 
-    def source(self, function: str, results: Iterable[str], code: int = 0) -> str:
+    def loop(self, results: Sequence[str]) -> str:
         """Return the source of a function of the codes, the arrays of givens, what is shared, and those of results."""
         arrays = [f"g{place}" for place in self.order if self.trace.entries[place].operation == "given"]
-        results = list(results)
         outputs = [f"out{index}" for index in range(len(results))]
-        lines = [*self.lines(code), *(f"{out}[i] = {result}" for out, result in zip(outputs, results, strict=True))]
+        lines = [*self.lines(), *(f"{out}[i] = {result}" for out, result in zip(outputs, results, strict=True))]
         lines += ["if code > codes[i]: codes[i] = code"]
         parameters = ["codes", *arrays, *(f"v{place}" for place in self.shared), *outputs]
-        return defined(function, parameters, ["for i in range(codes.size):", *("    " + line for line in lines)])
+        return defined("loop", parameters, ["for i in range(codes.size):", *("    " + line for line in lines)])
 
     @cached_property
     def _named(self) -> frozenset[int]:
@@ -375,7 +373,7 @@ class Chunked:
     def once(self) -> str:
         """Return the source of `once(given) -> (code, shared)`, for a mapping of numbers by name."""
         plain = Plain(self.trace, [place for place in self.order if place not in self.varying], {*self.shared})
-        return plain.source("once", [plain.value(place) for place in self.shared])
+        return plain.source("once", f"[{', '.join(map(plain.value, self.shared))}]")
 
     def chunk(self) -> str:
         """Return the source of `chunk(codes, given, shared, buffers, outputs)`."""
@@ -392,7 +390,7 @@ class Chunked:
         """Return the source of `loop(codes, *given, *computed, *outputs)`, for the outputs that vary."""
         loop = Loop(self.trace, self.each, [place for place, _ in self.outputs], self.computed)
         kept = [(loop.value(place), negative) for place, negative in self.outputs if place in self.varying]
-        return loop.source("loop", [f"0.0 - {value}" if negative else f"{value} + 0.0" for value, negative in kept])
+        return loop.loop([f"0.0 - {value}" if negative else f"{value} + 0.0" for value, negative in kept])
 
     def _value(self, place: int, block: Collection[int] = ()) -> str:
         entry = self.trace.entries[place]

@@ -35,7 +35,7 @@ def worked_out(value: Real) -> Any:
 def one_by_one(value: Real) -> list[Any]:
     """Return the same, printed for one position."""
     plain = Plain(value.trace, in_order(value.trace, [value.place]), [value.place])
-    one = compiled(plain.source("one", [plain.value(value.place)]), "one", plain_names())
+    one = compiled(plain.source("one", f"({plain.value(value.place)},)"), "one", plain_names())
     found = [one({name: float(array[i]) for name, array in ARRAYS.items()})[1][0] for i in range(3)]
     return [-number if value.negative else number for number in found]
 
