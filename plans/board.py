@@ -17,25 +17,30 @@ from operator import itemgetter
 from typing import Any
 
 from ..scales.errors import InputError
+from .names import POSITION, Name, role
 
-POSITION = "position"
+__all__ = ["POSITION", "Board", "Program", "RecordingBoard", "Step", "with_needs"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, init=False)
 class Step:
     """One step of a construction: what is done, the name it makes, the names it needs, and the law of a calculation."""
 
     verb: str
     name: str
     operands: tuple[str, ...]
-    law: str = ""
+    law: str
+
+    def __init__(self, verb: str, name: str, operands: Iterable[str], law: str = "") -> None:
+        """Note a step; names without a role have that of their letters."""
+        fields = verb, role(name), tuple(map(role, operands)), law
+        for field, value in zip(self.__slots__, fields, strict=True):
+            object.__setattr__(self, field, value)
 
     @property
-    def plan(self) -> str:
+    def plan(self) -> Name:
         """The plan on which the step draws: that of the mark it makes, or of the mark it reads from."""
-        mark = self.operands[0] if self.verb == "read" else self.name
-        plan, dot, _ = mark.rpartition(".")
-        return plan if dot else POSITION
+        return role(self.operands[0] if self.verb == "read" else self.name).plan
 
 
 class Board:
@@ -169,10 +174,12 @@ class RecordingBoard(Board):
         InputError
             When a name is made in two ways, such as two points with one letter.
         """
-        step = Step(verb, name, operands, law)
+        made_by = self._steps
+        known = (made_by[operand].name if operand in made_by else operand for operand in operands)
+        step = Step(verb, name, known, law)
         made = self._steps.setdefault(name, step)
         if made is not step and made != step:
-            raise InputError("name-twice", name=name.lstrip("_"))
+            raise InputError("name-twice", name=role(name).shown)
 
 
 # a step with what takes its operands, when they are more than one, out of the values by name
@@ -241,12 +248,12 @@ class Program:
         return found
 
     def which(self, verbs: tuple[str, ...], law: str = "", plan: str = "") -> tuple[Step, ...]:
-        """Return the steps of some verbs, of one law if it is named, on the plans whose names begin so; kept, too."""
+        """Return the steps of some verbs, of one law if it is named, on the plans of a kind; kept, too."""
         asked = verbs, law, plan
         found = self._which.get(asked)
         if found is None:
-            steps = (s for s in self.steps if s.verb in verbs and (not law or s.law == law) and s.plan.startswith(plan))
-            found = self._which[asked] = tuple(steps)
+            steps = (s for s in self.steps if s.verb in verbs and law in ("", s.law))
+            found = self._which[asked] = tuple(s for s in steps if plan in ("", s.plan.kind, s.plan))
         return found
 
     def counting(self, counts: Callable[[Step, str], bool]) -> tuple[tuple[str, tuple[str, ...]], ...]:

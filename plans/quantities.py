@@ -11,6 +11,7 @@ from typing import Any
 from ..scales.display import Display
 from ..scales.scale import Scale
 from .board import POSITION, Program
+from .names import LEVER, by_lever, is_shown, role, spelled
 
 UNITS = {
     "V": "m/s",
@@ -27,7 +28,8 @@ UNITS = {
     "l": "m",
     "delta": "%",
 }
-BALANCES = ("M_bal", "M_bal_lever", "F_bal", "F_bal_lever")  # what balances the driver: by plans, by the lever
+M_BAL, F_BAL = spelled("M", "bal"), spelled("F", "bal")
+BALANCES = (M_BAL, by_lever(M_BAL), F_BAL, by_lever(F_BAL))  # what balances the driver: by plans, by the lever
 RESULTS = ("read", "calc", "arm", "distance", "measure")  # verbs that make quantities
 POINTS = ("place", "lay", "back", "arc", "arcs", "meet", "divide", "similar", "template", "same")
 
@@ -72,9 +74,9 @@ class Quantity:
 
 def unit_of(name: str) -> str:
     """Return the SI unit of a quantity by its name."""
-    if name.startswith("h_lever"):
+    if role(name).kind == "h" and role(name).part == LEVER:
         return "m/s"  # an arm on the turned velocity plan
-    return UNITS.get(name.partition("_")[0], "m")
+    return UNITS.get(role(name).kind, "m")
 
 
 def shown_on(program: Program) -> dict[str, str]:
@@ -82,11 +84,11 @@ def shown_on(program: Program) -> dict[str, str]:
     plans: dict[str, str] = {}
     for step in program:
         if step.verb == "read":
-            plans.setdefault(step.name.removeprefix("_"), step.plan)
+            plans.setdefault(role(step.name).shown, step.plan)
         elif step.verb == "chain":
-            plans.setdefault(step.operands[1].removeprefix("_"), step.plan)
+            plans.setdefault(role(step.operands[1]).shown, step.plan)
         elif step.verb == "arm":
-            plans.setdefault(step.name, "lever" if step.name.startswith("h_lever") else POSITION)
+            plans.setdefault(step.name, "lever" if role(step.name).part == LEVER else POSITION)
     return plans
 
 
@@ -99,7 +101,7 @@ def quantities(
     """
     found = {name: Quantity(name, float(size), "m") for name, size in lengths.items()}
     for step in program:
-        if step.name.startswith("_") or "." in step.name:
+        if not is_shown(step.name):
             continue
         if step.verb in RESULTS:
             found[step.name] = _quantity(step.name, values[step.name], unit(step.name))
@@ -126,7 +128,7 @@ def measured(
     """Return the quantities with the millimetres that show them; `scales` are by plan."""
     out = {}
     for name, item in items.items():
-        plan = POSITION if name.startswith("l_") and POSITION in scales else plans.get(name, "")
+        plan = POSITION if role(name).kind == "l" and POSITION in scales else plans.get(name, "")
         scale = scales.get(plan)
         if scale is not None and item.kind != "point":
             mm = None if item.value is None else scale.drawn(abs(item.value))

@@ -7,6 +7,7 @@ from typing import Any
 
 from .board import POSITION, Program, Step
 from .boards.exact import ILL
+from .names import is_shown
 from .quantities import POINTS, RESULTS, shown_on, unit_of
 
 MEETING = ("meet", "arc", "arcs", "tangent")
@@ -15,11 +16,7 @@ PER_CENT = 100.0
 
 def results(program: Program) -> tuple[Step, ...]:
     """Return the steps that make quantities that a user sees, points among them."""
-    return tuple(
-        step
-        for step in program
-        if not step.name.startswith("_") and "." not in step.name and step.verb in (*RESULTS, *POINTS)
-    )
+    return tuple(step for step in program if is_shown(step.name) and step.verb in (*RESULTS, *POINTS))
 
 
 def references(program: Program, values: Mapping[str, Any]) -> dict[str, float]:

@@ -10,6 +10,7 @@ from typing import Any, Self
 from ..scales.errors import PositionError
 from .board import Program
 from .boards.exact import Status, Trouble
+from .names import role
 from .quantities import Quantity
 
 PAPER_MM = 1e-3  # metres of paper in a millimetre: diagrams are drawn in these
@@ -72,4 +73,4 @@ class Solved:
 
     def reason(self, trouble: Trouble) -> PositionError:
         """Return why a step of the construction cannot be done."""
-        return PositionError("singular-step", status_word=trouble.status, point=trouble.name.rpartition(".")[2])
+        return PositionError("singular-step", status_word=trouble.status, point=role(trouble.name).of)

@@ -16,6 +16,7 @@ from ..plans.hands.hand import PRESETS, Hand, Tolerance, preset
 from ..plans.hands.shaky import Paper
 from ..plans.hands.spread import Spread
 from ..plans.linkages.guides import guide_letters
+from ..plans.names import role
 from ..plans.quantities import Quantity
 from ..scales.arguments import of_kind
 from ..scales.errors import InputError
@@ -204,16 +205,16 @@ def _worst(expected: Expectation, program: Program, words: Words) -> str:
     step = next(step for step in program if step.name == expected.step)
     share = "" if expected.share is None else words.number(expected.share, 2)
     if step.verb in READINGS:
-        said = words["hand.reading"].format(name=step.name.lstrip("_"))
+        said = words["hand.reading"].format(name=role(step.name).shown)
     elif step.verb == "moment":
         force, _, about = step.operands
         said = words["hand.arm"].format(name=f"{force}, {_plain(words.mark(about))}")
     elif step.verb in LINES:
         said = words["hand.line"].format(name=_line(step, program))
     else:
-        plan = step.plan.partition("_")[0]
+        plan = step.plan.kind
         where = words[f"hand.plan.{plan if plan in PLANS else 'compound'}"]
-        mark = step.name.rpartition(".")[2] if plan in LETTERED else _plain(words.mark(step.name))
+        mark = role(step.name).of if plan in LETTERED else _plain(words.mark(step.name))
         said = f"{words['hand.mark'].format(name=mark)}, {where}"
     return f"{said} {share}".rstrip()
 
@@ -223,8 +224,8 @@ def _line(step: Step, program: Program) -> str:
     letters = guide_letters(program)
     if step.name in letters:
         return letters[step.name]
-    name = step.name.lstrip("_")
-    return "".join(step.operands[:2]) if step.verb == "tangent" else name.partition("_")[2] or name
+    name = role(step.name).shown
+    return "".join(step.operands[:2]) if step.verb == "tangent" else name.letters
 
 
 def _plain(markup: str) -> str:

@@ -7,7 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...plans.linkages.chain import hinged
-from ...plans.linkages.compound import ACCELERATION, VELOCITY, Coupler
+from ...plans.linkages.compound import ACCELERATION, TOTAL, VELOCITY, Coupler
+from ...plans.names import mark, role, spelled, vector
 from ..shapes import Vector, shifted
 from .letters import guide_letters
 from .marks import vectors_of
@@ -34,7 +35,7 @@ class At:
     @property
     def plan(self) -> str:
         """The plan at the point."""
-        return (VELOCITY if self.kind == "V" else ACCELERATION) + self.letter
+        return spelled(VELOCITY if self.kind == "V" else ACCELERATION, self.letter)
 
     def mm(self, mark: str) -> complex:
         """Return where a mark of the plan stands in the figure."""
@@ -45,10 +46,10 @@ class At:
         steps = self.scene.solved.program.on(self.plan)
         found = vectors_of(steps)
         if f"{self.plan}.n" in self.scene.solved.values:
-            found.append((f"a_{self.point}_t", f"{self.plan}.n", f"{self.plan}.{self.letter}"))
-        total = f"_{self.kind}_{self.letter}_total"
-        for name, tail, tip in sorted(found, key=lambda vector: vector[0] == total):
-            plain = f"{self.kind}_{self.point}" if name == total else name
+            found.append((vector("a", self.point, part="t"), mark(self.plan, "n"), mark(self.plan, self.letter)))
+        total = vector(self.kind, self.letter, part=TOTAL).size
+        for name, tail, tip in sorted(found, key=lambda item: item[0] == total):
+            plain = vector(self.kind, self.point) if name == total else name
             yield shifted_vector(self.scene.vector(plain, tail, tip), self.scene.mm(self.point))
 
     def lines(self) -> Iterator[tuple[complex, complex, complex, str]]:
@@ -83,7 +84,7 @@ def figures_of(scene: Scene) -> dict[str, tuple[At, ...]]:
 
 def is_at_point(plan: str) -> bool:
     """Whether a plan is drawn at a point itself."""
-    return plan.startswith((VELOCITY, ACCELERATION))
+    return role(plan).kind in (VELOCITY, ACCELERATION)
 
 
 def shifted_vector(vector: Vector, by: complex) -> Vector:
@@ -95,8 +96,7 @@ def shifted_vector(vector: Vector, by: complex) -> Vector:
 
 def direction_words(scene: Scene, direction: str) -> str:
     """Return a direction as it is written on a construction line: normal to AB, parallel to the guide y-y."""
-    kind, _, name = direction.partition("_")
-    letters = guide_letters(scene.solved.program)
-    if kind == "u":
-        return f"∥{letters.get(direction, name)}"
-    return {"n": "⊥", "e": "∥"}[kind] + re.sub(r"(\d+)", r"_{\1}", name)
+    line = role(direction)
+    if line.kind == "u":
+        return f"∥{guide_letters(scene.solved.program).get(direction, line.of)}"
+    return {"n": "⊥", "e": "∥"}[line.kind] + re.sub(r"(\d+)", r"_{\1}", line.letters)

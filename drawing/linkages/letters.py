@@ -7,7 +7,9 @@ from dataclasses import replace
 from itertools import combinations
 
 from ...plans.linkages.guides import guide_letters
+from ...plans.linkages.parts import SYMBOLS
 from ...plans.linkages.solved import SolvedLinkage
+from ...plans.names import CORIOLIS, COUPLE, NORMAL, role
 from ..words import Words
 from .reading import Reading, read
 
@@ -32,10 +34,10 @@ def _seconds(reading: Reading) -> frozenset[str]:
     """Return the second force of each couple on the lever, and its arm."""
     found = set()
     for step in reading.program:
-        if step.law == "opposite" and "_couple_" in step.name:
+        if step.law == "opposite" and role(step.name).part == COUPLE:
             found.add(step.name)
             found.update(arm.name for moment in reading.users(step.name) for arm in reading.users(moment.name))
-    return frozenset(name for name in found if "couple" in name or name.startswith("h_"))
+    return frozenset(name for name in found if role(name).part == COUPLE or role(name).kind == "h")
 
 
 def _joints(solved: SolvedLinkage) -> dict[str, str]:
@@ -54,13 +56,13 @@ def _joints(solved: SolvedLinkage) -> dict[str, str]:
 def _ends(reading: Reading, words: Words) -> dict[str, str]:
     """Return the letters of ends of normal parts and accelerations of Coriolis where a plan has several of them."""
     letters: dict[str, str] = {}
-    for kind, key in (("n_", "normal_end"), ("k_", "coriolis_end")):
-        marks = [name for name in reading.made if "." in name and name.rpartition(".")[2].startswith(kind)]
-        for plan in dict.fromkeys(mark.rpartition(".")[0] for mark in marks):
-            here, taken = [mark for mark in marks if mark.startswith(f"{plan}.")], set[str]()
+    for kind, key in ((NORMAL, "normal_end"), (CORIOLIS, "coriolis_end")):
+        marks = [mark for name in reading.made if (mark := role(name)).plan in SYMBOLS and mark.kind == kind]
+        for plan in dict.fromkeys(mark.plan for mark in marks):
+            here, taken = [mark for mark in marks if mark.plan == plan], set[str]()
             for mark in here if len(here) > 1 else ():
                 link = _link_of(reading, mark)
-                index = mark.rpartition(".")[2].removeprefix(kind) if link in (*taken, "") else link
+                index = mark.letters if link in (*taken, "") else link
                 taken.add(link)
                 letters[mark] = f"{words.notation[key]}_{{{index}}}"
     return letters
@@ -72,6 +74,6 @@ def _link_of(reading: Reading, mark: str) -> str:
     made = reading.step(step.operands[1 if step.verb == "chain" else 2])
     names = made.operands if made else ()
     # the law of a normal part takes omega itself, or the relative velocity from which omega is read
-    rates = [name for name in names if name.startswith("omega_")]
+    rates = [name for name in names if role(name).kind == "omega"]
     rates += [user.name for name in names for user in reading.users(name) if user.law == "turning"]
-    return rates[0].rpartition("_")[2] if rates else ""
+    return role(rates[0]).of if rates else ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from ...plans.board import Step
+from ...plans.names import role
 from ..shapes import Circle, Group, Pen
 from ..view import Canvas
 from .scene import Scene
@@ -39,7 +40,7 @@ def letter_marks(
 
 def symbol(scene: Scene, quantity: str) -> str:
     """Return the symbol of a vector with its bar."""
-    return scene.words.symbol(quantity.removeprefix("_"), bar=True)
+    return scene.words.symbol(role(quantity).shown, bar=True)
 
 
 def vectors_of(steps: tuple[Step, ...]) -> list[tuple[str, str, str]]:

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
-from ...plans.board import Program, Step
+from ...plans.board import POSITION, Program, Step
+from ...plans.names import role
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,14 +37,19 @@ class Reading:
         """Return the vectors of a plan in the order in which they are drawn."""
         return self.edges.get(plan, ())
 
+    def _beside(self, mark: str) -> tuple[Edge, ...]:
+        """Return the vectors of the plan on which a mark stands; the mechanism itself has none."""
+        plan = role(mark).plan
+        return () if plan == POSITION else self.on(plan)
+
     def between(self, tail: str, tip: str) -> Edge | None:
         """Return the vector from one mark to another, the first that is drawn."""
-        return next((e for e in self.on(plan_of(tip)) if (e.tail, e.tip) == (tail, tip)), None)
+        return next((e for e in self._beside(tip) if (e.tail, e.tip) == (tail, tip)), None)
 
     def absolute(self, mark: str, before: int | None = None) -> Edge | None:
         """Return the vector from the pole to a mark; of two names for it the last one."""
-        pole = f"{plan_of(mark)}.p"
-        edges = [e for e in self.on(plan_of(mark)) if (e.tail, e.tip) == (pole, mark)]
+        pole = f"{role(mark).plan}.p"
+        edges = [e for e in self._beside(mark) if (e.tail, e.tip) == (pole, mark)]
         return next((e for e in reversed(edges) if before is None or e.at < before), None)
 
     def way(self, mark: str, before: int) -> list[Edge]:
@@ -54,7 +60,7 @@ class Reading:
         absolute = self.absolute(mark, before)
         if absolute is not None:
             return [absolute]
-        end = next((e for e in self.on(plan_of(mark)) if e.tip == mark and e.at < before), None)
+        end = next((e for e in self._beside(mark) if e.tip == mark and e.at < before), None)
         return [] if end is None else [*self.way(end.tail, before), end]
 
     def parts(self, whole: Edge) -> list[Edge]:
@@ -74,23 +80,18 @@ class Reading:
 
     def visible(self, name: str) -> str:
         """Return the quantity that a calculated size is: `a_BA_n`, which the plan shows, of `_a_BA_n`."""
-        if not name.startswith("_"):
+        if not role(name).hidden:
             return name
         for step in self.program:
             if step.verb in ("lay", "back") and step.operands[2] == name:
                 edge = self.between(step.operands[0], step.name)
                 if edge is not None:
                     return edge.name
-        return name.lstrip("_")
+        return role(name).shown
 
     def users(self, name: str) -> Iterator[Step]:
         """Go through the steps that need a name."""
         return (step for step in self.program if name in step.operands)
-
-
-def plan_of(mark: str) -> str:
-    """Return the plan on which a mark stands."""
-    return mark.rpartition(".")[0]
 
 
 @lru_cache(maxsize=16)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ...plans.board import POSITION
 from ...plans.linkages.mechanism import Driver
 from ...plans.linkages.solved import SolvedLinkage
+from ...plans.names import inertia, rate, role
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
 from ..givens import Given as Given
@@ -38,7 +39,7 @@ class Scene:
 
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""
-        plan = mark.rpartition(".")[0] or POSITION
+        plan = role(mark).plan
         return self.solved.point(mark) * (1.0 / self.scales[plan].mu)
 
     def direction(self, name: str) -> complex:
@@ -48,7 +49,7 @@ class Scene:
 
     def vanishes(self, name: str) -> bool:
         """Whether a quantity is zero, or rounding beside the largest of its unit."""
-        unit = unit_of(name.removeprefix("_"))
+        unit = unit_of(role(name).shown)
         if unit not in self._largest:
             sizes = (abs(q.value or 0.0) for q in self.solved.quantities.values() if q.unit == unit)
             self._largest[unit] = max(sizes, default=0.0)
@@ -61,7 +62,7 @@ class Scene:
 
     def vector(self, name: str, tail: str, tip: str) -> Vector:
         """Return the vector `name` of a plan from one mark to another."""
-        scale = self.scales[tail.rpartition(".")[0] or POSITION]
+        scale = self.scales[role(tail).plan]
         a, b = self.mm(tail), self.mm(tip)
         size = self.solved.size(name) if name in self.solved.values else abs(b - a) * scale.mu
         return Vector(a, b, name, size, scale.unit, scale.mu, title=name)
@@ -92,8 +93,8 @@ def arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:
     if not isinstance(driver, Driver):
         return frozenset()
     loads = {load.name for load in solved.mechanism.loads_on(driver.link)}
-    forces = {f"F_i{driver.link}", f"G_{driver.link}", *loads}
-    forces |= {f"R_{solved.mechanism.index(link.number, driver.link)}" for link in solved.mechanism.links}
+    forces = {inertia("F", driver.link), rate("G", driver.link), *loads}
+    forces |= {solved.mechanism.pair("R", link.number, driver.link) for link in solved.mechanism.links}
     taken = {s.name for s in solved.program if s.verb == "moment" and s.operands[0] in forces}
     taken &= {s.name for s in solved.program if s.verb == "moment" and s.operands[2] == driver.pivot}
     return frozenset(s.name for s in solved.program if s.verb == "arm" and s.operands[0] in taken)

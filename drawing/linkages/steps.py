@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from itertools import chain
 
 from ...plans.board import POSITION
+from ...plans.names import role
 from ..notes.blocks import Block, Equations, Heading, Story
 from .at_point import is_at_point
 from .calculations.equations import Lines
@@ -21,7 +22,6 @@ from .telling.marks import TOLD
 from .telling.teller import Teller, Told
 
 SET = ("pole", "place")  # verbs that set a drawing up
-FORCES = "forces_"
 
 
 def story(scene: Scene, texts: Mapping[str, str]) -> Story:
@@ -37,7 +37,7 @@ def story(scene: Scene, texts: Mapping[str, str]) -> Story:
     equations, views = _kinematics(scene)
     equations |= compound_equations(teller)
     before: dict[str, tuple[Block, ...]] = {}
-    if any(plan.startswith(FORCES) for plan in steps):
+    if any(role(plan).kind == "forces" for plan in steps):
         groups = scene.solved.structure.groups
         apart = {number for group in groups for number in links_apart(scene.solved, group)}
         equations |= lines_by_plan(scene, apart)
@@ -60,7 +60,7 @@ def drawn_views(teller: Teller) -> list[str]:
     """Return the views whose drawing is told step by step, in order: the plans, the figures of compound motion."""
     scene = teller.scene
     plans = [plan for plan in scene.solved.program.plans if plan in scene.scales and not is_at_point(plan)]
-    forces = next((at for at, plan in enumerate(plans) if plan.startswith(FORCES)), len(plans))
+    forces = next((at for at, plan in enumerate(plans) if role(plan).kind == "forces"), len(plans))
     return [*plans[:forces], *teller.figures, *plans[forces:]]
 
 
@@ -80,7 +80,7 @@ def _plan(teller: Teller, plan: str) -> Iterator[Iterator[Told]]:
     for step in teller.scene.solved.program.on(plan):
         if step.verb not in TOLD or step.name in centres:
             continue
-        if step.name.startswith("_") and step.verb not in ("place", "read"):
+        if role(step.name).hidden and step.verb not in ("place", "read"):
             continue
         if plan == POSITION and step.verb == "read":  # an arm that a calculation takes
             continue

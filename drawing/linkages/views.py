@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ...plans.linkages.chain import hinged
-from ...plans.linkages.compound import ACCELERATION, Coupler, scale_symbol
+from ...plans.linkages.compound import Coupler
 from ...plans.linkages.mechanism import Diagram
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group
+from ...plans.names import role, scale_factor
 from ..table import note_block
 from ..view import View
 from .calculations.forces import LOADS, WHOLE, force_parts, forces_block
@@ -134,7 +135,7 @@ def _group(solved: SolvedLinkage, group: Group) -> Iterator[Figure]:
     plans.sort(key=solved.program.plans.index)
     yield _apart(group, None)
     for plan in plans:
-        link = plan.removeprefix("forces_")
+        link = role(plan).of
         if link == group.name:
             yield _plan(plan, "heading.group_forces", symbols[plan], links=", ".join(map(str, group.links)))
             continue
@@ -162,7 +163,7 @@ def _accelerations(coupler: Coupler, point: str) -> Figure:
     """Return the figure of the accelerations of one point of a coupler."""
     from .figures.compound import acceleration_figure
 
-    symbol = scale_symbol(f"{ACCELERATION}{coupler.letters[point]}") or ""
+    symbol = scale_factor("a", coupler.letters[point])
     return Figure(lambda scene: acceleration_figure(scene, coupler, point), symbol, "mu_l")
 
 

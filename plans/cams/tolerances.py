@@ -8,6 +8,7 @@ from ..hands.adding import added_up
 from ..hands.hand import Tolerance
 from ..hands.shaky import Paper
 from ..marking.key import rounded
+from ..names import role
 from ..references import results
 from .solve import SolvedCam
 
@@ -33,7 +34,7 @@ def _alone(name: str, drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> f
     if drawn.quantities[name].unit == "rad":
         return max(least, math.radians(tolerance.degrees))
     step = paper.program.by_name[name]
-    plan = step.operands[0].rpartition(".")[0] if step.verb in MEASURED else drawn.shown_on.get(name, "")
+    plan = role(step.operands[0]).plan if step.verb in MEASURED else drawn.shown_on.get(name, "")
     if not plan:
         return least
     calculated_there = plan in paper.unscaled and step.verb not in MEASURED

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..board import Board, Program, RecordingBoard
 from ..boards.exact import ExactBoard
+from ..names import role
 from . import formulas as formulas  # its laws of calculation
 from .gear import WHEELS
 
@@ -189,5 +190,5 @@ def geometry(values: Mapping[str, Any], wanted: Iterable[str] = ()) -> dict[str,
     board = ExactBoard({**PARTS, **NOTHING, **values})
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         board.follow(program)
-    found = {name: board.values[name] for name in (*values, *program.names) if not name.startswith("_")}
+    found = {name: board.values[name] for name in (*values, *program.names) if not role(name).hidden}
     return {name: value if np.ndim(value) else float(value) for name, value in found.items()}

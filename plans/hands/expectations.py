@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..marking.key import Key, answer_key
+from ..names import role
 from ..references import plans_of
 from .hand import Hand, Tolerance
 from .sensitivities import Sensitivities, sensitivities
@@ -118,7 +119,7 @@ def _worst(parts: Sensitivities, name: str) -> tuple[str | None, float | None]:
 def _allowed(key: Key, name: str, mu: float | None) -> tuple[float | None, float | None, float | None]:
     """Return what to let pass of a quantity: in SI, in mm, and of its direction in degrees."""
     allowed, angle = key.allowed[name], key.angles.get(name)
-    if not math.isfinite(allowed) or _undefined(key[name]) or name.startswith("delta_"):  # of two values, marked alone
+    if not math.isfinite(allowed) or _undefined(key[name]) or role(name).kind == "delta":  # of two values, marked alone
         return None, None, None
     return allowed, None if mu is None else allowed / mu, None if angle is None else math.degrees(angle)
 

@@ -19,6 +19,7 @@ import numpy as np
 from ..board import POSITION, Program
 from ..boards.arrays import ArrayBoard
 from ..laws import dot
+from ..names import role
 from ..solved import Solved
 from .hand import Hand
 
@@ -121,7 +122,7 @@ class ShakyBoard(ArrayBoard):
         return self._error(math.radians(self._hand.direction))
 
     def _mu(self, mark: str) -> Any:
-        return self._mus[mark.rpartition(".")[0] or POSITION]
+        return self._mus[role(mark).plan]
 
     def _off(self, mark: Any, name: str) -> Any:
         """Miss a mark in both coordinates."""
@@ -159,11 +160,11 @@ class ShakyBoard(ArrayBoard):
 
     def _aside_of_paper(self, name: str) -> bool:
         """Whether a name is a mark or a direction on a drawing of a link alone."""
-        return name.startswith("_") and not (name in self._steps and "." in name)
+        return role(name).hidden and not (name in self._steps and role(name).plan != POSITION)
 
     def _lies_there(self, direction: str) -> bool:
         """Whether a line of this direction lies on the plan already: only directions of links do, on the mechanism."""
-        return "." not in self._name and not self._is_made_by(direction, "normal")
+        return role(self._name).plan == POSITION and not self._is_made_by(direction, "normal")
 
     # Templates: Newton's method looks at the paths of all legs at once.
 
@@ -196,7 +197,7 @@ def swung(direction: Any, angle: Any) -> Any:
 
 def _place(b: ShakyBoard, exact: Operate, x: Any, y: Any) -> Any:
     mark, name = exact(x, y), b._name
-    if name.startswith("_") or b._operands == (ZERO, ZERO):  # a place on a drawing of the link alone; the origin
+    if role(name).hidden or b._operands == (ZERO, ZERO):  # a place on a drawing of the link alone; the origin
         return mark
     return b._off(mark, name)
 
@@ -204,7 +205,7 @@ def _place(b: ShakyBoard, exact: Operate, x: Any, y: Any) -> Any:
 def _turn(b: ShakyBoard, exact: Operate, angle: Any) -> Any:
     """Lay off an angle; the edge of the sheet is there, and a direction that only a calculation needs is not drawn."""
     direction = exact(angle)
-    drawn = b._operands != (ZERO,) and b._name in b._drawn and not b._name.startswith("_")
+    drawn = b._operands != (ZERO,) and b._name in b._drawn and not role(b._name).hidden
     return b._swung(direction) if drawn else direction
 
 
@@ -212,7 +213,7 @@ def _incline(b: ShakyBoard, exact: Operate, direction: Any, slope: Any) -> Any:
     """Lay off an angle from a line; along the line itself there is none to lay off."""
     found, of = exact(direction, slope), b._steps.get(b._operands[1])
     parallel = of is not None and of.verb == "turn" and of.operands == (ZERO,)
-    return found if parallel or b._name.startswith("_") else b._swung(found)
+    return found if parallel or role(b._name).hidden else b._swung(found)
 
 
 def _direction(b: ShakyBoard, exact: Operate, start: Any, end: Any, length: Any) -> Any:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..board import POSITION, Step
 from ..laws import LAWS, dot
+from ..names import role
 from ..quantities import POINTS, RESULTS
 from ..references import results, worst_behind
 from .hand import Tolerance
@@ -98,7 +99,7 @@ class _Rule:
         """Return by how much directions behind a mark miss because links are short on paper, radians."""
         if step.verb in (*RESULTS, "moment"):
             return 0.0
-        if step.verb == "direction" and not step.name.startswith("_"):
+        if step.verb == "direction" and not role(step.name).hidden:
             length, ends = abs(self.values[step.operands[2]]), step.operands[:2]
             missed = math.hypot(MARKS * self.most.mm * self._mu(ends[0]), *(self.aside.get(end, 0.0) for end in ends))
             return missed / length if length > 0.0 else 0.0
@@ -109,7 +110,7 @@ class _Rule:
         return math.hypot(math.radians(self.most.degrees), slant) * length if length == length else 0.0
 
     def _mu(self, mark: str) -> float:
-        return float(self.paper.mus[mark.rpartition(".")[0] or POSITION])
+        return float(self.paper.mus[role(mark).plan])
 
     def _arm(self, moment: str, force: str) -> float:
         size = abs(self.values[force])
@@ -150,7 +151,7 @@ def longer(value: Any, miss: float) -> tuple[Any, ...]:
 
 def same_plan(step: Step, operand: str) -> bool:
     """Whether a step draws on the plan of one of its operands."""
-    return step.name.rpartition(".")[0] == operand.rpartition(".")[0]
+    return role(step.name).plan == role(operand).plan
 
 
 def failing(drawn: Drawn, allowed: Mapping[str, float]) -> dict[str, float]:

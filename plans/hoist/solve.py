@@ -10,6 +10,7 @@ import numpy as np
 
 from ..board import Program
 from ..boards.exact import run
+from ..names import role
 from ..quantities import Quantity, quantities, shown_on
 from ..solved import PAPER_MM, Solved
 from .beam_plans import BENT, SCHEME
@@ -61,7 +62,7 @@ STIFFNESSES = ("C", "C_01", "C_k", "C_2", "C_12")
 
 def unit_of(name: str) -> str:
     """Return the SI unit of a quantity of a hoist by its name."""
-    return "N/m" if name in STIFFNESSES else UNITS.get(name.partition("_")[0], "m")
+    return "N/m" if name in STIFFNESSES else UNITS.get(role(name).kind or name, "m")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

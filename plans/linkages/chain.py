@@ -9,6 +9,7 @@ from types import ModuleType
 
 from ...scales.errors import InputError
 from ..board import Program, RecordingBoard, with_needs
+from ..names import by_lever, spelled, vector
 from . import compound
 from .lever import Joined, lever, points_of
 from .loads import hung, lay_loads
@@ -102,14 +103,14 @@ def _statics(board: RecordingBoard, mechanism: Mechanism, plans: set[str], dyads
     spans = {span.link.number: span for span in _spans(mechanism, dyads)}
     resisting = any(couple.sense is None for couple in mechanism.couples) or needs_stroke(mechanism)
     turning = module.turning_rate(board, mechanism) if resisting else ZERO
-    lay_loads(board, Moving(mechanism, bodies, spans, f"_V_{mechanism.driver.point}", turning))
+    lay_loads(board, Moving(mechanism, bodies, spans, vector("V", mechanism.driver.point).size, turning))
     if "forces" in plans:
         _forces(board, mechanism, dyads, bodies)
     if "lever" in plans:
         _lever(board, mechanism, spans, bodies)
     if {"forces", "lever"} <= plans:
         name = module.balance(mechanism)
-        board.calc(f"delta_{name}", "difference", f"{name}_lever", name)
+        board.calc(spelled("delta", name), "difference", by_lever(name), name)
 
 
 def _spans(mechanism: Mechanism, dyads: Attached) -> tuple[Span, ...]:

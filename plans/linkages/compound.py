@@ -11,18 +11,19 @@ Source: Bertyaev and others, Mechanics: course works with Mathcad, section 4.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 from ..board import Board, Program
+from ..names import Name, between, mark, pole, rate, role, scale_factor, spelled, vector
 from .dyads import rrp, rrr
 from .mechanism import FRAME, ZERO, Mechanism, Revolute
 from .parts import AssurGroup, Bodies, Body, Span
 
-VELOCITY, ACCELERATION = "V_at_", "a_at_"
-RELATIVE = re.compile(r"(omega|epsilon)_r_\d+$")
+VELOCITY, ACCELERATION = "V_at", "a_at"  # kinds of plans
+TOTAL = "total"  # the whole as compound motion gives it
 PARTS = {"V": ("e", "r"), "a": ("rn", "en", "et", "k", "rt")}  # of a vector, in the order in which they are hung
 
 
@@ -30,7 +31,7 @@ class Closing(NamedTuple):
     """What is known of the absolute motion of the coupler's end: a straight guide, or a circle about a fixed pivot."""
 
     direction: str  # along which its velocity lies
-    normal: str | None  # its normal acceleration on the circle
+    normal: Name | None  # its normal acceleration on the circle
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,9 +69,9 @@ class Coupler:
         return self.carrier.epsilon or ZERO
 
     @property
-    def centre(self) -> str:
+    def centre(self) -> Name:
         """Name of its instant centre of velocities."""
-        return f"P_{self.number}"
+        return rate("P", self.number)
 
 
 def couplers(mechanism: Mechanism, groups: Iterable[AssurGroup], bodies: Bodies) -> tuple[Coupler, ...]:
@@ -104,7 +105,7 @@ def _closing(mechanism: Mechanism, group: AssurGroup, span: Span) -> Closing | N
         case rrr.Dyad(spans=(first, second)):
             other = second if span == first else first
             if other.start in mechanism.frame_points:
-                return Closing(other.n, f"a_{group.about(other)}_n")
+                return Closing(other.n, vector("a", *group.about(other), "n"))
         case rrp.Dyad(slide=slide) if slide.known is None:
             return Closing(slide.u, None)
     return None
@@ -125,35 +126,35 @@ def _velocities(board: Board, c: Coupler) -> None:
 
     Where that is not known, and for other points than the end, omega_r = omega - omega_e gives v^r = omega_r x AB.
     """
-    omega_r = f"omega_r_{c.number}"
+    omega_r = rate("omega", c.number, "r")
     if c.closing is None:
-        board.calc(omega_r, "excess", f"omega_{c.number}", c.omega_e)
+        board.calc(omega_r, "excess", rate("omega", c.number), c.omega_e)
     for point, letter in c.letters.items():
-        plan = VELOCITY + letter
-        e, tip = f"{plan}.e", f"{plan}.{letter}"
-        board.distance(f"l_{c.pivot}{point}", c.pivot, point)
+        plan = spelled(VELOCITY, letter)
+        start, e, tip = pole(plan), mark(plan, "e"), mark(plan, letter)
+        board.distance(between("l", c.pivot, point), c.pivot, point)
         board.read(f"_from_{c.pivot}_{point}", c.pivot, point)
-        board.calc(f"V_{letter}_e", "transport_speed", c.omega_e, f"_from_{c.pivot}_{point}")
-        board.pole(f"{plan}.p")
-        board.chain(e, f"{plan}.p", f"V_{letter}_e")
+        board.calc(vector("V", letter, part="e"), "transport_speed", c.omega_e, f"_from_{c.pivot}_{point}")
+        board.pole(start)
+        board.chain(e, start, vector("V", letter, part="e"))
         if point == c.span.end and c.closing is not None:
-            board.meet(tip, e, c.span.n, f"{plan}.p", c.closing.direction)
-            board.read(f"V_{letter}_r", e, tip)
-            board.calc(omega_r, "turning", f"V_{letter}_r", c.span.n, c.span.length)
+            board.meet(tip, e, c.span.n, start, c.closing.direction)
+            board.read(vector("V", letter, part="r"), e, tip)
+            board.calc(omega_r, "turning", vector("V", letter, part="r"), c.span.n, c.span.length)
         else:
             board.read(f"_from_{c.hinge}_{point}", c.hinge, point)
-            board.calc(f"V_{letter}_r", "transport_speed", omega_r, f"_from_{c.hinge}_{point}")
-            board.chain(tip, e, f"V_{letter}_r")
-        board.read(f"_V_{letter}_total", f"{plan}.p", tip)
+            board.calc(vector("V", letter, part="r"), "transport_speed", omega_r, f"_from_{c.hinge}_{point}")
+            board.chain(tip, e, vector("V", letter, part="r"))
+        board.read(vector("V", letter, part=TOTAL).size, start, tip)
 
 
 def _instant_centre(board: Board, c: Coupler) -> None:
     """P is where both rotations cancel, OP * omega_e = -AP * omega_r: it divides OA in the ratio omega_r : omega."""
     P = c.centre
-    board.calc(f"_{P}_part", "part_of", f"omega_r_{c.number}", f"omega_{c.number}")
+    board.calc(f"_{P}_part", "part_of", rate("omega", c.number, "r"), rate("omega", c.number))
     board.divide(P, c.pivot, c.hinge, f"_{P}_part", "one")
     for end in (c.hinge, c.pivot):
-        board.distance(f"l_{end}P{c.number}", end, P)
+        board.distance(between("l", end, f"P{c.number}"), end, P)
 
 
 def _accelerations(board: Board, c: Coupler) -> None:
@@ -162,54 +163,60 @@ def _accelerations(board: Board, c: Coupler) -> None:
     For the end a^rt is the line normal to AB; the normal part of the absolute acceleration, towards its pivot, and the
     line of the tangential part, or the parallel to the guide, close the figure.
     """
-    omega_r, epsilon_r = f"omega_r_{c.number}", f"epsilon_r_{c.number}"
+    omega_r, epsilon_r = rate("omega", c.number, "r"), rate("epsilon", c.number, "r")
     if c.closing is None:
-        board.calc(epsilon_r, "excess", f"epsilon_{c.number}", c.epsilon_e)
+        board.calc(epsilon_r, "excess", rate("epsilon", c.number), c.epsilon_e)
     for point, letter in c.letters.items():
-        plan, a = ACCELERATION + letter, f"a_{letter}"
+        plan, a = spelled(ACCELERATION, letter), partial(vector, "a", letter, "")
         arm_e, arm_r = f"_from_{c.pivot}_{point}", f"_from_{c.hinge}_{point}"
         board.read(arm_r, c.hinge, point)
-        board.calc(f"{a}_rn", "transport_normal", omega_r, arm_r)
-        board.calc(f"{a}_en", "transport_normal", c.omega_e, arm_e)
-        board.calc(f"{a}_et", "transport_tangential", c.epsilon_e, arm_e)
-        board.calc(f"{a}_k", "coriolis", c.omega_e, f"V_{letter}_r")
-        board.pole(f"{plan}.p")
-        last, tip = f"{plan}.p", f"{plan}.{letter}"
+        board.calc(a("rn"), "transport_normal", omega_r, arm_r)
+        board.calc(a("en"), "transport_normal", c.omega_e, arm_e)
+        board.calc(a("et"), "transport_tangential", c.epsilon_e, arm_e)
+        board.calc(a("k"), "coriolis", c.omega_e, vector("V", letter, part="r"))
+        last, tip = pole(plan), mark(plan, letter)
+        board.pole(last)
         for part in PARTS["a"][:-1]:
-            board.chain(f"{plan}.{part}", last, f"{a}_{part}")
-            last = f"{plan}.{part}"
+            board.chain(mark(plan, part), last, a(part))
+            last = mark(plan, part)
         if point == c.span.end and c.closing is not None:
             _close(board, c, c.closing, plan, letter)
-            board.read(f"{a}_rt", last, tip)
-            board.calc(epsilon_r, "turning", f"{a}_rt", c.span.n, c.span.length)
+            board.read(a("rt"), last, tip)
+            board.calc(epsilon_r, "turning", a("rt"), c.span.n, c.span.length)
         else:
-            board.calc(f"{a}_rt", "transport_tangential", epsilon_r, arm_r)
-            board.chain(tip, last, f"{a}_rt")
-        board.read(f"_{a}_total", f"{plan}.p", tip)
+            board.calc(a("rt"), "transport_tangential", epsilon_r, arm_r)
+            board.chain(tip, last, a("rt"))
+        board.read(a(TOTAL).size, pole(plan), tip)
 
 
 def _close(board: Board, c: Coupler, closing: Closing, plan: str, letter: str) -> None:
     """Meet the normal to AB with the line on which the end of the absolute acceleration lies."""
-    start = f"{plan}.p"
+    start = pole(plan)
     if closing.normal is not None:
-        board.chain(f"{plan}.n", start, closing.normal)
-        start = f"{plan}.n"
-    board.meet(f"{plan}.{letter}", f"{plan}.k", c.span.n, start, closing.direction)
+        board.chain(mark(plan, "n"), start, closing.normal)
+        start = mark(plan, "n")
+    board.meet(mark(plan, letter), mark(plan, "k"), c.span.n, start, closing.direction)
 
 
-def scale_symbol(plan: str) -> str | None:
+def scale_symbol(plan: str) -> Name | None:
     """Return the scale factor of a plan at a point: `mu_V` for all velocities, one for the accelerations of each."""
-    if plan.startswith(VELOCITY):
-        return "mu_V"
-    return f"mu_a_{plan.removeprefix(ACCELERATION)}" if plan.startswith(ACCELERATION) else None
+    kind = role(plan).kind
+    if kind == VELOCITY:
+        return scale_factor("V")
+    return scale_factor("a", role(plan).of) if kind == ACCELERATION else None
 
 
 def found_here(program: Program) -> frozenset[str]:
     """Return the quantities that compound motion alone finds: parts of vectors, and relative rates."""
-    here = [step for step in program if step.plan.startswith((VELOCITY, ACCELERATION))]
+    here = [step for step in program if step.plan.kind in (VELOCITY, ACCELERATION)]
     hung = {step.operands[1] for step in here if step.verb == "chain"} | {s.name for s in here if s.verb == "read"}
     elsewhere = {step.name for step in program if step.verb == "read" and step not in here}
-    return frozenset(hung - elsewhere) | {step.name for step in program if RELATIVE.match(step.name)}
+    return frozenset(hung - elsewhere) | {step.name for step in program if is_relative(step.name)}
+
+
+def is_relative(name: str) -> bool:
+    """Whether a quantity is the rate of a relative turning."""
+    return role(name).kind in ("omega", "epsilon") and role(name).part == "r"
 
 
 def disagreement(found: Iterable[Coupler], values: Mapping[str, Any]) -> float | None:
@@ -219,6 +226,6 @@ def disagreement(found: Iterable[Coupler], values: Mapping[str, Any]) -> float |
         for kind, parts in PARTS.items():
             vectors = (f"{kind}_{c.hinge}", *(f"{kind}_{letter}_{part}" for part in parts))
             longest = max(abs(complex(values[name])) for name in vectors)
-            gap = abs(complex(values[f"_{kind}_{letter}_total"]) - complex(values[f"{kind}_{point}"]))
+            gap = abs(complex(values[vector(kind, letter, part=TOTAL).size]) - complex(values[f"{kind}_{point}"]))
             worst = max(worst or 0.0, gap / (longest or 1.0))
     return worst

@@ -12,6 +12,7 @@ from functools import lru_cache
 
 from ...scales.errors import InputError
 from ..board import Board, Program
+from ..names import CORIOLIS, ORIGIN, Name, mark, role, vector
 from .mechanism import FRAME, ZERO, Link, Mechanism, Prismatic
 from .parts import Bodies, Body, carry, coordinates, lay_off, local_mark, normal_of, place_points, settle, turning
 
@@ -26,10 +27,11 @@ def guide_letters(program: Program) -> Mapping[str, str]:
     """
     letters: dict[str, str] = {}
     for step in program:
-        if step.name.startswith("u_") and not (step.verb == "tangent" and step.operands[2] == ZERO):
+        name, of_pins = role(step.name), step.verb == "tangent" and step.operands[2] == ZERO
+        if name.kind == "u" and not (name.hidden or of_pins):
             turn, at = divmod(len(letters), len(AXES))
             axis = AXES[at] + "′" * turn
-            letters[step.name] = f"{axis}–{axis}"
+            letters[name] = f"{axis}–{axis}"
     return letters
 
 
@@ -50,17 +52,17 @@ class Slide:
         return self.pair.links[0] if self.carries else self.pair.links[1]
 
     @property
-    def u(self) -> str:
+    def u(self) -> Name:
         """Name of the guide's direction."""
-        return f"u_{self.mechanism.index(self.link.number, self.other)}"
+        return self.mechanism.pair("u", self.link.number, self.other)
 
     @property
-    def under(self) -> str:
+    def under(self) -> Name:
         """Letter of the known link's point that now lies under the pin."""
         return self.mechanism.letter_on(self.pin, self.other)
 
     @property
-    def own(self) -> str:
+    def own(self) -> Name:
         """Letter of the pin as a point of the sliding link."""
         return self.mechanism.letter_on(self.pin, self.link.number)
 
@@ -83,7 +85,7 @@ class Slide:
 
     def mark(self, plan: str) -> str:
         """Return the mark of the known link's point under the pin."""
-        return f"{plan}.p" if self.known is None else f"{plan}.{self.under}"
+        return f"{plan}.p" if self.known is None else mark(plan, self.under)
 
 
 def slide_of(mechanism: Mechanism, pair: Prismatic, number: int, pin: str, bodies: Bodies) -> Slide:
@@ -130,7 +132,7 @@ def _origin(board: Board, s: Slide) -> str:
     """Mark a point on the known link's line: of its guide, or its own point that runs in the other link's."""
     if s.carries:
         return s.pair.point
-    start = f"_{s.u}_origin"
+    start = Name(f"_{s.u}_origin", ORIGIN, s.u)
     if s.known is None:
         board.place(start, *s.pair.through)
     else:
@@ -213,7 +215,7 @@ def under_acceleration(board: Board, mechanism: Mechanism, s: Slide) -> str:
 
 def coriolis(board: Board, omega: str, tip: str, tail: str, start: str) -> str:
     """Hang on `start` the acceleration of Coriolis: 2 omega v_r, v_r turned by 90 degrees in the sense of omega."""
-    part = f"a_{tip}{tail}_k"
-    board.calc(part, "coriolis", omega, f"V_{tip}{tail}")
-    board.chain(f"acceleration.k_{tip}{tail}", start, part)
-    return f"acceleration.k_{tip}{tail}"
+    part = vector("a", tip, tail, "k")
+    board.calc(part, "coriolis", omega, vector("V", tip, tail))
+    board.chain(mark("acceleration", tip, CORIOLIS, tail), start, part)
+    return mark("acceleration", tip, CORIOLIS, tail)

@@ -7,9 +7,11 @@ balances the driver follows from it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import partial
 from typing import TypeAlias
 
 from ..board import Board, Step
+from ..names import Name, couple, lever_arm, moment, role
 from .mechanism import Mechanism
 from .parts import Ends, Span
 
@@ -22,7 +24,7 @@ def lever(
     forces: list[tuple[str, str]],
     couples: list[tuple[str, Joined]],
     turning: list[tuple[str, str]],
-) -> list[str]:
+) -> list[Name]:
     """Hang `forces` (name, point) and `couples` (moment, points A, B) on the turned plan; return their moments.
 
     A couple hangs as two equal opposite forces M / l_AB at B and A, normal to AB. Those in `turning` (moment, omega) on
@@ -34,24 +36,22 @@ def lever(
     points = [driver.point, *(at for _, at in forces), *(p for _, span in couples for p in (span.start, span.end))]
     for point in dict.fromkeys(point for point in points if point not in still):
         board.normal(f"lever.{point}", f"velocity.{point}")
-    moments = []
+    moments: list[Name] = []
     for force, at in forces:
-        board.moment(f"_M_{force}_p", f"h_lever_{force}", force, f"lever.{at}", "lever.p")
-        moments.append(f"_M_{force}_p")
-    for moment, span in couples:
+        moments.append(moment(force, "p"))
+        board.moment(moments[-1], lever_arm(force), force, f"lever.{at}", "lever.p")
+    for turns, span in couples:
         A, B = span.start, span.end
-        pair = f"{moment.replace('M_', 'F_')}_couple"
-        board.calc(pair, "couple", moment, span.length)
-        board.calc(f"{pair}_{B}", "along", pair, span.n)
-        board.calc(f"{pair}_{A}", "opposite", f"{pair}_{B}")
+        half = partial(couple, turns)
+        board.calc(half(), "couple", turns, span.length)
+        board.calc(half(B), "along", half(), span.n)
+        board.calc(half(A), "opposite", half(B))
         for point in (p for p in (B, A) if p not in still):
-            board.moment(
-                f"_M_{pair}_{point}_p", f"h_lever_{moment}_{point}", f"{pair}_{point}", f"lever.{point}", "lever.p"
-            )
-            moments.append(f"_M_{pair}_{point}_p")
-    for moment, omega in turning:
-        board.calc(f"_{moment}_p", "couple_on_lever", moment, omega)
-        moments.append(f"_{moment}_p")
+            moments.append(moment(half(point), "p"))
+            board.moment(moments[-1], lever_arm(turns, point), half(point), f"lever.{point}", "lever.p")
+    for turns, omega in turning:
+        moments.append(Name(f"_{turns}_p", "M", role(turns).of, "p"))
+        board.calc(moments[-1], "couple_on_lever", turns, omega)
     return moments
 
 
@@ -68,5 +68,5 @@ def points_of(omega: str, steps: Iterable[Step], spans: Mapping[str, Span]) -> J
         return spans.get(omega)
     vector, normal, length = made[omega].operands
     start, end = made[made[normal].operands[0]].operands[:2]
-    point = made[vector].operands[1].rpartition(".")[2]  # the pin itself, or the point of the link under it
-    return Ends(start, point if point.startswith(end) else end, normal, length)
+    point = role(made[vector].operands[1]).of  # the pin itself, or the point of the link under it
+    return Ends(start, point if end in (point, role(point).of) else end, normal, length)

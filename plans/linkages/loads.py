@@ -12,6 +12,7 @@ from typing import Any
 from ...scales.errors import InputError
 from ..board import Board
 from ..laws import TURN
+from ..names import inertia, rate, vector
 from .mechanism import (
     ANGLE,
     BOTH,
@@ -67,9 +68,9 @@ def hung(mechanism: Mechanism, bodies: Bodies) -> tuple[Forces, Couples]:
     couples = _couples(mechanism, bodies)
     for link in mechanism.links:
         if has_inertia_force(mechanism, link):
-            forces[link.number].append((f"F_i{link.number}", str(link.centre)))
+            forces[link.number].append((inertia("F", link.number), str(link.centre)))
         if has_weight(mechanism, link):
-            forces[link.number].append((f"G_{link.number}", str(link.centre)))
+            forces[link.number].append((rate("G", link.number), str(link.centre)))
         forces[link.number] += [(load.name, load.point) for load in mechanism.loads_on(link.number)]
     for name, parts in _sums(mechanism, bodies).items():
         couples[next(number for number in couples if couples[number] == parts)] = [name]
@@ -90,7 +91,7 @@ def _couples(mechanism: Mechanism, bodies: Bodies) -> Couples:
     found: Couples = {link.number: [] for link in mechanism.links}
     for link in mechanism.links:
         if link.inertia and bodies[link.number].epsilon:
-            found[link.number].append(f"M_i{link.number}")
+            found[link.number].append(inertia("M", link.number))
     for couple in mechanism.couples:
         found[couple.link].append(couple.name)
     return found
@@ -104,12 +105,12 @@ def _sums(mechanism: Mechanism, bodies: Bodies) -> dict[str, list[str]]:
 
 def _inertia(board: Board, moving: Moving, link: Link) -> None:
     if has_inertia_force(moving.mechanism, link):
-        board.calc(f"F_i{link.number}", "inertia_force", str(link.mass), f"a_{link.centre}")
+        board.calc(inertia("F", link.number), "inertia_force", str(link.mass), vector("a", str(link.centre)))
     if has_weight(moving.mechanism, link):
-        board.calc(f"G_{link.number}", "weight", str(link.mass), str(moving.mechanism.gravity), "_up")
+        board.calc(rate("G", link.number), "weight", str(link.mass), str(moving.mechanism.gravity), "_up")
     epsilon = moving.bodies[link.number].epsilon
     if link.inertia and epsilon:
-        board.calc(f"M_i{link.number}", "inertia_moment", link.inertia, epsilon)
+        board.calc(inertia("M", link.number), "inertia_moment", link.inertia, epsilon)
 
 
 def _mass(board: Board, moving: Moving, link: Link) -> None:
@@ -145,10 +146,10 @@ def _load(board: Board, moving: Moving, load: Load) -> None:
     elif load.point in moving.mechanism.frame_points:
         raise InputError("load-still", name=load.name, point=load.point)
     elif line := _line(board, moving, load):
-        board.calc(load.name, "resisting_along", size, f"V_{load.point}", line, moving.speed)
+        board.calc(load.name, "resisting_along", size, vector("V", load.point), line, moving.speed)
     else:
         board.distance(f"_V_of_{load.name}", "velocity.p", f"velocity.{load.point}")
-        board.calc(load.name, "resisting_force", size, f"V_{load.point}", f"_V_of_{load.name}", moving.speed)
+        board.calc(load.name, "resisting_force", size, vector("V", load.point), f"_V_of_{load.name}", moving.speed)
 
 
 def _line(board: Board, moving: Moving, load: Load) -> str | None:

@@ -8,9 +8,10 @@ of a length stands for its opposite (a second crank on the other side of the sha
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+
+from ..names import POINT, Name, spelled
 
 ZERO = "zero"
 MINUS = "_minus_"
@@ -244,15 +245,14 @@ class Mechanism:
         """Return the numbers of several links as one index of a name: `12`, and `1_2` where `12` may be a link."""
         return ("_" if self.parted else "").join(map(str, numbers))
 
-    def numbers(self, index: str) -> tuple[int, ...]:
-        """Return the numbers of links with which an index of a name begins: 1 and 2 of `12_t`, or of `1_2_t`."""
-        found = re.match(r"(?:\d+(?:_\d+)*)?" if self.parted else r"\d*", index)
-        digits = found[0] if found else ""
-        return tuple(map(int, filter(None, digits.split("_") if self.parted else digits)))
+    def pair(self, kind: str, first: int, second: int, part: str = "") -> Name:
+        """Return what concerns a pair of links: the reaction `R_12` of the first on the second, its moment, its arm."""
+        return spelled(kind, self.index(first, second), part=part, links=(first, second))
 
-    def letter_on(self, point: str, number: int) -> str:
+    def letter_on(self, point: str, number: int) -> Name:
         """Return the letter of a point as one of link `number`: `A3`, and `A1_3` where `A13` may be another point."""
-        return f"{point}_{number}" if self.parted and point[-1].isdigit() else f"{point}{number}"
+        parting = "_" if self.parted and point[-1].isdigit() else ""
+        return Name(f"{point}{parting}{number}", POINT, point, links=(number,))
 
     def start(self, number: int) -> Start | None:
         """Return where link `number` starts."""

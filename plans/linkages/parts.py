@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ..board import Board
+from ..names import NORMAL, Name, arm, between, mark, moment, rate, role, spelled, vector
 from .mechanism import FRAME, MINUS, ZERO, Link, Mechanism
 
 SYMBOLS = {"velocity": "V", "acceleration": "a"}
@@ -50,8 +51,8 @@ class Passed:
 
 def passed_on(mechanism: Mechanism, own: int, other: int, point: str, slides: bool = False) -> Passed:
     """Return the reaction of link `own` on the link before, `other`; that of a pair that `slides` with its moment."""
-    index = mechanism.index(own, other)
-    return Passed(f"R_{index}", other, point, f"M_{index}" if slides else None)
+    couple = mechanism.pair("M", own, other) if slides else None
+    return Passed(mechanism.pair("R", own, other), other, point, couple)
 
 
 class AssurGroup(Protocol):
@@ -105,17 +106,28 @@ class Span:
         if not self.measured:
             return points[self.end][0]
         taken = {xy.removeprefix(MINUS) for place in points.values() for xy in place}
-        return f"_l_{self.name}" if f"l_{self.name}" in taken else f"l_{self.name}"
+        length = between("l", self.start, self.end)
+        return length.size if length in taken else length
 
     @property
-    def e(self) -> str:
+    def e(self) -> Name:
         """Name of the direction from start to end."""
-        return f"e_{self.name}"
+        return between("e", self.start, self.end)
 
     @property
-    def n(self) -> str:
+    def n(self) -> Name:
         """Name of the normal to it."""
-        return f"n_{self.name}"
+        return between("n", self.start, self.end)
+
+    @property
+    def omega(self) -> Name:
+        """Name of its angular velocity."""
+        return rate("omega", self.link.number)
+
+    @property
+    def epsilon(self) -> Name:
+        """Name of its angular acceleration."""
+        return rate("epsilon", self.link.number)
 
     @property
     def others(self) -> tuple[str, ...]:
@@ -146,9 +158,10 @@ def size_of(board: Board, mechanism: Mechanism) -> str:
     return "_size"
 
 
-def normal_of(direction: str) -> str:
+def normal_of(direction: str) -> Name:
     """Return the name of the normal to a direction: n_AB to e_AB, n_u_30 to u_30."""
-    return f"n_{direction.removeprefix('e_')}"
+    along = role(direction)
+    return spelled("n", along.of, along.about) if along.kind == "e" else spelled("n", along, links=along.links)
 
 
 def local_mark(board: Board, link: Link, point: str) -> str:
@@ -189,7 +202,7 @@ def move_link(board: Board, mechanism: Mechanism, span: Span, plan: str) -> None
     start, end = (mechanism.mark(plan, point) for point in (span.start, span.end))
     for point in span.others:
         _third(board, span, point, f"{plan}.{point}", start, end)
-        board.read(f"{SYMBOLS[plan]}_{point}", f"{plan}.p", f"{plan}.{point}")
+        board.read(vector(SYMBOLS[plan], point), f"{plan}.p", f"{plan}.{point}")
 
 
 def _third(board: Board, span: Span, point: str, mark: str, start: str, end: str) -> None:
@@ -252,30 +265,30 @@ def carry(
 
     `pin_at` is the mark at which the pin stands if it has another letter.
     """
-    tip, start, symbol = f"{plan}.{letter}", mechanism.mark(plan, body.pin), SYMBOLS[plan]
+    tip, start = mark(plan, letter), mechanism.mark(plan, body.pin)
     if body.omega is None:
         board.same(tip, start)
     else:
-        arm = f"_r_{letter}_{body.pin}"
+        radius = f"_r_{letter}_{body.pin}"
         if plan == "velocity":
-            board.read(arm, pin_at or body.pin, at)
-        for law, rate, vector, mark in _parts(body, plan, letter):
-            board.calc(vector, law, rate, arm)
-            board.chain(mark, start, vector)
-            start = mark
-    board.read(f"{symbol}_{letter}", f"{plan}.p", tip)
+            board.read(radius, pin_at or body.pin, at)
+        for law, turning, part, end in _parts(body, plan, letter):
+            board.calc(part, law, turning, radius)
+            board.chain(end, start, part)
+            start = end
+    board.read(vector(SYMBOLS[plan], letter), f"{plan}.p", tip)
 
 
-def _parts(body: Body, plan: str, letter: str) -> Iterator[tuple[str, str, str, str]]:
+def _parts(body: Body, plan: str, letter: str) -> Iterator[tuple[str, str, Name, Name]]:
     """Go through the vectors of a turn about the pin: law, rate, name, mark at its tip."""
-    whole, tip = f"{letter}{body.pin}", f"{plan}.{letter}"
+    tip = mark(plan, letter)
     if plan == "velocity":
-        yield "transport_speed", str(body.omega), f"V_{whole}", tip
+        yield "transport_speed", str(body.omega), vector("V", letter, body.pin), tip
         return
-    normal = tip if body.epsilon is None else f"{plan}.n_{whole}"
-    yield "transport_normal", str(body.omega), f"a_{whole}_n", normal
+    normal = tip if body.epsilon is None else mark(plan, letter, NORMAL, body.pin)
+    yield "transport_normal", str(body.omega), vector("a", letter, body.pin, "n"), normal
     if body.epsilon is not None:
-        yield "transport_tangential", body.epsilon, f"a_{whole}_t", tip
+        yield "transport_tangential", body.epsilon, vector("a", letter, body.pin, "t"), tip
 
 
 def turn_with(board: Board, body: Body, other: Body, plan: str) -> None:
@@ -287,35 +300,30 @@ def turn_with(board: Board, body: Body, other: Body, plan: str) -> None:
 
 def turning(number: int, like: Body | None) -> tuple[str | None, str | None]:
     """Return the names of omega and epsilon of a link that slides on another, None where they are zero by form."""
-    omega = f"omega_{number}" if like and like.omega else None
-    return omega, f"epsilon_{number}" if like and like.epsilon else None
+    omega = rate("omega", number) if like and like.omega else None
+    return omega, rate("epsilon", number) if like and like.epsilon else None
 
 
 def moments_about(
-    board: Board, loads: Iterable[tuple[str, str]], link: int, about: str, arms: str = "h_{0}", always: bool = False
-) -> list[str]:
+    board: Board, loads: Iterable[tuple[str, str]], about: str, beside: str = "", always: bool = False
+) -> list[Name]:
     """Take the moments of the loads on a link about a point; those that stand there have none, `always` names them too.
 
-    `arms` names the arms: `{0}` is the link for its force of inertia, the force for another.
+    The arms are called by their forces, and by the point `beside` where that is said.
     """
     moments = []
     for force, at in loads:
         if at != about or always:
-            board.moment(f"_M_{force}_{about}", arm_of(force, link, arms), force, at, about)
-            moments.append(f"_M_{force}_{about}")
+            moments.append(moment(force, about))
+            board.moment(moments[-1], arm(force, beside), force, at, about)
     return moments
-
-
-def arm_of(force: str, link: int, arms: str = "h_{0}") -> str:
-    """Return the name of a force's arm: `h_2` for the link's own force of inertia, `h_21` for R_21, `h_F_3` for F_3."""
-    return arms.format(link if force == f"F_i{link}" else force.removeprefix("R_"))
 
 
 def answer(board: Board, mechanism: Mechanism, symbol: str, *on_by: tuple[int, int]) -> None:
     """Note that a link answers another with the opposite force or moment; what acts on the frame needs no name."""
     for on, by in on_by:
         if on != FRAME:
-            board.calc(f"{symbol}_{mechanism.index(by, on)}", "opposite", f"{symbol}_{mechanism.index(on, by)}")
+            board.calc(mechanism.pair(symbol, by, on), "opposite", mechanism.pair(symbol, on, by))
 
 
 def hang(board: Board, plan: str, forces: Iterable[str], first: int = 0) -> str:

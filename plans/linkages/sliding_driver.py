@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from ...scales.errors import InputError
 from ..board import Board
+from ..names import Name, by_lever, spelled, vector
+from ..quantities import F_BAL
 from .guides import Slide, place_slide, running_line, slide_of
 from .mechanism import FRAME, ZERO, Mechanism, Prismatic, SlidingDriver
 from .parts import Body, Couples, Forces, Span, hang, moments_about, move_points, normal_of
@@ -22,20 +24,20 @@ def position(board: Board, mechanism: Mechanism) -> None:
 def velocity(board: Board, mechanism: Mechanism) -> None:
     """v_P is given along the guide; the slider does not turn, and all its points move alike."""
     driver, slide = slider_of(mechanism), slide_on_frame(mechanism)
-    board.calc(f"_V_{driver.point}", "given", driver.speed)
+    board.calc(vector("V", driver.point).size, "given", driver.speed)
     board.pole("velocity.p")
-    board.lay(f"velocity.{driver.point}", "velocity.p", slide.u, f"_V_{driver.point}")
-    board.read(f"V_{driver.point}", "velocity.p", f"velocity.{driver.point}")
+    board.lay(f"velocity.{driver.point}", "velocity.p", slide.u, vector("V", driver.point).size)
+    board.read(vector("V", driver.point), "velocity.p", f"velocity.{driver.point}")
     move_points(board, mechanism, slide.body, "velocity", (driver.point,))
 
 
 def acceleration(board: Board, mechanism: Mechanism) -> None:
     """a_P is given along the guide, zero unless the slider speeds up."""
     driver, slide = slider_of(mechanism), slide_on_frame(mechanism)
-    board.calc(f"_a_{driver.point}", "given", driver.acceleration or ZERO)
+    board.calc(vector("a", driver.point).size, "given", driver.acceleration or ZERO)
     board.pole("acceleration.p")
-    board.lay(f"acceleration.{driver.point}", "acceleration.p", slide.u, f"_a_{driver.point}")
-    board.read(f"a_{driver.point}", "acceleration.p", f"acceleration.{driver.point}")
+    board.lay(f"acceleration.{driver.point}", "acceleration.p", slide.u, vector("a", driver.point).size)
+    board.read(vector("a", driver.point), "acceleration.p", f"acceleration.{driver.point}")
     move_points(board, mechanism, slide.body, "acceleration", (driver.point,))
 
 
@@ -45,29 +47,30 @@ def forces(board: Board, mechanism: Mechanism, loads: Forces, couples: Couples) 
     Moments about P give the arm of the guide's reaction.
     """
     driver, u = slider_of(mechanism), slide_on_frame(mechanism).u
-    link, hung, pair = driver.link, loads[driver.link], mechanism.index(FRAME, driver.link)
-    plan, reaction = f"forces_{link}", f"R_{pair}"
+    link, hung = driver.link, loads[driver.link]
+    plan = spelled("forces", link)
+    reaction, couple, arm = (mechanism.pair(kind, FRAME, link) for kind in ("R", "M", "h"))
     board.pole(f"{plan}.0")
     last, closing = hang(board, plan, [force for force, _ in hung]), f"{plan}.{len(hung) + 1}"
     board.meet(closing, last, u, f"{plan}.0", normal_of(u))
-    board.read("_F_bal", last, closing)
+    board.read(F_BAL.size, last, closing)
     board.read(reaction, closing, f"{plan}.0")
-    board.calc("F_bal", "component", u, "_F_bal")
-    moments = moments_about(board, hung, link, driver.point)
-    board.calc(f"M_{pair}", "closing_moment", ZERO, *moments, *couples[link])
-    board.step("arm", f"h_{pair}", f"M_{pair}", reaction)
+    board.calc(F_BAL, "component", u, F_BAL.size)
+    moments = moments_about(board, hung, driver.point)
+    board.calc(couple, "closing_moment", ZERO, *moments, *couples[link])
+    board.step("arm", arm, couple, reaction)
 
 
-def on_lever(board: Board, mechanism: Mechanism, moments: list[str]) -> None:
+def on_lever(board: Board, mechanism: Mechanism, moments: list[Name]) -> None:
     """Solve the moments of the lever for a force at P along the guide: on the turned plan its moment is -F * pp."""
     driver = slider_of(mechanism)
-    board.calc("F_bal_lever", "moment_equation", f"_V_{driver.point}", *moments)
-    board.calc("_F_bal_lever", "along", "F_bal_lever", slide_on_frame(mechanism).u)
+    board.calc(by_lever(F_BAL), "moment_equation", vector("V", driver.point).size, *moments)
+    board.calc(by_lever(F_BAL).size, "along", by_lever(F_BAL), slide_on_frame(mechanism).u)
 
 
-def balance(mechanism: Mechanism) -> str:
+def balance(mechanism: Mechanism) -> Name:
     """Return the name of what balances the driver."""
-    return "F_bal"
+    return F_BAL
 
 
 def turning_rate(board: Board, mechanism: Mechanism) -> str:
@@ -76,7 +79,7 @@ def turning_rate(board: Board, mechanism: Mechanism) -> str:
     places = (xy for link in mechanism.links for place in link.points.values() for xy in place)
     names = dict.fromkeys(xy for xy in places if xy != ZERO)
     board.calc("_reach", "reach", *names)
-    board.calc("_omega", "rate_over", f"_V_{driver.point}", "_reach")
+    board.calc("_omega", "rate_over", vector("V", driver.point).size, "_reach")
     return "_omega"
 
 

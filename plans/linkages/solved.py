@@ -10,6 +10,7 @@ from typing import Any
 from ...scales.errors import PositionError
 from ..board import POSITION, Program
 from ..boards.exact import Trouble, run
+from ..names import Name, role, scale_factor, spelled
 from ..quantities import quantities, shown_on
 from ..solved import Solved
 from . import compound
@@ -41,7 +42,7 @@ class SolvedLinkage(Solved):
         """Return the name of the direction of a pair's guide."""
         a, b = pair.links
         return next(
-            name for name in (f"u_{self.mechanism.index(*links)}" for links in ((a, b), (b, a))) if name in self.values
+            name for name in (self.mechanism.pair("u", *links) for links in ((a, b), (b, a))) if name in self.values
         )
 
     def reason(self, trouble: Trouble) -> PositionError:
@@ -57,7 +58,7 @@ class SolvedLinkage(Solved):
         key = f"singular-{step.plan}" if step.plan in (POSITION, "velocity", "acceleration") else "singular-forces"
         lines = [_spoken(step.operands[i], self.program) for i in (1, 3)]
         return PositionError(
-            key, status_word="singular", point=trouble.name.rpartition(".")[2], first=lines[0], second=lines[1]
+            key, status_word="singular", point=role(step.name).letters, first=lines[0], second=lines[1]
         )
 
     def _template_error(self, trouble: Trouble) -> PositionError:
@@ -100,10 +101,11 @@ class SolvedLinkage(Solved):
 
 def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:
     """Return the symbol of the scale factor of every plan; a group and its links share one."""
-    symbols = {POSITION: "mu_l", "velocity": "mu_V", "acceleration": "mu_a", "lever": "mu_V"}
-    symbols[f"forces_{structure.driver}"] = f"mu_F_{structure.driver}"
-    for group in structure.groups:
-        symbols |= {f"forces_{links}": f"mu_F_{group.name}" for links in (group.name, *map(str, group.links))}
+    kinds = {POSITION: "l", "velocity": "V", "acceleration": "a", "lever": "V"}
+    symbols: dict[str, str] = {Name(plan, plan): scale_factor(kind) for plan, kind in kinds.items()}
+    parts = {str(structure.driver): (structure.driver,), **{group.name: group.links for group in structure.groups}}
+    for part, links in parts.items():
+        symbols |= {spelled("forces", name): scale_factor("F", part, links) for name in (part, *map(str, links))}
     symbols |= {plan: symbol for plan in program.plans if (symbol := compound.scale_symbol(plan))}
     drawn = set(program.plans)
     return {plan: symbol for plan, symbol in symbols.items() if plan in drawn}
@@ -116,7 +118,7 @@ def scale_symbols(structure: Structure, program: Program) -> tuple[str, ...]:
 
 def disagreement(solved: SolvedLinkage) -> float | None:
     """Return by how much compound motion and the plans differ, in parts of the longest vectors; None without both."""
-    if solved.trouble is not None or not any(plan.startswith(compound.ACCELERATION) for plan in solved.program.plans):
+    if solved.trouble is not None or not any(role(plan).kind == compound.ACCELERATION for plan in solved.program.plans):
         return None
     return compound.disagreement(hinged(solved.mechanism, solved.structure), solved.values)
 
@@ -127,20 +129,18 @@ def moment_points(mechanism: Mechanism, structure: Structure) -> dict[str, str]:
     if isinstance(mechanism.driver, SlidingDriver):
         pairs += [(pair, pair.point) for pair in mechanism.pairs if {*pair.links} == {FRAME, mechanism.driver.link}]
     sliding = [(pair.links, point) for pair, point in pairs if isinstance(pair, Prismatic)]
-    return {f"M_{mechanism.index(*links)}": point for both, point in sliding for links in (both, both[::-1])}
+    return {mechanism.pair("M", *links): point for both, point in sliding for links in (both, both[::-1])}
 
 
 def _is_given(name: str) -> bool:
-    return name != ZERO and not name.startswith("_")
+    return name != ZERO and not role(name).hidden
 
 
 def _spoken(direction: str, program: Program) -> str:
     """Return a direction as it is written in equations: normal to AB, along AB, along the guide x-x."""
-    kind, _, name = direction.partition("_")
-    guide = direction if kind == "u" else name
-    if guide in (letters := guide_letters(program)):
-        return f"{'∥' if kind == 'u' else '⊥'}{letters[guide]}"
-    return {"n": f"⊥{name}", "e": f"∥{name}"}[kind]
+    line, letters = role(direction), guide_letters(program)
+    guide = line.of if line.kind == "n" else line
+    return {"n": "⊥", "e": "∥", "u": "∥"}[line.kind] + letters.get(guide, line.letters)
 
 
 def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iterable[str] = USUAL) -> SolvedLinkage:

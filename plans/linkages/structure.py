@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 from ...scales.errors import InputError
+from ..names import Name, scale_factor
 from .joints import Joint, joints_of, pairs_of
 from .mechanism import FRAME, Mechanism, Pair, Prismatic, Revolute
 from .mobility import MANY, no_structure
@@ -89,9 +90,10 @@ class Structure:
     groups: tuple[Group, ...]
 
     @property
-    def scale_symbols(self) -> tuple[str, ...]:
+    def scale_symbols(self) -> tuple[Name, ...]:
         """Symbols of the scale factors of its plans; the driver and each group have one for their forces."""
-        return ("mu_l", "mu_V", "mu_a", *(f"mu_F_{name}" for name in (self.driver, *(g.name for g in self.groups))))
+        parts = {str(self.driver): (self.driver,), **{group.name: group.links for group in self.groups}}
+        return *map(scale_factor, ("l", "V", "a")), *(scale_factor("F", part, parts[part]) for part in parts)
 
 
 def letter(pair: Pair) -> str:

@@ -12,6 +12,7 @@ from ..boards.exact import run
 from ..hands.hand import Tolerance
 from ..hands.shaky import Paper
 from ..hands.tolerances import MARKS, same_plan, tolerances
+from ..names import role
 from ..quantities import POINTS, shown_on, unit_of
 from ..references import results, worst_behind
 
@@ -183,7 +184,7 @@ def _questions(
             last = step.plan
         value = values[step.name]
         if step.name in asked and value == value and (wanted is None or step.name in wanted):
-            here = step.operands[0].rpartition(".")[0] or POSITION  # where a distance is measured
+            here = role(step.operands[0]).plan  # where a distance is measured
             plan = shown.get(step.name, here if step.verb in ("distance", "measure") else last)
             found[step.name] = Question(step.name, plan, isinstance(value, complex), units(step.name), step)
     return found

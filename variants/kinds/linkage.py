@@ -11,9 +11,11 @@ from ...plans.boards.exact import SMALL
 from ...plans.check import WITHIN, Check
 from ...plans.laws import TURN
 from ...plans.linkages.chain import PLANS, construct, require_couplers
+from ...plans.linkages.compound import ACCELERATION, VELOCITY
 from ...plans.linkages.mechanism import Mechanism
 from ...plans.linkages.solved import SolvedLinkage, disagreement, scale_symbols, solve_linkage
 from ...plans.linkages.structure import analyse
+from ...plans.names import COUPLE, Name, role, spelled
 from ...plans.references import pins_together, point_of
 from ...scales.choose import Choosers, Segment, chooser
 from ...scales.errors import InputError
@@ -153,7 +155,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         mark, sine = solved.worst_sine()
         if sine >= SMALL:
             return ()
-        point = point_of(solved.program, mark).rpartition(".")[2]
+        point = role(point_of(solved.program, mark)).of
         said = {"point": point, "angle": f"{math.degrees(math.asin(sine)):.3g}", "loss": _short(1.0 / sine)}
         if solved.status != "ill-conditioned":
             return (InputError("small-angle", **said),)
@@ -228,7 +230,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def asks(self, solved: SolvedLinkage, question: Question) -> bool:
         """Ask not for each force of a couple: these are as large as the couple's force."""
-        return "_couple_" not in question.name
+        return not (role(question.name).part == COUPLE and role(question.name).about)
 
     def form_notes(self, solved: SolvedLinkage) -> tuple[str, ...]:
         """Tell how arms on the lever are written."""
@@ -236,52 +238,53 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def section(self, solved: SolvedLinkage, question: Question, current: str) -> str:
         """Return the section of a question: its plan, or the plan of the forces that it goes with."""
-        head, plan = question.name.partition("_")[0], question.plan
+        kind, plan = role(question.name).kind, role(question.plan)
         if plan == "lever" or current == "lever":
             return "lever"
-        if plan.startswith("V_at_"):  # those of all points are one drawing
-            return "V_at_"
-        if plan.startswith("a_at_"):
+        if plan.kind == VELOCITY:  # those of all points are one drawing
+            return Name(VELOCITY, VELOCITY)
+        if plan.kind == ACCELERATION:
             return plan
-        if head == "l" and plan == POSITION:
+        if kind == "l" and plan == POSITION:
             return "position"
-        if head in KINEMATIC and plan in (POSITION, "velocity", "acceleration") and "forces" not in current:
-            return KINEMATIC[head]
+        if kind in KINEMATIC and plan in (POSITION, "velocity", "acceleration") and "forces" not in current:
+            return KINEMATIC[kind]
         if question.step.verb == "arm":  # with the force plan of the force that it is the arm of
-            plan = solved.shown_on.get(question.step.operands[1].removeprefix("_"), plan)
-        if head in ("R", "M", "h") and plan.startswith("forces"):
-            return f"forces:{solved.scale_of_plan[plan].removeprefix('mu_F_')}"
-        return "loads" if head not in ("h", "M", "F") or current in OPEN else current
+            plan = role(solved.shown_on.get(role(question.step.operands[1]).shown, plan))
+        if kind in ("R", "M", "h") and plan.kind == "forces":
+            return spelled("forces", role(solved.scale_of_plan[plan]).about)
+        return "loads" if kind not in ("h", "M", "F") or current in OPEN else current
 
     def section_heading(self, solved: SolvedLinkage, section: str, words: Words) -> str:
         """Return the heading of a section: loads have no plan of their own."""
         if section == "loads":
             return texts(words.language)["form.loads"]
-        return self.plan_heading(solved, section.replace(":", "_"), words)
+        return self.plan_heading(solved, section, words)
 
     def plan_heading(self, solved: SolvedLinkage, plan: str, words: Words) -> str:
-        """Return the heading of a plan, as the sheet has it; `V_at_` alone stands for the points of one drawing."""
-        kind, _, links = plan.partition("_")
+        """Return the heading of a plan, as the sheet has it; `V_at` alone stands for the points of one drawing."""
+        kind, links = role(plan).kind, role(plan).of
         if kind == "forces":
             driver = str(solved.structure.driver)
             key = "driver" if links == driver else "group_forces" if len(links) > 1 else "link_forces"
             return words[f"heading.{key}"].format(links=", ".join(links), link=links)
-        if plan.startswith("V_at_"):
-            return ": ".join(filter(None, (words["heading.compound_velocity"], plan.removeprefix("V_at_"))))
-        if plan.startswith("a_at_"):
-            return words["heading.compound_acceleration"].format(point=plan.removeprefix("a_at_"))
+        if kind == VELOCITY:
+            return ": ".join(filter(None, (words["heading.compound_velocity"], links)))
+        if kind == ACCELERATION:
+            return words["heading.compound_acceleration"].format(point=links)
         return words[f"heading.{plan}"]
 
     def vector_letters(self, solved: SolvedLinkage, words: Words) -> dict[str, str]:
         """Return the letters of the vector that shows a quantity on its plan: pb, ab, n_BA b."""
+        from ...drawing.linkages.at_point import is_at_point
         from ...drawing.linkages.reading import read
 
         reading = read(solved.program)
-        plans = (plan for plan in solved.program.plans if not plan.startswith(("V_at_", "a_at_")))
+        plans = (plan for plan in solved.program.plans if not is_at_point(plan))
         found: dict[str, str] = {}
         for edge in (edge for plan in plans for edge in reading.on(plan)):
             tail, tip = (letter(words, mark) for mark in (edge.tail, edge.tip))
-            found.setdefault(edge.name.removeprefix("_"), f"{tail}{tip}")
+            found.setdefault(role(edge.name).shown, f"{tail}{tip}")
         return found
 
 

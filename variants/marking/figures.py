@@ -10,6 +10,7 @@ from html import escape
 from ...drawing.linkages.reading import read
 from ...plans.board import POSITION
 from ...plans.marking.verdicts import Line, Verdict
+from ...plans.names import role
 from .beside import boxes
 from .marked import Marked
 from .wording import plain, script_runs, texts
@@ -61,7 +62,7 @@ def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[V
         yield Vector("", solved.point(edge.tail), solved.point(edge.tip), None)
     marks: dict[str, complex] = {}
     for edge in edges:
-        line = lines.get(edge.name.removeprefix("_"))
+        line = lines.get(role(edge.name).shown)
         tail = marks.get(edge.tail, solved.point(edge.tail))
         if line is None:
             marks.setdefault(edge.tip, tail + solved.point(edge.tip) - solved.point(edge.tail))

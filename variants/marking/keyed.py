@@ -11,6 +11,7 @@ from ...drawing.words import Words
 from ...plans.hands.shaky import paper_of
 from ...plans.marking.key import Key, answer_key, needed_by
 from ...plans.mistakes.book import Book, book
+from ...plans.names import COUPLE, LEVER, role
 from ..case import Settings
 from ..sheet_id import sheet_id
 from ..solution import Solution, solve
@@ -96,8 +97,8 @@ class Keyed:
         """
         scales = [symbol for part in self.parts for symbol in part.scales]
         found = {name: plain(self.words.symbol(name)) for name in (*self.solution.quantities, *scales)}
-        for name in [name for name in found if name.endswith("_couple")]:
-            both = sorted({found[one] for one in found if one.startswith(f"{name}_")})
+        for name in [name for name in found if role(name).part == COUPLE and not role(name).about]:
+            both = sorted({found[one] for one in found if role(one).whole == name != one})
             found[name] = " = ".join(both) or found[name]
         asked = [question.name for part in self.parts for question in part.asked]
         often = Counter(found[name] for name in (*asked, *scales))
@@ -106,11 +107,10 @@ class Keyed:
 
     def _where(self, name: str) -> str:
         """Return on which drawing a quantity or scale factor stands whose symbol stands on another one, too."""
-        if name.startswith("mu_"):
-            parts = name.split("_")[2:]
-            links = parts if self.words.parted else [*"".join(parts)]
-            return (", " if all(map(str.isdigit, links)) else "").join(links)
-        return texts(self.words.language)["form.lever"] if name.startswith("h_lever_") else ""
+        quantity = role(name)
+        if quantity.kind == "mu":
+            return ", ".join(map(str, quantity.links)) or quantity.about
+        return texts(self.words.language)["form.lever"] if (quantity.kind, quantity.part) == ("h", LEVER) else ""
 
     def symbol(self, name: str) -> str:
         """Return the symbol of a quantity, of a scale factor or of a given, as plain text."""

@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterator
 
 from ...drawing.words import Words
+from ...plans.linkages.compound import ACCELERATION, VELOCITY
+from ...plans.names import role
 from ...scales.packaged import packaged
 
 SYMBOL = re.compile(r"([^\W\d_][′″]*)(?:\^([^\W_]+))?(?:_([^\W_]+(?:,[0-9]+)*))?(?![\w^])")
@@ -49,5 +51,5 @@ def mistake_texts(language: str) -> dict[str, str]:
 
 def letter(words: Words, mark: str) -> str:
     """Return the letter of a mark on a plan; at a point whose motion is split marks have none of their own."""
-    plan, _, name = mark.rpartition(".")
-    return name if plan.startswith(("V_at_", "a_at_")) else plain(words.mark(mark))
+    name = role(mark)
+    return name.of if name.plan.kind in (VELOCITY, ACCELERATION) else plain(words.mark(mark))

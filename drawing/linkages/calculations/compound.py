@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from ....plans.board import POSITION
 from ....plans.linkages.compound import ACCELERATION, PARTS, VELOCITY, Closing, Coupler
 from ....plans.linkages.mechanism import ZERO
+from ....plans.names import Name, role, spelled, vector
 from ...printed import Input, calculation, ruler_decimals, segment_decimals
 from ...table import text_block
 from ...view import View
@@ -59,19 +60,19 @@ def _velocities(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
     yield measured(scene, distance, POSITION)
     yield _product(scene, f"V_{letter}_e", factor(scene, c.omega_e), factor(scene, distance))
     if _closing(c, point) is not None:
-        yield measured(scene, f"V_{letter}_r", VELOCITY + letter)
+        yield measured(scene, f"V_{letter}_r", spelled(VELOCITY, letter))
         yield _product(scene, rate, factor(scene, f"V_{letter}_r"), _arm(scene, c, point, -1))
         yield _sum_of_rates(scene, f"omega_{c.number}", c.omega_e, rate, 1.0)
         yield from _centre(scene, c)
     else:
         yield _product(scene, f"V_{letter}_r", factor(scene, rate), _arm(scene, c, point))
-    yield measured(scene, f"V_{point}", VELOCITY + letter)
+    yield measured(scene, f"V_{point}", spelled(VELOCITY, letter))
 
 
 def _accelerations(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
     """Go through the accelerations of a point in the order in which they are hung."""
     rate, letter = f"epsilon_r_{c.number}", c.letters[point]
-    closing, plan = _closing(c, point), ACCELERATION + letter
+    closing, plan = _closing(c, point), spelled(ACCELERATION, letter)
     yield _vectors(scene, c, point, "a")
     yield from _known_parts(scene, c, point)
     if closing is not None:
@@ -127,9 +128,9 @@ def _closed(scene: Scene, c: Coupler, closing: Closing, plan: str) -> Iterator[L
         yield measured(scene, tangential(closing.normal), plan)
 
 
-def tangential(normal: str) -> str:
+def tangential(normal: Name) -> Name:
     """Return the name of the tangential part that goes with a normal one."""
-    return normal.removesuffix("n") + "t"
+    return vector(normal.kind, normal.of, normal.about, "t")
 
 
 def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Line:
@@ -178,7 +179,7 @@ def _centre(scene: Scene, c: Coupler) -> Iterator[Line]:
 
 def _product(scene: Scene, name: str, *factors: Factor) -> Line:
     """Return a quantity as a product of magnitudes; of a rate the sense, too."""
-    head = name.partition("_")[0]
+    head = role(name).kind
     line = worked(scene.words, scene.words.symbol(name), [Product(factors)], UNITS.get(head, "m"))
     sense = sensed(scene.words, scene.solved.values[name]) if head in ("omega", "epsilon") else ""
     return _listed(line[:-1], [line[-1], sense]) if sense else line
@@ -193,7 +194,7 @@ def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float)
     inputs = [Input(float(values[other]) * turn) for other, turn in terms]
     texts, result = calculation(words, lambda *x: sum(x), inputs)
     numbers = " ".join([texts[0], *(f"− {t[1:]}" if t.startswith("−") else f"+ {t}" for t in texts[1:])])
-    last = f"{result} {words.unit(UNITS[name.partition('_')[0]])}"
+    last = f"{result} {words.unit(UNITS[role(name).kind])}"
     sense = sensed(words, float(values[name]))
     head = f"{words.symbol(name)} = {formula} =", *([f"{numbers} ="] if len(terms) > 1 else [])
     return _listed(head, [last, sense]) if sense else (*head, last)

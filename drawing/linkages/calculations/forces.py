@@ -8,10 +8,11 @@ from dataclasses import replace
 
 from ....plans.board import Step
 from ....plans.linkages.solved import SolvedLinkage
+from ....plans.names import role
 from ....scales.display import AS_INSIDE
 from ...table import text_block
 from ...view import View
-from ..reading import plan_of, read
+from ..reading import read
 from ..scene import Scene
 from .equations import Factor, Lines, Product, factor, noted, sensed, signs, size_of, stated, turned, worked
 from .moments import about, group_of, link_of, links_in, on_arm, terms
@@ -62,15 +63,15 @@ def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, Lines]
     last plan of its group.
     """
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))
-    poles = [step for step in scene.solved.program if step.verb == "pole" and step.name.startswith("forces_")]
-    last = {_part(scene, step): plan_of(step.name) for step in poles}
-    found: dict[str, Lines] = {plan_of(step.name): [] for step in poles}
+    poles = [step for step in scene.solved.program if step.verb == "pole" and role(step.name).plan.kind == "forces"]
+    last = {_part(scene, step): role(step.name).plan for step in poles}
+    found: dict[str, Lines] = {role(step.name).plan: [] for step in poles}
     held: dict[str, list[tuple[Step, Lines]]] = {}
     for step in scene.solved.program:
         told = [] if step.law in LOADING else _force(scene, step)
         if step in poles:
             before = held.pop(_part(scene, step), [])
-            found[plan_of(step.name)] += [*(line for _, lines in before for line in lines), *told]
+            found[role(step.name).plan] += [*(line for _, lines in before for line in lines), *told]
         elif told:
             held.setdefault(_part(scene, step), []).append((step, told))
     for part, after in held.items():
@@ -87,7 +88,7 @@ def load_lines(scene: Scene) -> Lines:
 
 def _part(scene: Scene, step: Step) -> str:
     """Return the name of the group to which a step of the force plans belongs, or the number of the driver."""
-    plan = plan_of(step.name).removeprefix("forces_")
+    plan = drawn.of if (drawn := role(step.name).plan).kind == "forces" else ""
     known = [group.name for group in scene.solved.structure.groups]
     acting = step.operands[1] if step.verb == "arm" else step.name
     group = group_of(scene, int(plan) if plan and plan not in known else link_of(scene, acting))
@@ -114,7 +115,7 @@ LOADING = (*FORMULAS, *RESISTING, "along", "signed", "sum")
 
 def _load(scene: Scene, step: Step) -> Lines:
     """Tell a mass, a load, a weight, a force or moment of inertia, or a sum of couples."""
-    if step.name.startswith("_") or not scene.defined(step.name):
+    if role(step.name).hidden or not scene.defined(step.name):
         return []
     words = scene.words
     if step.law in FORMULAS:
@@ -155,15 +156,15 @@ def _sum_of_couples(scene: Scene, step: Step) -> Lines:
 
 def _force(scene: Scene, step: Step) -> Lines:
     """Tell a step of the force plans: a sum of moments, or the sums of forces of a plan."""
-    if step.verb == "pole" and step.name.startswith("forces_"):
-        return list(closed(scene, plan_of(step.name)))
+    if step.verb == "pole" and role(step.name).plan.kind == "forces":
+        return list(closed(scene, role(step.name).plan))
     if step.law in SIGNS and not _on_lever(step):
         return _for_a_force(scene, step)
     if step.law == "closing_moment":
         return _for_a_moment(scene, step, step)
-    if step.law == "opposite" and step.operands[0].startswith("_M_"):
+    if step.law == "opposite" and _is_sum(step.operands[0]):
         return _for_a_moment(scene, step, read(scene.solved.program).made[step.operands[0]])
-    if step.verb == "arm" and step.operands[0].startswith("M_"):
+    if step.verb == "arm" and role(step.operands[0]).kind == "M" and not role(step.operands[0]).hidden:
         return _arm(scene, step)
     return []
 
@@ -173,7 +174,12 @@ SIGNS = {"moment_equation": -1.0, "closing_force": 1.0}  # of the force's own mo
 
 def _on_lever(step: Step) -> bool:
     """Whether moments are those about the pole of the lever."""
-    return step.operands[0].startswith("_V_")
+    return role(step.operands[0]).kind == "V"
+
+
+def _is_sum(moment: str) -> bool:
+    """Whether a moment is that of a force or of several, found on the way to another."""
+    return role(moment).kind == "M" and role(moment).hidden
 
 
 def _head(scene: Scene, links: str, point: str) -> str:
@@ -187,7 +193,7 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
     name, found = reading.visible(step.name), terms(scene, moments)
     laid = next((s for s in reading.users(step.name) if s.verb in ("lay", "back")), None)
     point = about(scene, step)
-    if laid is not None and not any(m.startswith("_M_") for m in moments):
+    if laid is not None and not any(map(_is_sum, moments)):
         point = ends_of(reading, reading.made[laid.operands[1]].operands[0])[laid.verb == "lay"]
     head = _head(scene, links_in(scene, link_of(scene, step.name), point), point)
     arm = _reach(scene, name, length)

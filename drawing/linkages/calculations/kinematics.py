@@ -10,11 +10,12 @@ from ....plans.board import POSITION, Step
 from ....plans.linkages.compound import found_here
 from ....plans.linkages.mechanism import ZERO
 from ....plans.linkages.solved import SolvedLinkage
+from ....plans.names import POLE, role
 from ....plans.quantities import unit_of
 from ...printed import Input, calculation
 from ...table import text_block
 from ...view import View
-from ..reading import Reading, plan_of, read
+from ..reading import Reading, read
 from ..scene import Scene
 from .equations import Factor, Lines, Product, factor, noted, paper, rate_of, segment, sensed, size_of, stated, worked
 from .vector_equations import line_note, line_through, meeting, summed
@@ -71,11 +72,9 @@ def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> L
 
 def stage_of(step: Step) -> str:
     """Return the plan to which a step of the kinematics belongs; nothing for other steps."""
-    if "." in step.name:
-        return plan_of(step.name)
-    if step.verb == "read":
+    if step.plan != POSITION or step.verb == "read":
         return step.plan
-    return STAGES.get(step.name.lstrip("_").partition("_")[0], "") if step.verb == "calc" else ""
+    return STAGES.get(role(step.name).kind, "") if step.verb == "calc" else ""
 
 
 @dataclass(slots=True)
@@ -104,7 +103,7 @@ class _Story:
             self.lines += _similarity(self.scene, step)
         elif step.verb == "read":
             self.lines += _absolute(self.scene, self.reading, step)
-        if step.name.startswith("epsilon_") and step.law != "same_turning":
+        if role(step.name).kind == "epsilon" and step.law != "same_turning":
             self.lines.append(_comparison(self.scene, step.name))
 
     def _is_met(self, step: Step) -> bool:
@@ -124,8 +123,8 @@ class _Story:
             if made is None or made.verb != "measure" or name in self.told:
                 continue
             self.told.add(name)
-            symbol = words.symbol(name.lstrip("_"))
-            if made.operands[0].startswith("_"):
+            symbol = words.symbol(role(name).shown)
+            if role(made.operands[0]).hidden:
                 yield (stated(words, symbol, size_of(self.scene, name), "m"),)
             else:
                 yield worked(words, symbol, [Product(_segment(self.scene, *made.operands))], "m")
@@ -187,7 +186,7 @@ def _lies(scene: Scene, reading: Reading, step: Step, name: str) -> tuple[str, .
 
 def _speed(scene: Scene) -> Lines:
     """Return the crank's omega alone, for a plan of accelerations without that of velocities."""
-    given = (s for s in scene.solved.program if s.law == "signed" and s.name.startswith("omega_"))
+    given = (s for s in scene.solved.program if s.law == "signed" and role(s.name).kind == "omega")
     return [line for step in given for line in _turning_alike(scene, step)]
 
 
@@ -208,7 +207,7 @@ def _turning_alike(scene: Scene, step: Step) -> Lines:
 
 def _special_point(scene: Scene, step: Step) -> Lines:
     """Say where a point stands that no link has, such as Assur's special point, when it is found for the first time."""
-    point, reading = step.name.rpartition(".")[2], read(scene.solved.program)
+    point, reading = role(step.name).of, read(scene.solved.program)
     lettered = {point for link in scene.solved.mechanism.links for point in link.points}
     made = reading.step(point)
     if step.plan != "velocity" or made is None or made.verb != "meet" or point in lettered:
@@ -231,11 +230,11 @@ def _given(scene: Scene, reading: Reading, step: Step) -> tuple[str, ...]:
 
 def triangles(scene: Scene, step: Step) -> tuple[str, str]:
     """Return the triangle on a plan that is similar to one of a link, and that one, by the letters of their corners."""
-    words, point, made = scene.words, step.name.rpartition(".")[2], read(scene.solved.program).made
+    words, point, made = scene.words, role(step.name).of, read(scene.solved.program).made
     ends = step.operands[:2]
     # at the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism
-    marks = [made[point].operands[i] if mark.endswith(".p") else mark for i, mark in enumerate(ends)]
-    plan, link = (*ends, step.name), (*(mark.rpartition(".")[2] for mark in marks), point)
+    marks = [made[point].operands[i] if role(mark).kind == POLE else mark for i, mark in enumerate(ends)]
+    plan, link = (*ends, step.name), (*(role(mark).of for mark in marks), point)
     return "".join(map(words.mark, plan)), "".join(map(words.mark, link))
 
 
@@ -258,7 +257,7 @@ def _absolute(scene: Scene, reading: Reading, step: Step) -> Lines:
     """Return the absolute vector of a point that was hung from parts, or moves like another."""
     tail, tip = step.operands
     made = reading.made[tip]
-    if not tail.endswith(".p") or made.name == tail:
+    if role(tail).kind != POLE or made.name == tail:
         return []
     if made.verb == "same":
         other = reading.absolute(made.operands[0])
@@ -272,7 +271,7 @@ def _absolute(scene: Scene, reading: Reading, step: Step) -> Lines:
 
 def _comparison(scene: Scene, rate: str) -> tuple[str, ...]:
     """Say whether a link speeds up or slows down."""
-    w, link = scene.words, rate.rpartition("_")[2]
+    w, link = scene.words, role(rate).of
     speed = f"omega_{link}"
     omega, epsilon = rate_of(scene, speed), rate_of(scene, rate)
     still = "said.translates" if omega == 0.0 else "said.steady"

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ....plans.board import Step
+from ....plans.names import role
 from ....scales.display import AS_INSIDE
 from ...printed import value_text
 from ...table import text_block
@@ -29,7 +30,7 @@ def lever_lines(scene: Scene) -> Lines:
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
     lines: Lines = []
     for step in scene.solved.program:
-        if step.law in TOLD and (step.law != "moment_equation" or step.operands[0].startswith("_V_")):
+        if step.law in TOLD and (step.law != "moment_equation" or role(step.operands[0]).kind == "V"):
             lines += TOLD[step.law](scene, step)
     return lines
 
@@ -37,7 +38,7 @@ def lever_lines(scene: Scene) -> Lines:
 def _couple(scene: Scene, step: Step) -> Lines:
     """A couple as two forces on the ends of its link."""
     words, (moment, length) = scene.words, step.operands
-    pair = [s.name for s in scene.solved.program if s.name.startswith(f"{step.name}_")]
+    pair = [s.name for s in scene.solved.program if role(s.name).whole == step.name != s.name]
     if not scene.defined(step.name):
         return []
     symbols = " = ".join(dict.fromkeys(words.symbol(name) for name in pair))

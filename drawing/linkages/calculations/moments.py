@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from ....plans.board import Step
 from ....plans.linkages.mechanism import ZERO, Driver, Revolute
 from ....plans.linkages.structure import Group
+from ....plans.names import role
 from ...printed import POINT
 from ..reading import read
 from ..scene import Scene
@@ -71,8 +72,7 @@ def group_of(scene: Scene, number: int) -> Group | None:
 
 def link_of(scene: Scene, name: str) -> int:
     """Return the link on which a reaction or the moment of one acts: 2 of `R_12_t`, 3 of `_M_3`; else the driver."""
-    head, _, index = name.removeprefix("_").partition("_")
-    numbers = scene.solved.mechanism.numbers(index) if head in ("R", "M") else ()
+    numbers = role(name).links if role(name).kind in ("R", "M") else ()
     moving = {link.number for link in scene.solved.mechanism.links}
     return numbers[-1] if moving.intersection(numbers[-1:]) else scene.solved.structure.driver
 

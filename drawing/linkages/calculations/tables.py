@@ -12,6 +12,7 @@ from typing import TypeAlias
 from ....plans.board import POSITION
 from ....plans.linkages.compound import found_here
 from ....plans.linkages.solved import SolvedLinkage
+from ....plans.names import COUPLE, role
 from ....plans.quantities import Quantity
 from ....scales.scale import Scale
 from ...givens import givens_view
@@ -25,6 +26,7 @@ from .equations import rate_of
 
 KINDS = ("velocity", "acceleration", "compound", "forces", "lever")
 HEADS = {"l": "velocity", "V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
+RATES = ("omega", "epsilon")
 ROWS = 30  # most rows of a table
 PAIR = 2  # links of a reaction
 NUMBERS = r"(?<![A-Za-hj-z\d])\d+"  # of links of two digits, not of points: 12 and 10 of `12_10`, 12 of `i12`
@@ -73,7 +75,7 @@ def results_parts(solved: SolvedLinkage) -> tuple[Part, ...]:
     number, apart = read(solved.program).number, _compound(solved)
     lever = number.get("lever.p", len(number))
     for q in _results(solved):
-        kind = HEADS.get(q.name.partition("_")[0], "forces")
+        kind = HEADS.get(role(q.name).kind, "forces")
         by_kind["compound" if q.name in apart else "lever" if number[q.name] > lever else kind].append(q.name)
     parts = []
     for kind, names in by_kind.items():
@@ -90,7 +92,12 @@ def _results(solved: SolvedLinkage) -> Iterator[Quantity]:
     """Go through what the tables show: all quantities but points, given lengths, and each force of a pair."""
     made = read(solved.program).made
     for q in solved.quantities.values():
-        if q.kind != "point" and q.value is not None and q.name in made and "_couple_" not in q.name:
+        if (
+            q.kind != "point"
+            and q.value is not None
+            and q.name in made
+            and not (role(q.name).part == COUPLE and role(q.name).about)
+        ):
             yield q
 
 
@@ -144,29 +151,20 @@ def _links_of(solved: SolvedLinkage, name: str) -> set[int]:
     """Return the links that a quantity concerns: of a point the first that has it, of a reaction both."""
     mechanism = solved.mechanism
     loads = {load.name: load.link for load in mechanism.loads} | {c.name: c.link for c in mechanism.couples}
-    head, _, rest = name.partition("_")
-    if name in loads or (head == "h" and rest in loads):
-        return {loads.get(name) or loads[rest]}
+    quantity = role(name)
+    if name in loads or (quantity.kind == "h" and quantity.of in loads):
+        return {loads.get(name) or loads[quantity.of]}
     numbers = {link.number for link in mechanism.links}
-    if head in ("V", "a"):
-        return _first_with(solved, rest)
-    digits = re.findall(NUMBERS if mechanism.parted else r"\d", rest.partition("_lever")[0])
-    named = [int(number) for number in digits]
-    if head == "h" and len(named) == PAIR:
-        return {named[1]} & numbers  # the arm of a reaction stands where the link on which it acts is dealt with
-    return numbers.intersection(named) or {
+    if quantity.kind in ("V", "a"):
+        links = [solved.structure.driver, *(number for group in solved.structure.groups for number in group.links)]
+        with_point = (number for number in links if quantity.of in mechanism.link(number).points)
+        return {next(with_point, *role(quantity.of).links)}
+    if quantity.kind == "h" and len(quantity.links) == PAIR:
+        return {quantity.links[1]} & numbers  # a reaction's arm stands where the link on which it acts is dealt with
+    digits = re.findall(NUMBERS if mechanism.parted else r"\d", quantity.letters)
+    return numbers.intersection(quantity.links or map(int, digits)) or {
         link.number for link in mechanism.links if {link.mass, link.inertia} & {name}
     }
-
-
-def _first_with(solved: SolvedLinkage, index: str) -> set[int]:
-    """Return the first link that has the point with which an index such as `BA`, `A3A2` or `X3` begins."""
-    links = [solved.structure.driver, *(number for group in solved.structure.groups for number in group.links)]
-    points = {point: number for number in reversed(links) for point in solved.mechanism.link(number).points}
-    named = ((point, number) for point in points for number in links)
-    ways = {**{solved.mechanism.letter_on(point, number): number for point, number in named}, **points}
-    found = max((way for way in ways if index.startswith(way)), key=len, default="")
-    return {ways[found]} if found else {number for number in links if str(number) in index}
 
 
 def results_table(scene: Scene, part: Part) -> View:
@@ -188,10 +186,10 @@ def results_table(scene: Scene, part: Part) -> View:
 
 
 def _row(scene: Scene, q: Quantity) -> list[str]:
-    words, turning = scene.words, q.name.startswith(("omega", "epsilon"))
+    words, turning = scene.words, role(q.name).kind in RATES
     value = rate_of(scene, q.name) if turning else words.display.value(q.value or 0.0, q.unit)
     symbol, unit = words.symbol(q.name), words.unit(words.display.unit(q.unit))
-    plan = POSITION if q.name.startswith("l_") else scene.figure_of(q.name)
+    plan = POSITION if role(q.name).kind == "l" else scene.figure_of(q.name)
     if plan not in scene.scales:
         return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, tidy(q, value)), unit]
     mm, number, shown = printed_segment(scene, q)
@@ -200,9 +198,9 @@ def _row(scene: Scene, q: Quantity) -> list[str]:
 
 def printed_segment(scene: Scene, q: Quantity) -> tuple[str, str, str]:
     """Return the segment that shows a quantity, its scale factor and its value, as they are printed."""
-    words, turning = scene.words, q.name.startswith(("omega", "epsilon"))
+    words, turning = scene.words, role(q.name).kind in RATES
     value = rate_of(scene, q.name) if turning else words.display.value(q.value or 0.0, q.unit)
-    plan = POSITION if q.name.startswith("l_") else scene.figure_of(q.name)
+    plan = POSITION if role(q.name).kind == "l" else scene.figure_of(q.name)
     scale, times = scene.scales[plan], enlarged(scene, q.name, plan)
     number = words.factor(Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit))
     mu = 1.0 / number if words.per_unit else number
@@ -219,5 +217,5 @@ def _angle(scene: Scene, q: Quantity) -> str:
 
 def tidy(q: Quantity, value: float) -> float:
     """Return the value: of a force its magnitude, of a difference 0 where it is rounding noise."""
-    size = abs(value) if q.name.startswith("F") else value
-    return 0.0 if q.name.startswith("delta") and abs(size) < 1e-6 else size
+    size = abs(value) if role(q.name).kind == "F" else value
+    return 0.0 if role(q.name).kind == "delta" and abs(size) < 1e-6 else size

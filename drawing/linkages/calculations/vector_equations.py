@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from ....plans.board import Step
+from ....plans.board import POSITION, Step
+from ....plans.linkages.parts import SYMBOLS
+from ....plans.names import CORIOLIS, NORMAL, POLE, role, vector
 from ..letters import guide_letters
-from ..reading import Edge, Reading, plan_of, read
+from ..reading import Edge, Reading, read
 from ..scene import Scene
 from .equations import by_direction, known, noted
-
-KINDS = {"velocity": "V", "acceleration": "a"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,11 +55,11 @@ def _named(reading: Reading, start: str, tip: str) -> str:
 
     From the end n of normal parts it is the tangential part `a_XA_t`, from that of Coriolis the sliding one `a_XB4_r`.
     """
-    kind, end, part = KINDS.get(plan_of(tip), "V"), tip.rpartition(".")[2], ""
-    while (point := start.rpartition(".")[2]).startswith(("n_", "k_")):
-        part = "_r" if point.startswith("k_") else part or "_t"
-        start = reading.made[start].operands[0]
-    return f"{kind}_{end}{'' if point == 'p' else point}{part}"
+    begin, end, part = role(start), role(tip), ""
+    while begin.kind in (NORMAL, CORIOLIS):
+        part = "r" if begin.kind == CORIOLIS else part or "t"
+        begin = role(reading.made[begin].operands[0])
+    return vector(SYMBOLS.get(end.plan, "V"), end.of, "" if begin.kind == POLE else begin.of, part)
 
 
 def summed(scene: Scene, whole: str, parts: Sequence[str]) -> tuple[str, ...]:
@@ -101,7 +101,7 @@ def ends_of(reading: Reading, direction: str) -> tuple[str, str]:
     if step.verb in ("direction", "tangent"):
         return step.operands[0], step.operands[1]
     # the crank is turned to its angle: its end is laid off along this direction
-    lay = next(s for s in reading.users(direction) if s.verb == "lay" and "." not in s.name)
+    lay = next(s for s in reading.users(direction) if s.verb == "lay" and s.plan == POSITION)
     return lay.operands[0], lay.name
 
 
@@ -120,9 +120,9 @@ def closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
     lines = ((reading.between(p, meet.name), u), (reading.between(meet.name, q), w))
     found = [edge for edge, _ in lines if edge is not None]
     notes = [line_note(scene, edge.name, along) for edge, along in lines if edge is not None]
-    by_moments = next((e for e in edges if {e.tail, e.tip} & {p, q} and e.name.endswith("_m")), None)
+    by_moments = next((e for e in edges if {e.tail, e.tip} & {p, q} and role(e.name).part == "m"), None)
     if by_moments is not None:
-        whole, along = by_moments.name.removesuffix("_m"), next(line for edge, line in lines if edge is None)
+        whole, along = role(by_moments.name).whole, next(line for edge, line in lines if edge is None)
         yield _two_ways(scene, whole, found[0].name, notes[0], along)
         edges = tuple(sorted((e for e in edges if e is not by_moments), key=lambda e: e.name != whole))
         yield from _chords(scene, edges, [*firm, *found], ())
@@ -176,7 +176,7 @@ def _leaving(edges: Iterable[Edge]) -> Mapping[str, list[Edge]]:
 
 def _same_force(whole: str, parts: Sequence[str]) -> bool:
     """Whether these are the parts of one reaction."""
-    return bool(parts) and all(part.startswith(f"{whole}_") for part in parts)
+    return bool(parts) and all(role(part).whole == whole != part for part in parts)
 
 
 def _zero(scene: Scene, knowns: Sequence[str], lines: Sequence[str], unknown: str) -> tuple[str, ...]:
@@ -191,4 +191,4 @@ def _double(scene: Scene, names: Iterable[str]) -> list[str]:
 
 
 def _bar(scene: Scene, name: str) -> str:
-    return scene.words.symbol(name.lstrip("_"), bar=True)
+    return scene.words.symbol(role(name).shown, bar=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ....plans.laws import cross
 from ....plans.linkages.mechanism import Pair, Prismatic
 from ....plans.linkages.structure import Group
+from ....plans.names import role
 from ..scene import Scene
 
 Hung = list[tuple[str, str]]  # force, mark of the point where it acts
@@ -92,23 +93,19 @@ def moments_of(scene: Scene, numbers: tuple[int, ...]) -> list[Moment]:
     for step in scene.solved.program:
         if step.verb == "arm" and step.operands[0] in taken:
             force, at, about = taken[step.operands[0]]
-            if not about.startswith("lever.") and _link_of(scene, force) in numbers:
+            if role(about).plan != "lever" and _link_of(scene, force) in numbers:
                 found.setdefault(step.name, Moment(force, step.name, at, about))
     return list(found.values())
 
 
 def _link_of(scene: Scene, force: str) -> int | None:
     """Return the link on which a force acts."""
-    mechanism, structure = scene.solved.mechanism, scene.solved.structure
+    mechanism = scene.solved.mechanism
     for load in mechanism.loads:
         if load.name == force:
             return load.link
-    head, _, rest = force.partition("_")
-    index = rest.removeprefix("i")
-    numbers = [structure.driver, *(number for group in structure.groups for number in group.links)]
-    if head in ("F", "G"):
-        return int(index) if index.isdigit() else None
-    return next((on for on in mechanism.numbers(rest)[1:] if on in numbers), None)
+    links = role(force).links
+    return next((on for on in links[-1:] if on in {link.number for link in mechanism.links}), None)
 
 
 def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int) -> Contact | None:
@@ -125,7 +122,7 @@ def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int
     u = scene.solved.point(scene.solved.guide_name(pair))
     value = float(scene.solved.values[moment])
     # the moment of the loads, which the reaction balances, or that of the reaction itself
-    turning = -value if moment.startswith("_M_") else value
+    turning = -value if role(moment).hidden else value
     size = cross(u, complex(scene.solved.values[reaction])) if scene.direction(reaction) != 0 else 0.0
     couple = moment if size == 0.0 and not scene.vanishes(moment) else ""
     return Contact(step.name, pin, u, turning / size if size else 0.0, couple)

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from ....plans.board import POSITION, Step
 from ....plans.linkages.mechanism import FRAME, ZERO, Prismatic
+from ....plans.names import role
 from ...shapes import Arc, Circle, Group, Line, Pen
 from ...view import Canvas
 from ..letters import guide_letters
@@ -58,7 +59,7 @@ def moving_guides(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> 
 
 def found_by(canvas: Canvas, scene: Scene, step: Step) -> None:
     """Draw the arcs of the compass, or the lines, that cross at a joint."""
-    if step.name.startswith("_"):
+    if role(step.name).hidden:
         return
     name = f"arc_{step.name}"
     if step.verb == "arc":
@@ -129,7 +130,7 @@ def special_points(canvas: Canvas, scene: Scene, wanted: Iterable[str] | None = 
     mechanism = scene.solved.mechanism
     lettered = {point for link in mechanism.links for point in link.points} | {*mechanism.frame_points}
     for step in scene.solved.program.on(POSITION):
-        if step.verb != "meet" or step.name.startswith("_") or step.name in lettered:
+        if step.verb != "meet" or role(step.name).hidden or step.name in lettered:
             continue
         if wanted is None or step.name in wanted:
             found_by(canvas, scene, step)

@@ -14,6 +14,7 @@ from ....plans.graphs import Diagrams, pole_distance
 from ....plans.linkages.cycles.cycle import Cycle
 from ....plans.linkages.cycles.diagrams import diagrams
 from ....plans.linkages.cycles.strokes import OutputMotion
+from ....plans.names import role
 from ....scales.scale import Scale, rounded, steps
 from ...diagram import Axis, Field, Pole, axes, curve, rays
 from ...shapes import Circle, Group, Pen, Polyline
@@ -148,7 +149,7 @@ def _pole(canvas: Canvas, scene: Scene, field: Field, bands: Sequence[Band], let
     above, band = bands
     reach = pole_distance(above.scale.mu, field.x.scale.mu, band.scale.mu)
     assert band.chords is not None
-    name = f"H_{band.name.split('_')[0]}"
+    name = f"H_{role(band.name).kind or band.name}"
     text = f"{scene.words.symbol(name)} = {scene.words.number(reach, 2)}"
     ordinates = ((i, field.y.mm(y)) for i, y in enumerate(band.chords[1].tolist(), 1) if math.isfinite(y))
     rays(canvas, field, Pole(reach, letter, name, text), ordinates)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from ....plans.board import POSITION
 from ....plans.boards.exact import ILL, SMALL
+from ....plans.names import role
 from ....plans.references import intersections, pins_together, point_of
 from ..scene import Scene
 
@@ -17,11 +18,11 @@ def said_flat(scene: Scene, plan: str) -> Iterator[str]:
     """Say of each point of a plan whose lines meet flatly; in an ill-conditioned position of the worst one, with K."""
     solved, words = scene.solved, scene.words
     for mark, sine in solved.sines.items():
-        if _plan(mark) == plan and ILL <= sine < SMALL and plan != POSITION:
+        if role(mark).plan == plan and ILL <= sine < SMALL and plan != POSITION:
             yield words["said.ill"].format(**_meeting(scene, mark, sine))
     if solved.status != "ill-conditioned":
         return
-    here = {mark: sine for mark, sine in intersections(solved.program, solved.sines).items() if _plan(mark) == plan}
+    here = {mark: sine for mark, sine in intersections(solved.program, solved.sines).items() if role(mark).plan == plan}
     mark, sine = min(here.items(), key=lambda item: item[1], default=("", 1.0))
     if 0.0 < sine < ILL:
         from ....plans.linkages.accuracy.conditions import worst_condition  # needs numpy, and few positions need it
@@ -46,10 +47,6 @@ def _meeting(scene: Scene, mark: str, sine: float) -> dict[str, str]:
         "angle": scene.words.short(math.degrees(math.asin(sine)), 3),
         "loss": _large(scene, 1.0 / sine),
     }
-
-
-def _plan(mark: str) -> str:
-    return mark.rpartition(".")[0] or POSITION
 
 
 def _large(scene: Scene, value: float) -> str:

@@ -6,13 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ....plans.board import Step
+from ....plans.names import role
 from ....scales.scale import SERIES
 from ...shapes import Vector
 from ..marks import symbol, vectors_of
 from ..scene import Scene
 from .inset import NUMERALS, READABLE, TIMES, WIDEST, Window, shows, size_of, window_about
 
-FORCES = "forces_"  # with which the names of plans of forces begin
+FORCES = "forces"  # kind of plans
 NARROWEST = 45.0  # mm, the least side of an inset
 PAST = 6.0  # mm by which a construction line runs past the point that it finds
 FEW = 1  # forces too short to be read that a plan shows as points, said in words
@@ -96,7 +97,7 @@ class ForcePlan:
 
 def enlarged(scene: Scene, quantity: str, plan: str) -> float:
     """Return how many times as large as on its plan a force can be read in an inset, 1 where it is in none."""
-    if not plan.startswith(FORCES):
+    if role(plan).kind != FORCES:
         return 1.0
     forces = ForcePlan(scene, plan)
     own = [vector for vector in forces.vectors() if vector.quantity == quantity]

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from ....plans.board import POSITION
 from ....plans.linkages.mechanism import Pair, Prismatic
 from ....plans.linkages.structure import Group
+from ....plans.names import role
 from ...shapes import Circle, Head, Line, Pen, Shape
 from ...shapes import Group as Shapes
 from ...symbols import arm, turning_arrow
@@ -199,9 +200,8 @@ def link_view(scene: Scene, group: Group, number: int) -> View:
 
 def couple_name(scene: Scene, name: str, number: int) -> str:
     """Return the name by which a couple is written: that of a guide on link 3 is `M_43`, also where it was a sum."""
-    if not name.startswith("_M_"):
-        return name
-    return f"M_{scene.solved.mechanism.index(name.removeprefix('_M_'), number)}"
+    couple = role(name)
+    return scene.solved.mechanism.pair("M", couple.links[0], number) if couple.hidden else name
 
 
 def length_along(canvas: Canvas, scene: Scene, name: str, start: complex, end: complex) -> None:
@@ -236,7 +236,7 @@ def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str],
 
 def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
     """Say in one line which of these forces, couples and arms are zero: the figure cannot show them."""
-    w = scene.words
+    w, couples = scene.words, {couple.name for couple in scene.solved.mechanism.couples}
     gone = [name for name in dict.fromkeys(names) if scene.defined(name) and scene.vanishes(name)]
-    parts = [w.symbol(name.removeprefix("_"), bar=not name.startswith(("M", "h", "_M"))) for name in gone]
+    parts = [w.symbol(role(name).shown, bar=role(name).kind not in ("M", "h") and name not in couples) for name in gone]
     return (f"{' = '.join(parts)} = 0",) if parts else ()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import combinations, pairwise
 from typing import NamedTuple
 
+from ....plans.names import COUPLE, lever_arm, role
 from ...shapes import Line, Pen
 from ...view import Canvas, View
 from ..marks import letter_marks, vectors_of
@@ -59,7 +60,7 @@ def driven(scene: Scene) -> str:
 
 def letter_of(scene: Scene, mark: str) -> str:
     """Return the letter of a mark of the lever: that of the velocity plan."""
-    return scene.words.mark(f"velocity.{mark.removeprefix('lever.')}")
+    return scene.words.mark(f"velocity.{role(mark).of}")
 
 
 def arms_on_lever(scene: Scene) -> list[LeverArm]:
@@ -82,7 +83,7 @@ def image(scene: Scene, mark: str) -> complex:
     """Return a mark of the lever, mm: that of the velocity plan turned by +90 degrees where nothing hangs on it."""
     if mark in scene.solved.values:
         return scene.mm(mark)
-    return scene.mm(f"velocity.{mark.removeprefix('lever.')}") * 1j
+    return scene.mm(f"velocity.{role(mark).of}") * 1j
 
 
 def images(scene: Scene) -> list[str]:
@@ -112,7 +113,7 @@ def lines_of_lever(scene: Scene) -> list[LeverLine]:
         ends += [(f"lever.{a}", f"lever.{b}", a + b) for a, b in ways]
     kept: dict[frozenset[complex], LeverLine] = {}
     for start, end, name in ends:
-        tail, tip = (f"lever.{mark.rpartition('.')[2]}" for mark in (start, end))
+        tail, tip = (f"lever.{role(mark).of}" for mark in (start, end))
         line = LeverLine(tail, tip, name)
         a, b = image(scene, line.start), image(scene, line.end)
         places = frozenset(complex(round(at.real, 4), round(at.imag, 4)) for at in (a, b))
@@ -130,7 +131,11 @@ def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
     ]
     # of a couple on a link that turns about a pivot the second force stands at the pole: it has no moment
     pulling = {name for name, _ in hung}
-    made = (step.name for step in scene.solved.program if "_couple_" in step.name and step.law in ("along", "opposite"))
+    made = (
+        step.name
+        for step in scene.solved.program
+        if role(step.name).part == COUPLE and step.law in ("along", "opposite")
+    )
     hung += [(name, "lever.p") for name in made if name not in pulling]
     balance = next(name for name in BALANCE if name in scene.solved.values)
     return [*hung, (balance, f"lever.{scene.solved.mechanism.driver.point}")]
@@ -138,7 +143,5 @@ def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
 
 def arm_of(force: str) -> str:
     """Return the arm's name: of `F_i2` it is `h_lever_F_i2`, of the couple `F_i2_couple_B` `h_lever_M_i2_B`."""
-    if "_couple_" in force:
-        moment, _, point = force.partition("_couple_")
-        return f"h_lever_M{moment.removeprefix('F')}_{point}"
-    return f"h_lever_{force}"
+    acting = role(force)
+    return lever_arm(acting.of, acting.about) if acting.part == COUPLE else lever_arm(force)

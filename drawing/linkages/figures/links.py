@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
 from ....plans.linkages.mechanism import FRAME, Prismatic, Revolute
+from ....plans.names import role
 from ...shapes import Circle, Group, Line, Pen
 from ...symbols import block, bridge, centre_of_mass, fixed_pivot, guide, revolute, rigid_corner, slider_up
 from ...view import Canvas
@@ -144,12 +145,10 @@ def coincident(scene: Scene) -> dict[str, tuple[int, ...]]:
     """Return the joints at which points of several links have marks of their own, `velocity.A3`, with these links."""
     mechanism, found = scene.solved.mechanism, dict[str, set[int]]()
     letters = {point for link in mechanism.links for point in link.points}
-    named = {mechanism.letter_on(p, link.number): (p, link.number) for p in letters for link in mechanism.links}
-    for name in scene.solved.program.names:
-        plan, _, letter = name.rpartition(".")
-        if plan == "velocity" and letter in named and letter not in letters:
-            point, number = named[letter]
-            found.setdefault(point, set()).add(number)
+    for step in scene.solved.program.on("velocity"):
+        under = role(role(step.name).of)
+        if step.verb != "read" and under.links and under.of in letters and under not in letters:
+            found.setdefault(under.of, set()).update(under.links)
     for point, numbers in found.items():
         numbers.update(n for p in mechanism.pairs if isinstance(p, Revolute) and p.point == point for n in p.links)
     return {point: tuple(sorted(numbers - {FRAME})) for point, numbers in found.items()}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ....plans.board import Step
+from ....plans.names import role
 from ...shapes import Line, Pen
 from ...view import Canvas, View
 from ..marks import letter_marks, symbol, vectors_of
@@ -23,7 +24,7 @@ def plan_view(scene: Scene, plan: str, key: str, **fill: str) -> View:
     steps = scene.solved.program.on(plan)
     vectors = vectors_of(steps)
     forces = ForcePlan(scene, plan)
-    shown = forces.windows() if plan.startswith(FORCES) else []
+    shown = forces.windows() if role(plan).kind == FORCES else []
     left = [ends for ends in vectors if not in_inset(scene, shown, (scene.mm(ends[1]), scene.mm(ends[2])))]
     _construction(canvas, scene, steps)
     draw_sides(canvas, scene, plan, [(scene.mm(tail), scene.mm(tip)) for _, tail, tip in vectors])

@@ -13,6 +13,7 @@ from ....plans.linkages.cycles.cycle import Cycle
 from ....plans.linkages.cycles.strokes import Dead, OutputMotion
 from ....plans.linkages.mechanism import FRAME, Driver, Prismatic
 from ....plans.linkages.solved import solve_linkage
+from ....plans.names import role
 from ...shapes import Circle, Line, Pen, Polyline
 from ...symbols import slider_up
 from ...view import Canvas, View
@@ -195,5 +196,5 @@ def _notes(scene: Scene, cycle: Cycle, dead: list[float]) -> tuple[str, ...]:
         places = "; ".join(f"{scene.words.number(math.degrees(angle), 2)}°" for angle in dead)
     else:
         places = "; ".join(f"{scene.words.number(place * 1e3, 2)} {scene.words['unit.mm']}" for place in dead)
-    symbol = scene.words.symbol(cycle.drive.variable.removeprefix("_"))
+    symbol = scene.words.symbol(role(cycle.drive.variable).shown)
     return (scene.words["said.dead"].format(symbol=symbol, places=places),)

@@ -7,7 +7,8 @@ from cmath import rect
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from ....plans.linkages.compound import RELATIVE
+from ....plans.linkages.compound import is_relative
+from ....plans.names import role
 from ...shapes import Arrow, Pen
 from ...symbols import turning_arrow
 from ...view import Canvas
@@ -33,10 +34,10 @@ def turns(scene: Scene) -> Iterator[Turn]:
     """Go through the rates of turning that the construction reads off its plans."""
     made = {step.name: step for step in scene.solved.program}
     for step in scene.solved.program:
-        if step.law == "turning" and not RELATIVE.match(step.name):
+        if step.law == "turning" and not is_relative(step.name):
             vector, normal, _ = step.operands
             along = made[made[normal].operands[0]]  # the direction whose normal it is, from one joint to another
-            yield Turn(step.name, int(step.name.rpartition("_")[2]), vector, *along.operands[:2])
+            yield Turn(step.name, role(step.name).links[0], vector, *along.operands[:2])
 
 
 def senses(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
@@ -63,7 +64,7 @@ def _arcs(canvas: Canvas, scene: Scene, shown: Sequence[Turn], figure: Skeleton)
     belongs = shown[0].start in scene.solved.mechanism.link(figure.number).points
     if belongs or not rays:
         rays.insert(0, ends)
-    force, wanted = scene.style.force, [PLACES[turn.rate.partition("_")[0]] for turn in shown]
+    force, wanted = scene.style.force, [PLACES[role(turn.rate).kind] for turn in shown]
     # centres of mass are drawn with their letters, later
     marks = [scene.mm(point) for link in scene.solved.mechanism.links for point in link.points]
     busy = [*obstacles(canvas.shapes), *((at, at, scene.style.centre, 2.0) for at in marks)]

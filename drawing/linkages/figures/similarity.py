@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ....plans.board import POSITION, Program
+from ....plans.names import POLE, role
 from ...shapes import Line, Pen
 from ...view import Canvas
 from ..reading import read
@@ -27,9 +28,9 @@ def on_link(program: Program, triangle: Triangle) -> Triangle:
     At the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism.
     """
     start, end, mark = triangle
-    point = mark.rpartition(".")[2]
+    point = role(mark).of
     own = read(program).made[point].operands
-    first, second = (own[i] if m.endswith(".p") else m.rpartition(".")[2] for i, m in enumerate((start, end)))
+    first, second = (own[i] if role(m).kind == POLE else role(m).of for i, m in enumerate((start, end)))
     return first, second, point
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ....plans.linkages.cycles.slider_runs import Runs, slider_runs
 from ....plans.linkages.solved import SolvedLinkage
+from ....plans.names import role
 from ....scales.choices import SIZES
 from ....scales.choose import UNITS
 from ....scales.errors import InputError
@@ -166,7 +167,7 @@ class Fitting:
             "plan-too-large" if larger else "plan-too-large-everywhere",
             symbol=symbol,
             mu=f"{mu:g}",
-            unit=Scale(symbol, mu, UNITS[symbol.split("_")[1]]).per_mm_unit,
+            unit=Scale(symbol, mu, UNITS[role(symbol).of]).per_mm_unit,
             format=sheet.name,
             fits=f"{steps(mu * excess * 1.1)[0]:g}",
             larger=larger[0] if larger else "",
@@ -179,6 +180,8 @@ def _reach(solved: SolvedLinkage, symbol: str) -> float:
     for plan in (plan for plan, name in solved.scale_of_plan.items() if name == symbol):
         steps_here = (step for step in solved.program.on(plan) if step.verb in MARKS)
         # an instant centre may be anywhere: its figure says so in words where it is far
-        marks = [solved.point(step.name) for step in steps_here if not step.name.startswith(("_", "P_"))]
+        marks = [
+            solved.point(step.name) for step in steps_here if not role(step.name).hidden and role(step.name).kind != "P"
+        ]
         longest = max((longest, *(abs(a - b) for a in marks for b in marks)))
     return longest

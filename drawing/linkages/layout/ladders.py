@@ -6,10 +6,11 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
 from ....plans.board import POSITION
-from ....plans.linkages.compound import ACCELERATION
+from ....plans.linkages.compound import ACCELERATION, VELOCITY
 from ....plans.linkages.mechanism import Driver, Prismatic
 from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.structure import TRIAD, Group
+from ....plans.names import role
 from ....scales.choices import SIZES
 from ....scales.choose import UNITS, Chooser, Choosers, CrankScale, Fixed, From, Round
 from ....scales.errors import InputError
@@ -40,7 +41,14 @@ POINT, ZERO = 0.03, 1e-9  # parts of the longest vector below which another is a
 # mm^2 of equations and tables: for the structure, a link, a quantity of a plan, the equations of moments of a group,
 # a load diagram
 STRUCTURE, LINK, DIAGRAM, HEADINGS = 15000.0, 1700.0, 13500.0, 4000.0
-TEXTS = {"velocity": 3300.0, "acceleration": 3300.0, "forces": 4700.0, "lever": 2000.0, "V": 8000.0, "a": 8000.0}
+TEXTS = {
+    "velocity": 3300.0,
+    "acceleration": 3300.0,
+    "forces": 4700.0,
+    "lever": 2000.0,
+    VELOCITY: 8000.0,
+    ACCELERATION: 8000.0,
+}
 MOMENTS = {"RRR": 16000.0, TRIAD: 45000.0}
 
 
@@ -86,7 +94,7 @@ def ladders_of(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
     longest = {symbol: _largest(solved, symbol) for symbol in dict.fromkeys(plans.values())}
     ladders: dict[str, Ladder] = {}
     for symbol, size in longest.items():
-        chooser, kind = choosers.get(symbol), symbol.split("_")[1]
+        chooser, kind = choosers.get(symbol), role(symbol).of
         weight = WEIGHTS[kind]
         if chooser is None:  # nobody has chosen: round, and any at all for a plan on which everything is zero
             values = Round(symbol, weight * max(LONGEST["A1"])).ladder(value) if size > 0.0 else (1.0,)
@@ -111,7 +119,7 @@ def ladders_of(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
 def _visible(symbol: str, mu: float, largest: float) -> None:
     """Refuse a scale factor that a user has fixed, at which a plan is a point."""
     if 0.0 < largest < SHORTEST * mu:
-        unit = Scale(symbol, mu, UNITS[symbol.split("_")[1]]).per_mm_unit
+        unit = Scale(symbol, mu, UNITS[role(symbol).of]).per_mm_unit
         raise InputError("plan-too-small", symbol=symbol, mu=f"{mu:g}", unit=unit, size=f"{largest / mu:.2g}")
 
 
@@ -130,13 +138,13 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
             yield from _plan(solved, plan, KINEMATICS)
     if "compound" in plans:
         yield Extent("mu_l", whole, GROUP)
-        yield from (Extent(symbols[p], _box(solved, p), SPLIT) for p in symbols if p.startswith(ACCELERATION))
+        yield from (Extent(symbols[p], _box(solved, p), SPLIT) for p in symbols if role(p).kind == ACCELERATION)
     if "forces" in plans:
         for group in solved.structure.groups:
             points = [point for link in solved.mechanism.links if link.number in group.links for point in link.points]
             yield Extent("mu_l", _around([solved.point(point) for point in points]), GROUP, part=FORCES)
             yield from (Extent("", (0.0, 0.0), APART, part=FORCES) for _ in links_apart(solved, group))
-        for plan in (plan for plan in symbols if plan.startswith("forces_")):
+        for plan in (plan for plan in symbols if role(plan).kind == "forces"):
             yield from _plan(solved, plan, FORCES)
         yield Extent("", (0.0, 0.0), APART, part=FORCES)
     if "lever" in plans:
@@ -157,8 +165,9 @@ def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> tuple[float, float]:
     """Return what equations and tables take, mm^2 on A1, of both parts of the work."""
     kinematics = STRUCTURE + LINK * len(solved.mechanism.links) if "structure" in plans else 0.0
     forces = 0.0
-    count = Counter(solved.shown_on.get(name, "").partition("_")[0] for name in solved.quantities)
-    for plan in ("velocity", "acceleration", "V", "a"):
+    shown = (solved.shown_on.get(name, "") for name in solved.quantities)
+    count = Counter(role(plan).kind or plan for plan in shown)
+    for plan in ("velocity", "acceleration", VELOCITY, ACCELERATION):
         kinematics += TEXTS[plan] * count[plan] + HEADINGS * (count[plan] > 0)
     for plan in {"forces", "lever"} & {*plans}:
         forces += TEXTS[plan] * count[plan] + 2.0 * HEADINGS
@@ -182,7 +191,7 @@ def _mechanism(solved: SolvedLinkage) -> Size:
 def _box(solved: SolvedLinkage, plan: str) -> Size:
     # an instant centre may be anywhere: its figure says so in words where it is far
     drawn = (step.name for step in solved.program.on(plan) if step.verb in MARKS)
-    return _around([solved.point(name) for name in drawn if not name.startswith(("_", "P_"))])
+    return _around([solved.point(name) for name in drawn if not role(name).hidden and role(name).kind != "P"])
 
 
 def _around(places: Sequence[complex]) -> Size:
@@ -219,13 +228,13 @@ def _largest(solved: SolvedLinkage, symbol: str) -> float:
 
 def _plan_of(quantity: str, shown: Mapping[str, str]) -> str:
     """Return the plan that shows a quantity: lengths are those of the plan of the mechanism."""
-    return POSITION if quantity.startswith("l_") else shown.get(quantity, "")
+    return POSITION if role(quantity).kind == "l" else shown.get(quantity, "")
 
 
 def by_plan(solved: SolvedLinkage, mus: Mapping[str, float]) -> dict[str, Scale]:
     """Return the scale factors of the plans from their values by symbol."""
     plans = solved.scale_of_plan.items()
-    scales = {plan: Scale(symbol, mus[symbol], UNITS[symbol.split("_")[1]]) for plan, symbol in plans}
+    scales = {plan: Scale(symbol, mus[symbol], UNITS[role(symbol).of]) for plan, symbol in plans}
     if POSITION not in scales:  # of a structure alone nothing is drawn to scale
         return scales
     return {**scales, DRIVER: _of_driver(solved, scales[POSITION])}

@@ -7,6 +7,7 @@ from functools import partial
 
 from ....plans.board import POSITION, Step
 from ....plans.linkages.compound import Coupler
+from ....plans.names import POLE, role
 from ..at_point import At
 from ..calculations.compound import block_name, compound_lines, measured, tangential
 from ..calculations.equations import Lines
@@ -77,7 +78,7 @@ def _hung(teller: Teller, at: At, step: Step) -> Told:
 
 def _start(teller: Teller, at: At, mark: str) -> str:
     """Return in words where a vector or a line begins: in the point itself, or at the end of another vector."""
-    if mark.endswith(".p"):
+    if role(mark).kind == POLE:
         return teller.say("compound_point", point=teller.mark(at.point))
     before = teller.reading.made[mark]
     return teller.say("compound_end", vector=teller.vector(before.operands[1]))
@@ -100,7 +101,7 @@ def _whole(teller: Teller, at: At) -> str:
 def _measured(teller: Teller, at: At, step: Step) -> Iterator[Told]:
     """Tell what is measured: the part that was known by direction, then the whole."""
     say = partial(_reading, teller, at, step)
-    if not step.name.startswith("_"):
+    if not role(step.name).hidden:
         yield say(step.name, "compound_read")
         return
     closing = at.coupler.closing if at.point == at.coupler.span.end else None

@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 
-from ....plans.board import POSITION
 from ....plans.boards.exact import SMALL
 from ....plans.laws import dot
-from ....plans.linkages.compound import ACCELERATION, VELOCITY
 from ....plans.linkages.mechanism import MOMENT, Driver
 from ....plans.linkages.solved import disagreement
+from ....plans.names import Name, role
 from ....plans.quantities import Quantity
 from ....plans.references import point_of
 from ...printed import value_text
 from ...words import Words
+from ..at_point import is_at_point
 from ..calculations.equations import rate_of, sensed, size_of, stated
 from ..calculations.tables import printed_segment
 from ..scene import Scene
@@ -34,7 +34,7 @@ def conclusions(teller: Teller) -> Iterator[str]:
             yield from _extremes(teller, f"conclusion.{plan}", _absolute(teller, plan))
             yield from _fastest(teller, RATES[plan])
     yield from _both_ways(teller)
-    if any(plan.startswith("forces_") for plan in teller.scene.scales):
+    if any(role(plan).kind == "forces" for plan in teller.scene.scales):
         quantities = teller.scene.solved.quantities
         yield from _extremes(teller, "conclusion.reactions", [n for n in quantities if _pair(teller.scene, n)])
         for name in BALANCES:
@@ -67,14 +67,14 @@ def _extremes(teller: Teller, key: str, names: Iterable[str]) -> Iterator[str]:
 
 def _pair(scene: Scene, name: str) -> tuple[int, ...]:
     """Return the links of a whole reaction, that which acts first; nothing where a quantity is none."""
-    numbers = scene.solved.mechanism.numbers(name.removeprefix("R_"))
-    return numbers if name == f"R_{scene.solved.mechanism.index(*numbers)}" and len(numbers) > 1 else ()
+    quantity = role(name)
+    return quantity.links if quantity.kind == "R" and not quantity.part else ()
 
 
 def _other_side(scene: Scene, name: str) -> str:
     """Return the reaction that stands for this one, too, since both are as large; nothing where it is itself that."""
     pair = _pair(scene, name)
-    return f"R_{scene.solved.mechanism.index(*pair[::-1])}" if pair and pair[0] > pair[1] else ""
+    return scene.solved.mechanism.pair("R", pair[1], pair[0]) if pair and pair[0] > pair[1] else ""
 
 
 def _alike(teller: Teller, found: Mapping[str, float], name: str) -> str:
@@ -149,8 +149,8 @@ def _angles(teller: Teller) -> Iterator[str]:
     """Tell where lines meet at less than 20 degrees, or at which angle the flattest ones do."""
     words = teller.scene.words
     # compound motion meets the same lines once more
-    drawn_plans = {plan for plan in teller.scene.scales if not plan.startswith((VELOCITY, ACCELERATION))}
-    drawn = {mark: sine for mark, sine in teller.scene.solved.sines.items() if _plan(mark) in drawn_plans}
+    drawn_plans = {plan for plan in teller.scene.scales if not is_at_point(plan)}
+    drawn = {mark: sine for mark, sine in teller.scene.solved.sines.items() if role(mark).plan in drawn_plans}
     flat = sorted((mark for mark in drawn if 0.0 < drawn[mark] < SMALL), key=lambda mark: drawn[mark])
     if flat:
         listed = "; ".join(_met(teller, mark, drawn[mark]) for mark in flat)
@@ -161,20 +161,16 @@ def _angles(teller: Teller) -> Iterator[str]:
         yield teller.texts["conclusion.sharp"].format(point=_met(teller, mark, drawn[mark]), limit=SMALL_ANGLE)
 
 
-def _plan(mark: str) -> str:
-    return mark.rpartition(".")[0] or POSITION
-
-
 def _met(teller: Teller, mark: str, sine: float) -> str:
     """Return a point with its plan and the angle at which its lines meet."""
     words = teller.scene.words
     angle = words.short(math.degrees(math.asin(min(sine, 1.0))), 3)
-    return f"{words.mark(point_of(teller.scene.solved.program, mark))} ({_heading(words, _plan(mark))}, {angle}°)"
+    return f"{words.mark(point_of(teller.scene.solved.program, mark))} ({_heading(words, role(mark).plan)}, {angle}°)"
 
 
-def _heading(words: Words, plan: str) -> str:
+def _heading(words: Words, plan: Name) -> str:
     """Return the heading of a plan, in the middle of a sentence."""
-    kind, _, links = plan.partition("_")
-    key = f"heading.{plan}" if kind != "forces" else "heading.group_forces" if len(links) > 1 else "heading.link_forces"
+    links, forces = plan.of, "heading.group_forces" if len(plan.of) > 1 else "heading.link_forces"
+    key = forces if plan.kind == "forces" else f"heading.{plan}"
     heading = words[key].format(links=", ".join(links), link=links)
     return heading[:1].lower() + heading[1:]

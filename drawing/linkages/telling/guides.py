@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import cmath
 import math
-import re
 from collections.abc import Iterator
 
 from ....plans.board import Step
+from ....plans.names import ORIGIN, role
 from ..letters import guide_letters
 from .teller import Teller
-
-GUIDES = re.compile(r"_(u_\w+)_origin")  # the mark on a guide from which distances count
 
 
 def guide_told(teller: Teller, step: Step) -> Iterator[str]:
@@ -19,14 +17,14 @@ def guide_told(teller: Teller, step: Step) -> Iterator[str]:
     letters = guide_letters(teller.scene.solved.program)
     if step.verb == "incline":
         if step.name in letters:
-            base = teller.line(step.operands[0]).removeprefix("∥ ")
+            base = teller.plain_line(step.operands[0])
             yield teller.say("guide_on_link", line=letters[step.name], base=base, angle=_between(teller, step))
         return
-    found = GUIDES.fullmatch(step.name)
-    if found is not None and found[1] in letters:
-        angle = _degrees(teller, cmath.phase(complex(teller.scene.solved.values[found[1]])))
+    guide = role(step.name).of
+    if role(step.name).kind == ORIGIN and guide in letters:
+        angle = _degrees(teller, cmath.phase(complex(teller.scene.solved.values[guide])))
         place = teller.place(step.name)
-        yield teller.say("guide_drawn", line=letters[found[1]], place=place, angle=angle)
+        yield teller.say("guide_drawn", line=letters[guide], place=place, angle=angle)
 
 
 def _between(teller: Teller, step: Step) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ....plans.board import Step
+from ....plans.names import COUPLE, role
 from ..calculations.equations import size_of
 from ..figures.lever import BALANCE, arms_on_lever, driven, hung_on_lever, images, letter_of, lines_of_lever
 from ..figures.lever_arms import LeverArm
@@ -54,10 +55,8 @@ def _hung(teller: Teller, mark: str, moments: list[Step], drawn: Iterable[LeverA
         "forces": ", ".join(map(teller.vector, forces)),
         "arms": ", ".join(f"{scene.words.symbol(arm)} = {_on_lever(teller, arm)}" for arm in arms),
     }
-    couples = {force.partition("_couple_")[0] for force in forces if "_couple_" in force}
-    at_pole = (
-        name for name, at in hung_on_lever(scene) if at == "lever.p" and name.partition("_couple_")[0] in couples
-    )
+    couples = {role(force).of for force in forces if role(force).part == COUPLE}
+    at_pole = (name for name, at in hung_on_lever(scene) if at == "lever.p" and role(name).of in couples)
     hung = (*forces, *at_pole)
     names = (*hung, *(arm.line for arm in drawn), *(name for arm in drawn for name in arm.names))
     letters = (*map(teller.vector, hung), *(arm.said(scene) for arm in drawn))

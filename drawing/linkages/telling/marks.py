@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 from ....plans.board import POSITION, Step
+from ....plans.names import ORIGIN, role
 from ..calculations.equations import size_of
 from ..calculations.kinematics import triangles
 from ..calculations.tables import printed_segment
-from .guides import GUIDES, guide_told
+from .guides import guide_told
 from .teller import Teller
 
 LINES = ("lay", "back")
@@ -20,7 +21,7 @@ def _pole(teller: Teller, step: Step) -> Iterator[str]:
 
 
 def _place(teller: Teller, step: Step) -> Iterator[str]:
-    if step.name.startswith("_"):
+    if role(step.name).hidden:
         yield from guide_told(teller, step)
     else:
         yield teller.say("place", point=teller.mark(step.name), place=teller.place(step.name))
@@ -32,8 +33,8 @@ def _lay(teller: Teller, step: Step) -> Iterator[str]:
     edge = teller.reading.between(start, step.name)
     b = teller.mark(step.name)
     line = teller.line(direction, back=step.verb == "back")
-    if GUIDES.fullmatch(start):
-        yield teller.say("on_guide", line=line.removeprefix("∥ "), point=b, mm=teller.drawn(size, step.plan))
+    if role(start).kind == ORIGIN:
+        yield teller.say("on_guide", line=teller.plain_line(direction), point=b, mm=teller.drawn(size, step.plan))
         return
     a = teller.mark(start)
     if edge is not None and teller.scene.vanishes(edge.name):
@@ -69,10 +70,9 @@ def _meet(teller: Teller, step: Step) -> Iterator[str]:
 
 def _through(teller: Teller, mark: str, direction: str) -> str:
     """Return a line through a mark; one that is a guide needs no mark."""
-    line = teller.line(direction)
-    if mark.startswith("_"):
-        return teller.say("guide", line=line.removeprefix("∥ "))
-    return teller.say("through", line=line, point=teller.mark(mark))
+    if role(mark).hidden:
+        return teller.say("guide", line=teller.plain_line(direction))
+    return teller.say("through", line=teller.line(direction), point=teller.mark(mark))
 
 
 def _arc(teller: Teller, step: Step) -> Iterator[str]:
@@ -114,7 +114,7 @@ def _similar(teller: Teller, step: Step) -> Iterator[str]:
 
 def _same(teller: Teller, step: Step) -> Iterator[str]:
     one, other = teller.mark(step.name), teller.mark(step.operands[0])
-    if one != other and not step.name.startswith("_"):
+    if one != other and not role(step.name).hidden:
         yield teller.say("same", point=one, other=other)
 
 
@@ -124,7 +124,7 @@ def _read(teller: Teller, step: Step) -> Iterator[str]:
     edge = teller.reading.between(tail, tip)
     if edge is None or edge.name != step.name or teller.reading.is_hung(edge):
         return
-    name = step.name.removeprefix("_")  # a force that balances has an intermediate vector
+    name = role(step.name).shown  # a force that balances has an intermediate vector
     item = teller.scene.solved.quantities.get(name)
     if item is None:
         return
@@ -168,7 +168,7 @@ def _path(teller: Teller, joint: str, leg: tuple[str, ...]) -> str:
     """Return where a leg lets a joint be: on an arc, or on a line."""
     _, start, radius, direction = leg
     if size_of(teller.scene, radius) == 0.0:
-        return teller.say("path_line", point=joint, line=teller.line(direction).removeprefix("∥ "))
+        return teller.say("path_line", point=joint, line=teller.plain_line(direction))
     return teller.say(
         "path_arc",
         point=joint,

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ....plans.board import POSITION, Step
+from ....plans.names import role
 from ....scales.packaged import packaged
 from ... import notes
 from ...printed import HUNDREDTHS, POINT, Input, calculation
@@ -60,11 +61,11 @@ class Teller:
 
     def vector(self, name: str) -> str:
         """Return the letter of a vector, with its bar."""
-        return self.scene.words.symbol(name.lstrip("_"), bar=True)
+        return self.scene.words.symbol(role(name).shown, bar=True)
 
     def distance(self, start: str, end: str) -> str:
         """Return the length of a segment on its plan, with its unit."""
-        scale = self.scene.scales[end.rpartition(".")[0] or POSITION]
+        scale = self.scene.scales[role(end).plan]
         size = abs(self.scene.solved.point(end) - self.scene.solved.point(start))
         return self.on_paper(size / scale.mu if size >= POINT * scale.mu else 0.0)
 
@@ -80,7 +81,7 @@ class Teller:
     def drawn(self, name: str, plan: str) -> str:
         """Return how long a quantity is drawn on a plan: by its scale factor, with the numbers put in."""
         words, scale = self.scene.words, self.scene.scales[plan]
-        if name.startswith("_") and name.lstrip("_") not in self.scene.solved.quantities:
+        if role(name).hidden and role(name).shown not in self.scene.solved.quantities:
             return self.on_paper(size_of(self.scene, name) / scale.mu)
         value, mu = factor(self.scene, name), paper(words, scale)
         length = Product((value, replace(mu, power=-mu.power)))
@@ -106,6 +107,10 @@ class Teller:
             start, end = (self.mark(point) for point in ends_of(self.reading, direction))
             return f"{text} ({end} → {start})"
         return text
+
+    def plain_line(self, direction: str) -> str:
+        """Return a line by its letters alone, such as a guide."""
+        return self.line(direction).removeprefix("∥ ")
 
     def angle(self, direction: str) -> str:
         """Return the angle of the driver as the task gives it; nothing for other lines."""

@@ -17,6 +17,7 @@ from ....scales.errors import InputError
 from ...board import Program, Step
 from ...boards.exact import STATUSES
 from ...laws import dot
+from ...names import role
 from ...quantities import BALANCES
 from ..cycles.cycle import Cycle
 from ..mechanism import ZERO
@@ -101,7 +102,7 @@ class Model:
             raise InputError("chart-no-forces")
         self.balance = found[0]
         self.reactions = tuple(
-            name for name in cycle.quantities if name.startswith("R_") and not name.endswith(("_n", "_t"))
+            name for name in cycle.quantities if role(name).kind == "R" and role(name).part not in ("n", "t")
         )
         self._full = self._values(())
         self.largest = _most(self._full[self.balance])

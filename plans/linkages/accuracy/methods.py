@@ -20,6 +20,7 @@ from ...boards.precision import batch_in
 from ...contest import Kind
 from ...graphs import chords
 from ...laws import inclination
+from ...names import LEVER, role
 from ...quantities import BALANCES
 from ..chain import construct, moving_bodies
 from ..cycles.cycle import Cycle
@@ -31,7 +32,7 @@ from .contours import Pose
 Array = NDArray[Any]
 Values = dict[str, Array]
 Way = Callable[[Array, Sequence[str]], Values]
-PLANNED = tuple(name for name in BALANCES if not name.endswith("_lever"))  # what force plans give
+PLANNED = tuple(name for name in BALANCES if name.part != LEVER)  # what force plans give
 GRID = 72  # places round the cycle at which Newton's method knows where the links lie
 ORDERS = {"V": 1, "omega": 1, "a": 2, "epsilon": 2}  # how many times a quantity is a derivative of a place
 
@@ -51,12 +52,13 @@ def kinds_of(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Kind, ...]:
         kind: tuple(
             name
             for name in known
-            for symbol, _, of in [name.partition("_")]
-            if (symbol == letters[0] and of in points) or (symbol == letters[1] and of in links)
+            for quantity in [role(name)]
+            if not quantity.about + quantity.part
+            and quantity.of in {letters[0]: points, letters[1]: links}.get(quantity.kind, ())
         )
         for kind, letters in rates.items()
     }
-    found["forces"] = tuple(name for name in known if name.startswith("R_") or name in PLANNED)
+    found["forces"] = tuple(name for name in known if role(name).kind == "R" or name in PLANNED)
     return tuple(Kind(kind, names) for kind, names in found.items() if names)
 
 
@@ -171,16 +173,16 @@ class Rivals:
         return {name: np.where(fails, np.nan, values[mark]) for name, mark in marks.items()}
 
     def _mark(self, name: str) -> str:
-        _, _, of = name.partition("_")
+        of = role(name).of
         return self.bodies[int(of)].direction if _turns(name) else of
 
 
 def _order(name: str) -> int:
-    return ORDERS[name.partition("_")[0]]
+    return ORDERS[role(name).kind]
 
 
 def _turns(name: str) -> bool:
-    return name.startswith(("omega", "epsilon"))
+    return role(name).kind in ("omega", "epsilon")
 
 
 def _unwound(directions: Array) -> Array:
@@ -231,7 +233,7 @@ class Newton:
         return found
 
     def _quantity(self, name: str, pose: Pose, rates: Pose, changes: Pose | None) -> Array:
-        contours, (_, _, of) = self._closure.contours, name.partition("_")
+        contours, of = self._closure.contours, role(name).of
         if _turns(name):
             poses = rates if _order(name) == 1 else changes
             assert poses is not None

@@ -11,6 +11,7 @@ import numpy as np
 from ...along import Along
 from ...board import Program
 from ...boards.arrays import ArrayBoard
+from ...names import role
 from ..givens import board_givens
 from ..mechanism import ZERO, Driver, Mechanism
 
@@ -71,7 +72,7 @@ def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
     name = driver.coordinate
     start = float(values.get(name, 0.0))
     sense = values.get(driver.sense, 1.0) if isinstance(driver, Driver) else values.get(driver.speed, 1.0)
-    if name == ZERO or name.startswith("_"):
+    if name == ZERO or role(name).hidden:
         name = OWN
         key = "angle" if turns else "travel"
         mechanism = replace(mechanism, driver=replace(driver, **{key: name}))  # type: ignore[arg-type]

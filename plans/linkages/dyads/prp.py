@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...board import Board
+from ...names import spelled, vector
 from ..guides import Slide, place_slide, running_line, slide_of, under_acceleration, under_velocity
 from ..mechanism import ZERO, Mechanism, Prismatic
 from ..parts import (
@@ -88,8 +89,8 @@ def velocity(board: Board, d: Dyad) -> None:
     board.meet(b, first.mark("velocity"), first.u, second.mark("velocity"), second.u)
     for slide in d.slides:
         if slide.known is not None:
-            board.read(f"V_{slide.own}{slide.under}", slide.mark("velocity"), b)
-    board.read(f"V_{d.B}", "velocity.p", b)
+            board.read(vector("V", slide.own, slide.under), slide.mark("velocity"), b)
+    board.read(vector("V", d.B), "velocity.p", b)
     _others(board, d, "velocity")
 
 
@@ -100,8 +101,8 @@ def acceleration(board: Board, d: Dyad) -> None:
     board.meet(b, ends[0], first.u, ends[1], second.u)
     for slide, end in zip(d.slides, ends, strict=True):
         if slide.known is not None:
-            board.read(f"a_{slide.own}{slide.under}_r", end, b)
-    board.read(f"a_{d.B}", "acceleration.p", b)
+            board.read(vector("a", slide.own, slide.under, "r"), end, b)
+    board.read(vector("a", d.B), "acceleration.p", b)
     _others(board, d, "acceleration")
 
 
@@ -118,19 +119,19 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
 
     The inner reaction is a chord of the plan; the moments of each link about B give the arms of the outer ones.
     """
-    (first, second), plan, index = d.slides, f"forces_{d.name}", d.mechanism.index
+    (first, second), plan, pair = d.slides, spelled("forces", d.name), d.mechanism.pair
     i, j, k, m = first.other, first.link.number, second.link.number, second.other
     board.pole(f"{plan}.0")
     parted = hang(board, plan, [force for force, _ in loads[j]])
     last = hang(board, plan, [force for force, _ in loads[k]], len(loads[j]))
     closing = f"{plan}.{len(loads[j]) + len(loads[k]) + 1}"
     board.meet(closing, last, normal_of(second.u), f"{plan}.0", normal_of(first.u))
-    board.read(f"R_{index(i, j)}", closing, f"{plan}.0")
-    board.read(f"R_{index(m, k)}", last, closing)
-    board.read(f"R_{index(k, j)}", parted, closing)
+    board.read(pair("R", i, j), closing, f"{plan}.0")
+    board.read(pair("R", m, k), last, closing)
+    board.read(pair("R", k, j), parted, closing)
     answer(board, d.mechanism, "R", (i, j), (k, j), (m, k))
     for other, own in ((i, j), (m, k)):
-        moments = moments_about(board, loads[own], own, d.B)
-        board.calc(f"M_{index(other, own)}", "closing_moment", ZERO, *moments, *couples[own])
+        moments = moments_about(board, loads[own], d.B)
+        board.calc(pair("M", other, own), "closing_moment", ZERO, *moments, *couples[own])
         answer(board, d.mechanism, "M", (other, own))
-        board.step("arm", f"h_{index(other, own)}", f"M_{index(other, own)}", f"R_{index(other, own)}")
+        board.step("arm", pair("h", other, own), pair("M", other, own), pair("R", other, own))

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 from ....scales.errors import InputError
 from ...board import Board
+from ...names import Name, mark, spelled, vector
 from ..guides import (
     Slide,
     coriolis,
@@ -57,7 +58,7 @@ class Dyad:
     outer: Slide
 
     @property
-    def under(self) -> str:
+    def under(self) -> Name:
         """Letter of link 3's point under A."""
         return self.inner.under
 
@@ -129,29 +130,29 @@ def _beside(board: Board, d: Dyad) -> str:
 
 def velocity(board: Board, d: Dyad) -> None:
     """Through a2 the parallel to u23, through a4 (p when the guide stands) the parallel to u34: a3."""
-    a2, a3, beneath = d.mechanism.mark("velocity", d.A), f"velocity.{d.under}", d.beneath
+    a2, a3, beneath = d.mechanism.mark("velocity", d.A), mark("velocity", d.under), d.beneath
     under_velocity(board, d.mechanism, beneath)
     board.meet(a3, a2, d.inner.u, beneath.mark("velocity"), d.outer.u)
-    board.read(f"V_{d.under}{d.inner.own}", a2, a3)
+    board.read(vector("V", d.under, d.inner.own), a2, a3)
     if beneath.known is not None:
-        board.read(f"V_{d.under}{beneath.under}", beneath.mark("velocity"), a3)
-    board.read(f"V_{d.under}", "velocity.p", a3)
+        board.read(vector("V", d.under, beneath.under), beneath.mark("velocity"), a3)
+    board.read(vector("V", d.under), "velocity.p", a3)
     _others(board, d, "velocity")
 
 
 def acceleration(board: Board, d: Dyad) -> None:
     """From a2' and a4' the accelerations of Coriolis, through their ends the parallels to the guides: a3'."""
-    a2, a3, beneath = d.mechanism.mark("acceleration", d.A), f"acceleration.{d.under}", d.beneath
+    a2, a3, beneath = d.mechanism.mark("acceleration", d.A), mark("acceleration", d.under), d.beneath
     omega = d.outer.body.omega
     ends = (
         coriolis(board, omega, d.under, d.inner.own, a2) if omega else a2,
         under_acceleration(board, d.mechanism, beneath),
     )
     board.meet(a3, ends[0], d.inner.u, ends[1], d.outer.u)
-    board.read(f"a_{d.under}{d.inner.own}_r", ends[0], a3)
+    board.read(vector("a", d.under, d.inner.own, "r"), ends[0], a3)
     if beneath.known is not None:
-        board.read(f"a_{d.under}{beneath.under}_r", ends[1], a3)
-    board.read(f"a_{d.under}", "acceleration.p", a3)
+        board.read(vector("a", d.under, beneath.under, "r"), ends[1], a3)
+    board.read(vector("a", d.under), "acceleration.p", a3)
     _others(board, d, "acceleration")
 
 
@@ -173,24 +174,22 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     Moments about A give the arms of the reactions of the guides, of link 2 first.
     """
     i, j, k, m = d.before, d.inner.link.number, d.outer.link.number, d.outer.other
-    plan, own, index = f"forces_{k}", f"forces_{j}", d.mechanism.index
+    plan, own, pair = spelled("forces", k), spelled("forces", j), d.mechanism.pair
     board.pole(f"{plan}.0")
     last, closing = hang(board, plan, [force for force, _ in loads[k]]), f"{plan}.{len(loads[k]) + 1}"
     board.meet(closing, last, normal_of(d.outer.u), f"{plan}.0", normal_of(d.inner.u))
-    board.read(f"R_{index(j, k)}", closing, f"{plan}.0")
-    board.read(f"R_{index(m, k)}", last, closing)
+    board.read(pair("R", j, k), closing, f"{plan}.0")
+    board.read(pair("R", m, k), last, closing)
     answer(board, d.mechanism, "R", (j, k))
 
     board.pole(f"{own}.0")
-    board.read(
-        f"R_{index(i, j)}", hang(board, own, [f"R_{index(k, j)}", *(force for force, _ in loads[j])]), f"{own}.0"
-    )
+    board.read(pair("R", i, j), hang(board, own, [pair("R", k, j), *(force for force, _ in loads[j])]), f"{own}.0")
     answer(board, d.mechanism, "R", (i, j), (m, k))
 
-    board.calc(f"M_{index(k, j)}", "closing_moment", ZERO, *moments_about(board, loads[j], j, d.A), *couples[j])
+    board.calc(pair("M", k, j), "closing_moment", ZERO, *moments_about(board, loads[j], d.A), *couples[j])
     answer(board, d.mechanism, "M", (k, j))
-    moments = moments_about(board, loads[k], k, d.A)
-    board.calc(f"M_{index(m, k)}", "closing_moment", f"M_{index(j, k)}", *moments, *couples[k])
+    moments = moments_about(board, loads[k], d.A)
+    board.calc(pair("M", m, k), "closing_moment", pair("M", j, k), *moments, *couples[k])
     answer(board, d.mechanism, "M", (m, k))
-    board.step("arm", f"h_{index(k, j)}", f"M_{index(k, j)}", f"R_{index(k, j)}")
-    board.step("arm", f"h_{index(m, k)}", f"M_{index(m, k)}", f"R_{index(m, k)}")
+    board.step("arm", pair("h", k, j), pair("M", k, j), pair("R", k, j))
+    board.step("arm", pair("h", m, k), pair("M", m, k), pair("R", m, k))

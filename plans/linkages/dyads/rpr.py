@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...board import Board
+from ...names import NORMAL, Name, between, mark, rate, spelled, vector
 from ..guides import coriolis, pin_offset
 from ..mechanism import ZERO, Link, Mechanism, Prismatic
 from ..parts import (
@@ -48,22 +49,32 @@ class Dyad:
     before: tuple[int, int]  # the links that carry A and C
 
     @property
-    def CA(self) -> str:
-        """The line of the pins."""
-        return self.C + self.A
+    def length(self) -> Name:
+        """Name of the distance of the pins, C and A."""
+        return between("l", self.C, self.A)
 
     @property
-    def u(self) -> str:
+    def e(self) -> Name:
+        """Name of the direction from C to A."""
+        return between("e", self.C, self.A)
+
+    @property
+    def n(self) -> Name:
+        """Name of the normal to it."""
+        return between("n", self.C, self.A)
+
+    @property
+    def u(self) -> Name:
         """Name of the guide's direction."""
-        return f"u_{self.mechanism.index(self.slider.number, self.guide.number)}"
+        return self.mechanism.pair("u", self.slider.number, self.guide.number)
 
     @property
-    def own(self) -> str:
+    def own(self) -> Name:
         """Letter of A as a point of the slider."""
         return self.mechanism.letter_on(self.A, self.slider.number)
 
     @property
-    def under(self) -> str:
+    def under(self) -> Name:
         """Letter of the guide link's point under A."""
         return self.mechanism.letter_on(self.A, self.guide.number)
 
@@ -80,7 +91,7 @@ class Dyad:
     def _body(self, link: Link, pin: str, slope: str) -> Body:
         simple = link.points[pin] == (ZERO, ZERO) and slope == ZERO
         local = None if simple else f"_g_{link.number}"
-        return Body(link, pin, self.u, local, f"omega_{link.number}", f"epsilon_{link.number}")
+        return Body(link, pin, self.u, local, rate("omega", link.number), rate("epsilon", link.number))
 
     def passed(self) -> tuple[Passed, Passed]:
         """Reactions on the links before."""
@@ -104,9 +115,9 @@ def position(board: Board, d: Dyad) -> None:
     offset = pin_offset(board, d.pair, d.slider, d.A, d.guide, d.C)
     board.tangent(d.u, d.C, d.A, offset, d.pair.branch or "one", size_of(board, d.mechanism))
     board.normal(normal_of(d.u), d.u)
-    board.measure(f"l_{d.CA}", d.C, d.A)
-    board.direction(f"e_{d.CA}", d.C, d.A, f"l_{d.CA}")
-    board.normal(f"n_{d.CA}", f"e_{d.CA}")
+    board.measure(d.length, d.C, d.A)
+    board.direction(d.e, d.C, d.A, d.length)
+    board.normal(d.n, d.e)
     settle(board, slider)
     settle(board, guide, d.pair.direction)
     place_points(board, guide, (d.C,))
@@ -116,30 +127,34 @@ def position(board: Board, d: Dyad) -> None:
 def velocity(board: Board, d: Dyad) -> None:
     """Through c the normal to CA (not to u), through a the parallel to u: a3. Other points turn about the pins."""
     c, a = (d.mechanism.mark("velocity", pin) for pin in (d.C, d.A))
-    a3 = f"velocity.{d.under}"
-    board.meet(a3, c, f"n_{d.CA}", a, d.u)
-    board.read(f"V_{d.under}{d.C}", c, a3)
-    board.read(f"V_{d.under}{d.own}", a, a3)
-    board.read(f"V_{d.under}", "velocity.p", a3)
-    board.calc(f"omega_{d.guide.number}", "turning", f"V_{d.under}{d.C}", f"n_{d.CA}", f"l_{d.CA}")
-    board.calc(f"omega_{d.slider.number}", "same_turning", f"omega_{d.guide.number}")
+    a3 = mark("velocity", d.under)
+    board.meet(a3, c, d.n, a, d.u)
+    board.read(vector("V", d.under, d.C), c, a3)
+    board.read(vector("V", d.under, d.own), a, a3)
+    board.read(vector("V", d.under), "velocity.p", a3)
+    board.calc(rate("omega", d.guide.number), "turning", vector("V", d.under, d.C), d.n, d.length)
+    board.calc(rate("omega", d.slider.number), "same_turning", rate("omega", d.guide.number))
     _others(board, d, "velocity")
 
 
 def acceleration(board: Board, d: Dyad) -> None:
     """From c' the normal part, then the normal to CA; from a' that of Coriolis, then the parallel to u: a3'."""
     c, a = (d.mechanism.mark("acceleration", pin) for pin in (d.C, d.A))
-    a3, n, part = f"acceleration.{d.under}", f"acceleration.n_{d.under}{d.C}", f"a_{d.under}{d.C}_n"
-    board.calc(f"_{part}", "normal_part", f"V_{d.under}{d.C}", f"l_{d.CA}")
-    board.back(n, c, f"e_{d.CA}", f"_{part}")
+    a3, n, part = (
+        mark("acceleration", d.under),
+        mark("acceleration", d.under, NORMAL, d.C),
+        vector("a", d.under, d.C, "n"),
+    )
+    board.calc(part.size, "normal_part", vector("V", d.under, d.C), d.length)
+    board.back(n, c, d.e, part.size)
     board.read(part, c, n)
-    k = coriolis(board, f"omega_{d.guide.number}", d.under, d.own, a)
-    board.meet(a3, n, f"n_{d.CA}", k, d.u)
-    board.read(f"a_{d.under}{d.C}_t", n, a3)
-    board.read(f"a_{d.under}{d.own}_r", k, a3)
-    board.read(f"a_{d.under}", "acceleration.p", a3)
-    board.calc(f"epsilon_{d.guide.number}", "turning", f"a_{d.under}{d.C}_t", f"n_{d.CA}", f"l_{d.CA}")
-    board.calc(f"epsilon_{d.slider.number}", "same_turning", f"epsilon_{d.guide.number}")
+    k = coriolis(board, rate("omega", d.guide.number), d.under, d.own, a)
+    board.meet(a3, n, d.n, k, d.u)
+    board.read(vector("a", d.under, d.C, "t"), n, a3)
+    board.read(vector("a", d.under, d.own, "r"), k, a3)
+    board.read(vector("a", d.under), "acceleration.p", a3)
+    board.calc(rate("epsilon", d.guide.number), "turning", vector("a", d.under, d.C, "t"), d.n, d.length)
+    board.calc(rate("epsilon", d.slider.number), "same_turning", rate("epsilon", d.guide.number))
     _others(board, d, "acceleration")
 
 
@@ -156,28 +171,28 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     parallel to CA, through its end the normal to u. R_43 closes the chain of the group.
     """
     (i, m), j, k = d.before, d.slider.number, d.guide.number
-    index = d.mechanism.index
-    moments = [m for n in (j, k) for m in moments_about(board, loads[n], n, d.C)]
+    pair = d.mechanism.pair
+    moments = [m for n in (j, k) for m in moments_about(board, loads[n], d.C)]
     # R^t stands at A and turns about C in the sense in which it points along the normal: it is laid off backwards
-    board.calc(f"_R_{index(i, j)}_t", "moment_equation", f"l_{d.CA}", *moments, *couples[j], *couples[k])
+    board.calc(pair("R", i, j, "t").size, "moment_equation", d.length, *moments, *couples[j], *couples[k])
 
-    own = f"forces_{j}"
+    own = spelled("forces", j)
     board.pole(f"{own}.0")
-    board.back(f"{own}.1", f"{own}.0", f"n_{d.CA}", f"_R_{index(i, j)}_t")
-    board.read(f"R_{index(i, j)}_t", f"{own}.0", f"{own}.1")
+    board.back(f"{own}.1", f"{own}.0", d.n, pair("R", i, j, "t").size)
+    board.read(pair("R", i, j, "t"), f"{own}.0", f"{own}.1")
     last, closing = hang(board, own, [force for force, _ in loads[j]], 1), f"{own}.{len(loads[j]) + 2}"
-    board.meet(closing, last, normal_of(d.u), f"{own}.0", f"e_{d.CA}")
-    board.read(f"R_{index(k, j)}", last, closing)
-    board.read(f"R_{index(i, j)}_n", closing, f"{own}.0")
-    board.read(f"R_{index(i, j)}", closing, f"{own}.1")
+    board.meet(closing, last, normal_of(d.u), f"{own}.0", d.e)
+    board.read(pair("R", k, j), last, closing)
+    board.read(pair("R", i, j, "n"), closing, f"{own}.0")
+    board.read(pair("R", i, j), closing, f"{own}.1")
 
-    plan = f"forces_{d.name}"
+    plan = spelled("forces", d.name)
     board.pole(f"{plan}.0")
-    hung = [f"R_{index(i, j)}", *(force for n in (j, k) for force, _ in loads[n])]
-    board.read(f"R_{index(m, k)}", hang(board, plan, hung), f"{plan}.0")
+    hung = [pair("R", i, j), *(force for n in (j, k) for force, _ in loads[n])]
+    board.read(pair("R", m, k), hang(board, plan, hung), f"{plan}.0")
     answer(board, d.mechanism, "R", (i, j), (k, j), (m, k))
 
     # the guide's reaction stands where it balances the moments of the slider's loads about A
-    about_A = moments_about(board, loads[j], j, d.A, f"h_{{0}}_{d.A}")
-    board.calc(f"M_{index(k, j)}", "closing_moment", ZERO, *about_A, *couples[j])
-    board.step("arm", f"h_{index(k, j)}", f"M_{index(k, j)}", f"R_{index(k, j)}")
+    about_A = moments_about(board, loads[j], d.A, d.A)
+    board.calc(pair("M", k, j), "closing_moment", ZERO, *about_A, *couples[j])
+    board.step("arm", pair("h", k, j), pair("M", k, j), pair("R", k, j))

@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...board import Board
+from ...names import NORMAL, mark, spelled, vector
 from ..guides import Slide, place_slide, running_line, slide_of, under_acceleration, under_velocity
 from ..mechanism import ZERO, Link, Mechanism, Prismatic
 from ..parts import (
@@ -26,6 +27,7 @@ from ..parts import (
     moments_about,
     move_link,
     move_points,
+    normal_of,
     passed_on,
     place_link,
     turn_with,
@@ -53,11 +55,6 @@ class Dyad:
         return Span(self.rod, self.A, self.B)
 
     @property
-    def AB(self) -> str:
-        """The rod by its ends."""
-        return self.span.name
-
-    @property
     def length(self) -> str:
         """Name of the rod's length."""
         return self.span.length
@@ -75,7 +72,7 @@ class Dyad:
     @property
     def bodies(self) -> tuple[Body, Body]:
         """The links for those attached to them."""
-        return self.span.body(f"omega_{self.rod.number}", f"epsilon_{self.rod.number}"), self.slide.body
+        return self.span.body(self.span.omega, self.span.epsilon), self.slide.body
 
     def passed(self) -> tuple[Passed, Passed]:
         """Reactions on the links before; that on the guide is moved to B, with a couple."""
@@ -115,12 +112,12 @@ def velocity(board: Board, d: Dyad) -> None:
     a, b = d.mechanism.mark("velocity", d.A), f"velocity.{d.B}"
     under_velocity(board, d.mechanism, d.slide)
     board.meet(b, a, d.span.n, d.slide.mark("velocity"), d.u)
-    board.read(f"V_{d.B}{d.A}", a, b)
+    board.read(vector("V", d.B, d.A), a, b)
     if d.slide.known is not None:
-        board.read(f"V_{d.slide.own}{d.slide.under}", d.slide.mark("velocity"), b)
-    board.read(f"V_{d.B}", "velocity.p", b)
+        board.read(vector("V", d.slide.own, d.slide.under), d.slide.mark("velocity"), b)
+    board.read(vector("V", d.B), "velocity.p", b)
     _others(board, d, "velocity")
-    board.calc(f"omega_{d.rod.number}", "turning", f"V_{d.B}{d.A}", d.span.n, d.length)
+    board.calc(d.span.omega, "turning", vector("V", d.B, d.A), d.span.n, d.length)
 
 
 def acceleration(board: Board, d: Dyad) -> None:
@@ -128,20 +125,20 @@ def acceleration(board: Board, d: Dyad) -> None:
 
     It runs through the pole when the guide stands, otherwise through the end of the acceleration of Coriolis.
     """
-    a, b, n = d.mechanism.mark("acceleration", d.A), f"acceleration.{d.B}", f"acceleration.n_{d.B}{d.A}"
-    part = f"a_{d.B}{d.A}_n"
-    board.calc(f"_{part}", "normal_part", f"V_{d.B}{d.A}", d.length)
-    board.back(n, a, d.span.e, f"_{part}")
+    a, b, n = d.mechanism.mark("acceleration", d.A), f"acceleration.{d.B}", mark("acceleration", d.B, NORMAL, d.A)
+    part = vector("a", d.B, d.A, "n")
+    board.calc(part.size, "normal_part", vector("V", d.B, d.A), d.length)
+    board.back(n, a, d.span.e, part.size)
     board.read(part, a, n)
     k = under_acceleration(board, d.mechanism, d.slide)
     board.meet(b, n, d.span.n, k, d.u)
-    board.read(f"a_{d.B}{d.A}_t", n, b)
-    board.read(f"a_{d.B}{d.A}", a, b)
+    board.read(vector("a", d.B, d.A, "t"), n, b)
+    board.read(vector("a", d.B, d.A), a, b)
     if d.slide.known is not None:
-        board.read(f"a_{d.slide.own}{d.slide.under}_r", k, b)
-    board.read(f"a_{d.B}", "acceleration.p", b)
+        board.read(vector("a", d.slide.own, d.slide.under, "r"), k, b)
+    board.read(vector("a", d.B), "acceleration.p", b)
     _others(board, d, "acceleration")
-    board.calc(f"epsilon_{d.rod.number}", "turning", f"a_{d.B}{d.A}_t", d.span.n, d.length)
+    board.calc(d.span.epsilon, "turning", vector("a", d.B, d.A, "t"), d.span.n, d.length)
 
 
 def _others(board: Board, d: Dyad, plan: str) -> None:
@@ -159,30 +156,31 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     beginning the parallel to AB, through its end the normal to the guide.
     """
     i, j, k, m = d.before, d.rod.number, d.slider.number, d.slide.other
-    index = d.mechanism.index
-    moments = moments_about(board, loads[j], j, d.B)
+    pair = d.mechanism.pair
+    moments = moments_about(board, loads[j], d.B)
     # R^t stands at A on the arm l_AB and turns about B against the sense in which it points along the normal
-    board.calc(f"_R_{index(i, j)}_t", "moment_equation", d.length, *moments, *couples[j])
+    board.calc(pair("R", i, j, "t").size, "moment_equation", d.length, *moments, *couples[j])
 
-    plan = f"forces_{d.name}"
+    plan = spelled("forces", d.name)
     hung = [force for force, _ in (*loads[k], *loads[j])]
     board.pole(f"{plan}.0")
-    board.lay(f"{plan}.1", f"{plan}.0", d.span.n, f"_R_{index(i, j)}_t")
-    board.read(f"R_{index(i, j)}_t", f"{plan}.0", f"{plan}.1")
+    board.lay(f"{plan}.1", f"{plan}.0", d.span.n, pair("R", i, j, "t").size)
+    board.read(pair("R", i, j, "t"), f"{plan}.0", f"{plan}.1")
     last, closing = hang(board, plan, hung, 1), f"{plan}.{len(hung) + 2}"
-    board.meet(closing, last, f"n_{d.u}", f"{plan}.0", d.span.e)
-    board.read(f"R_{index(m, k)}", last, closing)
-    board.read(f"R_{index(i, j)}_n", closing, f"{plan}.0")
-    board.read(f"R_{index(i, j)}", closing, f"{plan}.1")
+    board.meet(closing, last, normal_of(d.u), f"{plan}.0", d.span.e)
+    board.read(pair("R", m, k), last, closing)
+    board.read(pair("R", i, j, "n"), closing, f"{plan}.0")
+    board.read(pair("R", i, j), closing, f"{plan}.1")
 
-    own = f"forces_{j}"
+    own = spelled("forces", j)
     board.pole(f"{own}.0")
-    board.chain(f"{own}.1", f"{own}.0", f"R_{index(i, j)}")
-    board.read(f"R_{index(k, j)}", hang(board, own, [force for force, _ in loads[j]], 1), f"{own}.0")
+    board.chain(f"{own}.1", f"{own}.0", pair("R", i, j))
+    board.read(pair("R", k, j), hang(board, own, [force for force, _ in loads[j]], 1), f"{own}.0")
     answer(board, d.mechanism, "R", (i, j), (k, j), (m, k))
 
     # the guide's reaction stands where it balances the moments of the slider's loads about B
-    board.calc(f"_M_{k}", "sum", ZERO, *moments_about(board, loads[k], k, d.B), *couples[k])
-    board.calc(f"M_{index(m, k)}", "opposite", f"_M_{k}")
-    board.step("arm", f"h_{index(m, k)}", f"M_{index(m, k)}", f"R_{index(m, k)}")
+    own_moment = spelled("M", k, links=(k,)).size
+    board.calc(own_moment, "sum", ZERO, *moments_about(board, loads[k], d.B), *couples[k])
+    board.calc(pair("M", m, k), "opposite", own_moment)
+    board.step("arm", pair("h", m, k), pair("M", m, k), pair("R", m, k))
     answer(board, d.mechanism, "M", (m, k))

@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...board import Board
+from ...names import NORMAL, Name, between, mark, spelled, vector
 from ..mechanism import Link, Mechanism, Revolute
 from ..parts import (
     Bodies,
@@ -51,18 +52,18 @@ class Dyad:
     @property
     def bodies(self) -> tuple[Body, Body]:
         """The links for those attached to them."""
-        first, second = (span.body(f"omega_{span.link.number}", f"epsilon_{span.link.number}") for span in self.spans)
+        first, second = (span.body(span.omega, span.epsilon) for span in self.spans)
         return first, second
 
-    def about(self, span: Span) -> str:
-        """Letters of B's motion about the start of a link: `BA`, or `B` alone about a pivot of the frame, absolute.
+    def about(self, span: Span) -> tuple[str, str]:
+        """Letters of B's motion about the start of a link: B and A, or B alone about a pivot of the frame, absolute.
 
         Where both outer pairs are such pivots, the group stands still, and only the second is left out.
         """
         absolute = span.start in self.mechanism.frame_points and (
             span == self.spans[1] or self.C not in self.mechanism.frame_points
         )
-        return self.B if absolute else self.B + span.start
+        return self.B, "" if absolute else span.start
 
     def passed(self) -> tuple[Passed, ...]:
         """Reactions on the links before."""
@@ -96,35 +97,35 @@ def velocity(board: Board, d: Dyad) -> None:
     AB, CB = d.spans
     a, c, b = (d.mechanism.mark("velocity", joint) for joint in (d.A, d.C, d.B))
     board.meet(b, a, AB.n, c, CB.n)
-    board.read(f"V_{d.about(AB)}", a, b)
-    board.read(f"V_{d.about(CB)}", c, b)
-    board.read(f"V_{d.B}", "velocity.p", b)
+    board.read(vector("V", *d.about(AB)), a, b)
+    board.read(vector("V", *d.about(CB)), c, b)
+    board.read(vector("V", d.B), "velocity.p", b)
     for span in d.spans:
         move_link(board, d.mechanism, span, "velocity")
     for span in d.spans:
-        board.calc(f"omega_{span.link.number}", "turning", f"V_{d.about(span)}", span.n, span.length)
+        board.calc(span.omega, "turning", vector("V", *d.about(span)), span.n, span.length)
 
 
 def acceleration(board: Board, d: Dyad) -> None:
     """From a' and c' the normal parts, through their ends the normals to AB and CB: b'."""
     AB, CB = d.spans
-    b, ends = f"acceleration.{d.B}", []
+    b, ends = mark("acceleration", d.B), []
     for span in d.spans:
-        start, end = d.mechanism.mark("acceleration", span.start), f"acceleration.n_{d.B}{span.start}"
-        part = f"a_{d.about(span)}_n"
-        board.calc(f"_{part}", "normal_part", f"V_{d.about(span)}", span.length)
-        board.back(end, start, span.e, f"_{part}")
+        start, end = d.mechanism.mark("acceleration", span.start), mark("acceleration", d.B, NORMAL, span.start)
+        part = vector("a", *d.about(span), "n")
+        board.calc(part.size, "normal_part", vector("V", *d.about(span)), span.length)
+        board.back(end, start, span.e, part.size)
         board.read(part, start, end)
         ends.append(end)
     board.meet(b, ends[0], AB.n, ends[1], CB.n)
     for span, end in zip(d.spans, ends, strict=True):
-        board.read(f"a_{d.about(span)}_t", end, b)
-        board.read(f"a_{d.about(span)}", d.mechanism.mark("acceleration", span.start), b)
-    board.read(f"a_{d.B}", "acceleration.p", b)
+        board.read(vector("a", *d.about(span), "t"), end, b)
+        board.read(vector("a", *d.about(span)), d.mechanism.mark("acceleration", span.start), b)
+    board.read(vector("a", d.B), "acceleration.p", b)
     for span in d.spans:
         move_link(board, d.mechanism, span, "acceleration")
     for span in d.spans:
-        board.calc(f"epsilon_{span.link.number}", "turning", f"a_{d.about(span)}_t", span.n, span.length)
+        board.calc(span.epsilon, "turning", vector("a", *d.about(span), "t"), span.n, span.length)
 
 
 def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
@@ -133,35 +134,35 @@ def forces(board: Board, d: Dyad, loads: Forces, couples: Couples) -> None:
     The tangential parts follow from the moments of each link about B; the inner reaction is a chord of the plan. Where
     AB and CB are nearly parallel, moments of the whole group give a line that meets one of them better.
     """
-    plan, index = f"forces_{d.name}", d.mechanism.index
+    plan, pair = spelled("forces", d.name), d.mechanism.pair
     (i, m), (j, k) = d.before, (link.number for link in d.links)
     for span, before in zip(d.spans, d.before, strict=True):
         number = span.link.number
-        moments = moments_about(board, loads[number], number, d.B)
+        moments = moments_about(board, loads[number], d.B)
         # R^t stands on the arm of the link and turns about B against the sense in which it points along the normal
-        board.calc(f"_R_{index(before, number)}_t", "moment_equation", span.length, *moments, *couples[number])
+        board.calc(pair("R", before, number, "t").size, "moment_equation", span.length, *moments, *couples[number])
 
     AB, CB = d.spans
     part = _across(board, d, loads, couples)
     board.pole(f"{plan}.0")
-    board.lay(f"{plan}.1", f"{plan}.0", AB.n, f"_R_{index(i, j)}_t")
-    board.read(f"R_{index(i, j)}_t", f"{plan}.0", f"{plan}.1")
+    board.lay(f"{plan}.1", f"{plan}.0", AB.n, pair("R", i, j, "t").size)
+    board.read(pair("R", i, j, "t"), f"{plan}.0", f"{plan}.1")
     count = len(loads[j]) + len(loads[k]) + 1
     parted = hang(board, plan, [force for force, _ in loads[j]], 1)
     chained = hang(board, plan, [force for force, _ in loads[k]], 1 + len(loads[j]))
-    last, closing = f"{plan}.{count + 1}", f"{plan}.{count + 2}"
-    board.lay(last, chained, CB.n, f"_R_{index(m, k)}_t")
-    board.read(f"R_{index(m, k)}_t", chained, last)
-    _close(board, d, (chained, last, closing), part)
-    board.read(f"R_{index(i, j)}_n", closing, f"{plan}.0")
-    board.read(f"R_{index(i, j)}", closing, f"{plan}.1")
-    board.read(f"R_{index(m, k)}_n", last, closing)
-    board.read(f"R_{index(m, k)}", chained, closing)
-    board.read(f"R_{index(k, j)}", parted, closing)
+    last, closing, beside = (f"{plan}.{count + more}" for more in (1, 2, 3))
+    board.lay(last, chained, CB.n, pair("R", m, k, "t").size)
+    board.read(pair("R", m, k, "t"), chained, last)
+    _close(board, d, (chained, last, closing, beside), part)
+    board.read(pair("R", i, j, "n"), closing, f"{plan}.0")
+    board.read(pair("R", i, j), closing, f"{plan}.1")
+    board.read(pair("R", m, k, "n"), last, closing)
+    board.read(pair("R", m, k), chained, closing)
+    board.read(pair("R", k, j), parted, closing)
     answer(board, d.mechanism, "R", (i, j), (k, j), (m, k))
 
 
-def _across(board: Board, d: Dyad, loads: Forces, couples: Couples) -> str | None:
+def _across(board: Board, d: Dyad, loads: Forces, couples: Couples) -> Name | None:
     """Find the part of an outer reaction normal to CA from moments of the whole group about the other outer pair.
 
     Returns the name of the part, None where no such moments are wanted.
@@ -170,33 +171,32 @@ def _across(board: Board, d: Dyad, loads: Forces, couples: Couples) -> str | Non
     if centre is None:
         return None
     joint, span, before = (d.A, d.spans[0], d.before[0]) if centre == d.C else (d.C, d.spans[1], d.before[1])
-    length = f"_l_{centre}{joint}"
+    length, e, n = between("l", centre, joint).size, spelled("e", d.name), spelled("n", d.name)
     board.measure(length, centre, joint)
-    board.direction(f"e_{d.name}", centre, joint, length)
-    board.normal(f"n_{d.name}", f"e_{d.name}")
+    board.direction(e, centre, joint, length)
+    board.normal(n, e)
     numbers = [link.number for link in d.links]
-    moments = [m for n in numbers for m in moments_about(board, loads[n], n, centre, f"h_{{0}}_{centre}")]
-    part = f"R_{d.mechanism.index(before, span.link.number)}_m"
-    board.calc(f"_{part}", "moment_equation", length, *moments, *(c for n in numbers for c in couples[n]))
+    moments = [m for n in numbers for m in moments_about(board, loads[n], centre, centre)]
+    part = d.mechanism.pair("R", before, span.link.number, "m")
+    board.calc(part.size, "moment_equation", length, *moments, *(c for n in numbers for c in couples[n]))
     return part
 
 
-def _close(board: Board, d: Dyad, marks: tuple[str, str, str], part: str | None) -> None:
+def _close(board: Board, d: Dyad, marks: tuple[str, str, str, str], part: Name | None) -> None:
     """Mark where two lines close the chain: the parallels to AB and CB, or one of them and that to CA.
 
-    `marks` are the ends of the chained loads, of the whole chain, and the closing point.
+    `marks` are the ends of the chained loads, of the whole chain, the closing point, and one beside it.
     """
-    (AB, CB), (chained, last, closing), plan = d.spans, marks, f"forces_{d.name}"
+    (AB, CB), (chained, last, closing, beside), plan = d.spans, marks, spelled("forces", d.name)
     if part is None:
         board.meet(closing, last, CB.e, f"{plan}.0", AB.e)
         return
-    beside = f"{plan}.{int(closing.rpartition('.')[2]) + 1}"
     # the part turns about the centre in the sense in which it points along the normal; it is laid off at the loads
     if dict(d.mechanism.centres)[d.name] == d.C:
-        board.lay(beside, f"{plan}.1", f"n_{d.name}", f"_{part}")
+        board.lay(beside, f"{plan}.1", spelled("n", d.name), part.size)
         board.read(part, beside, f"{plan}.1")
-        board.meet(closing, beside, f"e_{d.name}", f"{plan}.0", AB.e)
+        board.meet(closing, beside, spelled("e", d.name), f"{plan}.0", AB.e)
     else:
-        board.back(beside, chained, f"n_{d.name}", f"_{part}")
+        board.back(beside, chained, spelled("n", d.name), part.size)
         board.read(part, chained, beside)
-        board.meet(closing, last, CB.e, beside, f"e_{d.name}")
+        board.meet(closing, last, CB.e, beside, spelled("e", d.name))

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ...board import Board
+from ...names import NORMAL, mark, vector
 from ..guides import Slide, place_slide, running_line, under_acceleration, under_velocity
 from ..mechanism import ZERO, Mechanism
 from ..parts import (
@@ -76,8 +77,8 @@ class Leg(Protocol):
     def start(self, plan: str) -> str:
         """Return the mark on a plan of velocities from which the joint's relative motion is drawn."""
 
-    def about(self, point: str) -> str:
-        """Letters of a point's motion relative to that mark, or the point's alone where the motion is absolute."""
+    def about(self, point: str) -> tuple[str, str]:
+        """Letters of a point's motion and of that mark, or the point's alone where the motion is absolute."""
 
     def begin_velocity(self, board: Board) -> None:
         """Mark what the plan of velocities starts from."""
@@ -131,7 +132,7 @@ class Hinged:
     @property
     def body(self) -> Body:
         """Return the leg for links attached to it."""
-        return self.span.body(f"omega_{self.number}", f"epsilon_{self.number}")
+        return self.span.body(self.span.omega, self.span.epsilon)
 
     @property
     def spans(self) -> tuple[Span, ...]:
@@ -151,9 +152,9 @@ class Hinged:
         """Return the mark of the outer joint."""
         return self.mechanism.mark(plan, self.end)
 
-    def about(self, point: str) -> str:
-        """Return `BA`, or `B` alone about a pivot of the frame."""
-        return point if self.end in self.mechanism.frame_points else point + self.end
+    def about(self, point: str) -> tuple[str, str]:
+        """Return B and A, or B alone about a pivot of the frame."""
+        return point, "" if self.end in self.mechanism.frame_points else self.end
 
     def begin_velocity(self, board: Board) -> None:
         """Do nothing: the outer joint is marked."""
@@ -161,25 +162,25 @@ class Hinged:
     def finish_velocity(self, board: Board) -> None:
         """Read the velocity of the joint about the outer one; other points by similarity; omega."""
         about = self.about(self.joint)
-        board.read(f"V_{about}", self.start("velocity"), f"velocity.{self.joint}")
+        board.read(vector("V", *about), self.start("velocity"), f"velocity.{self.joint}")
         move_link(board, self.mechanism, self.span, "velocity")
-        board.calc(f"omega_{self.number}", "turning", f"V_{about}", self.span.n, self.span.length)
+        board.calc(self.span.omega, "turning", vector("V", *about), self.span.n, self.span.length)
 
     def begin_acceleration(self, board: Board) -> str:
         """Lay off the normal part towards the outer joint."""
-        part, end = f"a_{self.about(self.joint)}_n", f"acceleration.n_{self.joint}{self.end}"
-        board.calc(f"_{part}", "normal_part", f"V_{self.about(self.joint)}", self.span.length)
-        board.back(end, self.start("acceleration"), self.span.e, f"_{part}")
+        part, end = vector("a", *self.about(self.joint), "n"), mark("acceleration", self.joint, NORMAL, self.end)
+        board.calc(part.size, "normal_part", vector("V", *self.about(self.joint)), self.span.length)
+        board.back(end, self.start("acceleration"), self.span.e, part.size)
         board.read(part, self.start("acceleration"), end)
         return end
 
     def finish_acceleration(self, board: Board, end: str) -> None:
         """Read the tangential part and the whole; other points by similarity; epsilon."""
         about, joint = self.about(self.joint), f"acceleration.{self.joint}"
-        board.read(f"a_{about}_t", end, joint)
-        board.read(f"a_{about}", self.start("acceleration"), joint)
+        board.read(vector("a", *about, "t"), end, joint)
+        board.read(vector("a", *about), self.start("acceleration"), joint)
         move_link(board, self.mechanism, self.span, "acceleration")
-        board.calc(f"epsilon_{self.number}", "turning", f"a_{about}_t", self.span.n, self.span.length)
+        board.calc(self.span.epsilon, "turning", vector("a", *about, "t"), self.span.n, self.span.length)
 
     def passed(self) -> Passed:
         """Return the reaction on the link before, at the outer joint."""
@@ -245,9 +246,9 @@ class Sliding:
         """Return the mark of the guide's point under the pin."""
         return self.slide.mark(plan)
 
-    def about(self, point: str) -> str:
-        """Return `BB4`, or `B` alone when the guide stands."""
-        return point if self.slide.known is None else point + self.slide.under
+    def about(self, point: str) -> tuple[str, str]:
+        """Return B and B4, or B alone when the guide stands."""
+        return point, "" if self.slide.known is None else self.slide.under
 
     def begin_velocity(self, board: Board) -> None:
         """Mark the velocity of the guide's point under the pin."""
@@ -256,7 +257,7 @@ class Sliding:
     def finish_velocity(self, board: Board) -> None:
         """Read the sliding; the slider turns like the guide."""
         if self.slide.known is not None:
-            pair = f"V_{self.slide.own}{self.slide.under}"
+            pair = vector("V", self.slide.own, self.slide.under)
             board.read(pair, self.start("velocity"), f"velocity.{self.joint}")
         self._others(board, "velocity")
 
@@ -267,7 +268,7 @@ class Sliding:
     def finish_acceleration(self, board: Board, end: str) -> None:
         """Read the relative part; the slider turns like the guide."""
         if self.slide.known is not None:
-            board.read(f"a_{self.slide.own}{self.slide.under}_r", end, f"acceleration.{self.joint}")
+            board.read(vector("a", self.slide.own, self.slide.under, "r"), end, f"acceleration.{self.joint}")
         self._others(board, "acceleration")
 
     def _others(self, board: Board, plan: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...names import POINT, Name
 from ..mechanism import Link, Mechanism
 from ..parts import Body, Passed, Span
 from .legs import Leg
@@ -45,9 +46,9 @@ class Triad:
         return self.central.link.number
 
     @property
-    def X(self) -> str:
+    def X(self) -> Name:
         """Letter of Assur's special point, `X3` for the central link 3 (not S3, which is a centre of mass)."""
-        return f"X{self.number}"
+        return Name(f"X{self.number}", POINT, "X", links=(self.number,))
 
     @property
     def D(self) -> str:
@@ -72,7 +73,7 @@ class Triad:
     @property
     def bodies(self) -> tuple[Body, ...]:
         """The links for those attached to them."""
-        own = self.central.body(f"omega_{self.number}", f"epsilon_{self.number}")
+        own = self.central.body(self.central.omega, self.central.epsilon)
         return own, *(leg.body for leg in self.legs)
 
     def passed(self) -> tuple[Passed, ...]:

@@ -17,6 +17,7 @@ from collections.abc import Iterator
 
 from ....scales.errors import InputError
 from ...board import Board
+from ...names import NORMAL, between, mark, vector
 from ..guides import slide_of
 from ..mechanism import Mechanism, Prismatic, Revolute
 from ..parts import Bodies, Span, local_mark, measure_link, move_link, place_link
@@ -84,15 +85,15 @@ def velocity(board: Board, t: Triad) -> None:
     for leg in t.legs:
         leg.begin_velocity(board)
     _place_special_point(board, t)
-    x, d = f"velocity.{t.X}", f"velocity.{t.D}"
+    x, d = mark("velocity", t.X), mark("velocity", t.D)
     board.meet(x, first.start("velocity"), first.across, second.start("velocity"), second.across)
     for leg in (first, second):
-        board.read(f"V_{leg.about(t.X)}", leg.start("velocity"), x)
-    board.read(f"V_{t.X}", "velocity.p", x)
-    board.meet(d, x, f"n_{t.XD}", third.start("velocity"), third.across)
-    board.read(f"V_{t.D}{t.X}", x, d)
-    board.read(f"V_{t.D}", "velocity.p", d)
-    board.calc(f"omega_{t.number}", "turning", f"V_{t.D}{t.X}", f"n_{t.XD}", f"l_{t.XD}")
+        board.read(vector("V", *leg.about(t.X)), leg.start("velocity"), x)
+    board.read(vector("V", t.X), "velocity.p", x)
+    board.meet(d, x, between("n", t.X, t.D), third.start("velocity"), third.across)
+    board.read(vector("V", t.D, t.X), x, d)
+    board.read(vector("V", t.D), "velocity.p", d)
+    board.calc(t.central.omega, "turning", vector("V", t.D, t.X), between("n", t.X, t.D), between("l", t.X, t.D))
     _by_similarity(board, t, "velocity", "V")
     for leg in t.legs:
         leg.finish_velocity(board)
@@ -102,9 +103,9 @@ def _place_special_point(board: Board, t: Triad) -> None:
     """Mark where the lines of two legs meet, and how the joints of the central link lie to it and to D."""
     first, second, _ = t.legs
     board.meet(t.X, first.end, first.line, second.end, second.line)
-    board.measure(f"l_{t.XD}", t.X, t.D)
-    board.direction(f"e_{t.XD}", t.X, t.D, f"l_{t.XD}")
-    board.normal(f"n_{t.XD}", f"e_{t.XD}")
+    board.measure(between("l", t.X, t.D), t.X, t.D)
+    board.direction(between("e", t.X, t.D), t.X, t.D, between("l", t.X, t.D))
+    board.normal(between("n", t.X, t.D), between("e", t.X, t.D))
     for joint, along, across in _figure(t):
         board.calc(along, "part_along", t.X, t.D, joint)
         board.calc(across, "part_across", t.X, t.D, joint)
@@ -120,7 +121,7 @@ def _by_similarity(board: Board, t: Triad, plan: str, symbol: str) -> None:
     """Mark the other joints of the central link, then its other points."""
     for joint, along, across in _figure(t):
         board.similar(f"{plan}.{joint}", f"{plan}.{t.X}", f"{plan}.{t.D}", along, across)
-        board.read(f"{symbol}_{joint}", f"{plan}.p", f"{plan}.{joint}")
+        board.read(vector(symbol, joint), f"{plan}.p", f"{plan}.{joint}")
     move_link(board, t.mechanism, t.central, plan)
 
 
@@ -132,18 +133,18 @@ def acceleration(board: Board, t: Triad) -> None:
     first, second, third = t.legs
     ends = [leg.begin_acceleration(board) for leg in t.legs]
     hung = [_towards_joint(board, t, leg, end) for leg, end in zip((first, second), ends, strict=False)]
-    x, d, n = f"acceleration.{t.X}", f"acceleration.{t.D}", f"acceleration.n_{t.D}{t.X}"
+    x, d, n = mark("acceleration", t.X), mark("acceleration", t.D), mark("acceleration", t.D, NORMAL, t.X)
     board.meet(x, hung[0], first.across, hung[1], second.across)
-    board.read(f"a_{t.X}", "acceleration.p", x)
-    part = f"a_{t.D}{t.X}_n"
-    board.calc(f"_{part}", "normal_part", f"V_{t.D}{t.X}", f"l_{t.XD}")
-    board.back(n, x, f"e_{t.XD}", f"_{part}")
+    board.read(vector("a", t.X), "acceleration.p", x)
+    part = vector("a", t.D, t.X, "n")
+    board.calc(part.size, "normal_part", vector("V", t.D, t.X), between("l", t.X, t.D))
+    board.back(n, x, between("e", t.X, t.D), part.size)
     board.read(part, x, n)
-    board.meet(d, n, f"n_{t.XD}", ends[2], third.across)
-    board.read(f"a_{t.D}{t.X}_t", n, d)
-    board.read(f"a_{t.D}{t.X}", x, d)
-    board.read(f"a_{t.D}", "acceleration.p", d)
-    board.calc(f"epsilon_{t.number}", "turning", f"a_{t.D}{t.X}_t", f"n_{t.XD}", f"l_{t.XD}")
+    board.meet(d, n, between("n", t.X, t.D), ends[2], third.across)
+    board.read(vector("a", t.D, t.X, "t"), n, d)
+    board.read(vector("a", t.D, t.X), x, d)
+    board.read(vector("a", t.D), "acceleration.p", d)
+    board.calc(t.central.epsilon, "turning", vector("a", t.D, t.X, "t"), between("n", t.X, t.D), between("l", t.X, t.D))
     _by_similarity(board, t, "acceleration", "a")
     for leg, end in zip(t.legs, ends, strict=True):
         leg.finish_acceleration(board, end)
@@ -154,8 +155,9 @@ def _towards_joint(board: Board, t: Triad, leg: Leg, end: str) -> str:
 
     It follows from omega of the central link, so that X may stand in the joint itself.
     """
-    about, arm = t.X + leg.joint, f"_r_{t.X}{leg.joint}"
+    part, tip = vector("a", t.X, leg.joint, "n"), mark("acceleration", t.X, NORMAL, leg.joint)
+    arm = f"_r_{t.X}{leg.joint}"
     board.read(arm, leg.joint, t.X)
-    board.calc(f"a_{about}_n", "transport_normal", f"omega_{t.number}", arm)
-    board.chain(f"acceleration.n_{about}", end, f"a_{about}_n")
-    return f"acceleration.n_{about}"
+    board.calc(part, "transport_normal", t.central.omega, arm)
+    board.chain(tip, end, part)
+    return tip

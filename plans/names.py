@@ -1,0 +1,175 @@
+"""Names with their roles: what a step makes and needs is called by a word, and the word carries what it names.
+
+A name is a plain string for whoever prints it or looks a value up. Nobody takes it apart: constructions make names by
+the functions below, which know what they name, and the board keeps them. Names that a task gives are read here, once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+POINT, POLE, NORMAL, CORIOLIS = "", "p", "n", "k"  # kinds of marks: a point, the pole, ends of parts of accelerations
+ORIGIN = "origin"  # the mark on a guide from which distances count
+INERTIA, LEVER, COUPLE = "i", "lever", "couple"  # parts of forces, moments and arms
+
+
+class Name(str):
+    """A name with its role.
+
+    kind    what it is: the letter of a quantity (`V`, `a`, `omega`, `R`, `M`, `h`, `l`, `mu`), of a direction (`e`,
+            `n`, `u`) or of a mark; a plan has its own word, `forces`
+    of      whose it is: the letter of a point, the number of a link, the name of a force; all behind the kind where
+            nobody has said more
+    about   the point that it is relative to
+    part    which part of a vector, `n`, `t`, `k`, `r`; of a force the way in which it is found, `lever`, `couple`
+    links   numbers of the links that it concerns: of a reaction the one that acts, then the one acted upon
+    plan    the plan on which a mark stands; that of the mechanism for all other names
+    hidden  whether it is an intermediate value, which begins with an underscore
+
+    >>> name = vector("a", "B", "A", NORMAL)
+    >>> name, name.kind, name.of, name.about, name.part
+    ('a_BA_n', 'a', 'B', 'A', 'n')
+    >>> Name("velocity.B").plan, Name("_V_A").hidden
+    ('velocity', True)
+    """
+
+    __slots__ = ("about", "hidden", "kind", "links", "of", "part", "plan")
+    kind: str
+    of: str
+    about: str
+    part: str
+    links: tuple[int, ...]
+    plan: Name
+    hidden: bool
+
+    def __new__(
+        cls, text: str, kind: str | None = None, of: str = "", about: str = "", part: str = "",
+        links: Iterable[int] = (), plan: str = "",
+    ) -> Name:  # fmt: skip
+        """Return `text` as a name; what nobody says of it is read from its letters."""
+        name = super().__new__(cls, text)
+        before, _, letter = text.rpartition(".")
+        name.plan = _plan(plan or before) if plan or before else POSITION
+        name.hidden = text.startswith("_")
+        if kind is None and before:
+            kind, of = POLE if letter == POLE else POINT, letter
+        elif kind is None:
+            kind, parted, of = letter.lstrip("_").partition("_")
+            kind, of = (kind, of) if parted else (POINT, kind)
+        name.kind, name.of, name.about, name.part, name.links = kind, of, about, part, tuple(links)
+        return name
+
+    @property
+    def shown(self) -> Name:
+        """The quantity whose size a hidden name is, such as `a_BA_n` of `_a_BA_n`; any other name itself."""
+        return self._like(self.lstrip("_")) if self.hidden else self
+
+    @property
+    def letters(self) -> str:
+        """Letters or numbers of what it names, without its kind and part."""
+        return f"{self.of}{self.about}"
+
+    @property
+    def whole(self) -> Name:
+        """The quantity of which this is a part, such as `R_12` of `R_12_t`."""
+        if self.part == COUPLE:
+            return couple(self.of)
+        return spelled(self.kind, self.of, self.about, links=self.links) if self.part else self
+
+    @property
+    def size(self) -> Name:
+        """The hidden name of a quantity's size."""
+        return self._like(f"_{self}")
+
+    def _like(self, text: str) -> Name:
+        return Name(text, self.kind, self.of, self.about, self.part, self.links)
+
+
+POSITION: Name = str.__new__(Name, "position")
+POSITION.plan, POSITION.kind, POSITION.hidden, POSITION.links = POSITION, "position", False, ()
+POSITION.of = POSITION.about = POSITION.part = ""
+
+
+def _plan(name: str) -> Name:
+    return role(name) if isinstance(name, Name) or "_" in name else Name(name, name)
+
+
+def role(name: str) -> Name:
+    """Return a name with its role; one that a task or a user gives has that of its letters."""
+    return name if isinstance(name, Name) else Name(name)
+
+
+def is_shown(name: str) -> bool:
+    """Whether a name is that of a quantity or of a point of the mechanism, no mark of a plan and no way to one."""
+    return not role(name).hidden and role(name).plan == POSITION
+
+
+def spelled(kind: str, of: str | int, about: str = "", part: str = "", links: Iterable[int] = ()) -> Name:
+    """Return a quantity, a direction, a plan of forces: kind, whose, part."""
+    whose = str(of) if isinstance(of, int) else of
+    return Name(f"{kind}_{of}{about}{part and '_'}{part}", kind, whose, about, part, links)
+
+
+def vector(kind: str, of: str, about: str = "", part: str = "") -> Name:
+    """Return a velocity or acceleration of a point, relative to another or absolute: `V_B`, `a_BA_n`."""
+    return spelled(kind, of, about, part)
+
+
+def rate(kind: str, link: int, part: str = "") -> Name:
+    """Return an angular velocity or acceleration of a link: `omega_2`, of its relative turning `omega_r_2`."""
+    return Name(f"{kind}_{part}{part and '_'}{link}", kind, str(link), part=part, links=(link,))
+
+
+def between(kind: str, start: str, end: str) -> Name:
+    """Return the length `l_AB` between two points, the direction `e_AB` from one to the other, the normal `n_AB`."""
+    return spelled(kind, start, end)
+
+
+def mark(plan: str, point: str, kind: str = POINT, about: str = "") -> Name:
+    """Return a mark of a plan: `velocity.B`; as the end of a part of an acceleration `acceleration.n_BA`."""
+    return Name(f"{plan}.{kind}{kind and '_'}{point}{about}", kind, point, about, plan=plan)
+
+
+def pole(plan: str) -> Name:
+    """Return the pole of a plan of vectors."""
+    return Name(f"{plan}.p", POLE, "p", plan=plan)
+
+
+def arm(force: str, about: str = "") -> Name:
+    """Return the arm of a force about a point: `h_2` of the inertia of link 2, `h_21` of R_21, `h_F_3` of F_3."""
+    acting = role(force)
+    of, part = (acting.of, acting.part) if acting.kind == "R" else (acting, "")
+    of = acting.of if acting.part == INERTIA else of
+    return Name("_".join(filter(None, ("h", of, part, about))), "h", of, about, part, acting.links)
+
+
+def inertia(kind: str, link: int) -> Name:
+    """Return the force or the moment of inertia of a link: `F_i2`, `M_i2`."""
+    return Name(f"{kind}_{INERTIA}{link}", kind, str(link), part=INERTIA, links=(link,))
+
+
+def moment(force: str, about: str) -> Name:
+    """Return the moment of a force about a point, which is hidden."""
+    return Name(f"_M_{force}_{about}", "M", force, about, links=role(force).links)
+
+
+def by_lever(balance: Name) -> Name:
+    """Return what balances the driver as the lever gives it."""
+    return Name(f"{balance}_{LEVER}", balance.kind, balance.of, part=LEVER)
+
+
+def couple(moment: str, point: str = "") -> Name:
+    """Return a couple as one of two equal forces, or that of them at a point: `F_i2_couple`, `F_i2_couple_B`."""
+    turning = role(moment)
+    text = "_".join(filter(None, (f"F{turning[1:]}", COUPLE, point)))
+    return Name(text, "F", moment, point, COUPLE, turning.links)
+
+
+def lever_arm(force: str, point: str = "") -> Name:
+    """Return the arm of a force on Zhukovsky's lever; of a couple that of its force at a point."""
+    return Name("_".join(filter(None, ("h", LEVER, force, point))), "h", force, point, LEVER, role(force).links)
+
+
+def scale_factor(kind: str, part: str = "", links: Iterable[int] = ()) -> Name:
+    """Return the scale factor of plans that show quantities of a kind: `mu_V`; of forces by their group, `mu_F_23`."""
+    return Name("_".join(filter(None, ("mu", kind, part))), "mu", kind, part, links=links)
