@@ -79,10 +79,17 @@ def curve(
     role: str = "curve",
 ) -> None:
     """Draw a curve through `places` (x, y); it breaks where a value is not a number."""
+    drawn_through(canvas, (field.at(x, y) for x, y in places), name, pen, role)
+
+
+def drawn_through(
+    canvas: Canvas, points: Iterable[complex], name: str, pen: Pen = Pen.MAIN, role: str = "curve"
+) -> None:
+    """Draw a curve through points on the view, mm; it breaks where one is not a number."""
     pieces: list[list[complex]] = [[]]
-    for x, y in places:
-        if math.isfinite(y):
-            pieces[-1].append(field.at(x, y))
+    for point in points:
+        if math.isfinite(point.imag):
+            pieces[-1].append(point)
         elif pieces[-1]:
             pieces.append([])
     lines = tuple(Polyline(tuple(piece), pen) for piece in pieces if len(piece) > 1)

@@ -2,16 +2,43 @@
 
 from __future__ import annotations
 
+from cmath import phase, rect
 from math import pi
 
 from .pens import ZERO
 from .shapes import Line, Pen, Text
-from .symbols import dimension
+from .symbols import angle_dimension, dimension, swept
 from .text import lay_out
 from .view import Canvas
 
 ABOVE = 0.5  # heights of letters between an upright dimension line and the lowest part of its text
 PAST = 2.0  # mm by which an extension line runs past the dimension line
+
+
+def angle(
+    canvas: Canvas,
+    vertex: complex,
+    rays: tuple[complex, complex],
+    radius: float,
+    name: str,
+    text: str = "",
+    *,
+    turn: int = 0,
+    prefer: complex = 0j,
+    clear: float = 1.0,
+    spare: str = "",
+) -> None:
+    """Dimension the angle from one ray to another with its text at the middle of the arc.
+
+    `turn` says whether it runs counter-clockwise, 1, or clockwise, -1; without it the shorter way. The text stands
+    beyond the arc, or to the side that it should `prefer`.
+    """
+    start, sweep = phase(rays[0]), swept(*rays, turn)
+    canvas.add(angle_dimension(vertex, radius, start, sweep, name, canvas.style))
+    if text:
+        out = rect(1.0, start + 0.5 * sweep)
+        at = vertex + radius * out
+        canvas.label(text, at, prefer=prefer or out, clear=clear, height=canvas.style.text, spare=spare)
 
 
 def linear(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: str, name: str) -> None:

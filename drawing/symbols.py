@@ -122,6 +122,17 @@ def turning_arrow(centre: complex, radius: float, middle: float, spread: float, 
     return Group((Arc(centre, radius, start, sense * spread, Pen.THIN), Head(tip, direction)), "arrow", name)
 
 
+def swept(a: complex, b: complex, turn: int = 0) -> float:
+    """Return the angle from one direction to another: counter-clockwise, 1, clockwise, -1, or the shorter way."""
+    return turn * (cmath.phase(b / a) * turn % math.tau) if turn else cmath.phase(b / a)
+
+
+def arc_between(centre: complex, a: complex, b: complex, pen: Pen, role: str = "", name: str = "") -> Arc:
+    """Return the arc about a centre that runs counter-clockwise from one point to another, or to its direction."""
+    start, end = a - centre, b - centre
+    return Arc(centre, abs(start), cmath.phase(start), swept(start, end, 1), pen, role=role, name=name)
+
+
 def angle_dimension(centre: complex, radius: float, start: float, sweep: float, name: str, style: Style) -> Group:
     """Return a dimensioned angle: an arc between two arrowheads, or the plain arc where they have no room."""
     parts: list[Shape] = [Arc(centre, radius, start, sweep, Pen.THIN)]

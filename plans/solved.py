@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Self
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..scales.errors import PositionError
-from .board import Program
+from .board import Board, Program, RecordingBoard
+from .boards.arrays import ArrayBoard
 from .boards.exact import Status, Trouble
 from .names import role
 from .quantities import Quantity
@@ -48,6 +52,31 @@ class Solved:
         """Return the magnitude of a value."""
         value = self.values[name]
         return math.hypot(value.real, value.imag)
+
+    def dense(self, construction: Callable[[Board], None], mark: str, **over: NDArray[np.float64]) -> NDArray[Any]:
+        """Return a curve densely: a mark of a piece of construction that is done for many values of variables at once.
+
+        Parameters
+        ----------
+        construction : callable
+            Draws on a board, from all that is solved and from the variables.
+        mark : str
+            What it makes.
+        **over : float64 array of shape (N,)
+            The variables.
+
+        Returns
+        -------
+        complex128 array of shape (N,)
+            Places of the mark, SI; NaN where there is none.
+        """
+        (count,) = {len(values) for values in over.values()}
+        board, recording = ArrayBoard({**self.values, **over}, count), RecordingBoard()
+        construction(recording)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            Program(recording.steps).needed_for([mark]).run(board)
+        places: NDArray[Any] = np.broadcast_to(board.values[mark], (count,))
+        return places
 
     def worst_sine(self) -> tuple[str, float]:
         """Return the worst intersection: the name of its mark and the sine of its angle."""

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ...plans.hoist.beam_plans import BENT, FORCE, LETTERS, SECTIONS
-from ...plans.laws import LAWS
+from ...plans.hoist.dense import OF_BEAM, bent
 from ..dimensions import linear
 from ..figure import Figure, stages
 from ..shapes import Group, Line, Pen, Polyline
@@ -15,7 +13,6 @@ from .scene import COARSE, HoistScene
 
 APART = 14.0  # mm between the beams
 SAME = 0.5  # mm
-PLACES = 121  # of a bent beam
 
 
 def beams_view(scene: HoistScene) -> View:
@@ -35,11 +32,11 @@ def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:
     canvas.add(Line(feet[0], feet[-1], Pen.AXIS, role="axis", name=plan))
     canvas.part("bent")
     for letter, force in zip(LETTERS, FORCE[i], strict=False):
-        points = _bent(scene, i, force, top)
+        points = tuple(place + by for place in scene.places(bent(scene.solved, i, letter, force)))
         nodes = (scene.node(scene.mm(f"{plan}.{letter}{n}") + by, f"{letter}{n}") for n in range(1, SECTIONS))
         pen = Pen.MAIN if letter == LETTERS[0] else Pen.THIN
         canvas.add(Group((Polyline(points, pen),), "curve", f"{plan}_{letter}"), *nodes)
-        canvas.label(words.symbol(force), points[2 * PLACES // 3], prefer=-1j, clear=1.2, height=scene.style.text)
+        canvas.label(words.symbol(force), points[2 * OF_BEAM // 3], prefer=-1j, clear=1.2, height=scene.style.text)
     canvas.part("axes")
     for end in (feet[0], feet[-1]):
         canvas.add(revolute(end, plan, scene.style))
@@ -57,16 +54,6 @@ def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:
     ends = scene.mm(f"{plan}.fM") + by, feet[-1]
     linear(canvas, ends, 6j, scene.stated(f"x_w{i}", unit="m"), f"x_w{i}")
     return top + min(scene.mm(f"{plan}.M").imag, 0.0)
-
-
-def _bent(scene: HoistScene, i: int, force: str, top: float) -> tuple[complex, ...]:
-    """Return points of a beam bent by a force, densely, mm."""
-    found = scene.solved.forces.found
-    b, l, I, E = (found[f"{name}_{i}"] for name in "blIE")
-    x = np.unique(np.append(np.linspace(0.0, l, PLACES), b))
-    w = np.asarray(LAWS["deflection_of_unit"](x, b, l, I, E)) * found[force]
-    xs, ws = x / scene.scale("mu_x").mu, w / scene.scale("mu_w").mu
-    return tuple(complex(x, top - w) for x, w in zip(xs.tolist(), ws.tolist(), strict=True))
 
 
 BEAMS = Figure("beams", beams_view, ("part",), stages("axes", "bent", "greatest"), "hoist.beams")

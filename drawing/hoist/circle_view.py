@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from cmath import phase
-from math import acos, cos, pi, sin
-
 from ...plans.hoist.model import CIRCLE
+from ..dimensions import angle
 from ..figure import Figure, Stage, stages
 from ..shapes import Arc, Group, Head, Line, Pen
-from ..symbols import angle_dimension
+from ..symbols import arc_between
 from ..view import Canvas, View
 from .scene import COARSE, HoistScene
 
@@ -20,26 +18,23 @@ ANGLE = 0.3  # part of the radius at which the angle is dimensioned
 def circle_view(scene: HoistScene) -> View:
     """Draw the circle with its start, its diameter and the angle run through."""
     canvas, words = CIRCLE_FIGURE.canvas(scene, COARSE), scene.words
-    centre, start = (scene.mm(f"{CIRCLE}.{mark}") for mark in ("C", "1"))
-    start -= centre
-    radius = abs(start)
+    centre = scene.mm(f"{CIRCLE}.C")  # the origin of the view
+    start, right, left = (scene.mm(f"{CIRCLE}.{mark}") - centre for mark in ("1", "max", "min"))
+    radius = right.real
     canvas.part("axes")
-    left, right, top = complex(-radius - PAST), complex(radius + PAST), complex(0.0, radius + PAST)
-    for a, b in ((left, right), (-top, top)):
+    end, top = right + PAST, 1j * (radius + PAST)
+    for a, b in ((left - PAST, end), (-top, top)):
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
-    canvas.label(f"{words.symbol('P_12')}, {words.unit('N')}", right, prefer=-1j, clear=1.2)
+    canvas.label(f"{words.symbol('P_12')}, {words.unit('N')}", end, prefer=-1j, clear=1.2)
     canvas.label(f"P′_{{12}}/k_{{1}}, {words.unit('N')}", top, prefer=1.0 + 0j, clear=1.2)
     canvas.part("circle")
-    _circle(canvas, scene, radius)
+    _circle(canvas, scene, (left, right))
     canvas.add(Line(0j, start, Pen.MAIN, role="radius", name="R"))
     canvas.part("ends")
-    run = phase(start) % (2.0 * pi)
-    canvas.add(angle_dimension(0j, max(ANGLE * radius, 8.0), run, -run, "phi_1", scene.style))
-    middle = max(ANGLE * radius, 8.0) * complex(*_unit(0.5 * run))
-    canvas.label(scene.stated("phi_1", unit="rad"), middle, prefer=middle, clear=1.0, height=scene.style.text)
+    angle(canvas, 0j, (start, right), max(ANGLE * radius, 8.0), "phi_1", scene.stated("phi_1", unit="rad"), turn=-1)
     canvas.part("circle")
     canvas.label(words.symbol("R"), (0j, start), clear=1.0, height=scene.style.text)
-    marks = {"P_m": 0j, "F_12_t1": start, "P_12_max": complex(radius), "P_12_min": complex(-radius)}
+    marks = {"P_m": 0j, "F_12_t1": start, "P_12_max": right, "P_12_min": left}
     reached = {"P_12_max": scene.size("P_m") + scene.size("R"), "P_12_min": scene.size("P_m") - scene.size("R")}
     for name, at in marks.items():
         if abs(reached.get(name, scene.size(name)) - scene.size(name)) > SAME * scene.size("R"):
@@ -51,24 +46,22 @@ def circle_view(scene: HoistScene) -> View:
     return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")), notes)
 
 
-def _circle(canvas: Canvas, scene: HoistScene, radius: float) -> None:
+def _arc(a: complex, b: complex) -> Arc:
+    return arc_between(0j, a, b, Pen.MAIN)
+
+
+def _circle(canvas: Canvas, scene: HoistScene, ends: tuple[complex, complex]) -> None:
     """Draw the circle; where the rope would push it is only dashed, beyond a line where its force is zero."""
-    part = scene.size("P_m") / scene.size("R") if scene.size("R") else 1.0
-    if part >= 1.0:
-        canvas.add(Group(tuple(Arc(0j, radius, k * pi, pi, Pen.MAIN) for k in range(2)), "circle", "R"))
+    left, right = ends
+    if not scene.solved.layout.slack:
+        canvas.add(Group((_arc(right, left), _arc(left, right)), "circle", "R"))
         return
-    end = pi - acos(part)
-    pulls = tuple(Arc(0j, radius, k * end, end, Pen.MAIN) for k in (-1, 0))
-    canvas.add(Group(pulls, "circle", "R"), Arc(0j, radius, end, 2.0 * (pi - end), Pen.DASHED, role="slack"))
-    x, high = -part * radius, radius * sin(end)
-    canvas.add(Line(complex(x, -high), complex(x, high), Pen.THIN, role="level", name="slack"))
+    high, low = (scene.mm(f"{CIRCLE}.{mark}") - scene.mm(f"{CIRCLE}.C") for mark in ("high", "low"))
+    canvas.add(Group((_arc(low, right), _arc(right, high)), "circle", "R"))
+    canvas.add(arc_between(0j, high, low, Pen.DASHED, role="slack"))
+    canvas.add(Line(low, high, Pen.THIN, role="level", name="slack"))
     symbol = scene.words.symbol("P_12")
-    canvas.label(f"{symbol} = 0", complex(x, high), prefer=-1.0 + 1j, clear=1.2, height=scene.style.text)
-
-
-def _unit(angle: float) -> tuple[float, float]:
-
-    return cos(angle), sin(angle)
+    canvas.label(f"{symbol} = 0", high, prefer=-1.0 + 1j, clear=1.2, height=scene.style.text)
 
 
 # a rope that goes slack need not reach the ends of the diameter: they are no step of their own

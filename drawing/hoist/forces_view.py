@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from ...plans.hoist.article import article_force
-from ...plans.hoist.course import course, end_of, marks
+from ...plans.hoist.course import end_of
+from ...plans.hoist.dense import POINTS, forces_over
 from ...plans.hoist.diagram_plan import FORCES
-from ...plans.laws import TURN
-from ..diagram import Axis, Field, curve, divisions
+from ...plans.solved import PAPER_MM
+from ..diagram import Axis, Field, divisions, drawn_through
 from ..figure import Figure, Stage, stages
 from ..shapes import Line, Pen, Text
 from ..view import Canvas, View
-from .axes import ruled
-from .scene import COARSE, POINTS, HoistScene
+from .roots_view import ruled
+from .scene import COARSE, HoistScene
 
 TALLEST = 1.05
+BROKEN = complex("nan+nanj")  # where a curve is interrupted
 RESTING, HANGING = "resting", "hanging"  # stages: until the lift-off, after it
 ROW = 1.7  # heights of letters from time to time above the diagram
 
@@ -30,10 +29,10 @@ def forces_view(scene: HoistScene) -> View:
     _levels(canvas, scene, field)
     _curves(canvas, scene, field)
     _times(canvas, scene, field)
-    _values(canvas, scene, field)
+    _values(canvas, scene)
     notes = [words["hoist.article"]]
     if 0 in scene.solved.layout.bent:
-        mu = words.short(float(f"{scene.scale('mu_F').mu / scene.size('C_01'):.3g}"))
+        mu = words.short(float(f"{scene.solved.size('_mu_w_0') * PAPER_MM:.3g}"))
         unit = words.unit("m/mm")
         notes.append(words["hoist.course"].format(w=words.symbol("w_0"), F=words.symbol("F_01"), mu=mu, unit=unit))
     roots = scene.solved.layout.roots
@@ -61,28 +60,19 @@ def _field(scene: HoistScene) -> Field:
 
 
 def _curves(canvas: Canvas, scene: HoistScene, field: Field) -> None:
-    forces, t_1 = scene.solved.forces, scene.size("t_1")
-    before = np.linspace(0.0, t_1 * (1.0 - 1e-12), POINTS)
-    after = np.linspace(t_1, _end(scene) * (1.0 - 1e-12), POINTS)
-    first, second = (course(forces.found, forces.motion, t).columns for t in (before, after))
-    canvas.part(RESTING)
-    curve(canvas, field, zip(before.tolist(), first["F_01"].tolist(), strict=True), "F_01")
-    curve(canvas, field, zip(before.tolist(), first["F_12"].tolist(), strict=True), "F_12")
-    canvas.part(HANGING)
-    curve(canvas, field, zip(after.tolist(), second["F_12"].tolist(), strict=True), "P_12")
-    printed = np.asarray(article_force(forces.found, after - t_1))
-    swing = after <= t_1 + TURN / scene.size("k_1")
-    within = np.where(printed >= field.y.low, printed, np.nan)[swing]
+    """Draw the forces in both phases, and the article's as far as the axis goes."""
+    curves = {name: scene.places(places) for name, places in forces_over(scene.solved).items()}
+    foot, printed = field.at(0.0, field.y.low).imag, curves["printed"]
+    stage = {"F_01": RESTING, "F_12": RESTING, "P_12": HANGING}
+    for name, part in stage.items():
+        canvas.part(part)
+        drawn_through(canvas, curves[name], name)
     canvas.part("article")
-    curve(canvas, field, zip(after[swing].tolist(), within.tolist(), strict=True), "printed", Pen.DASHED)
-    jump = field.at(t_1, float(second["F_12"][0])), field.at(t_1, float(printed[0]))
-    canvas.add(Line(*jump, Pen.DASHED, role="jump", name="printed"))
-    canvas.part(RESTING)
-    for name, t, column in (("F_01", before[POINTS // 3], first["F_01"]), ("F_12", before[POINTS // 3], first["F_12"])):
-        canvas.label(scene.words.symbol(name), field.at(float(t), float(column[POINTS // 3])), prefer=1j, clear=1.5)
-    k = 3 * POINTS // 5
-    canvas.part(HANGING)
-    canvas.label(scene.words.symbol("P_12"), field.at(float(after[k]), float(second["F_12"][k])), prefer=1j, clear=1.5)
+    drawn_through(canvas, (p if p.imag >= foot else BROKEN for p in printed), "printed", Pen.DASHED)
+    canvas.add(Line(curves["P_12"][0], printed[0], Pen.DASHED, role="jump", name="printed"))
+    for name, k in (("F_01", POINTS // 3), ("F_12", POINTS // 3), ("P_12", 3 * POINTS // 5)):
+        canvas.part(stage[name])
+        canvas.label(scene.words.symbol(name), curves[name][k], prefer=1j, clear=1.5)
 
 
 def _levels(canvas: Canvas, scene: HoistScene, field: Field) -> None:
@@ -113,21 +103,16 @@ def _times(canvas: Canvas, scene: HoistScene, field: Field) -> None:
         rows += 1
 
 
-def _values(canvas: Canvas, scene: HoistScene, field: Field) -> None:
+def _values(canvas: Canvas, scene: HoistScene) -> None:
     """Mark the greatest and the least forces with their values."""
-    shown = {"P_12_max": f"{FORCES}.T", "F_12_t1": f"{FORCES}.R{scene.solved.layout.resting}"}
-    for name, mark in shown.items():
-        at = field.origin + scene.mm(mark)
-        canvas.part(HANGING if name == "P_12_max" else RESTING)
+    marks = [("P_12_max", "T", HANGING, 1.0 + 1j), ("F_12_t1", f"R{scene.solved.layout.resting}", RESTING, 1.0 + 1j)]
+    if scene.size("t_F12_max") != scene.size("t_1"):
+        marks.append(("F_12_max", "M", RESTING, 1j))
+    for name, mark, part, prefer in (*marks, ("P_12_min", "L", HANGING, -1j)):
+        at = scene.mm(f"{FORCES}.{mark}")
+        canvas.part(part)
         canvas.add(scene.node(at, name, filled=True))
-        canvas.label(scene.stated(name), at, prefer=1.0 + 1j, clear=1.2, height=scene.style.text)
-    extra = {"F_12_max": scene.size("t_F12_max")} if scene.size("t_F12_max") != scene.size("t_1") else {}
-    extra |= {"P_12_min": marks(scene.solved.forces.found, scene.solved.forces.motion)["P_12_min"]}
-    for name, t in extra.items():
-        at = field.at(t, scene.size(name))
-        canvas.part(HANGING if name == "P_12_min" else RESTING)
-        canvas.add(scene.node(at, name, filled=True))
-        canvas.label(scene.stated(name), at, prefer=1j if "max" in name else -1j, clear=1.2, height=scene.style.text)
+        canvas.label(scene.stated(name), at, prefer=prefer, clear=1.2, height=scene.style.text)
 
 
 # where the closed formulas are not valid, the first step says so, and draws nothing

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
+
+from numpy.typing import NDArray
 
 from ...plans.hoist.paper import SCALED
 from ...plans.hoist.solve import ON_PAPER, SCALES, SolvedHoist
 from ...plans.solved import PAPER_MM
+from ...scales.packaged import packaged
 from ...scales.scale import Scale
 from ..givens import Given
 from ..printed import decimals_for
@@ -15,8 +19,8 @@ from ..shapes import Circle, Group, Pen
 from ..style import Style
 from ..words import Words
 
+DRAWING = __name__.rpartition(".hoist.")[0]
 COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
-POINTS = 300  # of a curve
 DIGITS = 4
 
 
@@ -45,6 +49,11 @@ class HoistScene:
         plan = mark.rpartition(".")[0]
         return self.solved.point(mark) * (1.0 / (PAPER_MM if plan in ON_PAPER else self.mus[SCALES[plan]]))
 
+    def places(self, curve: NDArray[Any]) -> list[complex]:
+        """Return a curve of a diagram, which is drawn in metres of paper, in mm."""
+        places: list[complex] = (curve * (1.0 / PAPER_MM)).tolist()
+        return places
+
     def value(self, value: float) -> str:
         """Return a value with the usual digits."""
         return self.words.number(value, decimals_for(value, DIGITS))
@@ -61,3 +70,14 @@ class HoistScene:
     def node(self, at: complex, name: str, filled: bool = False) -> Group:
         """Return the mark of a point of a diagram."""
         return Group((Circle(at, self.style.node, Pen.THIN, fill="black" if filled else "white"),), "node", name)
+
+
+def lettered(words: Words, roots: int = 0) -> Words:
+    """Return the words with the letters of a hoist that has so many roots of (12)."""
+    table: dict[str, str] = dict(packaged(DRAWING, "texts", f"hoist.{words.language}"))
+    drawn = table.pop("drawn")
+    for n in range(1, roots + 1):
+        table |= {f"t_2_{n}": f"t_{{2}}({n})", f"t_2_{n}_drawn": f"t^{{{drawn}}}_{{2}}({n})"}
+    symbols = words.notation["symbols"]
+    merged = {**symbols, words.language: {**symbols[words.language], **table}}
+    return replace(words, notation={**words.notation, "symbols": merged, "scales": "per mm"})

@@ -52,6 +52,12 @@ def beam(board: Board, i: int) -> None:
     _bent(board, i, "M", (f"_x_M_{i}", "fM"), FORCE[i][0])
 
 
+def bent_beam(board: Board, i: int, letter: str, force: str) -> None:
+    """Draw a beam bent by a force: its point at the place `_x`."""
+    line(board, BENT[i], "f", "_x", "mu_x")
+    _bent(board, i, letter, ("_x", "f"), force)
+
+
 def _bent(board: Board, i: int, mark: str, place: tuple[str, str], force: str) -> None:
     """Mark a point of the bent beam at a place, under its foot."""
     at, foot = place

@@ -13,7 +13,7 @@ from ..laws import TURN
 from . import formulas as formulas  # its laws of calculation
 from .beam_plans import BENT, beam, scheme
 from .checks import ROPE_1
-from .diagram_plan import SECTIONS, axes, diameter, hanging, moving, resting
+from .diagram_plan import SECTIONS, axes, diameter, extreme_points, hanging, moving, resting
 from .forces import Forces
 from .hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, PLANS, ROOTS_PART, SCHEME_PART, Hoist
 from .model import ONE_SIDED, TWO_SIDED
@@ -51,8 +51,8 @@ class Layout:
     """What the construction of a hoist depends on beside numbers.
 
     `near` says which end of a beam is the nearer one, `moved` whether the forces are those of a motion, `resting` and
-    `hanging` into how many sections the phases are divided; `bent` are the beams that bend, `roots` tells how the
-    equations are drawn, where they are valid.
+    `hanging` into how many sections the phases are divided; `bent` are the beams that bend, `slack` says whether the
+    circle goes on where the rope would push; `roots` tells how the equations are drawn, where they are valid.
     """
 
     near: tuple[str, str]
@@ -60,6 +60,7 @@ class Layout:
     resting: int
     hanging: int
     bent: tuple[int, ...]
+    slack: bool
     roots: Roots | None
 
 
@@ -68,8 +69,11 @@ def layout_of(hoist: Hoist, forces: Forces) -> Layout:
     found, moved = forces.found, forces.motion is not None
     bent = tuple(i for i in BENT if math.isfinite(found[f"I_{i}"]))
     resting_sections = SECTIONS * max(1, min(math.ceil(_turns(found)), int(MOST_TURNS)))
+    slack = found["P_m"] < found["R"]
     roots = roots_of(found) if forces.ok[ROPE_1] else None
-    return Layout((hoist.near_0, hoist.near_2), moved, resting_sections, SECTIONS * (2 if moved else 1), bent, roots)
+    return Layout(
+        (hoist.near_0, hoist.near_2), moved, resting_sections, SECTIONS * (2 if moved else 1), bent, slack, roots
+    )
 
 
 def _turns(found: Mapping[str, float]) -> float:
@@ -99,12 +103,14 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
     if SCHEME_PART in wanted:
         scheme(board, dict(zip(BENT, layout.near, strict=True)))
     if CIRCLE_PART in wanted:
-        diameter(board)
+        diameter(board, layout.slack)
     if FORCES_PART in wanted and layout.moved:
         moving(board, layout.resting, layout.hanging)
     elif FORCES_PART in wanted:
         resting(board, layout.resting)
         hanging(board, layout.hanging)
+    if FORCES_PART in wanted:
+        extreme_points(board, "_t_P12_min")
     if ROOTS_PART in wanted and layout.roots is not None:
         _roots(board, layout.roots)
     if BEAMS_PART in wanted:

@@ -3,7 +3,7 @@
 Abscissas have the scale factor mu_t, ordinates mu_F. On `forces` section lines stand at `f0` .. `f12` and, after the
 lift-off, at `g0` .. `g12`; on them are `S0` .. of the support's force, `R0` .. of the rope's, and `P0` .. of the rope's
 with the whole load. Ordinates of phase 2 are the abscissas of points `1`, `2`, .. of the circle, which turns by equal
-angles; `T` stands where the force is greatest.
+angles; `T` stands where the force is greatest, `L` where it is least, `M` where it is greatest before the lift-off.
 """
 
 from __future__ import annotations
@@ -85,6 +85,16 @@ def _hang_point(board: Board, i: int, time: str) -> None:
     point(board, FORCES, f"P{i}", abscissa, f"_P_12_{i}", "mu_F")
 
 
+def extreme_points(board: Board, least: str) -> None:
+    """Mark the greatest force before the lift-off, and the least one after it, whose time is a given.
+
+    The force of the support is the deflection of its beam, too, to a scale factor of its own.
+    """
+    board.calc("_mu_w_0", "ratio", "mu_F", "C_01")
+    point(board, FORCES, "M", line(board, FORCES, "fM", "t_F12_max"), "F_12_max", "mu_F")
+    point(board, FORCES, "L", line(board, FORCES, "fL", least), "P_12_min", "mu_F")
+
+
 def moving(board: Board, before: int, after: int) -> None:
     """Draw the forces of a motion that the formulas are not valid for, with the ordinates that it gives."""
     for i in range(before + 1):
@@ -99,8 +109,13 @@ def moving(board: Board, before: int, after: int) -> None:
     point(board, FORCES, "T", line(board, FORCES, "fT", "t_P12_max"), "P_12_max", "mu_F")
 
 
-def diameter(board: Board) -> None:
-    """Mark on the circle the greatest and the least force."""
+def diameter(board: Board, slack: bool) -> None:
+    """Mark on the circle the greatest and the least force, and at its sides those of a rope that goes slack."""
     board.turn(HORIZONTAL, "zero")
     board.lay(f"{CIRCLE}.max", f"{CIRCLE}.C", HORIZONTAL, "R")
     board.back(f"{CIRCLE}.min", f"{CIRCLE}.C", HORIZONTAL, "R")
+    if slack:
+        board.calc("_slack_high", "half_chord", "R", "P_m")
+        board.calc("_slack_low", "opposite", "_slack_high")
+        for side in ("high", "low"):
+            board.place(f"{CIRCLE}.{side}", "zero", f"_slack_{side}")

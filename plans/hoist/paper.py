@@ -14,7 +14,7 @@ from ..solved import PAPER_MM
 from .beam_plans import BENT
 from .beam_plans import SECTIONS as BEAM_SECTIONS
 from .construction import Layout, Roots
-from .course import course
+from .course import course, marks
 from .diagram_plan import HANGING, RESTING, part
 from .forces import Forces, motion_givens
 from .refining import rest_of_root
@@ -33,7 +33,7 @@ def board_givens(forces: Forces, layout: Layout, part_of: float = 1.0) -> dict[s
     Diagrams have about `part_of` their usual size.
     """
     found, motion = forces.found, forces.motion
-    given: dict[str, Any] = {"_turn": TURN}
+    given: dict[str, Any] = {"_turn": TURN, "_t_P12_min": marks(found, motion)["P_12_min"]}
     parts = {(i, n) for n in (layout.resting, layout.hanging, BEAM_SECTIONS) for i in range(n + 1)}
     if layout.roots is not None:
         parts |= {(i, 1) for i in range(layout.roots.sections + 1)}

@@ -21,28 +21,35 @@ LIFT_OFF, EXTREMES = "lift_off", "extremes"
 def lift_off_plan(board: Board, sections: int, crossed: int) -> None:
     """Draw parabola and sinusoid of (11); they cross in the section after the line `crossed`."""
     for i in range(sections + 1):
-        time = f"_t_{i}_{LIFT_OFF}"
-        board.calc(f"{time}_seen", "product", "_section", part(i, 1))
-        board.calc(time, "later", "_begin", f"{time}_seen")
-        abscissa = line(board, LIFT_OFF, f"f{i}", f"{time}_seen", "mu_t1")
-        board.calc(f"_y_{i}", "wound", "V_t", "a", time)
-        board.calc(f"_parabola{i}", "excess", f"_y_{i}", "_height")
-        board.calc(f"_sinusoid{i}", "oscillation", "V_t", "a", "k", time)
-        point(board, LIFT_OFF, f"Y{i}", abscissa, f"_parabola{i}", "mu_y")
-        point(board, LIFT_OFF, f"O{i}", abscissa, f"_sinusoid{i}", "mu_y")
+        board.calc(seen(i), "product", "_section", part(i, 1))
+        lift_off_points(board, i)
     for curve in "YO":
         chord(board, LIFT_OFF, curve, crossed)
     board.meet(f"{LIFT_OFF}.X", *_on(LIFT_OFF, "Y", crossed), *_on(LIFT_OFF, "O", crossed))
     read_time(board, "t_1_drawn", LIFT_OFF, "X")
 
 
+def seen(i: int | str) -> str:
+    """Return the name of the time of a section line, counted from the first one."""
+    return f"_t_{i}_{LIFT_OFF}_seen"
+
+
+def lift_off_points(board: Board, i: int | str) -> None:
+    """Mark parabola and sinusoid on the line `i`, or on any of its own time."""
+    time = f"_t_{i}_{LIFT_OFF}"
+    board.calc(time, "later", "_begin", seen(i))
+    abscissa = line(board, LIFT_OFF, f"f{i}", seen(i), "mu_t1")
+    board.calc(f"_y_{i}", "wound", "V_t", "a", time)
+    board.calc(f"_parabola{i}", "excess", f"_y_{i}", "_height")
+    board.calc(f"_sinusoid{i}", "oscillation", "V_t", "a", "k", time)
+    point(board, LIFT_OFF, f"Y{i}", abscissa, f"_parabola{i}", "mu_y")
+    point(board, LIFT_OFF, f"O{i}", abscissa, f"_sinusoid{i}", "mu_y")
+
+
 def extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
     """Draw sinusoid and straight line of (12), which cross in the sections after the lines `crossed`."""
     for i in range(sections + 1):
-        time = f"_t_{i}_{LIFT_OFF}"
-        abscissa = line(board, EXTREMES, f"f{i}", f"{time}_seen", "mu_t1")
-        board.calc(f"_wave{i}", "oscillation_rate", "V_t", "a", "k", time)
-        point(board, EXTREMES, f"W{i}", abscissa, f"_wave{i}", "mu_v")
+        extremes_point(board, i)
     for k, i in enumerate((0, sections)):
         board.calc(f"_winding{k}", "winding_speed", "V_t", "a", f"_t_{i}_{LIFT_OFF}")
         board.calc(f"_share{k}", "product", "_ratio", f"_winding{k}")
@@ -54,6 +61,13 @@ def extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
         board.meet(f"{EXTREMES}.X{n}", *_on(EXTREMES, "W", i), *_on(EXTREMES, "L", 0))
         board.calc(f"t_2_{n}", "given", f"_t_2_{n}_exact")
         read_time(board, f"t_2_{n}_drawn", EXTREMES, f"X{n}")
+
+
+def extremes_point(board: Board, i: int | str) -> None:
+    """Mark the sinusoid of (12) on the line `i`, or on any of its own time, when (11) is drawn there."""
+    abscissa = line(board, EXTREMES, f"f{i}", seen(i), "mu_t1")
+    board.calc(f"_wave{i}", "oscillation_rate", "V_t", "a", "k", f"_t_{i}_{LIFT_OFF}")
+    point(board, EXTREMES, f"W{i}", abscissa, f"_wave{i}", "mu_v")
 
 
 def chord(board: Board, plan: str, curve: str, i: int) -> None:

@@ -171,7 +171,7 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
     def lettered(self, words: Words, solved: SolvedHoist) -> Words:
         """Return the words with the letters of a hoist's quantities."""
-        from ...drawing.hoist.letters import lettered
+        from ...drawing.hoist.scene import lettered
 
         return lettered(words, len(solved.layout.roots.times) if solved.layout.roots else 0)
 
@@ -197,8 +197,7 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a hoist."""
-        from ...drawing.hoist.fitting import Contents
-        from ...drawing.hoist.sheet import draw
+        from ...drawing.hoist.sheet import Contents, draw
 
         note = case.task.note_in(words.language)
         contents = Contents(hoist(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)

@@ -1,0 +1,137 @@
+"""Views of cams, gears and hoists compute nothing that is not a mark: what is drawn there is read off the construction.
+
+Layout remains: letters and frames beside marks, by millimetres that are added to them, and by parts of a way between
+two. So in these folders there is no trigonometry and no computing on arrays, no law is applied, and nothing that is
+read is multiplied or divided by something else that is read, as a length by a scale factor.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+DRAWING = Path(__file__).parents[2] / "drawing"
+SUBJECTS = ("hoist",)
+MODULES = {path: path.read_text(encoding="utf-8") for name in SUBJECTS for path in (DRAWING / name).glob("*.py")}
+# of the module math what tells finite numbers and rounds them for print
+PRINTING = {"ceil", "floor", "inf", "isfinite", "isinf", "isnan", "isclose", "log10"}
+READING = {"mm", "point", "places", "size", "values", "sizes", "mu", "mus", "mu_l", "found", "motion"}
+# modules that print, or choose scale factors
+TEXTS = {"steps", "tables", "text", "ladders", "sheet", "fitting", "conclusions"}
+TO_PAPER = {"mm", "places", "paper"}
+PRODUCTS = (ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow, ast.MatMult)
+
+
+def faults(text: str, prints: bool = False) -> list[str]:
+    """Return what a module computes, with the lines; one that `prints` may set numbers beside one another."""
+    tree = ast.parse(text)
+    scopes = [] if prints else [node for node in ast.walk(tree) if _draws(node)]
+    return [*_imported(tree), *_applied(tree), *(fault for scope in scopes for fault in _multiplied(scope))]
+
+
+def _imported(tree: ast.Module) -> Iterator[str]:
+    """Go through imports of what computes."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names = {alias.name for alias in node.names}
+            yield from (
+                f"{node.lineno}: import {name}" for name in sorted(names & {"numpy", "cmath", "scipy", "shapely"})
+            )
+        if isinstance(node, ast.ImportFrom) and node.module in ("numpy", "cmath"):
+            yield f"{node.lineno}: from {node.module}"
+        if isinstance(node, ast.ImportFrom) and node.module == "math":
+            yield from (f"{node.lineno}: math.{a.name}" for a in node.names if a.name not in PRINTING)
+        of_math = isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "math"
+        if of_math and node.attr not in PRINTING:
+            yield f"{node.lineno}: math.{node.attr}"
+
+
+def _applied(tree: ast.Module) -> Iterator[str]:
+    """Go through laws that are applied."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and node.id == "LAWS":
+            yield f"{node.lineno}: LAWS"
+
+
+def _draws(node: ast.AST) -> bool:
+    """Whether a node is a function of a view, but not one of those by which a scene takes marks to millimetres."""
+    return isinstance(node, ast.FunctionDef) and node.name not in TO_PAPER
+
+
+def _multiplied(function: ast.FunctionDef) -> Iterator[str]:
+    """Go through products and quotients of two things that are read."""
+    names = _read_names(function)
+    for node in ast.walk(function):
+        product = isinstance(node, ast.BinOp) and isinstance(node.op, PRODUCTS)
+        if product and _is_read(node.left, names) and _is_read(node.right, names):
+            yield f"{node.lineno}: {ast.unparse(node)}"
+
+
+def _read_names(function: ast.FunctionDef) -> set[str]:
+    """Return the variables of a function that hold what is read."""
+    names: set[str] = set()
+    while True:
+        before = len(names)
+        for node in ast.walk(function):
+            for target, value in _assignments(node):
+                if _is_read(value, names):
+                    names |= {n.id for n in ast.walk(target) if isinstance(n, ast.Name)}
+        if len(names) == before:
+            return names
+
+
+def _assignments(node: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
+    if isinstance(node, ast.Assign):
+        for target in node.targets:
+            pairs = isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple)
+            if pairs and len(target.elts) == len(node.value.elts):
+                yield from zip(target.elts, node.value.elts, strict=True)
+            else:
+                yield target, node.value
+    elif isinstance(node, (ast.For, ast.comprehension)):
+        yield node.target, node.iter
+
+
+def _is_read(expression: ast.expr, names: set[str]) -> bool:
+    """Whether an expression has a part that is read off what is solved; a text of it counts for nothing."""
+    if isinstance(expression, ast.JoinedStr):
+        return False
+    if isinstance(expression, ast.Name):
+        return expression.id in names
+    if isinstance(expression, ast.Attribute) and expression.attr in READING:
+        return True
+    parts = (child for child in ast.iter_child_nodes(expression) if isinstance(child, (ast.expr, ast.comprehension)))
+    return any(_is_read(part, names) for part in parts if isinstance(part, ast.expr))
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: f"{path.parent.name}/{path.stem}")
+def test_views_compute_nothing_that_is_not_a_mark(path: Path) -> None:
+    assert faults(MODULES[path], path.stem in TEXTS) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "import numpy as np",
+        "import math\nx = math.sin(1.0)",
+        "from math import hypot",
+        "from cmath import phase",
+        "def view(scene):\n    return LAWS['ratio'](1.0, 2.0)",
+        "def view(scene):\n    return scene.size('L') / scene.scale('mu_l').mu",
+        "def view(scene):\n    a, b = scene.mm('A'), scene.mm('B')\n    way = b - a\n    return way / abs(way)",
+        "def view(scene):\n    return [k * scene.mm('A') for k in scene.places('s')]",
+    ],
+)
+def test_what_computes_is_found(text: str) -> None:
+    assert len(faults(text)) == 1
+
+
+def test_layout_is_left_alone() -> None:
+    text = (
+        "def view(scene):\n    a, b = scene.mm('A'), scene.mm('B')\n    return 0.5 * (a + b) + 2.0j * scene.style.text"
+    )
+    assert faults(text) == []
+    assert len(MODULES) > 10
