@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-from kulman.tests.support.mutated import Case, lay_out, made
-from kulman.tests.support.mutated_runs import faults, judged, run
+from kulman.tests.support.mutated import Case, lay_out
+from kulman.tests.support.mutated_runs import FAMILIES, faults, judged, run
 from kulman.variants.shelf import bundled_text
 
-CASES, DRAWN = 1000, 80  # of each half of the soak: a minute
+CASES, DRAWN, CLASSES = 1000, 80, 80  # of each half of the soak: a minute
 
 
 @dataclass(frozen=True)
@@ -137,9 +137,9 @@ def test_what_once_crashed_says_what_is_wrong(name: str, tmp_path: Path, monkeyp
 
 
 def test_a_case_is_the_same_every_time_and_no_two_are_alike() -> None:
-    cases = [made(n, drawn) for drawn in (False, True) for n in range(40)]
+    cases = [made(n) for made in FAMILIES.values() for n in range(40)]
 
-    assert cases == [made(n, drawn) for drawn in (False, True) for n in range(40)]
+    assert cases == [made(n) for made in FAMILIES.values() for n in range(40)]
     assert len({(case.line, *case.files.values()) for case in cases}) == len(cases)
 
 
@@ -165,7 +165,8 @@ def test_a_crash_a_flood_and_a_hang_are_faults(fault: Any, kind: str, monkeypatc
 def test_no_mutated_input_crashes_hangs_or_floods(half: int) -> None:
     found = [
         *faults(range(half * CASES, (half + 1) * CASES)),
-        *faults(range(half * DRAWN, (half + 1) * DRAWN), drawn=True),
+        *faults(range(half * DRAWN, (half + 1) * DRAWN), "drawn"),
+        *faults(range(half * CLASSES, (half + 1) * CLASSES), "classes"),
     ]
 
     assert not found, "\n".join(f"case {fault.n}: {fault.what}\n{fault.line}\n{fault.trace}" for fault in found)

@@ -68,45 +68,15 @@ UNITS = (
     ),
 )
 TEXTS = (
-    *(
-        "",
-        " ",
-        "x",
-        "A",
-        "O",
-        "l_OA",
-        "-l_OA",
-        "О",
-        "а́",
-        "\u202eabc",
-        "\u200b",
-        "\x00",
-        "\n",
-        '"',
-        "'",
-        "{}",
-        "{0}",
-        "%s",
-    ),
+    *("", " ", "x", "A", "O", "l_OA", "-l_OA", "О", "а́", "\u202eabc", "\u200b", "\x00", "\n", '"', "'", "{}"),
+    *("{0}", "%s"),
     *("=1+1", "../x", "a" * 300, "я" * 300, "\ud7ff", "😀", "nul", "_constant_1", "B" * 70, "id", "1", "R_12", "mu_l"),
     *("velocity", "all", "None", "true", "a,b", ",", "\t", "<b>", "&amp;", "$x$", "_{a}", "^", "\\", "/", "F_3", "V_B"),
 )
 VALUES: tuple[Any, ...] = (
     *(0, 1, -1, 2, 7, 99, 100, 10**9, 10**30, -(10**400), 0.0, -0.5, 1e-300, 1e154, 1e308, math.inf, math.nan, True),
-    *(
-        [],
-        {},
-        [[]],
-        [{}],
-        [1, 2],
-        ["0 mm", "0 mm"],
-        [0, 1],
-        [1, 1],
-        {"a": 1},
-        [[[[[[1]]]]]],
-        {"a": {"a": {"a": {}}}},
-        "",
-    ),
+    *([], {}, [[]], [{}], [1, 2], ["0 mm", "0 mm"], [0, 1], [1, 1], {"a": 1}, [[[[[[1]]]]]], {"a": {"a": {"a": {}}}}),
+    "",
 )
 PLANS = (
     *("structure", "position", "velocity", "acceleration", "forces", "lever", "compound", "cycle", "diagrams", "sizes"),
@@ -392,12 +362,9 @@ OPTIONS: dict[str, Options] = {
     },
     "sheet": BLOCK,
     "note": {"--student": TEXT, "--date": TEXT, "--format": FORMATS, "--figure": ((*PLANS, "forces_23"), TEXTS)},
-    "handout": BLOCK
-    | {
-        "--steps": (("1", "2", "5"), COUNTS),
-        "--key": None,
-        "--hidden-key": None,
-        "--grid": None,
+    "handout": {
+        **BLOCK,
+        **{"--steps": (("1", "2", "5"), COUNTS), "--key": None, "--hidden-key": None, "--grid": None},
         "--over": (PLANS, TEXTS),
     },
     "chart": {
@@ -432,19 +399,25 @@ def _new_variants(luck: Luck, case: Case, tree: Tree) -> None:
         case.files["table.csv"] = table(luck, rows)
 
 
-def table(luck: Luck, rows: list[list[str]]) -> bytes:
-    """Return the cells as CSV, some lost, doubled, or something else."""
+def ruined(luck: Luck, rows: list[list[str]]) -> list[list[str]]:
+    """Return the cells, some of them something else, some rows doubled."""
     while luck.random() < 2.0 * luck.wild / (1.0 + luck.wild):
         row = luck.choice(rows)
         row[luck.randrange(len(row))] = luck.choice((*TEXTS, *NUMBERS))
         if luck.random() < 0.2:
             rows.insert(luck.randrange(len(rows)), list(luck.choice(rows)))
+    return rows
+
+
+def table(luck: Luck, rows: list[list[str]]) -> bytes:
+    """Return the cells as CSV, some of them ruined."""
+    ruined(luck, rows)
     mark = luck.choice((",", ",", ";", "\t"))
     lines = (mark.join('"' + cell.replace('"', '""') + '"' for cell in row) for row in rows)
     return ("\n".join(lines) + "\n").encode("utf-8", "surrogatepass")
 
 
-def answers(luck: Luck) -> bytes:
+def answers(luck: Luck) -> list[list[str]]:
     """Return what a student or a class has filled in: quantities with segments, scale factors, values, directions."""
 
     def cell() -> str:
@@ -460,7 +433,7 @@ def answers(luck: Luck) -> bytes:
     else:
         rows = [["student", "variant", *(f"{name}{luck.choice(('', '.mm', '.dir'))}" for name in names)]]
         rows += [[luck.of(("А", "Б"), TEXTS), luck.of(("1", "2"), TEXTS), *(cell() for _ in names)] for _ in "123"]
-    return table(luck, rows)
+    return rows
 
 
 def rubric(luck: Luck) -> bytes:
@@ -507,7 +480,11 @@ def _companions(luck: Luck, command: str, case: Case, tree: Tree) -> None:
         known = givens(tree)
         rows = [["name", "group", "variant", *known]]
         rows += [[str(i), "1", str(i), *(setting(luck, known, name) for name in known)] for i in range(3)]
-        case.files |= {"answers.csv": answers(luck), "rubric.toml": rubric(luck), "roster.csv": table(luck, rows)}
+        case.files |= {
+            "answers.csv": table(luck, answers(luck)),
+            "rubric.toml": rubric(luck),
+            "roster.csv": table(luck, rows),
+        }
 
 
 def lay_out(case: Case, folder: Path) -> None:

@@ -3,9 +3,10 @@
 The whole, on one core:
 
     python -m kulman.tests.support.mutated_runs --cases 200000
-    python -m kulman.tests.support.mutated_runs --cases 5000 --drawn
+    python -m kulman.tests.support.mutated_runs --cases 5000 --family drawn
+    python -m kulman.tests.support.mutated_runs --cases 5000 --family classes
 
-Each fault is shown with the number of its case; `--case N` (and `--drawn`) writes the files of a case into the folder
+Each fault is shown with the number of its case; `--case N` (and its family) writes the files of a case into the folder
 where it runs, shows the command, and runs it.
 """
 
@@ -24,15 +25,17 @@ import time
 import traceback
 import warnings
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import chdir
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from types import FrameType
 
 from kulman import cli
 from kulman.plans.contest import FULL
+from kulman.tests.support import mutated_classes
 from kulman.tests.support.mutated import Case, lay_out, made
 from kulman.variants.making import ranges
 
@@ -45,6 +48,11 @@ CHUNK = 250  # cases a process, so that what one leaves behind is not another's
 
 class TooLongError(BaseException):
     """A case has taken more processor time than it may; not caught by what catches exceptions."""
+
+
+FAMILIES: dict[str, Callable[[int], Case]] = {
+    **{"solved": made, "drawn": partial(made, drawn=True), "classes": mutated_classes.made}
+}
 
 
 @dataclass(frozen=True)
@@ -96,13 +104,13 @@ def judged(case: Case, status: int, out: str, err: str) -> str:
     return ""
 
 
-def tried(n: int, drawn: bool) -> Fault | None:
+def tried(n: int, family: str) -> Fault | None:
     """Run case `n` in a folder of its own: its fault, None where it is well."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         raise TooLongError
 
-    case = made(n, drawn)
+    case = FAMILIES[family](n)
     signal.signal(signal.SIGPROF, stop)
     what = where = trace = ""
     with tempfile.TemporaryDirectory() as folder, chdir(folder):
@@ -128,7 +136,7 @@ def _data() -> int:
     return next(int(line.split()[1]) * 1024 for line in status.splitlines() if line.startswith("VmData"))
 
 
-def _chunk(numbers: range, drawn: bool) -> list[Fault]:
+def _chunk(numbers: range, family: str) -> list[Fault]:
     most_data = _data() + MEMORY  # beside what the forked process has of its parent
     resource.setrlimit(resource.RLIMIT_DATA, (most_data, most_data))
     most = int(SECONDS * (len(numbers) + 2) + time.process_time())
@@ -136,21 +144,21 @@ def _chunk(numbers: range, drawn: bool) -> list[Fault]:
     ranges.TRIES = TRIES
     object.__setattr__(FULL, "batches", (1, 10, 100))  # races are run at length, to measure times
     object.__setattr__(FULL, "at_once", 100)
-    return [fault for n in numbers if (fault := tried(n, drawn)) is not None]
+    return [fault for n in numbers if (fault := tried(n, family)) is not None]
 
 
-def faults(numbers: range, drawn: bool = False) -> Iterator[Fault]:
+def faults(numbers: range, family: str = "solved") -> Iterator[Fault]:
     """Run the cases with these numbers, a process for each `CHUNK` of them."""
     fork = multiprocessing.get_context("fork")
-    size = CHUNK // 5 if drawn else CHUNK
+    size = CHUNK if family == "solved" else CHUNK // 5
     for start in range(numbers.start, numbers.stop, size):
         with ProcessPoolExecutor(1, mp_context=fork) as pool:
-            yield from pool.submit(_chunk, range(start, min(start + size, numbers.stop)), drawn).result()
+            yield from pool.submit(_chunk, range(start, min(start + size, numbers.stop)), family).result()
 
 
-def _alone(n: int, drawn: bool) -> None:
+def _alone(n: int, family: str) -> None:
     """Write the files of a case here, show its command, run it."""
-    case = made(n, drawn)
+    case = FAMILIES[family](n)
     lay_out(case, Path())
     print(case.line, flush=True)
     print(*run(case), sep="\n")
@@ -162,14 +170,15 @@ def main() -> None:
     parser.add_argument("--cases", type=int, default=1000, help="how many")
     parser.add_argument("--first", type=int, default=0, help="the number of the first")
     parser.add_argument("--case", type=int, help="this one alone, here")
-    parser.add_argument("--drawn", action="store_true", help="commands that draw, not those that calculate")
+    parser.add_argument("--family", choices=FAMILIES, default="solved", help="those that calculate, or others")
+    parser.add_argument("--drawn", dest="family", action="store_const", const="drawn", help="those that draw")
     said = parser.parse_args()
     if said.case is not None:
-        return _alone(said.case, said.drawn)
+        return _alone(said.case, said.family)
     kinds: Counter[tuple[str, str]] = Counter()
     last = said.first + said.cases
     for start in range(said.first, last, SHOWN):
-        for fault in faults(range(start, min(start + SHOWN, last)), said.drawn):
+        for fault in faults(range(start, min(start + SHOWN, last)), said.family):
             kind = fault.what.partition(":")[0], fault.where
             kinds[kind] += 1
             more = f"\n    {fault.line}\n{fault.trace}" if kinds[kind] == 1 else ""
