@@ -13,6 +13,9 @@ from .mechanism import Mechanism
 from .triads.parts import start_names
 from .working_stroke import BEGIN, END
 
+KEPT = 64  # strokes
+_STROKES: dict[tuple[str, str], tuple[float, float]] = {}
+
 
 def board_givens(
     mechanism: Mechanism, values: Mapping[str, Any], program: Program | None = None, follow: bool = True
@@ -41,13 +44,24 @@ def board_givens(
     return {**values, **sizes, **_stroke_ends(mechanism, values, motion.needs)}
 
 
+def _stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> tuple[float, float]:
+    """Return the ends of a stroke; kept, for sweeps, charts and sheets ask for them again at each position."""
+    from .cycles.strokes import stroke_of  # which needs numpy, and givens of its own for the sweep
+
+    asked = repr(mechanism), repr(sorted(values.items()))
+    if asked not in _STROKES:
+        travel = stroke_of(mechanism, values)
+        if len(_STROKES) == KEPT:
+            del _STROKES[next(iter(_STROKES))]
+        _STROKES[asked] = travel.low, travel.high
+    return _STROKES[asked]
+
+
 def _stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterable[str]) -> dict[str, Any]:
     """Find the ends of the working stroke: once where only the driver moves, else for every mechanism of the arrays.
 
     `motion` names the values on which its motion depends.
     """
-    from .cycles.strokes import stroke_of  # which needs numpy, and givens of its own for the sweep
-
     assert mechanism.stroke is not None
     sense, driver_at = mechanism.stroke.sense, mechanism.driver.coordinate
     followed = {name for start in mechanism.starts for name in start_names(start.link)}
@@ -57,7 +71,7 @@ def _stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterab
     found = []
     for row in range(size or 1):
         one = {name: float(value[row] if getattr(value, "ndim", 0) else value) for name, value in needed.items()}
-        travel = stroke_of(mechanism, {**one, driver_at: 0.0})
-        found.append((travel.low, travel.high) if one.get(sense, 1.0) > 0.0 else (travel.high, travel.low))
+        low, high = _stroke_of(mechanism, {**one, driver_at: 0.0})
+        found.append((low, high) if one.get(sense, 1.0) > 0.0 else (high, low))
     begin, end = zip(*found, strict=True)
     return {BEGIN: [*begin], END: [*end]} if size else {BEGIN: begin[0], END: end[0]}
