@@ -45,13 +45,15 @@ class Term:
     below: tuple[Factor, ...] = ()
     negative: bool = False
 
-    def __str__(self) -> str:
-        above = "·".join(map(_written, self.above)) or "1"
-        if not self.below:
-            return above
+    @property
+    def over(self) -> str:
+        """What stands below the line, behind a stroke."""
         below = "·".join(map(_written, self.below))
         alone = len(self.below) == 1 and not (isinstance(self.below[0][0], Atom) and self.below[0][0].is_compound)
-        return f"{above}/{below}" if alone else f"{above}/({below})"
+        return f"/{below}" if alone else f"/({below})" if below else ""
+
+    def __str__(self) -> str:
+        return ("·".join(map(_written, self.above)) or "1") + self.over
 
 
 class Symbol:
@@ -84,9 +86,20 @@ class Symbol:
         return 0.0
 
     @property
+    def size(self) -> Symbol:
+        """The expression without its sign: how large it is, where words tell the sense."""
+        return -self if self.terms[0].negative else self
+
+    @property
     def chunks(self) -> list[str]:
-        """The terms of the sum with their signs."""
+        """The terms of the sum with their signs, also those of a sum over something."""
         first, *rest = self.terms
+        whole = first.above[0][0] if len(first.above) == 1 and first.above[0][1] == 1 else None
+        if not rest and not first.negative and isinstance(whole, Symbol):
+            chunks = whole.chunks
+            chunks[0] = f"({chunks[0]}"
+            chunks[-1] += f"){first.over}"
+            return chunks
         return [f"{'−' * first.negative}{first}", *(f"{'−' if term.negative else '+'} {term}" for term in rest)]
 
     def __str__(self) -> str:
@@ -130,6 +143,10 @@ class Symbol:
         return _symbol(other) / self
 
     def __pow__(self, power: float) -> Symbol:
+        if power == 1:
+            return self
+        if power < 0:
+            return 1.0 / self**-power
         if power == 0.5:
             return self._root()
         term = self._term()

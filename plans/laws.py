@@ -152,11 +152,11 @@ LAWS: dict[str, Law] = {
     # a link slides on another: it turns like it
     "same_turning": lambda rate: rate,
     # v = omega x r, a^n = -omega^2 * r, a^t = epsilon x r
-    "transport_speed": lambda omega, r: (r * 1j) * omega,
-    "transport_normal": lambda omega, r: r * -(omega * omega),
-    "transport_tangential": lambda epsilon, r: (r * 1j) * epsilon,
+    "transport_speed": lambda omega, r: omega * (r * 1j),
+    "transport_normal": lambda omega, r: -(omega * omega) * r,
+    "transport_tangential": lambda epsilon, r: epsilon * (r * 1j),
     # a^k = 2 * omega x v_r, omega of the guide
-    "coriolis": lambda omega, v: (v * 1j) * (omega * 2.0),
+    "coriolis": lambda omega, v: 2.0 * omega * (v * 1j),
     # a^t = epsilon * l, along the normal to the crank
     "circular_acceleration": lambda epsilon, length: epsilon * length,
     # where a point of a link lies from its point b, along and to the left of its axis
@@ -166,14 +166,14 @@ LAWS: dict[str, Law] = {
     "part_along": lambda a, b, e: dot(b - a, e - a) / _square(b - a),
     "part_across": lambda a, b, e: cross(b - a, e - a) / _square(b - a),
     # F_i = -m * a_S
-    "inertia_force": lambda mass, a: a * -mass,
+    "inertia_force": lambda mass, a: -mass * a,
     # M_i = -J_S * epsilon
     "inertia_moment": lambda inertia, epsilon: -inertia * epsilon,
     # m = k * l, J_S = k * m * l^2
     "mass_by_length": lambda factor, length: factor * length,
     "inertia_by_length": lambda factor, mass, length: factor * mass * length * length,
     # G = m * g, downwards
-    "weight": lambda mass, g, up: up * -(mass * g),
+    "weight": lambda mass, g, up: -(mass * g) * up,
     # part of a vector along a direction, place of a point along it
     "component": dot,
     # F against v, M against omega; none where nothing moves. Of a point whose line is known v tells only the sense

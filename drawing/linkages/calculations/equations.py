@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
+from ....plans.board import POSITION, Step
+from ....plans.laws import form_of
 from ....plans.quantities import unit_of
 from ....scales.scale import Scale
+from ...formulas import Symbol
 from ...printed import POINT, Input, calculation, ruler_decimals, value_text
 from ...words import Words
 from ..reading import read
 from ..scene import Scene
 
 Lines = list[tuple[str, ...]]
+DIRECTIONS = ("direction", "turn", "normal", "incline", "decline")  # verbs that make them
 
 
 def known(text: str) -> str:
@@ -39,6 +44,12 @@ class Factor:
     power: int = 1
     places: int | None = None
 
+    @property
+    def letter(self) -> Symbol:
+        """Its symbol in a formula: the exponent of a square stands over the letter, before its index."""
+        base, underscore, index = self.symbol.partition("_")
+        return Symbol.of(self.symbol, *((f"({self.symbol})",) if "^" in self.symbol else (base, underscore + index)))
+
 
 @dataclass(frozen=True, slots=True)
 class Product:
@@ -47,30 +58,15 @@ class Product:
     factors: tuple[Factor, ...]
     sign: float = 1.0
 
-    def written(self, texts: Sequence[str]) -> str:
-        """Return the product of the factors written as `texts`: `a·b^{2}/c`."""
-        above = [squared(t) if f.power == 2 else t for t, f in zip(texts, self.factors, strict=True) if f.power > 0]
-        below = [t for t, f in zip(texts, self.factors, strict=True) if f.power < 0]
-        over = f"({'·'.join(below)})" if len(below) > 1 else "".join(below)
-        return "·".join(above) + (f"/{over}" if over else "")
-
     @property
-    def symbols(self) -> str:
-        """The product in symbols."""
-        return self.written([factor.symbol for factor in self.factors])
+    def in_letters(self) -> Any:
+        """The product as a formula."""
+        return self.of([factor.letter for factor in self.factors])
 
-    def of(self, values: Sequence[float]) -> float:
-        """Return the signed product of other values of its factors."""
+    def of(self, values: Sequence[Any]) -> Any:
+        """Return the signed product of other values of its factors, or of symbols."""
         sizes = (value**factor.power for value, factor in zip(values, self.factors, strict=True))
         return math.copysign(1.0, self.sign) * math.prod(sizes)
-
-
-def squared(text: str) -> str:
-    """Write a square: the 2 stands over the letter, before its index."""
-    if "^" in text:
-        return f"({text})^{{2}}"
-    letter, underscore, index = text.partition("_")
-    return f"{letter}^{{2}}{underscore}{index}"
 
 
 def turned(products: Iterable[Product], turn: float) -> list[Product]:
@@ -78,51 +74,63 @@ def turned(products: Iterable[Product], turn: float) -> list[Product]:
     return [replace(product, sign=product.sign * turn) for product in products]
 
 
-def signs(products: Sequence[Product], texts: Sequence[str]) -> list[str]:
-    """Return the terms of a sum with their signs, a chunk each."""
-    chunks = []
-    for i, (product, text) in enumerate(zip(products, texts, strict=True)):
-        plus = math.copysign(1.0, product.sign) > 0
-        sign = ("" if plus else "−") if i == 0 else ("+ " if plus else "− ")
-        chunks.append(f"{sign}{text}")
-    return chunks
-
-
 def worked(
     words: Words, head: str, products: Sequence[Product], unit: str, divisor: Product | None = None
 ) -> tuple[str, ...]:
-    """Return `head = formula = numbers = result unit` of a sum of products, perhaps over a divisor.
+    """Return `head = formula = numbers = result unit` of a sum of products, perhaps over a divisor."""
+    return by_law(words, head, lambda *x: sum(x[1:]) / x[0], (divisor or Product(()), *products), unit)
+
+
+def by_law(words: Words, head: str, law: Callable[..., Any], operands: Sequence[Product], unit: str) -> tuple[str, ...]:
+    """Return `head = formula = numbers = result unit` of a law of operands each of which is a product.
 
     The numbers are printed with as many digits as it takes for the result to come out to its last one.
     """
-    over = (divisor,) if divisor else ()
-    factors = [factor for product in (*products, *over) for factor in product.factors]
-    cuts = [sum(len(p.factors) for p in products[:i]) for i in range(len(products) + 1)]
+    factors = [factor for operand in operands for factor in operand.factors]
 
-    def law(*x: float) -> float:
-        found = sum(product.of(x[a:b]) for product, a, b in zip(products, cuts, cuts[1:], strict=False))
-        return found / math.prod(product.of(x[cuts[-1] :]) for product in over)
+    def found(*x: Any) -> Any:
+        rest = iter(x)
+        return law(*(operand.of([next(rest) for _ in operand.factors]) for operand in operands))
 
-    texts, result = calculation(words, law, [Input(factor.value, factor.exact, factor.places) for factor in factors])
-    symbols = signs(products, [product.symbols for product in products])
-    numbers = [p.written(texts[a:b]) for p, a, b in zip(products, cuts, cuts[1:], strict=False)]
-    formula = _over(symbols, divisor.symbols if divisor else "")
-    reckoned = _over(signs(products, numbers), divisor.written(texts[cuts[-1] :]) if divisor else "")
+    texts, result = calculation(words, found, [Input(factor.value, factor.exact, factor.places) for factor in factors])
+    formula, reckoned = found(*(factor.letter for factor in factors)).chunks, found(*map(Symbol.of, texts)).chunks
     formula[0] = f"{head} = {formula[0]}"
     formula[-1] += " ="
     reckoned[-1] += " ="
     return (*formula, *reckoned, f"{result} {words.unit(words.display.unit(unit))}".rstrip())
 
 
-def _over(chunks: list[str], divisor: str) -> list[str]:
-    """Put a sum over a divisor, each in parentheses unless it is one product."""
-    if not divisor:
-        return chunks
-    divisor = f"({divisor})" if "·" in divisor or "/" in divisor else divisor
-    if len(chunks) > 1:
-        return [f"({chunks[0]}", *chunks[1:-1], f"{chunks[-1]})/{divisor}"]
-    plain = not chunks[0].startswith("−") and "/" not in chunks[0]
-    return [f"{chunks[0]}/{divisor}" if plain else f"({chunks[0]})/{divisor}"]
+def size_by_law(scene: Scene, head: str, step: Step, unit: str) -> tuple[str, ...]:
+    """Return `head = formula = numbers = result unit` of the size that the law of a step gives."""
+
+    def size(*x: Any) -> Any:
+        value = form_of(step.law)(*x)
+        return value.size if isinstance(value, Symbol) else abs(value)
+
+    return by_law(scene.words, head, size, [_operand(scene, name) for name in step.operands], unit)
+
+
+def _operand(scene: Scene, name: str) -> Product:
+    """Return an operand of a law: a value, an arm that was read off the plan of the mechanism, or a direction."""
+    made = read(scene.solved.program).step(name)
+    if made is not None and made.verb in DIRECTIONS:
+        return Product(())
+    if made is not None and made.verb == "read" and made.plan == POSITION:
+        return distance(scene, *made.operands)
+    return Product((factor(scene, name),))
+
+
+def distance(scene: Scene, start: str, end: str) -> Product:
+    """Return a distance on the plan of the mechanism as its millimetres and the scale factor."""
+    words, size = scene.words, abs(scene.solved.point(end) - scene.solved.point(start))
+    return Product(
+        (segment(scene, words.mark(start) + words.mark(end), POSITION, size), paper(words, scene.scales[POSITION]))
+    )
+
+
+def moments_in_letters(own: Symbol, others: Iterable[Product]) -> list[str]:
+    """Return the terms of a sum of moments, that of the force to be found first."""
+    return sum((product.in_letters for product in others), own).chunks
 
 
 def size_of(scene: Scene, name: str) -> float:

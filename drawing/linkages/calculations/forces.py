@@ -3,23 +3,35 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from dataclasses import replace
 
 from ....plans.board import Step
 from ....plans.linkages.solved import SolvedLinkage
 from ....plans.names import role
 from ....scales.display import AS_INSIDE
+from ...formulas import Symbol
 from ...table import text_block
 from ...view import View
 from ..reading import read
 from ..scene import Scene
-from .equations import Factor, Lines, Product, factor, noted, sensed, signs, size_of, stated, turned, worked
+from .equations import (
+    Lines,
+    Product,
+    factor,
+    moments_in_letters,
+    noted,
+    sensed,
+    size_by_law,
+    size_of,
+    stated,
+    turned,
+    worked,
+)
 from .moments import about, group_of, link_of, links_in, on_arm, terms
 from .vector_equations import closed, ends_of
 
 WHOLE, LOADS = "", "loads"
-Told = Callable[[Scene, Step], list[Factor]]
 
 
 def force_parts(solved: SolvedLinkage) -> tuple[str, ...]:
@@ -98,19 +110,12 @@ def _part(scene: Scene, step: Step) -> str:
 # Loads, weights and inertia
 
 
-FORMULAS: dict[str, Told] = {
-    "mass_by_length": lambda scene, s: [factor(scene, name) for name in s.operands],
-    "inertia_by_length": lambda scene, s: [
-        *(factor(scene, name) for name in s.operands[:2]),
-        factor(scene, s.operands[2], 2),
-    ],
-    "weight": lambda scene, s: [factor(scene, name) for name in s.operands[:2]],
-    "inertia_force": lambda scene, s: [factor(scene, name) for name in s.operands],
-    "inertia_moment": lambda scene, s: [factor(scene, name) for name in s.operands],
+UNITS = {
+    **{"mass_by_length": "kg", "inertia_by_length": "kg*m^2", "inertia_moment": "N*m"},
+    **{"weight": "N", "inertia_force": "N"},
 }
-UNITS = {"mass_by_length": "kg", "inertia_by_length": "kg*m^2", "inertia_moment": "N*m"}
 RESISTING = ("resisting_force", "resisting_along", "resisting_moment")
-LOADING = (*FORMULAS, *RESISTING, "along", "signed", "sum")
+LOADING = (*UNITS, *RESISTING, "along", "signed", "sum")
 
 
 def _load(scene: Scene, step: Step) -> Lines:
@@ -118,9 +123,8 @@ def _load(scene: Scene, step: Step) -> Lines:
     if role(step.name).hidden or not scene.defined(step.name):
         return []
     words = scene.words
-    if step.law in FORMULAS:
-        product = Product(tuple(FORMULAS[step.law](scene, step)))
-        return [worked(words, words.symbol(step.name), [product], UNITS.get(step.law, "N"))]
+    if step.law in UNITS:
+        return [size_by_law(scene, words.symbol(step.name), step, UNITS[step.law])]
     if step.law == "sum":
         return _sum_of_couples(scene, step)
     mechanism = scene.solved.mechanism
@@ -197,14 +201,13 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
         point = ends_of(reading, reading.made[laid.operands[1]].operands[0])[laid.verb == "lay"]
     head = _head(scene, links_in(scene, link_of(scene, step.name), point), point)
     arm = _reach(scene, name, length)
-    own = f"{words.symbol(name)}·{arm.symbols}"
+    own = Symbol.of(words.symbol(name)) * arm.in_letters
     if not found:
         return [(head, f"{own} = 0,", f"{words.symbol(name)} = 0")]
     values = scene.solved.values
     sign, turn = math.copysign(SIGNS[step.law], SIGNS[step.law] * values[length]), math.copysign(1.0, values[step.name])
-    equation = signs([Product((), sign * turn), *found], [own, *(product.symbols for product in found)])
     return [
-        (head, *equation, "= 0"),
+        (head, *moments_in_letters(own * (sign * turn), found), "= 0"),
         worked(words, words.symbol(name), turned(found, -sign * turn), "N", arm),
     ]
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from ....plans.board import POSITION, Step
+from ....plans.board import Step
 from ....plans.linkages.compound import found_here
 from ....plans.linkages.mechanism import ZERO
 from ....plans.linkages.solved import SolvedLinkage
@@ -17,12 +17,24 @@ from ...table import text_block
 from ...view import View
 from ..reading import Reading, read
 from ..scene import Scene
-from .equations import Factor, Lines, Product, factor, noted, paper, rate_of, segment, sensed, size_of, stated, worked
+from .equations import (
+    Lines,
+    Product,
+    distance,
+    factor,
+    noted,
+    rate_of,
+    segment,
+    sensed,
+    size_by_law,
+    size_of,
+    stated,
+    worked,
+)
 from .vector_equations import line_note, line_through, meeting, summed
 
 PLANS = ("velocity", "acceleration")
 STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
-Told = Callable[[Scene, Step], list[Factor]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +104,7 @@ class _Story:
         if step.verb == "meet":
             self.lines += [*_special_point(self.scene, step), meeting(self.scene, step), *self.held]
             self.held.clear()
-        elif step.law in FORMULAS:
+        elif step.law in TOLD:
             told = self.held if step.law in BEFORE_MEETING or self._is_met(step) else self.lines
             told += [*self._lengths(step), *_formula(self.scene, self.reading, step)]
         elif step.law == "given":
@@ -127,40 +139,20 @@ class _Story:
             if role(made.operands[0]).hidden:
                 yield (stated(words, symbol, size_of(self.scene, name), "m"),)
             else:
-                yield worked(words, symbol, [Product(_segment(self.scene, *made.operands))], "m")
+                yield worked(words, symbol, [distance(self.scene, *made.operands)], "m")
 
 
-def _segment(scene: Scene, start: str, end: str) -> tuple[Factor, Factor]:
-    """Return a distance on the plan of the mechanism as its millimetres and the scale factor."""
-    words, size = scene.words, abs(scene.solved.point(end) - scene.solved.point(start))
-    own = segment(scene, words.mark(start) + words.mark(end), POSITION, size)
-    return own, paper(words, scene.scales[POSITION])
-
-
-def _arm(scene: Scene, name: str) -> tuple[Factor, Factor]:
-    """Return the arm of a turn about a pin, which was read off the plan of the mechanism."""
-    made = read(scene.solved.program).made[name]
-    return _segment(scene, made.operands[0], made.operands[1])
-
-
-FORMULAS: dict[str, Told] = {
-    "circular_speed": lambda scene, s: [factor(scene, s.operands[0]), factor(scene, s.operands[1])],
-    "centripetal": lambda scene, s: [factor(scene, s.operands[0], 2), factor(scene, s.operands[1])],
-    "circular_acceleration": lambda scene, s: [factor(scene, s.operands[0]), factor(scene, s.operands[1])],
-    "normal_part": lambda scene, s: [factor(scene, s.operands[0], 2), factor(scene, s.operands[1], -1)],
-    "turning": lambda scene, s: [factor(scene, s.operands[0]), factor(scene, s.operands[2], -1)],
-    "coriolis": lambda scene, s: [Factor("2", 2.0, exact=True), *(factor(scene, name) for name in s.operands)],
-    "transport_speed": lambda scene, s: [factor(scene, s.operands[0]), *_arm(scene, s.operands[1])],
-    "transport_normal": lambda scene, s: [factor(scene, s.operands[0], 2), *_arm(scene, s.operands[1])],
-    "transport_tangential": lambda scene, s: [factor(scene, s.operands[0]), *_arm(scene, s.operands[1])],
-}
+TOLD = (
+    *("circular_speed", "centripetal", "circular_acceleration", "normal_part", "turning", "coriolis"),
+    *("transport_speed", "transport_normal", "transport_tangential"),
+)
 BEFORE_MEETING = ("normal_part", "coriolis")
 
 
 def _formula(scene: Scene, reading: Reading, step: Step) -> Lines:
     """Return what a law gives, with its numbers, and how the vector lies."""
     words, name = scene.words, reading.visible(step.name)
-    line = worked(words, words.symbol(name), [Product(tuple(FORMULAS[step.law](scene, step)))], unit_of(name))
+    line = size_by_law(scene, words.symbol(name), step, unit_of(name))
     first, *rest = _lies(scene, reading, step, name) or ("",)
     return [(*noted(line, first), *rest)]
 

@@ -9,12 +9,13 @@ from dataclasses import replace
 from ....plans.board import Step
 from ....plans.names import role
 from ....scales.display import AS_INSIDE
+from ...formulas import Symbol
 from ...printed import value_text
 from ...table import text_block
 from ...view import View
 from ..reading import read
 from ..scene import Scene
-from .equations import Lines, Product, factor, segment, signs, size_of, turned, worked
+from .equations import Lines, Product, moments_in_letters, segment, size_by_law, size_of, turned, worked
 from .forces import load_lines
 from .moments import terms
 
@@ -37,12 +38,12 @@ def lever_lines(scene: Scene) -> Lines:
 
 def _couple(scene: Scene, step: Step) -> Lines:
     """A couple as two forces on the ends of its link."""
-    words, (moment, length) = scene.words, step.operands
+    words = scene.words
     pair = [s.name for s in scene.solved.program if role(s.name).whole == step.name != s.name]
     if not scene.defined(step.name):
         return []
     symbols = " = ".join(dict.fromkeys(words.symbol(name) for name in pair))
-    return [worked(words, symbols, [Product((factor(scene, moment), factor(scene, length, -1)))], "N")]
+    return [size_by_law(scene, symbols, step, "N")]
 
 
 def _sum(scene: Scene, step: Step) -> Lines:
@@ -55,9 +56,8 @@ def _sum(scene: Scene, step: Step) -> Lines:
     # the balancing force along the line of its point's velocity has the moment -F * V, with the signs of both
     turn = math.copysign(1.0, scene.solved.values[step.name] * scene.solved.values[speed])
     symbol = words.symbol(step.name)
-    own = [Product((), -turn), *found]
-    equation = signs(own, [f"{symbol}·{reach.symbol}", *(product.symbols for product in found)])
-    lines: Lines = [(f"ΣM_{{{words.mark('lever.p')}}} = 0:", *equation, "= 0")]
+    own = Symbol.of(symbol) * reach.letter * -turn
+    lines: Lines = [(f"ΣM_{{{words.mark('lever.p')}}} = 0:", *moments_in_letters(own, found), "= 0")]
     if found:
         lines.append(worked(words, symbol, turned(found, turn), "N", Product((reach,))))
     return lines
@@ -65,8 +65,7 @@ def _sum(scene: Scene, step: Step) -> Lines:
 
 def _moment(scene: Scene, step: Step) -> Lines:
     """The balancing force as a moment on the crank."""
-    product = Product(tuple(factor(scene, name) for name in step.operands))
-    return [worked(scene.words, scene.words.symbol(step.name), [product], "N*m")]
+    return [size_by_law(scene, scene.words.symbol(step.name), step, "N*m")]
 
 
 def _difference(scene: Scene, step: Step) -> Lines:

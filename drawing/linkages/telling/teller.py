@@ -11,6 +11,7 @@ from ....plans.board import POSITION, Step
 from ....plans.names import role
 from ....scales.packaged import packaged
 from ... import notes
+from ...formulas import Symbol
 from ...printed import HUNDREDTHS, POINT, Input, calculation
 from ..at_point import At, figures_of
 from ..calculations.equations import Product, factor, is_given, paper, size_of
@@ -87,7 +88,9 @@ class Teller:
         length = Product((value, replace(mu, power=-mu.power)))
         inputs = [Input(value.value, value.exact), Input(mu.value, exact=True)]
         texts, result = calculation(words, lambda *x: length.of(x), inputs, HUNDREDTHS)
-        return f"{length.symbols} = {length.written(texts)} = {result} {words.unit(words.display.paper)}"
+        return (
+            f"{length.in_letters} = {length.of([*map(Symbol.of, texts)])} = {result} {words.unit(words.display.paper)}"
+        )
 
     def on_paper(self, mm: float) -> str:
         """Return a length on paper with its unit."""
