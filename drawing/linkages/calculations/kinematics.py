@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from ....plans.board import Step
+from ....plans.board import POSITION, Step
 from ....plans.linkages.compound import found_here
 from ....plans.linkages.mechanism import ZERO
 from ....plans.linkages.solved import SolvedLinkage
