@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from string import ascii_lowercase
 from typing import Any
 
+from ..plans.names import CORIOLIS, COUPLE, LEVER, NORMAL, PARTS, POLE, POSITION, Name, couple, role, spelled
 from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import LANGUAGES, InputError
 from ..scales.names import unknown
@@ -20,12 +21,6 @@ GREEK = {
     **{"alpha": "α", "beta": "β", "gamma": "γ", "delta": "Δ", "epsilon": "ε", "eta": "η", "theta": "θ", "kappa": "κ"},
     **{"lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "rho": "ρ", "sigma": "σ", "tau": "τ", "phi": "φ", "psi": "ψ"},
     "omega": "ω",
-}
-# Superscripts of the parts of a vector: normal, tangential, Coriolis, sliding; in compound motion those of transport
-# (e) and relative rotation (r).
-PARTS = {
-    **dict.fromkeys(("V", "a"), ("n", "t", "k", "r", "e", "en", "et", "rn", "rt")),
-    **dict.fromkeys(("R",), ("n", "t", "m", "p")),
 }
 OF_LINKS = ("R", "M", "h")  # quantities whose two digits are the links of a pair
 PARTING = re.compile(r"(?<=\d)_(?=\d)")  # between numbers of links of two digits: a comma where they are printed
@@ -146,20 +141,18 @@ class Words:
     def symbol(self, name: str, bar: bool = False) -> str:
         """Return the markup of a quantity's symbol, with a vector bar where wanted."""
         if name not in self._symbols:
-            self._symbols[name] = self._parts(name)
+            self._symbols[name] = self._parts(role(name))
         head, rest = self._symbols[name]
         return f"\\bar{{{head}}}{rest}" if bar else f"{head}{rest}"
 
-    def _parts(self, name: str) -> tuple[str, str]:
+    def _parts(self, name: Name) -> tuple[str, str]:
         """Return the letter of a quantity and its scripts."""
-        if name.startswith("h_") and self._special(name) is None:
+        halved = name.part == COUPLE
+        special = self._special(name.whole if halved else name)
+        if special is None and name.kind == "h":
             return self._arm(name)
-        pair, couple, _ = name.partition("_couple")
-        special = self._special(pair + couple)
-        if special is None:
-            special = self._composed(pair)
-        head, rest = _split(special)
-        return (head + ("″" if name in self.seconds else "′") if couple else head), rest
+        head, rest = _split(special or self._composed(spelled(name.kind, name.of) if halved else name))
+        return (head + ("″" if name in self.seconds else "′") if halved else head), rest
 
     def _special(self, name: str) -> str | None:
         """Return the symbol that the notation has for a name; `#` in its table stands for a number."""
@@ -168,24 +161,19 @@ class Words:
         pattern = table.get(name) or table.get(re.sub(r"\d+", "#", name))
         return None if pattern is None else pattern.replace("#", "".join(numbers[:1]))
 
-    def _composed(self, name: str) -> str:
+    def _composed(self, name: Name) -> str:
         """Return a symbol made from the name's own letters: `a_BA_n` is a with n above and BA below."""
-        letters = self.notation["letters"]
-        head, *rest = PARTING.sub(",", name).split("_")
-        if head == "mu":  # forces of a group or of the driver alike
-            of = rest[0]
+        letters, of = self.notation["letters"], name.of
+        if name.kind == "mu":  # forces of a group or of the driver alike
             index = letters.get(f"mu_{of}", letters.get(of, GREEK.get(of, of)))
             # on a diagram of angles over an angle two scale factors differ by the link; a link apart may have its own
-            return f"{letters['mu']}_{{{index}{rest[1] if of in ('phi', 'l') and len(rest) > 1 else ''}}}"
-        if head == "H":  # a pole distance, by what its diagram shows
-            return f"H_{{{letters.get(rest[0], GREEK.get(rest[0], rest[0]))}}}"
-        above = ""
-        if len(rest) > 1 and rest[-1] in PARTS.get(head, ()):
-            above = self._part(rest.pop())
-        elif len(rest) > 1 and head in ("omega", "epsilon") and rest[0] == "r":
-            above = rest.pop(0)
-        below = self._links(head, "".join(rest))
-        head = letters.get(head, GREEK.get(head, head))
+            return f"{letters['mu']}_{{{index}{name.about if of in ('phi', 'l') else ''}}}"
+        if name.kind == "H":  # a pole distance, by what its diagram shows
+            return f"H_{{{letters.get(of, GREEK.get(of, of))}}}"
+        above = name.part if name.kind in OF_LINK else self._part(name.part) if name.kind in PARTS else ""
+        kind, index = (name.kind, name.letters) if name.kind else (name, "")
+        below = self._links(kind, _joined(index))
+        head = letters.get(kind, GREEK.get(kind, kind))
         if not head:
             return below
         scripts = (f"^{{{above}}}" if above else "") + (f"_{{{below}}}" if below else "")
@@ -206,7 +194,9 @@ class Words:
         if head not in OF_LINKS or not re.fullmatch(r"\d+,\d+" if self.parted else r"\d\d", index):
             return index
         parting = "," if self.parted else ""
-        pair = [self.frame if number == "0" else number for number in (index.split(",") if self.parted else index)]
+        pair = [
+            self.frame if number == "0" else number for number in re.findall(r"\d+" if self.parted else r"\d", index)
+        ]
         return parting.join(pair if self.notation["reaction"] == "ij" else reversed(pair))
 
     def _by_ends(self, head: str, index: str) -> str:
@@ -217,34 +207,32 @@ class Words:
         lowered = re.sub(r"(?<=[A-Za-z])(\d+)", r"_{\1}", letters)
         return f"{lowered}P_{{{self.ends.get(number, number)}}}" if number.isdigit() else lowered + centre + number
 
-    def _arm(self, name: str) -> tuple[str, str]:
+    def _arm(self, name: Name) -> tuple[str, str]:
         """Return the symbol of an arm: of a link's own force of inertia, of a reaction or of another force."""
-        lever, thing = name.startswith("h_lever_"), name.removeprefix("h_lever_").removeprefix("h_")
-        if lever and thing.startswith("M_"):
-            moment = re.sub(r"(?<=.)_[A-Z][^_]*$", "", thing)
-            _, rest = self._parts(f"F_{moment.removeprefix('M_')}_couple")
+        if name.part == LEVER and role(name.of).kind == "M":
+            _, rest = self._parts(couple(name.of))
             return "h" + ("″" if name in self.seconds else "′"), rest
-        if thing[:1].isdigit():
-            links, *more = PARTING.sub(",", thing).split("_")
-            above = f"^{{{self._part(more.pop(0))}}}" if more and more[0] in ("n", "t") else ""
-            return "h", f"{above}_{{{self._links('h', links)}{''.join(more)}}}"
-        return "h", f"_{{{re.sub(r'[_^{}]', '', self.symbol(thing))}}}"
+        if re.match(r"\d", name.of):
+            above = f"^{{{self._part(name.part)}}}" if name.part else ""
+            return "h", f"{above}_{{{self._links('h', _joined(name.of))}{name.about}}}"
+        force = f"{name.of}{name.about and '_'}{name.about}"
+        return "h", f"_{{{re.sub(r'[_^{}]', '', self.symbol(force))}}}"
 
     def mark(self, mark: str) -> str:
         """Return the letter of a mark: `velocity.S2` is s_2, `forces_23.1` is a, `A` is A."""
         if mark in self.letters:
             return self.letters[mark]
-        plan, _, point = mark.rpartition(".")
-        if not plan:
-            return _indexed(point)
-        if plan.startswith("forces"):
-            return self._force_letter(int(point))
-        if point == "p":
-            return str(self.notation[f"{plan}_pole"])
-        if point.startswith(("n_", "k_")):
-            return str(self.notation["normal_end" if point[0] == "n" else "coriolis_end"])
-        prime = self.notation["acceleration_prime"] if plan == "acceleration" else ""
-        return _indexed(point[0].lower() + prime + point[1:])
+        name, of = role(mark), role(mark).of
+        if name.plan == POSITION:
+            return indexed(mark)
+        if name.plan.kind == "forces":
+            return self._force_letter(int(of))
+        if name.kind == POLE:
+            return str(self.notation[f"{name.plan}_pole"])
+        if name.kind in (NORMAL, CORIOLIS):
+            return str(self.notation["normal_end" if name.kind == NORMAL else "coriolis_end"])
+        prime = self.notation["acceleration_prime"] if name.plan == "acceleration" else ""
+        return indexed(of[0].lower() + prime + of[1:])
 
     def _force_letter(self, number: int) -> str:
         """Return the pole's letter, then a, b, c, ... without it, then a_1, b_1, c_1, ..."""
@@ -256,10 +244,14 @@ class Words:
         return letters[at] + (f"_{{{turn}}}" if turn else "")
 
 
-def _indexed(letter: str) -> str:
-    """Set the digits of a letter as its subscript."""
-    digits = letter.lstrip("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz′")
-    return f"{letter.removesuffix(digits)}_{{{digits}}}" if digits else letter
+def indexed(letter: str) -> str:
+    """Set what stands behind a letter as its subscript: A_{1}."""
+    return re.sub(r"^([A-Za-z′]*)([^A-Za-z′].*)", r"\1_{\2}", letter)
+
+
+def _joined(index: str) -> str:
+    """Return an index as it is printed, with a comma between numbers of links of two digits."""
+    return PARTING.sub(",", index).replace("_", "")
 
 
 def _split(symbol: str) -> tuple[str, str]:

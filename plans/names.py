@@ -6,11 +6,31 @@ the functions below, which know what they name, and the board keeps them. Names 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 POINT, POLE, NORMAL, CORIOLIS = "", "p", "n", "k"  # kinds of marks: a point, the pole, ends of parts of accelerations
 ORIGIN = "origin"  # the mark on a guide from which distances count
 INERTIA, LEVER, COUPLE = "i", "lever", "couple"  # parts of forces, moments and arms
+# Parts of vectors: normal, tangential, Coriolis, sliding; in compound motion those of transport (e) and relative
+# rotation (r).
+PARTS = {
+    **dict.fromkeys(("V", "a"), ("n", "t", "k", "r", "e", "en", "et", "rn", "rt")),
+    "R": ("n", "t", "m", "p"),
+}
+# How names are written behind their kinds.
+_WRITTEN = {
+    **{kind: (re.compile(f"(?P<of>.+)_(?P<part>{'|'.join(parts)})"),) for kind, parts in PARTS.items()},
+    **dict.fromkeys(("omega", "epsilon"), (re.compile("(?P<part>r)_(?P<of>.+)"),)),
+    "mu": (re.compile("(?P<of>[^_]+)_(?P<about>.+)"),),
+    "h": (
+        re.compile(r"(?P<of>\d+(_\d+)*)(_(?P<part>[nt]))?(_(?P<about>[A-Z].*))?"),
+        re.compile(f"(?P<part>{LEVER})_(?P<of>M_.+?)(_(?P<about>[A-Z][^_]*))?"),
+        re.compile(f"(?P<part>{LEVER})_(?P<of>.+)"),
+    ),
+}
+_COUPLE = re.compile(f"(?P<of>.+)_(?P<part>{COUPLE})(_(?P<about>.+))?")
+_END = re.compile(f"(?P<kind>[{NORMAL}{CORIOLIS}])_(?P<of>.+)")
 
 
 class Name(str):
@@ -51,11 +71,8 @@ class Name(str):
         before, _, letter = text.rpartition(".")
         name.plan = _plan(plan or before) if plan or before else POSITION
         name.hidden = text.startswith("_")
-        if kind is None and before:
-            kind, of = POLE if letter == POLE else POINT, letter
-        elif kind is None:
-            kind, parted, of = letter.lstrip("_").partition("_")
-            kind, of = (kind, of) if parted else (POINT, kind)
+        if kind is None:
+            kind, of, about, part = _read_mark(letter) if before else _read(letter)
         name.kind, name.of, name.about, name.part, name.links = kind, of, about, part, tuple(links)
         return name
 
@@ -73,7 +90,7 @@ class Name(str):
     def whole(self) -> Name:
         """The quantity of which this is a part, such as `R_12` of `R_12_t`."""
         if self.part == COUPLE:
-            return couple(self.of)
+            return spelled(self.kind, self.of, part=COUPLE, links=self.links)
         return spelled(self.kind, self.of, self.about, links=self.links) if self.part else self
 
     @property
@@ -90,8 +107,24 @@ POSITION.plan, POSITION.kind, POSITION.hidden, POSITION.links = POSITION, "posit
 POSITION.of = POSITION.about = POSITION.part = ""
 
 
+def _read(text: str) -> tuple[str, str, str, str]:
+    """Return kind, whose, about what, and part of a quantity that a user has written."""
+    kind, parted, rest = text.lstrip("_").partition("_")
+    if not parted:
+        return POINT, kind, "", ""
+    found = next((match for way in (*_WRITTEN.get(kind, ()), _COUPLE) if (match := way.fullmatch(rest))), None)
+    said = found.groupdict() if found else {"of": rest}
+    return kind, said["of"], said.get("about") or "", said.get("part") or ""
+
+
+def _read_mark(letter: str) -> tuple[str, str, str, str]:
+    """Return the same of a mark of a plan, behind the name of the plan."""
+    end = _END.fullmatch(letter)
+    return (end["kind"], end["of"], "", "") if end else (POLE if letter == POLE else POINT, letter, "", "")
+
+
 def _plan(name: str) -> Name:
-    return role(name) if isinstance(name, Name) or "_" in name else Name(name, name)
+    return name if isinstance(name, Name) else Name(name, _read(name)[0] or name, _read(name)[1])
 
 
 def role(name: str) -> Name:
@@ -139,13 +172,13 @@ def arm(force: str, about: str = "") -> Name:
     """Return the arm of a force about a point: `h_2` of the inertia of link 2, `h_21` of R_21, `h_F_3` of F_3."""
     acting = role(force)
     of, part = (acting.of, acting.part) if acting.kind == "R" else (acting, "")
-    of = acting.of if acting.part == INERTIA else of
+    of = str(*acting.links) if acting.part == INERTIA else of
     return Name("_".join(filter(None, ("h", of, part, about))), "h", of, about, part, acting.links)
 
 
 def inertia(kind: str, link: int) -> Name:
     """Return the force or the moment of inertia of a link: `F_i2`, `M_i2`."""
-    return Name(f"{kind}_{INERTIA}{link}", kind, str(link), part=INERTIA, links=(link,))
+    return Name(f"{kind}_{INERTIA}{link}", kind, f"{INERTIA}{link}", part=INERTIA, links=(link,))
 
 
 def moment(force: str, about: str) -> Name:
@@ -161,8 +194,9 @@ def by_lever(balance: Name) -> Name:
 def couple(moment: str, point: str = "") -> Name:
     """Return a couple as one of two equal forces, or that of them at a point: `F_i2_couple`, `F_i2_couple_B`."""
     turning = role(moment)
-    text = "_".join(filter(None, (f"F{turning[1:]}", COUPLE, point)))
-    return Name(text, "F", moment, point, COUPLE, turning.links)
+    kind = "F" if turning.kind == "M" else turning.kind
+    text = "_".join(filter(None, (kind, turning.of, COUPLE, point)))
+    return Name(text, kind, turning.of, point, COUPLE, turning.links)
 
 
 def lever_arm(force: str, point: str = "") -> Name:

@@ -12,6 +12,7 @@ from ..printed import Input, calculation
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import lay_out
 from ..view import Canvas, View
+from ..words import indexed
 from .scene import GearScene
 
 LEVEL = 2.2  # heights of letters for each pair that touches
@@ -115,8 +116,7 @@ def _line(canvas: Canvas, scene: GearScene) -> None:
     for name, x in ends.items():
         canvas.part(STAGE.get(name, "pitches"))
         canvas.add(Group((Circle(complex(x, 0.0), style.node, Pen.THIN, fill="white"),), "point", name))
-        letter = f"{name[0]}_{{{name[1:]}}}" if name[1:] else name
-        canvas.label(letter, complex(x, 0.0), prefer=-1j, clear=style.node + 0.8)
+        canvas.label(indexed(name), complex(x, 0.0), prefer=-1j, clear=style.node + 0.8)
 
 
 def _dimensions(canvas: Canvas, scene: GearScene) -> None:

@@ -11,6 +11,7 @@ from ..figure import ANSWERS
 from ..shapes import Anchor, Arc, Circle, Group, Line, Pen, Text
 from ..symbols import angle_dimension, fixed_pivot, right_angle, turning_arrow
 from ..view import Canvas
+from ..words import indexed
 from .scene import GearScene
 from .wheels import CIRCLES, SHOWN, Wheel
 
@@ -181,5 +182,4 @@ def node(canvas: Canvas, scene: GearScene, name: str, prefer: complex) -> None:
     """Mark a point of the meshing with its letter."""
     at, radius = scene.mm(name), scene.style.node
     canvas.add(Group((Circle(at, radius, Pen.THIN, fill="white"),), "point", name))
-    number = name[1:]
-    canvas.label(f"{name[0]}_{{{number}}}" if number else name, at, prefer=prefer, clear=radius + 0.6)
+    canvas.label(indexed(name), at, prefer=prefer, clear=radius + 0.6)

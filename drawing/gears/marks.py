@@ -9,7 +9,11 @@ from ...plans.gears.geometry import POINTS
 
 # rho_1 of a place, its distance from N1: by the name of a quantity
 PLACES = {"A1": "rho_p1", "P": "rho_w1", "A2": "rho_a1"}
-NUMBERS = ("03", "06", "08")  # points of the table at the three places, in the order in which they lie
+NUMBERS = (
+    "03",
+    "06",
+    "08",
+)  # points of the table at the three places, in the order in which they liefrom ..words import indexed
 
 
 def along(values: Mapping[str, Any]) -> dict[str, float]:
@@ -27,8 +31,3 @@ def marks(values: Mapping[str, Any]) -> dict[str, str]:
     line = float(values["l_N1N2"])
     inner = sorted(PLACES, key=lambda name: min(max(float(values[PLACES[name]]), 0.0), line))
     return {"N1": POINTS[0], **dict(zip(inner, NUMBERS, strict=True)), "N2": POINTS[-1]}
-
-
-def letter(name: str) -> str:
-    """Return the letter of a place: A_1."""
-    return name[0] + (f"_{{{name[1:]}}}" if name[1:] else "")

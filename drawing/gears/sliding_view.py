@@ -13,8 +13,9 @@ from ..figure import ANSWERS, Figure, stages
 from ..shapes import Circle, Group, Line, Pen
 from ..text import lay_out
 from ..view import Canvas, View
+from ..words import indexed
 from .ladders import cut_of, rho_mu
-from .marks import along, letter
+from .marks import along
 from .scene import GearScene
 from .theta_diagram import place, theta_diagram, theta_field, theta_said, widest
 
@@ -99,7 +100,7 @@ def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordi
         at = above.at(rho, 0.0)
         canvas.part("active_line" if name in ("A1", "A2") else "axes")
         canvas.add(Group((Circle(at, scene.style.node, Pen.MAIN, fill="white"),), "point", name))
-        canvas.label(letter(name), at, prefer=-0.6 - 1j if name == "N1" else 0.6 - 1j, clear=1.0, priority=1)
+        canvas.label(indexed(name), at, prefer=-0.6 - 1j if name == "N1" else 0.6 - 1j, clear=1.0, priority=1)
 
 
 def _velocities(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) -> None:

@@ -11,7 +11,8 @@ from ...plans.gears.geometry import POINTS
 from ..handouts.begun import Shown
 from ..table import table
 from ..view import View
-from .marks import along, letter, marks
+from ..words import indexed
+from .marks import along, marks
 from .scene import GearScene
 
 MM, DEGREE, NUMBER, WHOLE = "mm", "°", "", "whole"
@@ -76,7 +77,7 @@ def points_table(scene: GearScene) -> View:
     on_line = [name for name, rho_1 in along(scene.solved.sizes).items() if 0.0 <= rho_1 <= line]
     places = {name: point for name, point in marks(scene.solved.sizes).items() if name in on_line}
     mm = words.unit("mm")
-    letters = {point: letter(name) for name, point in places.items()}
+    letters = {point: indexed(name) for name, point in places.items()}
     y_1, y_2 = words.symbol("y_1"), words.symbol("y_2")
     head = [words["gear.point"], None, *(f"{y}, {mm}" for y in (y_1, y_2, f"{y_1} − {y_2}")), words.symbol("theta_12")]
     head += [f"{y_2} − {y_1}, {mm}", words.symbol("theta_21")]

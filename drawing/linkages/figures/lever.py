@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import combinations, pairwise
 from typing import NamedTuple
 
-from ....plans.names import COUPLE, lever_arm, role
+from ....plans.names import COUPLE, lever_arm, role, spelled
 from ...shapes import Line, Pen
 from ...view import Canvas, View
 from ..marks import letter_marks, vectors_of
@@ -144,4 +144,8 @@ def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
 def arm_of(force: str) -> str:
     """Return the arm's name: of `F_i2` it is `h_lever_F_i2`, of the couple `F_i2_couple_B` `h_lever_M_i2_B`."""
     acting = role(force)
-    return lever_arm(acting.of, acting.about) if acting.part == COUPLE else lever_arm(force)
+    return (
+        lever_arm(spelled("M", acting.of, links=acting.links), acting.about)
+        if acting.part == COUPLE
+        else lever_arm(force)
+    )

@@ -56,7 +56,11 @@ def _hung(teller: Teller, mark: str, moments: list[Step], drawn: Iterable[LeverA
         "arms": ", ".join(f"{scene.words.symbol(arm)} = {_on_lever(teller, arm)}" for arm in arms),
     }
     couples = {role(force).of for force in forces if role(force).part == COUPLE}
-    at_pole = (name for name, at in hung_on_lever(scene) if at == "lever.p" and role(name).of in couples)
+    at_pole = (
+        name
+        for name, at in hung_on_lever(scene)
+        if at == "lever.p" and role(name).part == COUPLE and role(name).of in couples
+    )
     hung = (*forces, *at_pole)
     names = (*hung, *(arm.line for arm in drawn), *(name for arm in drawn for name in arm.names))
     letters = (*map(teller.vector, hung), *(arm.said(scene) for arm in drawn))
