@@ -32,7 +32,8 @@ def tolerances(
     lines whose meeting is read, the worst of those behind the segment's ends on its own plan. The tilt is what the
     longest segment of the plan misses at its end when its direction misses, by the degrees of the preset and by what
     the marks at the ends of a short link do to its direction, those of a slider with the guide that misses its own: a
-    short side closes a plan of long vectors no better. Of an arm it is that of the way to the point of the force. A
+    short side closes a plan of long vectors no better. Of an arm it is that of the way to the point of the force, and
+    what a point misses where lines of the mechanism cross that run on from short links. A
     part that is calculated and laid off (a_BA_n) misses no more than its calculation and its two marks, where that is
     less. A calculated quantity inherits what the segments in it may miss; data have none.
 
@@ -47,6 +48,8 @@ def tolerances(
     for step in paper.program:
         if step.verb == "arc":  # on a line that misses its direction
             rule.aside[step.name] = rule._tilt(abs(values[step.name] - values[step.operands[2]]))
+        if step.verb == "meet" and step.plan == POSITION:
+            rule.aside[step.name] = rule.astray[step.name] = rule.crossing(step)
         rule.slants[step.name] = rule.slant(step)
         rule.allowed[step.name] = float(rule.of(step))
     return rule.allowed
@@ -64,6 +67,7 @@ class _Rule:
     longest: Mapping[str, float]
     slants: dict[str, float] = field(default_factory=dict)
     aside: dict[str, float] = field(default_factory=dict)
+    astray: dict[str, float] = field(default_factory=dict)
 
     def of(self, step: Step) -> Any:
         """Return by how much the result of a step may differ, SI."""
@@ -78,7 +82,9 @@ class _Rule:
             force, at, about = step.operands
             mu, size = self._mu(at), abs(values[force])
             arm = abs(values[step.name]) / size if size else 0.0
-            missed = max(self.most.of_segment(arm / mu) * mu, self._tilt(abs(values[at] - values[about])))
+            tilt = self._tilt(abs(values[at] - values[about]))
+            missed = max(self.most.of_segment(arm / mu) * mu, tilt) + self.astray.get(at, 0.0)
+            missed += self.astray.get(about, 0.0)
             return size * missed + arm * self.allowed.get(force, 0.0)
         if step.verb == "arm":
             return self._arm(*step.operands)
@@ -104,6 +110,16 @@ class _Rule:
             missed = math.hypot(MARKS * self.most.mm * self._mu(ends[0]), *(self.aside.get(end, 0.0) for end in ends))
             return missed / length if length > 0.0 else 0.0
         return max((self.slants.get(name, 0.0) for name in step.operands), default=0.0)
+
+    def crossing(self, step: Step) -> float:
+        """Return by how much the point may miss where two lines of the mechanism cross, such as a triad's special one.
+
+        The lines run on from short links, and where they end is as far aside as their directions miss on the way.
+        """
+        p, u, q, w = step.operands
+        point, ways = self.values[step.name], ((p, u), (q, w))
+        tilts = (self._tilt(abs(point - self.values[start]), self.slants.get(line, 0.0)) for start, line in ways)
+        return sum(tilts) / self.flat.get(step.name, 1.0)
 
     def _tilt(self, length: float, slant: float = 0.0) -> float:
         """Return what a line of this length misses at its end when its direction does."""

@@ -44,6 +44,19 @@ def test_tolerance_of_a_segment_is_millimetres_or_a_part_over_the_sine() -> None
     assert most.of_segment(80.0, math.sin(math.radians(30.0))) == pytest.approx(8.0)
 
 
+@pytest.mark.parametrize("variant", ["2", "3", "7"])
+def test_an_arm_about_the_point_where_two_lines_cross_misses_as_that_point_does(variant: str) -> None:
+    solution = solve("scheme-20-press-automaton", variant)
+    drawing, found = paper(solution), preset("normal")
+
+    allowed = tolerances(drawing, solution.solved.values, solution.solved.sines, found.tolerance)
+    shares = failing(drawn(drawing, found.hand, np.random.default_rng(SEED)), allowed)
+
+    arms = [name for name in shares if name.startswith("h_") and name.endswith("_X3")]
+    assert len(arms) > 5
+    assert max(shares[name] for name in arms) < 0.1
+
+
 def test_calculated_quantities_inherit_the_tolerance_of_the_segments() -> None:
     solution = solve("nau-slider-crank", "example")
     drawing, values = paper(solution), solution.solved.values
