@@ -303,7 +303,10 @@ def converted(value: float, written: Unit, expected: Unit, least: float = SMALLE
             raise InputError("unit-wrong", text=quote(written), expected=expected.name)
         if written == unit("1/min"):
             written = RPM
-    result, text = written.to_si(value), f"{value:g} {written}"
+    result = written.to_si(value)
+    if least <= abs(result) <= LARGEST_OF.get(dimension, LARGEST) and result:
+        return result
+    text = f"{value:g} {written}"
     if value != 0.0 and result == 0.0 and least > 0.0:  # what no float holds
         raise InputError("number-infinite", text=quote(text))
     return bounded(result, expected, text, least)

@@ -31,8 +31,8 @@ who read forms and write reports build on the functions here.
 `key.answer_key(paper, tolerance, limits=None, wanted=None) -> Key`
     `limits` are one's own tolerances of single quantities, SI; `wanted` the names that are asked, all when left out.
 `verdicts.Verdict`
-    `right`, `carried` (right given the earlier error), `wrong`, `arithmetic` (mm times mu is not the value),
-    `scale` (scale factor or unit), `missing`; `.passed` for the first two.
+    `right`, `carried` (right given the earlier error), `wrong`, `uncounted` (follows from wrong numbers), `arithmetic`
+    (mm times mu is not the value), `scale` (scale factor or unit), `missing`; `.passed` for the first two.
 `verdicts.Line(name, plan, verdict, answer, said, right, follows, allowed, off, about, way)`
     `said` is what the answer says, in SI; `right` the right value; `follows` what follows from the earlier answers;
     `allowed` the tolerance, SI; `off` by how many tolerances it misses the best of what it is held against; `about` is

@@ -17,6 +17,7 @@ class Verdict(StrEnum):
     RIGHT = "right"
     CARRIED = "carried"
     WRONG = "wrong"
+    UNCOUNTED = "uncounted"  # follows from numbers most of which are wrong
     ARITHMETIC = "arithmetic"
     SCALE = "scale"
     MISSING = "missing"

@@ -55,6 +55,7 @@ class StudentBoard(ExactBoard):
         self.follows: dict[str, Any] = {}
         self._program, self._take = program, take
         self._steps = program.steps if steps is None else steps
+        self._operations: dict[tuple[str, str], Callable[..., Any]] = {}
         self._done = 0
         self._moved: set[str] | None = set() if made else None
 
@@ -91,11 +92,15 @@ class StudentBoard(ExactBoard):
             self._do(steps, moved)
 
     def _do(self, steps: Iterable[Step], moved: set[str] | None) -> None:
+        operations = self._operations
         for step in steps:
             verb, name, operands = step.verb, step.name, step.operands
             if moved is None or not moved.isdisjoint(operands):
+                done = verb, step.law
+                if done not in operations:
+                    operations[done] = self.operation(*done)
                 try:
-                    self.perform(self.operation(verb, step.law), name, operands)
+                    self.perform(operations[done], name, operands)
                 except (ZeroDivisionError, OverflowError):  # what a student says is zero
                     self.values[name] = NAN
                 if moved is not None:

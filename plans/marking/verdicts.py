@@ -22,7 +22,7 @@ from .key import Key, Question, behind, hanging_on
 from .lines import Line, Marking, Verdict
 from .student import StudentBoard, Take, settled
 
-__all__ = ["CLEAR", "INPUTS", "Line", "Marking", "Verdict", "behind", "bounded", "first_wrong", "judge", "mark"]
+__all__ = ["CLEAR", "Line", "Marking", "Verdict", "behind", "bounded", "first_wrong", "judge", "mark"]
 
 DECIMALS = tuple(10.0**power for power in (-3, -2, -1, 1, 2, 3))  # mm, cm, dm
 ANGLES = tuple(
@@ -44,7 +44,6 @@ AGREE = 0.05  # part by which segments of one plan may differ in the scale that 
 SHOWN = 5.0  # mm from which a segment shows to which scale its plan is drawn
 CLEAR = 2.0  # tolerances from which an error is more than a slip of the hand
 MANY = 3  # answers wrong by themselves, from which a line that hangs on them may follow by chance
-INPUTS = "inputs"  # what is wrong with a line that follows from what nobody can recognise
 SLACK = 0.5  # part of a tolerance by which mm times mu may differ from the value written
 
 
@@ -106,7 +105,7 @@ def first_wrong(lines: Iterable[Line]) -> str | None:
     return None if first is None else first.name
 
 
-def bounded(marking: Marking, of_other: bool = False) -> Marking:
+def bounded(marking: Marking, other: Key | None = None) -> Marking:
     """Return the marking in which no line earns anything by following from numbers that mostly are wrong.
 
     It does not where, of the answers on which it hangs, three or more are wrong by themselves, and more than are right
@@ -114,8 +113,9 @@ def bounded(marking: Marking, of_other: bool = False) -> Marking:
 
     Parameters
     ----------
-    of_other : bool
-        Whether the answers are those of another variant, and no line is carried by any error.
+    other : Key, optional
+        That of another variant to which the answers belong: then no line is carried by any error, and what is nearer to
+        the other variant's value than to the own one is right by chance.
     """
     bits, places = hanging_on(marking.key), marking.key.paper.program.places
     before: list[tuple[int, Verdict]] = []
@@ -124,13 +124,24 @@ def bounded(marking: Marking, of_other: bool = False) -> Marking:
         if line.verdict is Verdict.CARRIED:
             place = places[line.name]
             behind_it = [verdict for found, verdict in before if found >> place & 1]
-            wrong, passed = behind_it.count(Verdict.WRONG), sum(verdict.passed for verdict in behind_it)
-            if of_other or (wrong >= MANY and wrong > passed):
-                line = replace(line, verdict=Verdict.WRONG, about=INPUTS)
+            wrong = sum(verdict in (Verdict.WRONG, Verdict.UNCOUNTED) for verdict in behind_it)
+            passed = sum(verdict.passed for verdict in behind_it)
+            if other is not None or (wrong >= MANY and wrong > passed):
+                line = replace(line, verdict=Verdict.UNCOUNTED)
+        if other is not None and line.verdict is Verdict.RIGHT and _by_chance(line, other):
+            line = replace(line, verdict=Verdict.UNCOUNTED)
         lines.append(line)
         if line.verdict is not Verdict.MISSING:
             before.append((bits[line.name], line.verdict))
     return replace(marking, lines=tuple(lines))
+
+
+def _by_chance(line: Line, other: Key) -> bool:
+    """Whether an answer is nearer to the value of another variant."""
+    if line.name not in other.questions or line.way is None or line.way.size is None:
+        return False
+    size = line.way.size
+    return bool(abs(size - abs(other[line.name])) < abs(size - abs(line.right)))
 
 
 def _by_name(key: Key, answers: Iterable[Answer]) -> dict[str, Answer]:
@@ -379,7 +390,10 @@ class Marker:
 
     def _held(self, ways: tuple[Said, ...], name: str, value: Any) -> _Held:
         """Hold an answer against the right values, and against what follows."""
-        right = min((self._best(ways, name, x, right=True) for x in self.key.right(name)), key=_off)
+        values = self.key.right(name)
+        right = self._best(ways, name, values[0], right=True)
+        if len(values) > 1:
+            right = min((right, *(self._best(ways, name, x, right=True) for x in values[1:])), key=_off)
         if right.miss.off <= 1.0:
             return right
         own = self._best(ways, name, self._follows(name))
@@ -402,9 +416,9 @@ class Marker:
             return _Held(Verdict.RIGHT, ways[0], Miss(NEVER, SIZE), value, NEVER)
         if not right or self.allowance.calculation(name) is not None:
             self.drawn.go_on(self.settled[name])
-        allowed = self.allowance.of(name, value, right)
-        held = [_Held(Verdict.RIGHT, way, self._missed(way, name, value, allowed), value, allowed) for way in ways]
-        return min(held, key=_off)
+        allowed, angle = self.allowance.of(name, value, right), self.key.angles.get(name, math.pi)
+        held = [_Held(Verdict.RIGHT, way, miss(way, value, allowed, angle), value, allowed) for way in ways]
+        return held[0] if len(held) == 1 else min(held, key=_off)
 
     def _missed(self, way: Said, name: str, value: Any, allowed: float) -> Miss:
         if value is None or value != value:

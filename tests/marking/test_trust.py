@@ -19,8 +19,10 @@ from kulman.tests.support.students import SEED, SLIPS
 from kulman.tests.support.students_marked import marked, population
 from kulman.variants.marking.answers import Answers, Line
 from kulman.variants.marking.cells import rounded
+from kulman.variants.marking.class_table import class_rows
 from kulman.variants.marking.marked import Desk, Marked
 from kulman.variants.marking.report import Report
+from kulman.variants.marking.result import result_of
 from kulman.variants.roster import Who
 
 TASK = "nau-slider-crank"
@@ -142,6 +144,20 @@ def test_the_sheet_of_another_variant_is_told_and_earns_little(task: str) -> Non
     assert max(x.mark for x in outcomes) <= 20.0
 
 
+@pytest.mark.parametrize(
+    ("task", "own", "other"), [("scheme-09-shaper", "1", "5"), ("scheme-14-jaw-crusher", "0", "1")]
+)
+def test_sizes_of_another_variant_earn_little_on_a_format_that_is_asked_for(task: str, own: str, other: str) -> None:
+    desk = Desk(check(task, format="A3", lang="en"))
+    theirs = desk.keyed(other, {}).key
+    lines = {name: Line(name, "form", value=abs(theirs[name])) for name in theirs.questions}
+
+    result = desk.mark(Answers("form", Who(), {"variant": own}, lines, {}, ()))
+
+    assert result.fits == other
+    assert result.mark <= 20.0
+
+
 def test_lines_that_follow_from_mostly_wrong_numbers_are_told_apart() -> None:
     chaos = {name: 3.0 ** math.sin(40.0 * place) for place, name in enumerate(OF.questions)}
     chaos |= {"R_21": chaos["R_12"], "R_23": chaos["R_32"]}
@@ -149,9 +165,13 @@ def test_lines_that_follow_from_mostly_wrong_numbers_are_told_apart() -> None:
     result = handed_in(right_sizes(**chaos))
 
     line = result.marking["R_21"]
-    assert (line.verdict, line.about) == (Verdict.WRONG, "inputs")
+    assert line.verdict is Verdict.UNCOUNTED
     assert result.marking.first_wrong == "V_A"
     assert result.mark <= 15.0
+    header, row = list(class_rows([result_of(result, "en")], [], "en"))[:2]
+    told = dict(zip(header, row, strict=True))
+    assert told["follows from wrong numbers, not counted"] == result.count(Verdict.UNCOUNTED) > 0
+    assert told["wrong here"] == result.count(Verdict.WRONG)
 
 
 def test_a_size_that_is_wrong_is_not_called_right() -> None:

@@ -29,7 +29,8 @@ _ARROWS = "".join(word for kind in ("clockwise", "counter") for word in TURNING[
 _WIDE = str.maketrans("＋－", "+-")
 _WORD = re.compile(rf"[^\W\d_]+|[{_ARROWS}]")
 _DECIMALS = re.compile(r"[^0-9.,]*+[0-9 \u00a0\u2009\u202f]*+[.,]([0-9]+)")
-MM = unit("mm")
+_ANGLE = re.compile(r"[0-9]{1,9}(?:[.,][0-9]{1,9})?")  # in degrees
+MM, DEGREE = unit("mm"), unit("deg")
 NOTHING = 0.0  # a value may be as small as a calculator's rounding leaves it
 
 
@@ -223,6 +224,8 @@ def direction(text: str, vector: bool = False) -> tuple[float | None, int | None
     InputError
         Neither an angle in degrees nor a sense, or two senses; of a vector no angle.
     """
+    if vector and _ANGLE.fullmatch(text):
+        return converted(split_number(text)[0], DEGREE, DEGREE), None
     word = tidy(text)
     if word in SIDES:
         return math.radians(SIDES[word]), None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from html import escape
 
 from ...drawing.linkages.reading import read
@@ -34,7 +35,7 @@ class Vector:
     @property
     def kind(self) -> str:
         """What it is, as the style of the page names it."""
-        return "right" if self.line is None else "wrong" if self.line.verdict.faulty else "own"
+        return "right" if self.line is None else "own" if self.line.verdict.passed else "wrong"
 
     @property
     def text(self) -> str:
@@ -110,20 +111,21 @@ def _shape(vector: Vector, tail: complex, tip: complex, least: float) -> str:
 
 def _label(vector: Vector, start: complex) -> str:
     """Return the letters of a student's vector."""
-    text = "".join(_lettered(vector.text))
-    return f'<text class="{vector.kind}" x="{start.real:.2f}" y="{start.imag:.2f}">{text}</text>'
+    return f'<text class="{vector.kind}" x="{start.real:.2f}" y="{start.imag:.2f}">{_lettered(vector.text)}</text>'
 
 
-def _lettered(text: str) -> Iterator[str]:
-    """Go through the pieces of a text with scripts, each moved from where the one before it stands.
+@lru_cache(maxsize=1024)  # the symbols of a class are the same
+def _lettered(text: str) -> str:
+    """Return the pieces of a text with scripts, each moved from where the one before it stands.
 
     Old browsers know no `baseline-shift`; `dy` moves all that follows, until it is moved back.
     """
-    at = 0.0
+    at, pieces = 0.0, []
     for run, level in script_runs(text):
         size = f' font-size="{SMALL}"' if level else ""
-        yield f'<tspan dy="{RISE[level] - at:.1f}"{size}>{escape(run)}</tspan>'
+        pieces.append(f'<tspan dy="{RISE[level] - at:.1f}"{size}>{escape(run)}</tspan>')
         at = RISE[level]
+    return "".join(pieces)
 
 
 def _arrow(tail: complex, tip: complex, least: float) -> str:

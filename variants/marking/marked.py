@@ -109,7 +109,7 @@ class Desk:
         marking, borne = counted_once(marking, found, {line.name for line in self._counted(key, marking, answers)})
         others = self._others(variant)
         fits = fits_other(marking, given, others, lambda other: self.keyed(other, settings, own=False).key)
-        marking = bounded(marking, of_other=bool(fits))
+        marking = bounded(marking, self.keyed(fits, settings, own=False).key if fits else None)
         lines = self._counted(key, marking, answers)
         parts = rubric.parts(lines, key.by_plan, key.needed)
         marks = rubric.mark(lines, parts)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from ...drawing.words import Words
 from ...plans.board import Step
-from ...plans.marking.verdicts import INPUTS, Line, Verdict, behind
+from ...plans.marking.verdicts import Line, Verdict, behind
 from ...plans.mistakes.rules import Broken
 from ...scales.units import format_unit
 from ..roster import WHO
@@ -129,9 +129,8 @@ class _Teller:
         tolerance = self.rubric.tolerance
         percent, degrees = short(tolerance.part * 100.0, DIGITS), short(tolerance.degrees, DIGITS)
         yield said["report.tolerance"].format(mm=short(tolerance.mm, DIGITS), percent=percent, degrees=degrees)
-        counts = Counter(map(self._verdict, self.marked.lines))
-        known = (*(said[f"verdict.{verdict}"] for verdict in Verdict), said["verdict.inputs"])
-        listed = (f"{verdict} {counts[verdict]}" for verdict in known if counts[verdict])
+        counts = Counter(line.verdict for line in self.marked.lines)
+        listed = (f"{said[f'verdict.{verdict}']} {counts[verdict]}" for verdict in Verdict if counts[verdict])
         yield f"{said['report.counts']}: {', '.join(listed)}"
         first = self.marked.marking.first_wrong
         if first is None:
@@ -152,11 +151,11 @@ class _Teller:
             misfit = self.marked.misfits.get(line.name)
             if misfit is not None:
                 yield self._scale(misfit)
-            if line.verdict.faulty and not (misfit and line.verdict is Verdict.SCALE) and line.about != INPUTS:
+            if line.verdict.faulty and not (misfit and line.verdict is Verdict.SCALE):
                 yield self.hint(line)
-        unknown = ", ".join(self.symbol(line.name) for line in lines if line.about == INPUTS)
+        unknown = ", ".join(self.symbol(line.name) for line in lines if line.verdict is Verdict.UNCOUNTED)
         if unknown:
-            yield self.said["again.inputs"].format(symbols=unknown)
+            yield self.said["again.uncounted"].format(symbols=unknown)
         if self.own and self.marked.marking.first_wrong is not None:
             yield self.said["again.then"]
 
@@ -234,11 +233,8 @@ class _Teller:
         if not self.own:
             right, weight = self._right(line), self._points(line)
             tolerance = f"± {self._number(line.name, line.allowed)}" if line.allowed else ""
-        said = self._verdict(line)
+        said = self.said[f"verdict.{line.verdict}"]
         return Row(line.name, self.symbol(line.name), self._answer(line), right, tolerance, line.verdict, said, weight)
-
-    def _verdict(self, line: Line) -> str:
-        return self.said["verdict.inputs" if line.about == INPUTS else f"verdict.{line.verdict}"]
 
     def _points(self, line: Line) -> str:
         """Return what part of the full mark a line is."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from html import escape
 
 from ...plans.marking.verdicts import Verdict
@@ -16,7 +17,7 @@ STYLE = """
 body{font:11pt/1.4 "Segoe UI",Arial,sans-serif;max-width:180mm;margin:8mm auto;color:#000}
 h1{font-size:15pt}h2{font-size:12pt;margin:6mm 0 2mm}
 table{border-collapse:collapse;width:100%}th,td{border:1px solid #888;padding:1mm 2mm;text-align:left}
-th{background:#eee}td.n{white-space:nowrap}tr.wrong td,tr.arithmetic td,tr.scale td{background:#fbe3d6}
+th{background:#eee}td.n{white-space:nowrap}tr.wrong td,tr.uncounted td,tr.arithmetic td,tr.scale td{background:#fbe3d6}
 tr.missing td{color:#666}.first{font-weight:bold}
 sub,sup{font-size:70%;line-height:0}
 svg{width:100%;max-height:150mm;border:1px solid #ccc}svg path{fill:none;stroke-width:.5}
@@ -87,6 +88,7 @@ def _row(row: Row, own: bool) -> str:
     return f'<tr class="{row.verdict}"><td>{scripts(symbol)}</td>{listed}</tr>'
 
 
+@lru_cache(maxsize=4096)  # the symbols of a class are the same
 def scripts(text: str) -> str:
     """Return text as HTML, with true superscripts and subscripts of the symbols in it.
 

@@ -27,6 +27,7 @@ WORTH = {
     Verdict.ARITHMETIC: 0.5,
     Verdict.SCALE: 0.5,
     Verdict.WRONG: 0.0,
+    Verdict.UNCOUNTED: 0.0,
     Verdict.MISSING: 0.0,
 }
 DIRECTIONS = ("optional", "required", "ignored")
