@@ -7,7 +7,7 @@ from math import pi
 
 from .pens import ZERO
 from .shapes import Line, Pen, Text
-from .symbols import angle_dimension, dimension, swept
+from .symbols import angle_dimension, dimension, swept, turning_arrow
 from .text import lay_out
 from .view import Canvas
 
@@ -24,6 +24,7 @@ def angle(
     text: str = "",
     *,
     turn: int = 0,
+    inside: bool = False,
     prefer: complex = 0j,
     clear: float = 1.0,
     spare: str = "",
@@ -31,14 +32,28 @@ def angle(
     """Dimension the angle from one ray to another with its text at the middle of the arc.
 
     `turn` says whether it runs counter-clockwise, 1, or clockwise, -1; without it the shorter way. The text stands
-    beyond the arc, or to the side that it should `prefer`.
+    beyond the arc, or `inside` of it, or to the side that it should `prefer`.
     """
     start, sweep = phase(rays[0]), swept(*rays, turn)
     canvas.add(angle_dimension(vertex, radius, start, sweep, name, canvas.style))
     if text:
         out = rect(1.0, start + 0.5 * sweep)
         at = vertex + radius * out
-        canvas.label(text, at, prefer=prefer or out, clear=clear, height=canvas.style.text, spare=spare)
+        canvas.label(
+            text, at, prefer=prefer or (-out if inside else out), clear=clear, height=canvas.style.text, spare=spare
+        )
+
+
+def turning(
+    canvas: Canvas, centre: complex, radius: float, middle: float, spread: float, sense: float, name: str, text: str
+) -> None:
+    """Draw an arrow about a centre that shows in which sense something turns, its letter beyond its middle.
+
+    The arrow reaches to both sides of the direction `middle` by half of `spread`, rad.
+    """
+    at = centre + rect(radius, middle)
+    canvas.add(turning_arrow(centre, radius, middle, spread, sense, name))
+    canvas.label(text, at, prefer=at - centre, clear=1.0)
 
 
 def linear(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: str, name: str) -> None:

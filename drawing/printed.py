@@ -11,6 +11,7 @@ from ..plans.laws import LAWS, form_of
 from .formulas import Symbol
 from .words import Words
 
+DEGREES = 180.0 / math.pi  # in a radian
 DIGITS = 4  # significant digits of a printed value
 MOST = 10  # more digits than that would be rounding noise
 FEWEST = 2  # significant digits of what small segments show

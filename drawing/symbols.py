@@ -122,15 +122,25 @@ def turning_arrow(centre: complex, radius: float, middle: float, spread: float, 
     return Group((Arc(centre, radius, start, sense * spread, Pen.THIN), Head(tip, direction)), "arrow", name)
 
 
+HALF_TURN = math.pi
+
+
+def unit(vector: complex) -> complex:
+    """Return the unit vector in the direction of a vector."""
+    return vector / abs(vector)
+
+
 def swept(a: complex, b: complex, turn: int = 0) -> float:
     """Return the angle from one direction to another: counter-clockwise, 1, clockwise, -1, or the shorter way."""
     return turn * (cmath.phase(b / a) * turn % math.tau) if turn else cmath.phase(b / a)
 
 
-def arc_between(centre: complex, a: complex, b: complex, pen: Pen, role: str = "", name: str = "") -> Arc:
-    """Return the arc about a centre that runs counter-clockwise from one point to another, or to its direction."""
+def arc_between(
+    centre: complex, a: complex, b: complex, pen: Pen, role: str = "", name: str = "", turn: int = 1
+) -> Arc:
+    """Return the arc about a centre from one point to the ray to another, counter-clockwise, or as `swept` turns."""
     start, end = a - centre, b - centre
-    return Arc(centre, abs(start), cmath.phase(start), swept(start, end, 1), pen, role=role, name=name)
+    return Arc(centre, abs(start), cmath.phase(start), swept(start, end, turn), pen, role=role, name=name)
 
 
 def angle_dimension(centre: complex, radius: float, start: float, sweep: float, name: str, style: Style) -> Group:

@@ -1,7 +1,8 @@
-"""Curves of many points as broken lines of few: for what only has to keep clear of them."""
+"""Curves of many points: as broken lines of few, for what only has to keep clear of them, and where they are freest."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from .shapes import Group, Polyline, Shape
 
 FEW = 8  # points of a line that is left as it is
+FAR = 1e6 + 0j  # mm
 
 
 def coarser(shape: Shape, within: float) -> Shape:
@@ -39,3 +41,41 @@ def thinned(points: tuple[complex, ...], within: float) -> tuple[complex, ...]:
             open_parts += [(a, a + 1 + k), (a + 1 + k, b)]
     result: tuple[complex, ...] = tuple(line[kept].tolist())
     return result
+
+
+def chords(points: Sequence[complex], within: float) -> list[complex]:
+    """Return points of a curve from chord to chord, each of which passes closely by those between, by `within` mm."""
+    kept, last = [points[0]], 0
+    for k in range(2, len(points)):
+        chord = points[k] - points[last]
+        away = max((abs((chord.conjugate() * (p - points[last])).imag) for p in points[last + 1 : k]), default=0.0)
+        if away > within * abs(chord):
+            last = k - 1
+            kept.append(points[last])
+    return [*kept, points[-1]]
+
+
+def freest(curves: Sequence[Sequence[complex]], step: float, each: float) -> Iterator[tuple[int, complex, complex]]:
+    """Go through places where curves are far from one another: the curve, the place, its direction there.
+
+    They are looked for `step` mm apart; a curve has one such place for `each` mm of it, and one more.
+    """
+    dense = [_dense(curve, step) for curve in curves]
+    for n, places in enumerate(dense):
+        others = np.array([place for m, found in enumerate(dense) if m != n for place in found] or [FAR])
+        own = np.array(places)
+        room = np.min(np.abs(own[:, np.newaxis] - others[np.newaxis, :]), axis=1)
+        room[[0, -1]] = -1.0  # not at the ends
+        for _ in range(1 + int(len(places) / (each / step))):
+            k = int(np.argmax(room))
+            along = places[min(k + 1, len(places) - 1)] - places[max(k - 1, 0)]
+            yield n, places[k], along / abs(along)
+            room = np.minimum(room, np.abs(own - own[k]) - 0.5 * each)
+
+
+def _dense(curve: Sequence[complex], step: float) -> list[complex]:
+    """Return places along a curve, equally far apart, three at least."""
+    reach = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(curve)))))
+    at = np.linspace(0.0, reach[-1], max(3, int(reach[-1] / step)))
+    places: list[complex] = (np.interp(at, reach, np.real(curve)) + 1j * np.interp(at, reach, np.imag(curve))).tolist()
+    return places

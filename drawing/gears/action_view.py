@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
-from itertools import pairwise
 
+from ...plans.gears.course import zones
 from ..dimensions import linear
 from ..figure import ANSWERS, Figure, stages
-from ..printed import Input, calculation
+from ..printed import DEGREES, Input, calculation
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import lay_out
 from ..view import Canvas, View
@@ -20,7 +19,6 @@ ROW = 1.8  # heights of letters between dimension lines
 FIRST = 3.0  # heights of letters from the line to the first of them
 # in which points of the line are marked; all others with the pitches
 STAGE = {"P": "pole", "N1": "line_of_action", "N2": "line_of_action", "A1": "active_line", "A2": "active_line"}
-SAME = 1e-9  # part of the base pitch: places that are one
 
 
 def action_view(overall: GearScene) -> View:
@@ -57,7 +55,7 @@ def ratios(scene: GearScene) -> tuple[str, ...]:
     epsilon = words.symbol("epsilon_alpha")
     found = []
     ways = [("g_alpha", "p_b", 1e3, words.unit("mm"))]
-    ways += [(f"phi_alpha{i}", f"tau_{i}", 180.0 / math.pi, "°") for i in (1, 2)]
+    ways += [(f"phi_alpha{i}", f"tau_{i}", DEGREES, "°") for i in (1, 2)]
     for over, under, times, unit in ways:
         inputs = [Input(scene.size(name) * times) for name in (over, under)]
         (a, b), result = calculation(words, lambda x, y: x / y, inputs)
@@ -67,29 +65,12 @@ def ratios(scene: GearScene) -> tuple[str, ...]:
     return tuple(found)
 
 
-def zones(scene: GearScene) -> list[tuple[float, float, int]]:
-    """Return the parts of the active line, m from N1, each with the number of pairs that touch while one is in it."""
-    first, last = scene.meshing.touching
-    pitch = scene.size("p_b")
-    more = int((last - first) / pitch)
-    ends = {first, last}
-    for k in range(1, more + 1):
-        ends |= {first + k * pitch, last - k * pitch}
-    places = [place for place in sorted(ends) if first <= place <= last]
-    found = []
-    for low, high in pairwise(places):
-        if high - low > SAME * pitch:
-            middle = 0.5 * (low + high)
-            count = sum(first < middle + k * pitch < last for k in range(-more - 1, more + 2))
-            found.append((low, high, count))
-    return found
-
-
 def _zones(canvas: Canvas, scene: GearScene) -> None:
     """Draw over each part as many steps as pairs touch, with their number."""
-    label, mu = scene.style.label, scene.mu_l
-    for k, (low, high, count) in enumerate(zones(scene)):
-        a, b, top = low / mu, high / mu, LEVEL * label * count
+    label = scene.style.label
+    for k, zone in enumerate(zones(scene.solved)):
+        a, b, count = scene.drawn(zone.first), scene.drawn(zone.last), zone.pairs
+        top = LEVEL * label * count
         corners = complex(a, 0.0), complex(a, top), complex(b, top), complex(b, 0.0)
         canvas.add(Group((Polyline(corners, Pen.THIN),), "zone", f"{k + 1}_{count}"))
         narrow = b - a < lay_out(str(count), label).width + 2.0
@@ -99,18 +80,17 @@ def _zones(canvas: Canvas, scene: GearScene) -> None:
 
 def _line(canvas: Canvas, scene: GearScene) -> None:
     """Draw the line with its points."""
-    mu, style = scene.mu_l, scene.style
-    ends = {name: scene.size(size) / mu for name, size in (("A1", "rho_p1"), ("P", "rho_w1"), ("A2", "rho_a1"))}
-    line = scene.size("l_N1N2") / mu
+    style, line = scene.style, scene.paper("l_N1N2")
+    ends = {"A1": scene.paper("rho_p1"), "P": scene.paper("rho_w1"), "A2": scene.paper("rho_a1")}
     low, high = min(0.0, *ends.values()), max(line, *ends.values())
     canvas.part("line_of_action")
     canvas.add(Line(complex(low, 0.0), complex(high, 0.0), Pen.THIN, role="line-of-action", name="N1N2"))
     canvas.part("active_line")
-    first, last = (rho_1 / mu for rho_1 in scene.touching) if scene.lacking else (ends["A1"], ends["A2"])
+    first, last = map(scene.drawn, scene.touching) if scene.lacking else (ends["A1"], ends["A2"])
     canvas.add(Line(complex(first, 0.0), complex(last, 0.0), Pen.MAIN, role="active", name="A1A2"))
-    pitch = scene.size("p_b") / mu
+    pitch = scene.paper("p_b")
     ends |= {"N1": 0.0, "N2": line, "K1": ends["A1"] + pitch, "K2": ends["A2"] - pitch}
-    for i, x in ((1, scene.size("rho_l1") / mu), (2, line - scene.size("rho_l2") / mu)):
+    for i, x in ((1, scene.paper("rho_l1")), (2, line - scene.paper("rho_l2"))):
         if 0.0 < x < line:
             ends[f"H{i}"] = x
     for name, x in ends.items():
@@ -121,10 +101,10 @@ def _line(canvas: Canvas, scene: GearScene) -> None:
 
 def _dimensions(canvas: Canvas, scene: GearScene) -> None:
     """Dimension the active line, the base pitch from both its ends, radii of curvature, row by row below the line."""
-    first, last, line = (scene.size(name) for name in ("rho_p1", "rho_a1", "l_N1N2"))
-    pitch = scene.size("p_b")
+    names = ("rho_p1", "rho_a1", "l_N1N2", "p_b", "rho_l1", "rho_l2")
+    first, last, line, pitch, low_1, low_2 = map(scene.paper, names)
     rows = [
-        [("rho_l1", 0.0, scene.size("rho_l1"), "rho_l1"), ("rho_l2", line - scene.size("rho_l2"), line, "rho_l2")],
+        [("rho_l1", 0.0, low_1, "rho_l1"), ("rho_l2", line - low_2, line, "rho_l2")],
         [("rho_p1", 0.0, first, "rho_p1"), ("rho_p2", last, line, "rho_p2")],
         [("p_b_1", first, first + pitch, "p_b")],
         [("p_b_2", last - pitch, last, "p_b")],
@@ -135,7 +115,7 @@ def _dimensions(canvas: Canvas, scene: GearScene) -> None:
     for row in rows:
         shown = [one for one in row if one[2] - one[1] > 0.0]
         for name, low, high, quantity in shown:
-            ends = complex(low / scene.mu_l, 0.0), complex(high / scene.mu_l, 0.0)
+            ends = complex(low, 0.0), complex(high, 0.0)
             linear(canvas, ends, 1j * y, "", name)
             at = ends[0] + 1j * y, ends[1] + 1j * y
             canvas.label(scene.stated(quantity), at, prefer=1j, clear=0.8, height=scene.style.text)

@@ -1,19 +1,17 @@
-"""The frame of a meshing: circles with their diameters, line of centres, common tangent, line of action."""
+"""The frame of a meshing: circles with diameters, line of centres, line of action; what is measured along them."""
 
 from __future__ import annotations
 
-import cmath
-import math
 from collections.abc import Sequence
 
-from ..dimensions import linear
+from ...plans.gears.wheels import CIRCLES, SHOWN, Wheel
+from ..dimensions import angle, linear, turning
 from ..figure import ANSWERS
 from ..shapes import Anchor, Arc, Circle, Group, Line, Pen, Text
-from ..symbols import angle_dimension, fixed_pivot, right_angle, turning_arrow
+from ..symbols import HALF_TURN, fixed_pivot, right_angle, unit
 from ..view import Canvas
 from ..words import indexed
 from .scene import GearScene
-from .wheels import CIRCLES, SHOWN, Wheel
 
 Span = tuple[float, float]
 PENS = {"a": Pen.THIN, "w": Pen.EXTREME, "": Pen.AXIS, "b": Pen.DASHED, "f": Pen.THIN}
@@ -22,8 +20,12 @@ PITCH = 1.9  # heights of letters between diameters written under one another
 SHELF = 5.0  # mm from the longest arc to the diameters
 SAME = 0.02  # mm between circles that are one line
 STAGE = {"w": "rolling_circles", "b": "line_of_action"}  # of the circles, but for those of the teeth
-WIDEST = 0.9 * math.pi  # half the angle of circles at most
+WIDEST = 0.9 * HALF_TURN  # half the angle of circles at most
 TURNING = 3.2  # radius of the arrows of omega, in heights of letters
+INSIDE = 1.8  # heights of letters from the root circle to the arc of the pitch
+TAU, PHI = 0.48, 0.76  # parts of the root's radius at which the angles of pitch and of action are dimensioned
+CLOSE = 6.0  # radius of an arc in heights of letters
+Ends = tuple[complex, complex]
 
 
 def beside_teeth(wheel: Wheel) -> Span:
@@ -43,7 +45,7 @@ def circles(canvas: Canvas, wheel: Wheel, span: Span, to_end: bool) -> None:
         if to_end and name == "b":
             low = -wheel.side * max(abs(low), wheel.sizes["alpha_w"] + PAST / wheel.radius("b"))
         same = abs(wheel.radius(name) - wheel.radius("")) < SAME
-        arc = Arc(wheel.centre, wheel.radius(name), cmath.phase(wheel.up) + low, high - low, PENS["" if same else name])
+        arc = Arc(wheel.centre, wheel.radius(name), wheel.direction + low, high - low, PENS["" if same else name])
         canvas.part(STAGE.get(name, "circles"))
         canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
 
@@ -95,21 +97,22 @@ def centres(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel], left: f
     for wheel, at in zip(pair, (below, above), strict=True):
         canvas.add(fixed_pivot(at, f"O{wheel.number}", style, -wheel.up))
         canvas.label(f"O_{{{wheel.number}}}", at, prefer=complex(1.0, 0.3), clear=style.pair + 0.8)
-        turns = sense if wheel.number == 1 else -sense
+        turns = float(sense if wheel.number == 1 else -sense)
         canvas.part(ANSWERS)
-        _turning(canvas, scene, wheel, float(turns))
+        name, radius = f"omega_{wheel.number}", TURNING * style.label
+        turning(
+            canvas,
+            wheel.centre,
+            radius,
+            wheel.direction + turns * 0.5 * HALF_TURN,
+            0.9,
+            turns,
+            name,
+            scene.words.symbol(name),
+        )
         canvas.part("centres")
     canvas.part(ANSWERS)
     linear(canvas, (below, above), complex(left, 0.0), scene.stated("a_w"), "a_w")
-
-
-def _turning(canvas: Canvas, scene: GearScene, wheel: Wheel, turns: float) -> None:
-    """Draw the arrow of a wheel's turning beside its centre, away from the teeth."""
-    radius, name = TURNING * scene.style.label, f"omega_{wheel.number}"
-    middle = cmath.phase(wheel.up) + turns * 0.5 * math.pi
-    canvas.add(turning_arrow(wheel.centre, radius, middle, 0.9, turns, name))
-    at = wheel.centre + cmath.rect(radius, middle)
-    canvas.label(scene.words.symbol(name), at, prefer=at - wheel.centre, clear=1.0)
 
 
 def tangent(canvas: Canvas, left: float, right: float) -> None:
@@ -129,7 +132,7 @@ def line_of_action(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel]) 
     for wheel, end, inside in zip(pair, ends, (along, -along), strict=True):
         name = f"N{wheel.number}"
         canvas.add(Line(wheel.centre, end, Pen.THIN, role="radius", name=name))
-        radius = (wheel.centre - end) / abs(wheel.centre - end)
+        radius = unit(wheel.centre - end)
         canvas.part(ANSWERS)
         canvas.add(right_angle(end, radius, inside, size))
         canvas.part("line_of_action")
@@ -167,15 +170,10 @@ def middle(canvas: Canvas, pair: tuple[Wheel, Wheel]) -> None:
 
 def angle_of_action(canvas: Canvas, scene: GearScene) -> None:
     """Dimension alpha_w between t-t and N1N2, on the side of the farther end of the line."""
-    first, second = (scene.mm(name) for name in ("N1", "N2"))
-    far = max((first, second), key=abs)
-    reach = 0.85 * abs(far)
-    start = math.pi if far.real < 0.0 else 0.0
-    sweep = math.remainder(cmath.phase(far) - start, 2.0 * math.pi)
+    far = max((scene.mm(name) for name in ("N1", "N2")), key=abs)
+    rays = -1.0 + 0j if far.real < 0.0 else 1.0 + 0j, far
     canvas.part(ANSWERS)
-    canvas.add(angle_dimension(0j, reach, start, sweep, "alpha_w", scene.style))
-    middle = cmath.rect(reach, start + 0.5 * sweep)
-    canvas.label(scene.angle("alpha_w"), middle, prefer=middle, clear=1.0, height=scene.style.text)
+    angle(canvas, 0j, rays, 0.85 * abs(far), "alpha_w", scene.angle("alpha_w"))
 
 
 def node(canvas: Canvas, scene: GearScene, name: str, prefer: complex) -> None:
@@ -183,3 +181,66 @@ def node(canvas: Canvas, scene: GearScene, name: str, prefer: complex) -> None:
     at, radius = scene.mm(name), scene.style.node
     canvas.add(Group((Circle(at, radius, Pen.THIN, fill="white"),), "point", name))
     canvas.label(indexed(name), at, prefer=prefer, clear=radius + 0.6)
+
+
+def thickness(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
+    """Dimension on the reference circle a tooth beside the one in contact, away from N, and the space between both."""
+    radius, i = wheel.radius(""), wheel.number
+    tooth = wheel.at(radius, wheel.side), wheel.at(radius, wheel.side, active=False)
+    along(canvas, scene, wheel, tooth, f"s_{i}")
+    along(canvas, scene, wheel, (tooth[1], wheel.at(radius)), f"e_{i}")
+
+
+def pitch(canvas: Canvas, scene: GearScene, wheel: Wheel, to_centre: bool) -> None:
+    """Dimension the pitch below the root, on lines from the reference circle; these run `to_centre` with its angle."""
+    i, radius = wheel.number, wheel.radius("")
+    ends = wheel.at(radius, wheel.side), wheel.at(radius)
+    low = wheel.radius("f") - INSIDE * scene.style.label
+    for end in ends:
+        foot = wheel.centre if to_centre else wheel.towards(end, low - 0.4 * scene.style.label)
+        canvas.add(Line(end, foot, Pen.THIN, role="extension", name=f"p_{i}"))
+    along(canvas, scene, wheel, _on(wheel, ends, low), f"p_{i}")
+    if to_centre:
+        name = f"tau_{i}"
+        along(canvas, scene, wheel, _on(wheel, ends, TAU * wheel.radius("f")), name)
+
+
+def action(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
+    """Dimension the angles by which the wheels turn while one pair of teeth touches, between rays to its flanks."""
+    for wheel in pair:
+        i = wheel.number
+        ends = scene.mm(f"B{i}_start"), scene.mm(f"B{i}_end")
+        for end in ends:
+            canvas.add(Line(end, wheel.centre, Pen.THIN, role="ray", name=f"phi_alpha{i}"))
+        name = f"phi_alpha{i}"
+        along(canvas, scene, wheel, _on(wheel, ends, PHI * wheel.radius("f")), name)
+
+
+def gaps(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
+    """Dimension the radial gap on the line of centres at the root of both wheels."""
+    text, height = f"{scene.words.symbol('c')}{scene.words.symbol('m')}", scene.style.text
+    for wheel, mate in zip(pair, reversed(pair), strict=True):
+        ends = scene.mm(f"C_f{wheel.number}"), scene.mm(f"C_a{mate.number}")
+        linear(canvas, ends, 0j, "", f"gap_{wheel.number}")
+        canvas.label(text, 0.5 * (ends[0] + ends[1]), prefer=complex(wheel.side, 0.0), clear=2.0, height=height)
+
+
+def along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str) -> None:
+    """Dimension an arc about the wheel's centre between two points of it."""
+    a, b = (end - wheel.centre for end in ends)
+    text = _text(scene, name)
+    spare = text if abs(a) < CLOSE * scene.style.label else ""  # near the centre there may be no room
+    angle(canvas, wheel.centre, (a, b), abs(a), name, text, inside=True, spare=spare)
+
+
+def _text(scene: GearScene, name: str) -> str:
+    """Return what a dimension says; the pitch of both wheels is one."""
+    if name.startswith(("tau_", "phi_")):
+        return scene.angle(name)
+    return scene.stated("p" if name.startswith("p_") else name)
+
+
+def _on(wheel: Wheel, ends: Ends, radius: float) -> Ends:
+    """Return the points of a circle about the centre that lie on the rays to the ends."""
+    a, b = (wheel.towards(end, radius) for end in ends)
+    return a, b

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ...plans.gears.blocking import BLOCKING, CURVES, RATIOS, Plane, plane_of
 from ...scales.scale import Scale, steps
 from ..diagram import Axis, Field, divisions
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
+from ..thinning import chords, freest
 from ..view import Canvas, View
 from .scene import GearScene
 
@@ -22,9 +20,7 @@ PAST = 1.6  # heights of letters by which arrows run past the window
 EACH = 0.7  # of the longer side of the window: a curve has a number for each such part of it
 LEAST = 0.2  # of the longer side: shorter curves in a corner of the window, which bound nothing, are left out
 IN_A_LINE = 3  # entries of the legend
-FAR = 1e6 + 0j  # mm
 STEP = 2.0  # mm between places that are looked at
-Curve = Sequence[complex]
 
 
 def contour_view(scene: GearScene) -> View:
@@ -100,17 +96,9 @@ def _frame(canvas: Canvas, scene: GearScene, field: Field) -> None:
     canvas.bounds = (corners[0].real, corners[0].imag, corners[2].real, corners[2].imag)
 
 
-def _thinned(field: Field, run: NDArray[np.complexfloating]) -> list[complex]:
+def _thinned(field: Field, run: Iterable[complex]) -> list[complex]:
     """Return places of a curve on the paper, those left out that a chord passes closely."""
-    points = [field.at(place.real, place.imag) for place in run.tolist()]
-    kept, last = [points[0]], 0
-    for k in range(2, len(points)):
-        chord = points[k] - points[last]
-        away = max((abs((chord.conjugate() * (p - points[last])).imag) for p in points[last + 1 : k]), default=0.0)
-        if away > FINE * abs(chord):
-            last = k - 1
-            kept.append(points[last])
-    return [*kept, points[-1]]
+    return chords([field.at(place.real, place.imag) for place in run], FINE)
 
 
 def _chosen(canvas: Canvas, scene: GearScene, field: Field) -> None:
@@ -124,21 +112,11 @@ def _chosen(canvas: Canvas, scene: GearScene, field: Field) -> None:
 
 def _numbers(canvas: Canvas, scene: GearScene, curves: Mapping[str, list[list[complex]]]) -> None:
     """Number the curves that pass through the window, long ones in several places, where they are far from others."""
-    dense = [(name, _dense(run)) for name, runs in curves.items() for run in runs]
+    dense = [(name, run) for name, runs in curves.items() for run in runs]
     numbers = {name: str(n) for n, name in enumerate(seen(curves), start=1)}
-    long = EACH * SIDE[scene.style.label] / STEP
-    for n, (name, places) in enumerate(dense):
-        others = np.array([place for m, (_, found) in enumerate(dense) if m != n for place in found] or [FAR])
-        own = np.array(places)
-        room = np.min(np.abs(own[:, np.newaxis] - others[np.newaxis, :]), axis=1)
-        room[[0, -1]] = -1.0  # not on the sides of the window
-        for _ in range(1 + int(len(places) / long)):
-            k = int(np.argmax(room))
-            along = places[min(k + 1, len(places) - 1)] - places[max(k - 1, 0)]
-            half = along * (REACH / abs(along))
-            ends = places[k] - half, places[k] + half
-            canvas.label(numbers[name], ends, clear=0.8, height=scene.style.text)
-            room = np.minimum(room, np.abs(own - own[k]) - 0.5 * EACH * SIDE[scene.style.label])
+    for n, at, along in freest([run for _, run in dense], STEP, EACH * SIDE[scene.style.label]):
+        ends = at - REACH * along, at + REACH * along
+        canvas.label(numbers[dense[n][0]], ends, clear=0.8, height=scene.style.text)
 
 
 def seen(curves: Mapping[str, list[list[complex]]]) -> list[str]:
@@ -154,14 +132,6 @@ def _legend(scene: GearScene, names: Sequence[str]) -> Iterator[str]:
     words = scene.words
     shifts = (f"{words.symbol(name)} = {words.short(round(scene.size(name), 4))}" for name in ("x_1", "x_2"))
     yield f"●  {';  '.join(shifts)}"
-
-
-def _dense(run: list[complex]) -> list[complex]:
-    """Return places along a curve, equally far apart, three at least."""
-    reach = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(run)))))
-    at = np.linspace(0.0, reach[-1], max(3, int(reach[-1] / STEP)))
-    found: list[complex] = (np.interp(at, reach, np.real(run)) + 1j * np.interp(at, reach, np.imag(run))).tolist()
-    return found
 
 
 def limit(scene: GearScene, name: str) -> str:

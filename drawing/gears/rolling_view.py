@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import cmath
-import math
 from dataclasses import replace
 
+from ...plans.gears.wheels import Wheel
 from ..figure import ANSWERS, Figure, stages
 from ..shapes import Arc, Circle, Group, Line, Pen, Polyline
-from ..symbols import right_angle
+from ..symbols import right_angle, unit
 from ..view import Canvas, View
 from .circles import PAST, PENS, node
 from .scene import GearScene
-from .wheels import Wheel
 
 DOT = 0.6  # of a division, in radii of nodes
 TIP = "a"  # the division that ends on the tip circle
@@ -54,12 +52,12 @@ def _circles(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
     beside = TIP_ARC * scene.style.label / wheel.radius("a")
     spans = {"b": base, "a": (end - beside, end + beside)}
     for name, (low, high) in spans.items():
-        start = cmath.phase(wheel.up) + low - BESIDE
+        start = wheel.direction + low - BESIDE
         arc = Arc(wheel.centre, wheel.radius(name), start, high - low + 2.0 * BESIDE, PENS[name])
         canvas.part("line_of_action" if name == "b" else "involutes")
         canvas.add(Group((arc,), "circle", f"d_{name}{i}"))
     far = max(base, key=abs)
-    at = wheel.on(wheel.radius("b"), far + math.copysign(BESIDE, far))
+    at = wheel.on(wheel.radius("b"), far + (BESIDE if far > 0.0 else -BESIDE))
     canvas.part(ANSWERS)
     canvas.label(scene.stated(f"d_b{i}"), at, prefer=-wheel.up, clear=1.0, height=height)
     out = wheel.side * wheel.up * -1j  # away from N
@@ -89,7 +87,7 @@ def _number(canvas: Canvas, scene: GearScene, wheel: Wheel, k: int) -> None:
     """Number a division of PN, and the same on the base circle; where both are one, only this."""
     i, height = wheel.number, scene.style.text
     foot, part = scene.mm(f"T{i}_{k}"), scene.mm(f"D{i}_{k}")
-    inward = (wheel.centre - foot) / abs(wheel.centre - foot)
+    inward = unit(wheel.centre - foot)
     canvas.add(_division(scene, part, f"D{i}_{k}"))
     canvas.label(str(k), foot, prefer=inward, clear=1.0, height=height)
     if k and abs(part - foot) > height:
@@ -104,7 +102,7 @@ def _foot(canvas: Canvas, scene: GearScene, wheel: Wheel, inside: complex) -> No
     """Mark the foot of the radius on the line of action, with a piece of the radius."""
     name, label = f"N{wheel.number}", scene.style.label
     at = scene.mm(name)
-    inward = (wheel.centre - at) / abs(wheel.centre - at)
+    inward = unit(wheel.centre - at)
     canvas.part("line_of_action")
     canvas.add(Line(at, at + 3.0 * label * inward, Pen.THIN, role="radius", name=name))
     canvas.part(ANSWERS)

@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-import numpy as np
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 from ...plans.gears.checks import SAME
+from ...plans.gears.geometry import POINTS
 from ...plans.gears.meshing import Meshing
+from ...plans.gears.wheels import Wheel, wheels
+from ...scales.packaged import packaged
 from ...scales.scale import Scale
 from ..givens import Given
-from ..printed import decimals_for
+from ..printed import DEGREES, decimals_for
 from ..style import Style
 from ..words import Words
-from .wheels import Wheel, wheels
 
 if TYPE_CHECKING:
     from ...plans.gears.solve import SolvedGear
 
 MESHING = "meshing"
 TALL = 7.0  # heights of letters that a tooth must have for what is measured on it
+DRAWING = __name__.rpartition(".gears.")[0]
+OF_POINTS = {"y_1": "y_{1}", "y_2": "y_{2}", "theta_12": "θ_{12}", "theta_21": "θ_{21}"}
+# rho_1 of a place, its distance from N1: by the name of a quantity
+PLACES = {"A1": "rho_p1", "P": "rho_w1", "A2": "rho_a1"}
+NUMBERS = ("03", "06", "08")  # points of the table at the three places, in the order in which they lie
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +76,11 @@ class GearScene:
 
     def paper(self, name: str) -> float:
         """Return a length as it is drawn in the meshing, mm."""
-        return self.size(name) / self.mu_l
+        return self.drawn(self.size(name))
+
+    def drawn(self, length: float) -> float:
+        """Return the millimetres that show a length of the meshing, m."""
+        return length / self.mu_l
 
     def mm(self, mark: str) -> complex:
         """Return a mark of the meshing in mm from the pole."""
@@ -95,7 +104,7 @@ class GearScene:
 
     def degrees(self, angle: float) -> str:
         """Return an angle as a dimension has it: to a hundredth of a degree, without zeros at the end."""
-        return f"{self.words.short(round(float(np.degrees(angle)), 2))}°"
+        return f"{self.words.short(round(angle * DEGREES, 2))}°"
 
     def angle(self, name: str) -> str:
         """Return an angle with its letter: alpha_w = 26.65°."""
@@ -104,3 +113,30 @@ class GearScene:
     def value(self, value: float) -> str:
         """Return a number with the usual digits."""
         return self.words.number(value, decimals_for(value))
+
+
+def lettered(words: Words) -> Words:
+    """Return the words with the letters of a gear pair; what is of a point of the sliding table has its number."""
+    table: dict[str, str] = dict(packaged(DRAWING, "texts", f"gears.{words.language}"))
+    for name, letter in OF_POINTS.items():
+        table |= {f"{name}_{point}": f"{letter}({int(point)})" for point in POINTS}
+    symbols = words.notation["symbols"]
+    merged = {**symbols, words.language: {**symbols[words.language], **table}}
+    return replace(words, notation={**words.notation, "symbols": merged, "scales": "per mm"})
+
+
+def along(values: Mapping[str, Any]) -> dict[str, float]:
+    """Return the named places in their order on the line of action: their distances from N1, m.
+
+    A1 and A2 lie between N1 and N2 in a pair without interference.
+    """
+    line = float(values["l_N1N2"])
+    found = {"N1": 0.0, **{name: float(values[rho]) for name, rho in PLACES.items()}, "N2": line}
+    return dict(sorted(found.items(), key=lambda item: item[1]))
+
+
+def marks(values: Mapping[str, Any]) -> dict[str, str]:
+    """Return the points of the table that stand at the named places, by the names of these."""
+    line = float(values["l_N1N2"])
+    inner = sorted(PLACES, key=lambda name: min(max(float(values[PLACES[name]]), 0.0), line))
+    return {"N1": POINTS[0], **dict(zip(inner, NUMBERS, strict=True)), "N2": POINTS[-1]}

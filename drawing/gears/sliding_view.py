@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
+from ...plans.gears.dense import active_area, sliding_curve
 from ...plans.gears.gear import WHEELS
 from ...plans.gears.geometry import POINTS
 from ...scales.scale import Scale
-from ..diagram import Axis, Field, axes, numbers
+from ..areas import strokes
+from ..diagram import Axis, Field, axes, curve, divisions, numbers
 from ..dimensions import linear
 from ..figure import ANSWERS, Figure, stages
-from ..shapes import Circle, Group, Line, Pen
+from ..shapes import Circle, Group, Line, Pen, Text
+from ..symbols import unit
 from ..text import lay_out
 from ..view import Canvas, View
-from ..words import indexed
-from .ladders import cut_of, rho_mu
-from .marks import along
-from .scene import GearScene
-from .theta_diagram import place, theta_diagram, theta_field, theta_said, widest
+from ..words import Words, indexed
+from .ladders import CURVES, ENDS, cut_of, rho_mu, theta_mu
+from .scene import GearScene, along
 
 REDUCTIONS = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02, 0.01)  # of the ordinates of velocities
 TALLEST = {5.0: 130.0, 3.5: 75.0}  # mm of the highest ordinate, by the height of letters
 BETWEEN = 4.4  # heights of letters between the diagrams
 SIDES = {1: 1.0, 2: -1.0}  # of the pole, on which a wheel's profile is the faster one
 PAST = 1.6  # heights of letters by which axes run past their ends
+APART = 1.6  # heights of letters between lines of text
+ALONG = {1: unit(1.0 + 1.0j), 2: unit(-1.0 + 1.0j)}  # of the strokes under each curve
+HATCH = 2.5  # mm between strokes
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,6 +143,102 @@ def _pole(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) 
     canvas.add(Group((Circle(w, scene.style.node, Pen.MAIN, fill="white"),), "point", "W"))
     canvas.label("W", w, prefer=1j, clear=1.2, priority=1)
     return [] if fits else [f"{text} {words.unit('mm')}"]
+
+
+def place(scene: GearScene, point: str) -> float:
+    """Return how far a point of the table is from N1, m."""
+    return float(scene.solved.values[f"_rho_1_{point}"])
+
+
+def theta_scale(scene: GearScene) -> Scale:
+    """Return the scale factor of specific sliding."""
+    return Scale("mu_theta", theta_mu(scene.solved, scene.style.label, scene.part), "1")
+
+
+def theta_said(words: Words, mu: float) -> str:
+    """Return the scale factor of specific sliding, which has no unit of its own."""
+    return f"{words.symbol('mu_theta')} = {words.short(mu)} {words.unit('mm')}^{{−1}}"
+
+
+def theta_field(scene: GearScene, above: Field, apart: float) -> Field:
+    """Return the axes of specific sliding under those of the velocities."""
+    words, low, scale = scene.words, cut_of(scene.solved), theta_scale(scene)
+    marks = {value: words.short(value) for value in divisions(1.0, low, scale.mu, 9.0)}
+    origin = above.origin - 1j * (apart + scale.drawn(1.0))
+    return Field(origin, replace(above.x, letter=""), Axis(words.symbol("theta"), scale, low, 1.0, marks))
+
+
+def theta_diagram(canvas: Canvas, scene: GearScene, field: Field) -> None:
+    """Draw both curves with the points of the table, the active part hatched, its extremes with their values."""
+    canvas.part("sliding")
+    for i, name in CURVES.items():
+        curve(canvas, field, sliding_curve(scene.solved, i, field.y.low), name)
+        points = ((p, place(scene, p), scene.size(f"{name}_{p}")) for p in POINTS)
+        canvas.add(
+            *(
+                Group((Circle(field.at(rho, value), scene.style.node, Pen.THIN, fill="white"),), "node", f"{name}_{p}")
+                for p, rho, value in points
+                if value >= field.y.low
+            )
+        )
+        _active(canvas, scene, field, i)
+        canvas.label(scene.words.symbol(name), _free(scene, field, i), prefer=1j, clear=1.0)
+    canvas.part(ANSWERS)
+    _extremes(canvas, scene, field)
+
+
+def _active(canvas: Canvas, scene: GearScene, field: Field, i: int) -> None:
+    """Hatch the area between a curve and the axis over the active line, with lines at both ends."""
+    outline = [field.at(*place) for place in active_area(scene.solved, i, field.y.low)]
+    if outline:
+        canvas.add(Group(tuple(strokes(outline, ALONG[i], HATCH)), "active", CURVES[i]))
+
+
+def _free(scene: GearScene, field: Field, i: int) -> tuple[complex, complex]:
+    """Return a part of a curve above the axis, between lines that are far apart: room for its letter."""
+    pole, side = scene.size("rho_w1"), 1.0 if i == 1 else -1.0
+    beyond = [p for p in POINTS if (place(scene, p) - pole) * side >= 0.0]
+    return widest([field.at(place(scene, p), scene.size(f"{CURVES[i]}_{p}")) for p in beyond], field.at(pole, 0.0))
+
+
+def widest(tips: Sequence[complex], pole: complex) -> tuple[complex, complex]:
+    """Return the two neighbours that are farthest apart across, but for those beside the pole."""
+    pairs = sorted(pairwise(tips), key=lambda ends: abs((ends[0] + ends[1]).real - 2.0 * pole.real))
+    return max(pairs[1:] or pairs, key=lambda ends: abs((ends[1] - ends[0]).real))
+
+
+def _extremes(canvas: Canvas, scene: GearScene, field: Field) -> None:
+    """Carry the ends of the active part of both curves to the right of the diagram, where their values stand."""
+    words, height = scene.words, scene.style.text
+    right = field.at(field.x.high, 0.0).real
+    shown = []
+    for end, rho in ENDS.items():
+        values = {name: scene.size(f"{name}_{end}") for name in CURVES.values()}
+        seen = {name: value for name, value in values.items() if field.y.low <= value <= 1.0}
+        tips = [field.at(scene.size(rho), value) for value in (*seen.values(), 0.0)]
+        low, high = (pick(tips, key=lambda tip: tip.imag) for pick in (min, max))
+        if high != low:
+            canvas.add(Line(low, high, Pen.MAIN, role="end", name=end))
+        for (name, value), at in zip(seen.items(), tips, strict=False):
+            canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="black"),), "extreme", f"{name}_{end}"))
+            shown.append((at, f"{words.symbol(f'{name}_{end}')} = {words.number(value, 2)}"))
+    levels = spread([at.imag for at, _ in shown], field.origin.imag, APART * height)
+    for (at, text), level in zip(shown, levels, strict=True):
+        corner, start = complex(right + 1.5, at.imag), complex(right + 1.5 + 0.8 * height, level)
+        canvas.add(Line(at, corner, Pen.DASHED, role="projection"), Line(corner, start, Pen.THIN, role="leader"))
+        canvas.add(Text(start + complex(0.4 * height, -0.5 * height), text, height, role="extreme"))
+
+
+def spread(levels: Sequence[float], axis: float, apart: float) -> list[float]:
+    """Return levels of texts, in the order given, so far apart, and from the axis: moved away from this."""
+    found = dict.fromkeys(range(len(levels)), 0.0)
+    for side in (1.0, -1.0):
+        last = axis
+        for n in sorted(range(len(levels)), key=lambda n: side * levels[n]):
+            if side * (levels[n] - axis) >= 0.0 and (side > 0.0 or levels[n] < axis):
+                last = side * max(side * levels[n], side * last + apart)
+                found[n] = last
+    return list(found.values())
 
 
 FIGURE = Figure(

@@ -9,15 +9,15 @@ from ...plans.check import Check
 from ...plans.gears.gear import SHIFTS, WHEELS
 from ...plans.gears.geometry import POINTS
 from ..handouts.begun import Shown
+from ..printed import DEGREES
 from ..table import table
 from ..view import View
 from ..words import indexed
-from .marks import along, marks
-from .scene import GearScene
+from .scene import GearScene, along, marks
 
 MM, DEGREE, NUMBER, WHOLE = "mm", "°", "", "whole"
 DECIMALS = {MM: 3, DEGREE: 3, NUMBER: 4}  # of what is calculated
-TIMES = {MM: 1e3, DEGREE: 180.0 / math.pi}
+TIMES = {MM: 1e3, DEGREE: DEGREES}
 SLIDING = 2  # decimals of ordinates, mm, and of sliding where they show so many
 # rows of the data: names, and what they are given in; of a wheel's quantities the name goes on with its number
 PAIR = (

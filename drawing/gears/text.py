@@ -12,7 +12,7 @@ from ...plans.board import Step
 from ...plans.gears.checks import CENTRES
 from ...plans.gears.gear import VALUES, unit_of
 from ..formulas import prints
-from ..printed import Input, Shown, worked
+from ..printed import DEGREES, Input, Shown, worked
 from ..table import text_block
 from ..view import View
 from .scene import GearScene
@@ -22,7 +22,7 @@ SIZES = "inv_alpha a x_sum inv_alpha_w alpha_w a_w d_1 d_2 u d_w1 d_w2 y delta_y
 TEETH = "d_b1 d_b2 tau_1 tau_2 P_1 P_2 p s_1 s_2 h alpha_a1 alpha_a2 rho_p1 rho_p2 nu_p1 nu_p2 p_b"
 MEASURES = "s_c1 s_c2 h_c1 h_c2 s_b1 s_b2 W_1 W_2"
 QUALITY = "x_min1 x_min2 rho_l1 rho_l2 epsilon_alpha s_a1 s_a2 rho_a1 g_alpha phi_alpha1 phi_alpha2"
-SHOWN = {"m": Shown("mm", 1e3, 3), "rad": Shown("deg", 180.0 / math.pi, 3), "1": Shown("", 1.0, 4)}
+SHOWN = {"m": Shown("mm", 1e3, 3), "rad": Shown("deg", DEGREES, 3), "1": Shown("", 1.0, 4)}
 INV = Shown("", 1.0, 6)  # of the involute function
 SHORT = 4  # decimals of a number that is printed as it is
 NOISE = 1e-9  # by which it may differ

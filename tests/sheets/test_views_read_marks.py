@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 DRAWING = Path(__file__).parents[2] / "drawing"
-SUBJECTS = ("hoist",)
+SUBJECTS = ("hoist", "gears")
 MODULES = {path: path.read_text(encoding="utf-8") for name in SUBJECTS for path in (DRAWING / name).glob("*.py")}
 # of the module math what tells finite numbers and rounds them for print
 PRINTING = {"ceil", "floor", "inf", "isfinite", "isinf", "isnan", "isclose", "log10"}

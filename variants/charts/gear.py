@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from ...drawing.gears.letters import lettered
+from ...drawing.gears.scene import lettered
 from ...drawing.words import Words
 from ...plans.gears.gear import unit_of
 from ...plans.gears.scale_errors import DRAWINGS, MILLI, ScaleErrors, compared, scale_errors

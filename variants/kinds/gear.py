@@ -158,8 +158,7 @@ class Gears(Kind[GearPair, "SolvedGear"]):
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a pair."""
-        from ...drawing.gears.fitting import Contents
-        from ...drawing.gears.sheet import draw
+        from ...drawing.gears.sheet import Contents, draw
 
         note = case.task.note_in(words.language)
         contents = Contents(gear(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
@@ -207,7 +206,7 @@ class Gears(Kind[GearPair, "SolvedGear"]):
 
     def lettered(self, words: Words, solved: SolvedGear) -> Words:
         """Return the words with the letters of a pair's quantities."""
-        from ...drawing.gears.letters import lettered
+        from ...drawing.gears.scene import lettered
 
         return lettered(words)
 

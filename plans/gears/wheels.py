@@ -1,4 +1,4 @@
-"""The wheels of a pair as they stand on the paper: millimetres, the pole as the origin, the pinion below."""
+"""The wheels of a pair as they stand in mesh, as large as they are drawn: the pole is the origin, the pinion below."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ...plans.gears.gear import WHEELS
-from ...plans.gears.meshing import Meshing
-from ...plans.gears.profile import Tooth
+from .gear import WHEELS
+from .meshing import Meshing
+from .profile import Tooth
 
 CIRCLES = ("a", "w", "", "b", "f")  # tip, rolling, reference, base, root: what stands in their names after d_
 SHOWN = 3  # teeth of each wheel
@@ -58,6 +58,16 @@ class Wheel:
     def pitch(self) -> float:
         """The angular pitch, rad."""
         return 2.0 * math.pi / self.tooth.z
+
+    @property
+    def direction(self) -> float:
+        """The angle from the x axis to the direction to the pole, rad."""
+        return cmath.phase(self.up)
+
+    def towards(self, point: complex, radius: float) -> complex:
+        """Return the point at a distance from the centre on the ray to another point."""
+        arm = point - self.centre
+        return self.centre + arm * (radius / abs(arm))
 
     def on(self, radius: float, angle: float) -> complex:
         """Return the point at a distance from the centre, at an angle from the direction to the pole."""
