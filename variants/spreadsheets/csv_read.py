@@ -10,26 +10,14 @@ from itertools import islice
 
 from ...scales.errors import InputError
 from ...scales.numbers import quote
-from .grid import (
-    LONGEST,
-    MOST_CELLS,
-    MOST_COLUMNS,
-    MOST_LETTERS,
-    MOST_ROWS,
-    SHOWN,
-    Grid,
-    bounded,
-    too_long,
-    too_many_cells,
-    too_many_texts,
-)
+from . import grid
 from .headers import LOOKED_AT, recognised
 
 SEPARATORS = (";", "\t", ",")
 _ZIP = b"PK\x03\x04"
 
 
-def grid_of_csv(file: str, data: bytes) -> Grid:
+def grid_of_csv(file: str, data: bytes) -> grid.Grid:
     """Return the cells of a CSV file; the separator is the one at which most header words are found.
 
     Where hardly any are, it is the one that cuts most rows into as many cells.
@@ -40,16 +28,16 @@ def grid_of_csv(file: str, data: bytes) -> Grid:
         A file that is no text, or that no separator cuts into cells.
     """
     if data.startswith(_ZIP):
-        raise InputError("answers-is-xlsx", file=quote(file, SHOWN))
+        raise InputError("answers-is-xlsx", file=quote(file, grid.SHOWN))
     text = _decoded(file, data)
-    if len(text) > MOST_LETTERS:
-        raise too_many_texts(file)
+    if len(text) > grid.MOST_LETTERS:
+        raise grid.too_many_texts(file)
     first, _, rest = text.partition("\n")
     if first.strip().lower().startswith("sep=") and len(first.strip()) == 5 and not first.strip().endswith('"'):
-        return Grid(file, bounded(file, _rows(file, rest, first.strip()[-1])))
+        return grid.Grid(file, grid.bounded(file, _rows(file, rest, first.strip()[-1])))
     head = "".join(islice(io.StringIO(text, newline=""), LOOKED_AT))
     best = max(SEPARATORS, key=lambda separator: _told(_rows(file, head, separator)))
-    return Grid(file, bounded(file, _rows(file, text, best)))
+    return grid.Grid(file, grid.bounded(file, _rows(file, text, best)))
 
 
 def _told(rows: list[tuple[str, ...]]) -> tuple[int, int, int]:
@@ -72,7 +60,7 @@ def _decoded(file: str, data: bytes) -> str:
             continue
         if "\0" not in text:
             return text
-    raise InputError("answers-encoding", file=quote(file, SHOWN))
+    raise InputError("answers-encoding", file=quote(file, grid.SHOWN))
 
 
 def _rows(file: str, text: str, separator: str) -> list[tuple[str, ...]]:
@@ -82,14 +70,15 @@ def _rows(file: str, text: str, separator: str) -> list[tuple[str, ...]]:
     try:
         for row in csv.reader(io.StringIO(text, newline=""), delimiter=separator):
             cells += len(row)
-            if cells > MOST_CELLS or len(rows) > 2 * MOST_ROWS:
-                raise too_many_cells(file) if len(row) > MOST_COLUMNS or len(rows) > MOST_ROWS else too_many_texts(file)
-            long = next((at for at, cell in enumerate(row) if len(cell) > LONGEST), None)
+            if cells > grid.MOST_CELLS or len(rows) > 2 * grid.MOST_ROWS:
+                places = len(row) > grid.MOST_COLUMNS or len(rows) > grid.MOST_ROWS
+                raise grid.too_many_cells(file) if places else grid.too_many_texts(file)
+            long = next((at for at, cell in enumerate(row) if len(cell) > grid.LONGEST), None)
             if long is not None:
-                raise too_long(file, len(rows), long)
+                raise grid.too_long(file, len(rows), long)
             rows.append(tuple(map(_cell, row)))
     except csv.Error:
-        raise InputError("answers-quotes", file=quote(file, SHOWN), row=len(rows) + 1) from None
+        raise InputError("answers-quotes", file=quote(file, grid.SHOWN), row=len(rows) + 1) from None
     return rows
 
 

@@ -24,21 +24,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 from ...scales.errors import InputError
 from ...scales.numbers import quote
-from .grid import (
-    LARGEST,
-    LONGEST,
-    MOST_CELLS,
-    MOST_COLUMNS,
-    MOST_LETTERS,
-    MOST_ROWS,
-    SHOWN,
-    Grid,
-    bounded,
-    by_row,
-    too_long,
-    too_many_cells,
-    too_many_texts,
-)
+from . import grid
 
 MOST_PARTS = 2_000
 RATIO, FREE = 250, 1_000_000  # times its size that a part may unpack into, from so many bytes on
@@ -64,7 +50,7 @@ class _BrokenError(Exception):
     """The file is not what it should be."""
 
 
-def grid_of_xlsx(file: str, data: bytes) -> Grid:
+def grid_of_xlsx(file: str, data: bytes) -> grid.Grid:
     """Return the cells of the first sheet.
 
     Raises
@@ -72,7 +58,7 @@ def grid_of_xlsx(file: str, data: bytes) -> Grid:
     InputError
         No XLSX file, one with a password, or one that holds more than is allowed.
     """
-    shown = quote(file, SHOWN)
+    shown = quote(file, grid.SHOWN)
     if data.count(b"PK\x01\x02") > MOST_PARTS:
         raise _bomb(file)
     try:
@@ -93,7 +79,7 @@ def grid_of_xlsx(file: str, data: bytes) -> Grid:
 
 
 def _bomb(file: str) -> InputError:
-    return InputError("answers-bomb", file=quote(file, SHOWN), n=LARGEST // 1_000_000, ratio=RATIO)
+    return InputError("answers-bomb", file=quote(file, grid.SHOWN), n=grid.LARGEST // 1_000_000, ratio=RATIO)
 
 
 class _Parts:
@@ -102,7 +88,7 @@ class _Parts:
     def __init__(self, archive: zipfile.ZipFile, file: str) -> None:
         infos = archive.infolist()
         self.archive, self.file = archive, file
-        self.bytes, self.tags, self.cells = LARGEST, MOST_TAGS, MOST_CELLS  # that are left
+        self.bytes, self.tags, self.cells = grid.LARGEST, MOST_TAGS, grid.MOST_CELLS  # that are left
         if len({info.filename for info in infos}) < len(infos):  # programs do not agree on which of two is meant
             raise _BrokenError
 
@@ -110,7 +96,7 @@ class _Parts:
         """Count cells, or what takes as long."""
         self.cells -= cells
         if self.cells < 0:
-            raise too_many_texts(self.file)
+            raise grid.too_many_texts(self.file)
 
     def read(self, name: str) -> bytes:
         """Unpack a part as far as it may be; what is said of its size is not relied on."""
@@ -125,7 +111,7 @@ class _Parts:
         if len(data) > most:
             raise _bomb(self.file)
         if self.tags < 0:
-            raise too_many_texts(self.file)
+            raise grid.too_many_texts(self.file)
         return data
 
     def parse(self, data: bytes, parser: Any) -> None:
@@ -319,7 +305,11 @@ class _Sheet:
             self._marks[tag] = at
         elif self._depth > DEEPEST:
             raise _BrokenError
-        elif tag == "mergeCell" and len(self.merged) < MOST_ROWS and (found := _RANGE.fullmatch(given.get("ref", ""))):
+        elif (
+            tag == "mergeCell"
+            and len(self.merged) < grid.MOST_ROWS
+            and (found := _RANGE.fullmatch(given.get("ref", "")))
+        ):
             first, last = ((int(found[at + 1]) - 1, self.columns[found[at]]) for at in (1, 3))
             self.merged.append((first, last))
 
@@ -329,7 +319,7 @@ class _Sheet:
         if places < 1:
             raise _BrokenError
         if self.parts.cells < 0:
-            raise too_many_texts(self.parts.file)
+            raise grid.too_many_texts(self.parts.file)
 
     def _text(self, piece: str) -> None:
         """Take a piece of what a cell shows."""
@@ -358,12 +348,12 @@ class _Sheet:
             self.formulas.add(at)
             text = "="
         self._letters += len(text)
-        if len(text) > LONGEST:
-            raise too_long(file, *at)
-        if self._letters > MOST_LETTERS:
-            raise too_many_texts(file)
-        if (self._row >= MOST_ROWS or self._column >= MOST_COLUMNS) and text.strip():
-            raise too_many_cells(file)  # blank ones, such as are only coloured, do no harm
+        if len(text) > grid.LONGEST:
+            raise grid.too_long(file, *at)
+        if self._letters > grid.MOST_LETTERS:
+            raise grid.too_many_texts(file)
+        if (self._row >= grid.MOST_ROWS or self._column >= grid.MOST_COLUMNS) and text.strip():
+            raise grid.too_many_cells(file)  # blank ones, such as are only coloured, do no harm
 
 
 def _packed(rows: bytes, texts: Sequence[str], formats: str) -> io.BytesIO:
@@ -388,11 +378,11 @@ def _packed(rows: bytes, texts: Sequence[str], formats: str) -> io.BytesIO:
     return stream
 
 
-def _grid(file: str, sheet: _Sheet, packed: io.BytesIO) -> Grid:
+def _grid(file: str, sheet: _Sheet, packed: io.BytesIO) -> grid.Grid:
     """Read the rows by openpyxl."""
     rows: list[list[str]] = []
     dates: set[tuple[int, int]] = set()
-    for number, values in enumerate(islice(_read(file, packed), MOST_ROWS)):
+    for number, values in enumerate(islice(_read(file, packed), grid.MOST_ROWS)):
         cells = [_shown(value) for value in values]
         dates.update((number, column) for column, value in enumerate(values) if isinstance(value, TIMES))
         while cells and not cells[-1]:
@@ -402,8 +392,8 @@ def _grid(file: str, sheet: _Sheet, packed: io.BytesIO) -> Grid:
         rows[row] += [""] * (column + 1 - len(rows[row]))
         rows[row][column] = "="
     formulas = frozenset(sheet.formulas)
-    merged = by_row(sheet.merged, len(rows))
-    return Grid(file, bounded(file, list(map(tuple, rows))), formulas, frozenset(dates), merged)
+    merged = grid.by_row(sheet.merged, len(rows))
+    return grid.Grid(file, grid.bounded(file, list(map(tuple, rows))), formulas, frozenset(dates), merged)
 
 
 def _read(file: str, packed: io.BytesIO) -> Iterator[tuple[Any, ...]]:
@@ -418,7 +408,7 @@ def _read(file: str, packed: io.BytesIO) -> Iterator[tuple[Any, ...]]:
             sheet.reset_dimensions()
             yield from sheet.iter_rows(values_only=True)
     except Exception as problem:  # whatever it does not like of a number or a kind of cell
-        raise InputError("answers-not-xlsx", file=quote(file, SHOWN)) from problem
+        raise InputError("answers-not-xlsx", file=quote(file, grid.SHOWN)) from problem
 
 
 def _shown(value: Any) -> str:
