@@ -15,6 +15,9 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from ..scales.choices import SIZES
+from ..scales.choose import Chooser
+from ..scales.errors import InputError
+from ..scales.scale import Scale
 from .formats import FORMATS, GAPS, Format, printable, room, usable
 from .pens import Norm
 
@@ -22,9 +25,10 @@ NORMS: tuple[Norm, ...] = ("gost", "iso")
 # parts of a page that estimates may cover, since views leave gaps: of the only page, of the page of one part of the
 # work, of that when plans that another page made coarser become finer again, of pages that parts share; and of two
 # pages for which plans become smaller before there is a third
-FILL, APART, FULL, SHARED, CLOSELY = 0.79, 0.74, 0.78, 0.70, 0.85
+FILL, APART, FULL, SHARED, CLOSELY = 0.79, 0.74, 0.80, 0.70, 0.85
 SMALLER = {"A1": 1.0, "A2": 1.0, "A3": 0.7, "A4": 0.65}  # what letters take, in what they take on the largest format
 BLOCK = 12000.0  # mm^2 of a page that its title block takes
+SHORTEST = 1.0  # mm, the least that the longest segment of a plan may be
 MOST, MORE = 100, 3  # pages that there may be; of more than are expected, for which plans become smaller
 # parts of the width and of the height of a page that one figure may take, so that others find room beside it
 ONE = {"A1": 0.75, "A2": 0.85, "A3": 1.0, "A4": 1.0}
@@ -49,6 +53,28 @@ class Extent:
         """Return width and height in mm; `letters` is how large letters are, A1 being 1."""
         wide, high = (s / mu + letters * a for s, a in zip(self.size, self.around, strict=True))
         return max(wide, letters * self.least[0]), max(high, letters * self.least[1])
+
+
+def visible(chooser: Chooser | None, symbol: str, mu: float, largest: float, unit: str) -> None:
+    """Refuse a scale factor that a user has fixed, at which a plan is a point.
+
+    `largest` is the largest quantity on the plan, in SI `unit`s.
+    """
+    if chooser is not None and chooser.firm:
+        not_a_point(symbol, mu, largest, unit)
+
+
+def not_a_point(symbol: str, mu: float, largest: float, unit: str) -> None:
+    """Refuse a scale factor at which what it sizes, `largest` in SI `unit`s, is a point.
+
+    Raises
+    ------
+    InputError
+        It is shorter than `SHORTEST`.
+    """
+    if 0.0 < largest < SHORTEST * mu:
+        said = {"mu": f"{mu:g}", "unit": Scale(symbol, mu, unit).per_mm_unit, "size": f"{largest / mu:.2g}"}
+        raise InputError("plan-too-small", symbol=symbol, **said)
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,12 +121,13 @@ class Extents:
         """Return the figures of a part, or all."""
         return (figure for figure in self.figures if part is None or figure.part == part)
 
+    def root(self, symbol: str) -> str:
+        """Return the scale factor on whose rung this one stands: itself, or that of lengths where V = omega l."""
+        return (symbol and self.ladders[symbol].root) or symbol
+
     def mu(self, symbol: str, rungs: Rungs) -> float:
         """Return a scale factor on its rung."""
-        if not symbol:
-            return 1.0
-        ladder = self.ladders[symbol]
-        return ladder.values[rungs[ladder.root or symbol]]
+        return self.ladders[symbol].values[rungs[self.root(symbol)]] if symbol else 1.0
 
 
 def choose(extents: Extents, longest: Mapping[str, Lengths], formats: Sequence[Format]) -> tuple[Format, Rungs]:
@@ -134,7 +161,7 @@ def _begun(extents: Extents, sheet: Format, longest: float) -> Rungs:
             rungs[symbol] += 1
     (wide, high), part = _room(sheet), ONE[sheet.letters]
     for figure in extents.figures:
-        symbol = (figure.symbol and extents.ladders[figure.symbol].root) or figure.symbol
+        symbol = extents.root(figure.symbol)
         while symbol and extents.ladders[symbol].free and rungs[symbol] + 1 < len(extents.ladders[symbol].values):
             w, h = figure.on_paper(extents.mu(figure.symbol, rungs), SMALLER[sheet.letters])
             if w <= part * wide and h <= part * high:
@@ -167,7 +194,7 @@ def _on_pages(extents: Extents, sheet: Format, longest: Lengths) -> Rungs:
 def _grown(extents: Extents, rungs: dict[str, int], finest: Rungs, fits: Callable[[dict[str, int]], bool]) -> Rungs:
     """Return rungs finer again, where that still fits, of plans that were coarser than only one of their pages asks."""
     for symbol in rungs:
-        pages = {figure.part for figure in extents.figures if figure.symbol == symbol}
+        pages = {figure.part for figure in extents.figures if extents.root(figure.symbol) == symbol}
         while len(pages) > 1 and rungs[symbol] > finest[symbol] and fits({**rungs, symbol: rungs[symbol] - 1}):
             rungs[symbol] -= 1
     return rungs
@@ -185,7 +212,7 @@ def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, part: int | None, mos
     ladders, letters, gap = extents.ladders, SMALLER[sheet.letters], GAPS[sheet.letters]
     by_symbol: dict[str, list[Extent]] = {}
     for figure in extents.of(part):
-        by_symbol.setdefault((figure.symbol and ladders[figure.symbol].root) or figure.symbol, []).append(figure)
+        by_symbol.setdefault(extents.root(figure.symbol), []).append(figure)
 
     def area(symbol: str) -> float:
         sizes = (figure.on_paper(extents.mu(figure.symbol, rungs), letters) for figure in by_symbol[symbol])

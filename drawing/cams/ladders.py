@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from ...plans.cams.cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_PART
 from ...plans.cams.solve import EQUAL, SolvedCam
 from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, rounded, steps
-from ..extents import smallest
+from ..extents import not_a_point, smallest, visible
 from ..formats import Format
 
 MU_L = 0.001  # m/mm, M 1:1
@@ -28,11 +29,13 @@ def ladder(solved: SolvedCam, choosers: Choosers, symbol: str) -> tuple[float, .
 
     A plan that is made of two diagrams is drawn to the scale factor of one of them, or to a multiple of it.
     """
-    across = size_of(solved, symbol)
+    across, chooser = size_of(solved, symbol), choosers.get(symbol)
+    if chooser is not None and symbol in solved.scale_of_plan.values():
+        visible(chooser, symbol, chooser.ladder(lambda _: across)[0], across, "m")
     if symbol not in EQUAL:
-        return choosers.get(symbol, From(_profiles(solved, across))).ladder(lambda _: 2.0 * across)
-    if symbol in choosers:
-        return choosers[symbol].ladder(lambda _: across)
+        return (chooser or From(_profiles(solved, across))).ladder(lambda _: 2.0 * across)
+    if chooser is not None:
+        return chooser.ladder(lambda _: across)
     finest = float(solved.values[EQUAL[symbol]]) if EQUAL[symbol] in solved.values else MU_L
     rungs = [rounded(finest * times, DIGITS) for times in COARSER]
     if across < LEAST * finest:  # of diagrams that are drawn smaller
@@ -53,6 +56,8 @@ def first_scales(
     solved: SolvedCam, choosers: Choosers, plans: Sequence[str] = PARTS
 ) -> tuple[Format, dict[str, Scale]]:
     """Return the format and the scale factors by plan: those of the diagrams follow from the construction."""
+    if "mu_phi" in solved.givens:
+        not_a_point("mu_phi", solved.givens["mu_phi"], math.tau, "rad")
     mus = {symbol: ladder(solved, choosers, symbol)[0] for symbol in SYMBOLS}
     return smallest(AREAS[plan] for plan in plans), scales(solved, mus)
 

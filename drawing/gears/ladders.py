@@ -11,9 +11,8 @@ from ...plans.gears.sliding_plan import SLIDING, THETA
 from ...plans.gears.solve import SolvedGear
 from ...plans.solved import PAPER_MM
 from ...scales.choose import Choosers, From
-from ...scales.errors import InputError
 from ...scales.scale import Scale, steps
-from ..extents import smallest
+from ..extents import not_a_point, smallest, visible
 from ..formats import Format
 from ..style import STYLES
 
@@ -29,7 +28,6 @@ ENDS = {"A1": "rho_p1", "A2": "rho_a1"}  # of the active line, and the quantitie
 CUTS = 2.0, 10.0  # the least and the greatest depth at which curves are cut off
 USUAL = 5.0  # where sliding has no limit on the active line
 ROOM = 1.25  # how far below the extremes
-LOWEST = 1.0  # mm, the least height of the diagram
 PARTS = 1.0, 0.8, 0.6, 0.5  # of the usual size of the diagrams of sliding
 UNITS = {MESHING: "m", SLIDING: "m", THETA: "1"}
 
@@ -38,6 +36,8 @@ def mu_ladder(solved: SolvedGear, choosers: Choosers) -> tuple[float, ...]:
     """Return the scale factors of the meshing, the one wanted first: where nothing is said, teeth of 50 mm."""
     wanted = choosers.get("mu_l", From(_finest(solved)))
     first, *others = wanted.ladder(lambda name: solved.sizes.get(name, solved.sizes["a_w"]))
+    if MESHING in solved.scale_of_plan:
+        visible(wanted, "mu_l", first, solved.sizes["a_w"], "m")
     return first, *_standard(others)
 
 
@@ -96,9 +96,7 @@ def theta_mu(solved: SolvedGear, letters: float, part: float = 1.0) -> float:
     """
     wanted = float(solved.values["mu_theta"]) * PAPER_MM
     depth = 1.0 - cut_of(solved)
-    if depth < LOWEST * wanted:
-        said = {"symbol": "mu_theta", "mu": f"{wanted:g}", "unit": "1/mm", "size": f"{depth / wanted:.2g}"}
-        raise InputError("plan-too-small", **said)
+    not_a_point("mu_theta", wanted, depth, "1")
     return steps(max(depth / (TALL[letters] * part), wanted * (1.0 - 1e-9)))[0]
 
 

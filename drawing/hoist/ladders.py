@@ -12,7 +12,7 @@ from ...plans.hoist.solve import SCALES, SolvedHoist
 from ...plans.solved import PAPER_MM
 from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, steps
-from ..extents import smallest
+from ..extents import smallest, visible
 from ..formats import Format
 
 LEAST = 1e-3  # part of the mean force that the circle is taken for at least
@@ -35,7 +35,12 @@ def circle_ladder(solved: SolvedHoist, choosers: Choosers) -> tuple[float, ...]:
 
 
 def _ladder(solved: SolvedHoist, choosers: Choosers, plan: str, finest: float) -> tuple[float, ...]:
-    return choosers.get(SCALES[plan], From(steps(finest)[0])).ladder(solved.size)
+    symbol, part = SCALES[plan], SPAN if plan == SCHEME else DIAMETER
+    chooser = choosers.get(symbol, From(steps(finest)[0]))
+    values = chooser.ladder(solved.size)
+    if plan in solved.scale_of_plan:
+        visible(chooser, symbol, values[0], finest * part, "m" if plan == SCHEME else "N")
+    return values
 
 
 def first_scales(solved: SolvedHoist, choosers: Choosers, plans: Sequence[str]) -> tuple[Format, dict[str, Scale]]:

@@ -8,9 +8,10 @@ from collections.abc import Iterator
 import pytest
 
 import kulman
+from kulman.drawing.extents import Extent, Extents, Ladder, _grown
 from kulman.drawing.shapes import Group, Shape, Vector
 from kulman.plans.hands.hand import preset
-from kulman.scales.errors import LANGUAGES
+from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.marking.keyed import Request, keyed
 from kulman.variants.marking.rubric import Rubric
 from kulman.variants.reader import load_task
@@ -127,3 +128,41 @@ def test_few_plans_take_a_small_format_and_much_text_a_large_one() -> None:
 
     assert formats == [kulman.sheet("nau-slider-crank", "7", only=p).format for p in ("velocity", "position", None)]
     assert formats[0] != formats[2] == "A1"
+
+
+@pytest.mark.parametrize(
+    ("task", "symbol", "mu"),
+    [
+        ("nau-slider-crank", "mu_l", "1000"),
+        ("madi-cam", "mu_l", "1000"),
+        ("madi-cam", "mu_s_ds", "1000"),
+        ("madi-cam", "mu_s_d2s", "1000"),
+        ("madi-cam", "mu_phi", "100000"),
+        ("madi-gear", "mu_l", "1000"),
+        ("madi-gear", "mu_theta", "100000"),
+        ("karpenko-hoist", "mu_l", "1000"),
+        ("karpenko-hoist", "mu_F_circle", "1e6"),
+    ],
+)
+def test_scale_factors_at_which_a_plan_is_a_point_are_refused(task: str, symbol: str, mu: str) -> None:
+    given = symbol in ("mu_phi", "mu_theta")
+    asked = {"set" if given else "scales": {symbol: mu}}
+
+    for command in (kulman.solve, kulman.sheet):
+        with pytest.raises(InputError) as refused:
+            command(task, **asked)  # type: ignore[operator]
+        assert (refused.value.key, refused.value.data["symbol"]) == ("plan-too-small", symbol)
+
+
+def test_a_plan_on_the_cranks_scale_is_counted_with_the_mechanism_when_a_page_is_filled() -> None:
+    ladders = {"mu_l": Ladder((0.001, 0.002, 0.004), 0.4), "mu_V": Ladder((0.01, 0.02, 0.04), 4.0, root="mu_l")}
+    mechanism, plan = Extent("mu_l", (0.4, 0.3), (0.0, 0.0)), Extent("mu_V", (4.0, 3.0), (0.0, 0.0), part=1)
+    extents = Extents((mechanism, plan), (0.0, 0.0), ladders)
+    asked: list[int] = []
+
+    def fits(rungs: dict[str, int]) -> bool:
+        asked.append(rungs["mu_l"])
+        return True
+
+    assert _grown(extents, {"mu_l": 2}, {"mu_l": 0}, fits) == {"mu_l": 0}
+    assert asked == [1, 0]

@@ -120,7 +120,7 @@ class Fitting:
 
     def build(self, sheet: Format, rungs: Rungs) -> tuple[list[tuple[View, str]], Mapping[str, Scale]]:
         """Draw all figures with the scale factors on these rungs; each with the ladder that sizes it, or ""."""
-        contents, ladders = self.contents, self.extents.ladders
+        contents = self.contents
         text_width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
         mus = mus_of(self.extents, rungs)
         scene = self._scene(sheet, mus)
@@ -129,8 +129,7 @@ class Fitting:
         wanted += figures(contents.solved, contents.plans, text_width, contents.cycle)
         for number, figure in enumerate(wanted):
             view = self._drawn(sheet, number, figure, scene)
-            symbol = self._sizing(figure, mus)
-            built.append((view, (symbol and ladders[symbol].root) or symbol))
+            built.append((view, self.extents.root(self._sizing(figure, mus))))
         return built, scene.scales
 
     def _sizing(self, figure: Figure, mus: Mapping[str, float]) -> str:

@@ -15,12 +15,11 @@ from ....scales.choices import SIZES
 from ....scales.choose import UNITS, Chooser, Choosers, CrankScale, Fixed, From, Round
 from ....scales.errors import InputError
 from ....scales.scale import Scale, steps
-from ...extents import Extent, Extents, Ladder, Rungs, Size, choose
+from ...extents import Extent, Extents, Ladder, Rungs, Size, choose, visible
 from ...formats import FORMATS, Format
 from ..scene import DRIVER
 
 Ladders = Mapping[str, tuple[float, ...]]
-SHORTEST = 1.0  # mm, the least that the longest segment of a plan may be
 # mm, the longest segment of a plan of forces at the beginning, on one page and on several, by format; that of other
 # plans may be so many times as long
 LONGEST = {"A1": (140.0, 190.0), "A2": (140.0, 190.0), "A3": (130.0, 190.0), "A4": (130.0, 160.0)}
@@ -34,10 +33,11 @@ MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same
 KINEMATICS, FORCES = 0, 1  # parts of the work
 # mm that letters and the heading add to the lines of a figure, and what it takes at least
 PLAN, MECHANISM, GROUP, LEVER = (28.0, 34.0), (40.0, 60.0), (62.0, 82.0), (75.0, 100.0)
+GROUPS = {TRIAD: (62.0, 142.0)}  # arms about its special point take more
 SPLIT = (150.0, 130.0)  # accelerations of compound motion, which stand on the mechanism
 HEADING = (72.0, 42.0)
-APART, INSET = (85.0, 110.0), (95.0, 125.0)  # a slider or the driver; what shows vectors that would be points
-POINT, ZERO = 0.03, 1e-9  # parts of the longest vector below which another is a point, and is nothing
+APART, INSET = (85.0, 110.0), (55.0, 70.0)  # a slider or the driver; of insets, for each force that would be a point
+POINT, ZERO = 0.035, 1e-4  # parts of the longest vector below which another is a point, and is not drawn
 # mm^2 of equations and tables: for the structure, a link, a quantity of a plan, the equations of moments of a group,
 # a load diagram
 STRUCTURE, LINK, DIAGRAM, HEADINGS = 15000.0, 1700.0, 13500.0, 4000.0
@@ -102,8 +102,7 @@ def ladders_of(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
             values = chooser.ladder(value, ladders["mu_l"].values)
         else:
             values = chooser.ladder(value)
-        if chooser is not None and chooser.firm:
-            _visible(symbol, values[0], size)
+        visible(chooser, symbol, values[0], size, UNITS[kind])
         ladders[symbol] = Ladder(
             values,
             size,
@@ -114,13 +113,6 @@ def ladders_of(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
             chosen=chooser is not None and not isinstance(chooser, From),
         )
     return ladders
-
-
-def _visible(symbol: str, mu: float, largest: float) -> None:
-    """Refuse a scale factor that a user has fixed, at which a plan is a point."""
-    if 0.0 < largest < SHORTEST * mu:
-        unit = Scale(symbol, mu, UNITS[role(symbol).of]).per_mm_unit
-        raise InputError("plan-too-small", symbol=symbol, mu=f"{mu:g}", unit=unit, size=f"{largest / mu:.2g}")
 
 
 def is_fixed(chooser: Chooser | None) -> bool:
@@ -142,7 +134,8 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
     if "forces" in plans:
         for group in solved.structure.groups:
             points = [point for link in solved.mechanism.links if link.number in group.links for point in link.points]
-            yield Extent("mu_l", _around([solved.point(point) for point in points]), GROUP, part=FORCES)
+            size = _around([solved.point(point) for point in points])
+            yield Extent("mu_l", size, GROUPS.get(group.kind, GROUP), part=FORCES)
             yield from (Extent("", (0.0, 0.0), APART, part=FORCES) for _ in links_apart(solved, group))
         for plan in (plan for plan in symbols if role(plan).kind == "forces"):
             yield from _plan(solved, plan, FORCES)
@@ -153,12 +146,12 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
 
 
 def _plan(solved: SolvedLinkage, plan: str, part: int) -> Iterator[Extent]:
-    """Return the figure of a plan, and the inset of vectors that would be points in it."""
+    """Return the figure of a plan, and insets for the forces in it that would be points."""
     yield Extent(solved.scale_of_plan[plan], _box(solved, plan), PLAN, HEADING, part)
-    drawn = [q.value or 0.0 for name, q in solved.quantities.items() if solved.shown_on.get(name) == plan]
-    sizes = [size for size in map(abs, drawn) if size > ZERO * max(map(abs, drawn))]
-    if sizes and min(sizes) < POINT * max(sizes):
-        yield Extent("", (0.0, 0.0), INSET, part=part)
+    sizes = [abs(q.value or 0.0) for name, q in solved.quantities.items() if solved.shown_on.get(name) == plan]
+    points = sum(ZERO * max(sizes) < size < POINT * max(sizes) for size in sizes)
+    if part == FORCES and points > 1:
+        yield Extent("", (0.0, 0.0), (points * INSET[0], INSET[1]), part=part)
 
 
 def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> tuple[float, float]:
