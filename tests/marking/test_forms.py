@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kulman import check
+from kulman import check, solve
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.scales.packaged import packaged
 from kulman.tests.support.answer_files import ASKED, HEAD, ROW, messages, one, read
@@ -78,6 +78,27 @@ def test_no_two_lines_of_a_form_look_alike(tmp_path: Path, task: str, told: dict
     assert len(set(headings)) == len(headings) > 1
     assert len(set(labels.values())) == len(labels) > 20
     assert told.items() <= labels.items()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", ["form.csv", "form.xlsx"])
+@pytest.mark.parametrize("format", [None, "A4"])
+def test_the_form_of_a_variant_says_the_sheets_scale_factors_and_answers_nothing(
+    tmp_path: Path, name: str, language: str, format: str | None
+) -> None:
+    solution = solve("nau-slider-crank", "7", lang=language, format=format)
+    said = solution.table().splitlines()[-1]
+    own = read_grid(check("nau-slider-crank", "7", lang=language, format=format).write_form(tmp_path / name))
+    blank = read_grid(form(tmp_path, "blank.csv", language))
+
+    [line] = [row[0] for row in own.rows if said in row[0]]
+    assert set(solution.to_json()["scales"]) <= set(re.findall(r"mu_\w+", line))
+    factors = [row for row in own.rows if row[0].startswith("mu_")]
+    assert {row[0] for row in factors} == set(solution.to_json()["scales"])
+    assert not any(row[4] or row[5] for row in factors)
+    assert not any("mu_l = " in row[0] for row in blank.rows if row)
+    with pytest.raises(InputError, match="the form is empty"):
+        read_answers(tmp_path / name, ASKED)
 
 
 def test_an_empty_form_is_told_to_be_empty(tmp_path: Path) -> None:

@@ -62,6 +62,8 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
     for key in ASKED_ABOUT:
         yield (said[f"about.{key}"], about.get(key, ""))
     yield (" ".join(said[f"form.{note}"] for note in _notes(keyed)),)
+    if about.get("variant") and keyed.solution.scales:  # a wish, no answer: the rows of the factors stay the student's
+        yield (said["form.scales"].format(scales=keyed.solution.scaled(words)),)
     yield tuple(said[f"column.{column}"] for column in COLUMNS)
     letters = keyed.solution.kind.vector_letters(keyed.solution.solved, words)
     for part in filter(attrgetter("asked"), keyed.parts):
