@@ -10,12 +10,13 @@ derivatives are exact: the same program runs on dual numbers.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from ..scales.errors import InputError
 from .board import Program
 from .boards.dual import Dual, root, slopes_of, value_of
 from .boards.exact import PlainBoard
@@ -86,6 +87,31 @@ def derivatives(program: Program, givens: Mapping[str, Any], varied: Collection[
     with np.errstate(invalid="ignore", divide="ignore"):
         program.run(board)
     return {name: np.broadcast_to(slopes_of(board.values[name]), len(varied)) for name in program.names}
+
+
+def by_solving_again(
+    solve_with: Callable[[Mapping[str, float]], Mapping[str, Any]], numbers: Mapping[str, float]
+) -> dict[str, float]:
+    """Return the sum of |x dQ/dx| over the `numbers` x of every Q, by differences: of what is found beside the board.
+
+    A number at the end of what is permitted is changed to one side alone; one that is nothing or infinite has no parts.
+    """
+    right = solve_with(numbers)
+    totals = dict.fromkeys(right, 0.0)
+    for name, value in numbers.items():
+        if value == 0.0 or math.isinf(value):
+            continue
+        found, apart = [], 0.0
+        for step in (STEP, -STEP):
+            try:
+                found.append(solve_with({**numbers, name: value * (1.0 + step)}))
+                apart += STEP
+            except InputError:
+                found.append(right)
+        more, less = found
+        for quantity in totals:
+            totals[quantity] += abs(more[quantity] - less[quantity]) / apart if apart else math.inf
+    return totals
 
 
 def conditions(

@@ -9,12 +9,36 @@ Source: Griewank, Walther, Evaluating Derivatives, 2nd edition, SIAM 2008, chapt
 from __future__ import annotations
 
 import math
+import operator
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Slopes = NDArray[Any]
+# functions of numpy, and their derivatives: of one number by its value and their own, of two by both values
+SLOPES: dict[str, Callable[[Any, Any], Any]] = {
+    "sin": lambda x, found: np.cos(x),
+    "cos": lambda x, found: -np.sin(x),
+    "tan": lambda x, found: 1.0 + found * found,
+    "arccos": lambda x, found: -1.0 / np.sin(found),
+    "arctan": lambda x, found: 1.0 / (1.0 + x * x),
+    "sqrt": lambda x, found: divided(0.5, found),
+    "floor": lambda x, found: 0.0,
+    "ceil": lambda x, found: 0.0,
+}
+SLOPES_OF_TWO: dict[str, Callable[[Any, Any], tuple[Any, Any]]] = {
+    "arctan2": lambda y, x: (divided(x, x * x + y * y), divided(-y, x * x + y * y)),
+    "hypot": lambda x, y: (divided(x, math.hypot(x, y)), divided(y, math.hypot(x, y))),
+    **dict.fromkeys(("maximum", "fmax"), lambda x, y: (float(not x < y), float(x < y))),
+    **dict.fromkeys(("minimum", "fmin"), lambda x, y: (float(not x > y), float(x > y))),
+}
+OPERATORS = {
+    **{"add": operator.add, "subtract": operator.sub, "multiply": operator.mul, "divide": operator.truediv},
+    **{"less": operator.lt, "less_equal": operator.le, "greater": operator.gt, "greater_equal": operator.ge},
+    **{"equal": operator.eq, "power": operator.pow},
+}
 
 
 class Dual:
@@ -24,7 +48,6 @@ class Dual:
     """
 
     __slots__ = ("slopes", "value")
-    __array_ufunc__ = None  # numbers of numpy leave the arithmetic to us
 
     def __init__(self, value: Any, slopes: Slopes) -> None:
         self.value, self.slopes = value, slopes
@@ -38,6 +61,34 @@ class Dual:
     def imag(self) -> Dual:
         """The y component."""
         return Dual(self.value.imag, self.slopes.imag)
+
+    def through(self, function: Callable[[Any], Any], slope: Callable[[Any], Any]) -> Dual:
+        """Return a function of the number whose derivative is known."""
+        return Dual(function(self.value), self.slopes * slope(self.value))
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *operands: Any, **options: Any) -> Any:
+        """Do for numbers of numpy and functions of numpy what the operators do."""
+        name, values = ufunc.__name__, [value_of(operand) for operand in operands]
+        if method != "__call__" or options or any(map(np.ndim, values)):
+            return NotImplemented
+        if name in OPERATORS:
+            numbers = (x if isinstance(x, Dual) else x.item() if isinstance(x, np.generic) else x for x in operands)
+            return OPERATORS[name](*numbers)
+        if name not in SLOPES and name not in SLOPES_OF_TWO:
+            return NotImplemented
+        found = ufunc(*values)
+        slopes = SLOPES_OF_TWO[name](*values) if len(values) > 1 else (SLOPES[name](values[0], found),)
+        return Dual(found, sum(slope * slopes_of(x) for slope, x in zip(slopes, operands, strict=True)))
+
+    def __array_function__(self, function: Any, types: Any, operands: Any, options: Any) -> Any:
+        """Choose between numbers as numpy does; one has no axes."""
+        if function is np.where:
+            condition, first, second = operands
+            return first if value_of(condition) else second
+        return 0 if function is np.ndim else NotImplemented
+
+    def __pow__(self, power: float) -> Dual:
+        return Dual(self.value**power, self.slopes * (power * self.value ** (power - 1.0)))
 
     def __add__(self, other: Any) -> Dual:
         if isinstance(other, Dual):

@@ -5,6 +5,8 @@ Both work on t = tan(alpha), in which t - arctan(t) is a series where the differ
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import wraps
 from typing import Any
 
 import numpy as np
@@ -16,6 +18,20 @@ TERMS = tuple((-1.0) ** k / (2 * k + 3) for k in range(26))  # t - arctan(t) = t
 STEPS = 6  # of Newton, which needs four from the start that it has
 
 
+def _known(slope: Callable[[Any], Any]) -> Callable[[Callable[[Any], Array]], Callable[[Any], Any]]:
+    """Return what lets a function take numbers that know their derivatives, by its own `slope`."""
+
+    def told(function: Callable[[Any], Array]) -> Callable[[Any], Any]:
+        @wraps(function)
+        def found(x: Any) -> Any:
+            return x.through(function, slope) if hasattr(x, "through") else function(x)
+
+        return found
+
+    return told
+
+
+@_known(lambda t: t * t / (1.0 + t * t))
 def unrolled(t: Any) -> Array:
     """Return t - arctan(t): the involute function of an angle whose tangent is `t`.
 
@@ -30,11 +46,12 @@ def unrolled(t: Any) -> Array:
     return found
 
 
-def involute(alpha: Any) -> Array:
+def involute(alpha: Any) -> Any:
     """Return inv(alpha) of angles, rad, between right angles."""
     return unrolled(np.tan(alpha))
 
 
+@_known(lambda inv: 1.0 + tangent_of_involute(inv) ** -2.0)
 def tangent_of_involute(inv: Any) -> Array:
     """Return tan(alpha) of the angles with the given involute functions, at least 0; NaN where these are negative.
 
@@ -49,7 +66,6 @@ def tangent_of_involute(inv: Any) -> Array:
     return found
 
 
-def angle_of_involute(inv: Any) -> Array:
+def angle_of_involute(inv: Any) -> Any:
     """Return the angles, rad, with the given involute functions; NaN where these are negative."""
-    found: Array = np.arctan(tangent_of_involute(inv))
-    return found
+    return np.arctan(tangent_of_involute(inv))
