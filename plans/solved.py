@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Self
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any, Self
 
 from ..scales.errors import PositionError
 from .board import Board, Program, RecordingBoard
-from .boards.arrays import ArrayBoard
 from .boards.exact import Status, Trouble
 from .names import role
 from .quantities import Quantity
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 PAPER_MM = 1e-3  # metres of paper in a millimetre: diagrams are drawn in these
 
@@ -71,6 +71,10 @@ class Solved:
             Places of the mark, SI; NaN where there is none.
         """
         (count,) = {len(values) for values in over.values()}
+        import numpy as np  # reading a task needs no arrays
+
+        from .boards.arrays import ArrayBoard
+
         board, recording = ArrayBoard({**self.values, **over}, count), RecordingBoard()
         construction(recording)
         with np.errstate(invalid="ignore", divide="ignore"):
