@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
 Clock = Callable[[], float]  # seconds
+T = TypeVar("T")
 ROUNDS = 3  # runs of a piece of work
 ENOUGH = 0.05  # seconds of work that need no repeating
 
@@ -88,6 +89,14 @@ class Contest:
             if not found or (entry.error or 0.0) < (found[-1].error or 0.0):
                 found.append(entry)
         return tuple(reversed(found))
+
+
+def ran(work: Callable[[], T], clock: Clock) -> tuple[T, float]:
+    """Return what a piece of work gives and what it takes, seconds; what takes long is not run again to be timed."""
+    start = clock()
+    found = work()
+    spent = clock() - start
+    return found, spent if spent > ENOUGH * ROUNDS else timed(work, clock)
 
 
 def timed(work: Callable[[], object], clock: Clock) -> float:

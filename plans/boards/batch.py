@@ -141,7 +141,8 @@ class _Work:
             function = compiled(self.chunked.loop(), "loop", names)
         except TypeError:
             return None
-        return njit(error_model="numpy")(function)
+        looped: Callable[..., Any] = njit(error_model="numpy")(function)
+        return looped
 
 
 _KEPT: dict[Any, _Work] = {}

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..board import Program
 from ..boards.exact import ExactBoard
-from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
+from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, ran, timed
 from ..laws import LAWS, TURN
 from .course import rope_forces
 from .finders import FINDERS, find, lift_off_equation
@@ -110,11 +110,10 @@ class _Race:
         for name, method, located in ways:
             for step in (*STEPS, *(TINY if method == EXPLICIT else ())):
                 work = partial(integrate, found, method, step, located)
-                run = work()
+                run, spent = ran(work, self.clock)
                 if run.refused[0]:
                     yield from self._nothing(name, step)
                     continue
-                spent = timed(work, self.clock)
                 known = ~np.isnan(run.F_12[:, 0])
                 t, force = run.t[known, 0], run.F_12[known, 0]
                 errors = self._course(t, force)

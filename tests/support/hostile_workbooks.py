@@ -135,6 +135,7 @@ def doubled() -> bytes:
 Parts = Callable[[], Mapping[str, str | bytes]]
 # What is wrong: the parts that are changed, and words of the refusal, none where the file may be read as well.
 SMALL: dict[str, tuple[Parts, str]] = {
+    "encoding unknown": (lambda: {SHEET: '<?xml version="1.0" encoding="UTF-9"?>' + rows(HEADER)}, BROKEN),
     "text -1": (lambda: {SHEET: answer('<c r="A2" t="s"><v>-1</v></c>')}, BROKEN),
     "text beyond the last": (lambda: {SHEET: answer('<c r="A2" t="s"><v>999999</v></c>')}, BROKEN),
     "text in other digits": (lambda: {SHEET: answer('<c r="A2" t="s"><v>\u0661</v></c>')}, BROKEN),

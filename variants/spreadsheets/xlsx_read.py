@@ -69,7 +69,7 @@ def grid_of_xlsx(file: str, data: bytes) -> grid.Grid:
             formats = _formats(parts, others.get("styles"))
             sheet = _Sheet(texts, parts)
             rows = sheet.walk(first)
-    except (_BrokenError, zipfile.BadZipFile, expat.ExpatError, zlib.error, KeyError, EOFError):
+    except (_BrokenError, zipfile.BadZipFile, expat.ExpatError, zlib.error, LookupError, EOFError):
         raise InputError("answers-not-xlsx", file=shown) from None
     except (RuntimeError, NotImplementedError, OSError, ValueError, OverflowError) as problem:
         if isinstance(problem, InputError):
