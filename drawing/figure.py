@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import Any, Generic, TypeVar
 
 from ..plans.board import Program
+from ..plans.names import is_shown
 from .view import Canvas, View
 
 ANSWERS = "answers"  # what is drawn in no stage, but with all the work: what it comes to
@@ -99,4 +100,4 @@ def family(name: str) -> str:
     >>> family("profile.E12"), family("r_0")
     ('profile.E#', 'r_0')
     """
-    return NUMBER.sub("#", name) if "." in name or name[0] == "_" else name
+    return name if is_shown(name) else NUMBER.sub("#", name)

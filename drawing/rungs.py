@@ -6,6 +6,7 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Generic, Protocol, TypeVar
 
+from ..plans.names import role
 from ..scales.choices import SIZES
 from ..scales.errors import InputError
 from .compose import arrange
@@ -69,7 +70,7 @@ def fitted(drawer: Drawer[Rungs], sheet: Format, norm: Norm, rungs: Rungs, first
 
 def too_fine(drawer: Drawer[Rungs], rungs: Rungs, sheet: Format, ladders: tuple[str, ...]) -> InputError | None:
     """Return that a drawing has no room because a user has fixed its scale factor, m/mm; None if nobody has."""
-    fixed = next((name for name in ladders if name.startswith("mu_") and len(drawer.ladders[name]) == 1), None)
+    fixed = next((name for name in ladders if role(name).kind == "mu" and len(drawer.ladders[name]) == 1), None)
     if fixed is None:
         return None
     return InputError("plan-too-fine", symbol=fixed, mu=f"{drawer.ladders[fixed][0]:g}", format=sheet.name)

@@ -9,6 +9,7 @@ from typing import Any
 
 from ..drawing.givens import Given
 from ..drawing.words import Words
+from ..plans.names import role
 from ..plans.solved import Solved
 from ..scales.arguments import of_kind
 from ..scales.choose import Chooser, Segment, chooser, segment_symbol
@@ -105,7 +106,7 @@ def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser
     for name, text in scales.items():
         _choosable(task, name, text, solved)
         try:
-            symbol = name if name.startswith("mu_") else segment_symbol(name)
+            symbol = name if role(name).kind == "mu" else segment_symbol(name)
             chosen = chooser(symbol, str(text) if symbol == name else f"{name}={text}", firm=True)
             if isinstance(chosen, Segment) and symbol in solved.scale_of_plan.values():
                 _shown(chosen, solved, name)
@@ -122,11 +123,11 @@ def _choosable(task: Task, name: str, text: str | float, solved: Solved) -> None
     """Refuse a scale factor that a task has not or that is found, and a segment where none chooses a scale factor."""
     kind = kind_of(task.kind)
     known = kind.scale_symbols(solved)
-    if name.startswith("mu_") and name not in known:
+    if role(name).kind == "mu" and name not in known:
         if name in solved.quantities:
             raise InputError("scale-follows", symbol=name, known=", ".join(known))
         raise unknown("scale-unknown", name, known, task=task.id)
-    segment = name if not name.startswith("mu_") else str(text) if "=" in str(text) else ""
+    segment = name if role(name).kind != "mu" else str(text) if "=" in str(text) else ""
     if segment and not kind.segments:
         raise InputError("scale-no-segments", text=quote(segment), known=", ".join(known))
 

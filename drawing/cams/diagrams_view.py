@@ -9,6 +9,7 @@ import numpy as np
 
 from ...plans.cams.integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
 from ...plans.cams.motion import PHASES, RISE
+from ...plans.names import role
 from ..diagram import Axis, Field, Pole, axes, numbers
 from ..dimensions import linear
 from ..figure import Figure, Stage
@@ -48,7 +49,7 @@ def diagrams_view(scene: CamScene) -> View:
     for plan, field in zip(drawn, fields, strict=True):
         canvas.part("axes")
         axes(canvas, field, False, PAST * scene.style.label)
-        given, shown = plan == solved.layout.given, plan[-1]
+        given, shown = plan == solved.layout.given, role(plan).of
         canvas.part(f"law_{shown}" if given else f"chords_{shown}")
         _exact(canvas, scene, plan, field)
         _board(canvas, scene, plan, field, away)
@@ -143,11 +144,11 @@ def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field, away: float
         canvas.add(*(_mark(scene, at, "node", str(i)) for i, at in nodes))
     means = [(i, origin + mean) for i, mean in _means(scene, plan)]
     if means:
-        curve = canvas.part(f"rays_{plan[-1]}")
+        curve = canvas.part(f"rays_{role(plan).of}")
         name, letter = POLES[plan]
         text = f"{words.symbol(name)} = {words.short(round(scene.paper(name), 2))}"
         fan(canvas, field, Pole(scene.paper(name), letter, name, text), means, away)
-        canvas.part(curve if plan == solved.layout.given else f"means_{plan[-1]}")
+        canvas.part(curve if plan == solved.layout.given else f"means_{role(plan).of}")
         canvas.add(*(_mark(scene, mean, "mean", str(i)) for i, mean in means))
 
 

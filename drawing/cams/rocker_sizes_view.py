@@ -12,8 +12,7 @@ from ...plans.cams.followers import RockerCam
 from ...plans.cams.motion import RISE
 from ...plans.cams.rocker import Limit, tightest
 from ...plans.cams.rocker_plans import ROCKER_SIZES
-from ...plans.cams.size_plans import phase_of
-from ...plans.cams.sizes import BACK
+from ...plans.cams.size_plans import is_back, phase_of
 from ..dimensions import linear
 from ..figure import Figure, Stage
 from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
@@ -138,7 +137,7 @@ def _bound(canvas: Canvas, scene: CamScene, limit: Limit, frame: Box) -> None:
     along = _down(arm * cmath.rect(1.0, turned))
     reach = (frame[1] - end.imag) / along.imag
     canvas.add(Line(end, end + along * reach, Pen.THIN, role="bound", name=limit.name))
-    if limit.name.endswith(BACK) and limit.name not in cam.sizes.on:
+    if is_back(limit.name) and limit.name not in cam.sizes.on:
         return
     start = arm if (along * arm.conjugate()).real > 0.0 else -arm
     radius, sweep = 5.0 * scene.style.label, cmath.phase(along / start)

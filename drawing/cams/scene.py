@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ...plans.cams.integration import DIAGRAMS
 from ...plans.cams.motion import Phase
 from ...plans.cams.solve import SCALES, SolvedCam
+from ...plans.names import role
 from ...plans.solved import PAPER_MM
 from ...scales.scale import Scale
 from ..givens import Given
@@ -63,7 +64,7 @@ class CamScene:
 
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""
-        plan = mark.rpartition(".")[0]
+        plan = role(mark).plan
         if plan in DIAGRAMS:
             return self.solved.point(mark) * (1.0 / PAPER_MM)
         return self.solved.point(mark) * (1.0 / self.scale(plan).mu)

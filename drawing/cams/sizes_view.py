@@ -10,8 +10,8 @@ import numpy as np
 from ...plans.cams.followers import RollerCam
 from ...plans.cams.half_planes import HalfPlane
 from ...plans.cams.motion import FALL, RISE
-from ...plans.cams.size_plans import SIZES, phase_of
-from ...plans.cams.sizes import BACK, wedge
+from ...plans.cams.size_plans import SIZES, is_back, phase_of
+from ...plans.cams.sizes import wedge
 from ..dimensions import linear
 from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline
@@ -96,7 +96,7 @@ def _limit(canvas: Canvas, scene: CamScene, plane: HalfPlane, low: float) -> Non
     foot = touch - up * ((touch.imag - low) / up.imag)
     canvas.add(Line(touch + up * LINE, foot, Pen.THIN, role="limit", name=plane.name))
     canvas.add(Group((Circle(touch, scene.style.node, Pen.THIN, fill="black"),), "touch", plane.name))
-    if plane.name.endswith(BACK) and scene.solved.roller and plane.name not in scene.solved.roller.sizes.on:
+    if is_back(plane.name) and scene.solved.roller and plane.name not in scene.solved.roller.sizes.on:
         return
     axis = touch - up * (touch.imag / up.imag)
     gamma = math.atan2(up.imag, abs(up.real))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...plans.gears.wheels import CIRCLES, SHOWN, Wheel
+from ...plans.names import role
 from ..dimensions import angle, linear, turning
 from ..figure import ANSWERS
 from ..shapes import Anchor, Arc, Circle, Group, Line, Pen, Text
@@ -235,9 +236,9 @@ def along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str)
 
 def _text(scene: GearScene, name: str) -> str:
     """Return what a dimension says; the pitch of both wheels is one."""
-    if name.startswith(("tau_", "phi_")):
+    if role(name).kind in ("tau", "phi"):
         return scene.angle(name)
-    return scene.stated("p" if name.startswith("p_") else name)
+    return scene.stated("p" if role(name).kind == "p" else name)
 
 
 def _on(wheel: Wheel, ends: Ends, radius: float) -> Ends:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from ...plans.gears.blocking import BLOCKING, CURVES, RATIOS, Plane, plane_of
+from ...plans.gears.blocking import BLOCKING, CURVES, OF_CURVE, RATIOS, Plane, plane_of
 from ...scales.scale import Scale, steps
 from ..diagram import Axis, Field, divisions
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
@@ -137,7 +137,7 @@ def _legend(scene: GearScene, names: Sequence[str]) -> Iterator[str]:
 def limit(scene: GearScene, name: str) -> str:
     """Return what a curve stands for, in symbols."""
     words = scene.words
-    kind, of = name.split("_")
+    kind, of = OF_CURVE[name]
     if kind == "contact":
         return f"{words.symbol('epsilon_alpha')} = {words.short(RATIOS[name])}"
     if kind in ("pointed", "thin"):

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from ...plans.check import AT_LEAST, AT_MOST, Check
+from ...plans.gears.checks import rule_of
 from ...plans.gears.gear import WHEELS
 from ...plans.gears.sliding_plan import THETA
 from ...scales.scale import Scale
@@ -71,7 +72,7 @@ def _plain(scene: GearScene, name: str) -> str:
 
 def _judged(scene: GearScene, texts: Texts, rule: str) -> Iterator[str]:
     """Tell whether a rule is kept: of all wheels, or of which it is not."""
-    checks = [check for check in scene.solved.checks if check.name.removesuffix("_1").removesuffix("_2") == rule]
+    checks = [check for check in scene.solved.checks if rule_of(check)[0] == rule]
     broken = [check for check in checks if not check.ok]
     if not checks:
         return

@@ -6,8 +6,10 @@ import math
 from collections.abc import Callable, Iterator
 
 from ...plans.check import Check
+from ...plans.gears.checks import rule_of
 from ...plans.gears.gear import SHIFTS, WHEELS
 from ...plans.gears.geometry import POINTS
+from ...plans.names import role
 from ..handouts.begun import Shown
 from ..printed import DEGREES
 from ..table import table
@@ -117,9 +119,8 @@ def checks_table(scene: GearScene) -> View:
 
 def _check_row(scene: GearScene, check: Check) -> list[str]:
     words = scene.words
-    kind, _, wheel = check.name.partition("_")
-    about = words[f"gear.check.{kind}"]
-    if wheel.isdigit():
+    wheel, about = rule_of(check)[1], words[f"gear.check.{role(check.name).kind}"]
+    if wheel:
         about += f", {words.symbol(f'z_{wheel}')}"
     sides = number_of(scene, check, check.value), number_of(scene, check, check.limit)
     verdict = words["said.ok" if check.ok else "said.fails"]
@@ -129,11 +130,11 @@ def _check_row(scene: GearScene, check: Check) -> list[str]:
 def condition(scene: GearScene, check: Check) -> str:
     """Return what is demanded, in symbols."""
     words = scene.words
-    if check.name.startswith("centre"):
+    if role(check.name).kind == "centre":
         return f"{words.symbol('a_w')} = {CENTRES[check.quantity](words.symbol)}"
     if check.of:
         limit = words.symbol(check.of)
-    elif check.name.startswith("tip"):
+    elif role(check.name).kind == "tip":
         limit = f"{words.short(scene.solved.pair.least_tip)}m"
     else:
         limit = words.short(check.limit)
@@ -143,7 +144,7 @@ def condition(scene: GearScene, check: Check) -> str:
 def number_of(scene: GearScene, check: Check, value: float) -> str:
     """Return one side of a check, lengths in mm."""
     words = scene.words
-    if check.quantity.startswith(("epsilon_", "x_")):
+    if role(check.quantity).kind in ("epsilon", "x"):
         return words.number(value, DECIMALS[NUMBER])
     return f"{words.number(value * TIMES[MM], DECIMALS[MM])} {words.unit('mm')}"
 

@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from ...plans.board import Step
 from ...plans.gears.checks import CENTRES
 from ...plans.gears.gear import VALUES, unit_of
+from ...plans.names import role
 from ..formulas import prints
 from ..printed import DEGREES, Input, Shown, worked
 from ..table import text_block
@@ -67,7 +68,7 @@ def _line(scene: GearScene, step: Step, symbol: str) -> tuple[str, ...]:
 
 def shown(name: str) -> Shown:
     """Return how a quantity is printed."""
-    return INV if name.startswith("inv") else SHOWN[VALUES[name] or "1" if name in VALUES else unit_of(name)]
+    return INV if role(name).kind == "inv" else SHOWN[VALUES[name] or "1" if name in VALUES else unit_of(name)]
 
 
 def _input(scene: GearScene, name: str) -> Input:

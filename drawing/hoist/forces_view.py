@@ -88,7 +88,8 @@ def _levels(canvas: Canvas, scene: HoistScene, field: Field) -> None:
 def _times(canvas: Canvas, scene: HoistScene, field: Field) -> None:
     """Draw upright lines at the lift-off, the maxima before it, and the greatest force after it."""
     marked = {"t_1": scene.size("t_1"), "t_P12_max": scene.size("t_1") + scene.size("T_1")}
-    maxima = [q for name, q in scene.solved.quantities.items() if name.startswith("t_2_") and name[4:].isdigit()]
+    found = scene.solved.quantities
+    maxima = [found[name] for name in (f"t_2_{n}" for n in range(1, len(found))) if name in found]
     marked |= {quantity.name: float(quantity.value or 0.0) for quantity in maxima[::2]}
     height, rows = scene.style.text, 0
     top = field.at(0.0, field.y.high).imag

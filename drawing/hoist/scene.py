@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ...plans.hoist.paper import SCALED
 from ...plans.hoist.solve import ON_PAPER, SCALES, SolvedHoist
+from ...plans.names import role
 from ...plans.solved import PAPER_MM
 from ...scales.packaged import packaged
 from ...scales.scale import Scale
@@ -46,7 +47,7 @@ class HoistScene:
 
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""
-        plan = mark.rpartition(".")[0]
+        plan = role(mark).plan
         return self.solved.point(mark) * (1.0 / (PAPER_MM if plan in ON_PAPER else self.mus[SCALES[plan]]))
 
     def places(self, curve: NDArray[Any]) -> list[complex]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from ...plans.hoist.checks import STRENGTH
 from ...plans.hoist.model import CIRCLE
 from ...plans.laws import form_of
+from ...plans.names import role
 from ...scales.scale import Scale
 from ..formulas import Symbol
 from ..notes.blocks import Story
@@ -87,7 +88,9 @@ def formula(scene: HoistScene, told: Formula) -> tuple[str, ...]:
 
 def _lines(scene: HoistScene, formulas: tuple[Formula, ...]) -> tuple[tuple[str, ...], ...]:
     """Return formulas, without what is nothing because a beam is rigid."""
-    return tuple(formula(scene, told) for told in formulas if not (told.name[0] == "w" and not scene.size(told.name)))
+    return tuple(
+        formula(scene, told) for told in formulas if not (role(told.name).kind == "w" and not scene.size(told.name))
+    )
 
 
 def _letters(scene: HoistScene, names: Iterable[str]) -> Iterator[Symbol]:

@@ -14,9 +14,9 @@ from dataclasses import replace
 from ..board import Program, Step
 from ..boards.exact import run
 from .formulas import SHARPEST
+from .sections import EXACT_OF
 from .solve import SolvedCam
 
-CHORD = "_chord"
 HEIGHTS = {"_S_max": "S_max_chord", "_V_max": "V_max_chord"}  # ordinates that only a drawing shows keep its name
 TANGENTS = {"r_0": "r_0_tangents", "e": "e_tangents", "r_0_flat_min": "r_0_flat_tangent"}
 GIVEN = ("r_0", "e")  # of a cam whose sizes are given none are drawn
@@ -25,7 +25,7 @@ GIVEN = ("r_0", "e")  # of a cam whose sizes are given none are drawn
 def stands_for(solved: SolvedCam) -> dict[str, str]:
     """Return for every size that is drawn, and found by a formula, too, what it is called there."""
     names = {*solved.program.names}
-    chords = {name: name.removesuffix(CHORD) for name in solved.program.names if name.endswith(CHORD)}
+    chords = {name: EXACT_OF[name] for name in solved.program.names if name in EXACT_OF}
     found = {drawn: exact for drawn, exact in chords.items() if exact in names}
     sized = any(name in solved.givens for name in GIVEN)
     for exact, drawn in TANGENTS.items():

@@ -28,12 +28,14 @@ NAMES = {
     PROFILE: ("mu_l", "R_roller", "rho_min"),
 }
 OF_PLAN = {DIAGRAMS_PART: (DIAGRAMS, CHORDS), SIZES_PART: (ROLLER, PLATE), PROFILE_PART: (PROFILE,), PRESSURE_PART: ()}
+BY_CHORDS = ("mu_s", "mu_ds", "mu_d2s", "mu_v", "mu_a", "S_max", "V_max", "ds_max", "nu", "nu_a")
+EXACT_OF = {f"{name}_chord": name for name in BY_CHORDS}  # what is found from curves of chords, and what it stands for
 _SECTION = {name: section for section, names in NAMES.items() for name in names}
 
 
 def section_of(name: str) -> str:
     """Return the section of a quantity or a scale factor: what belongs to nothing else belongs to the diagrams."""
-    return _SECTION.get(name, CHORDS if name.endswith("_chord") else DIAGRAMS)
+    return _SECTION.get(name, CHORDS if name in EXACT_OF else DIAGRAMS)
 
 
 def listed(names: Iterable[str], plans: Iterable[str]) -> tuple[str, ...]:

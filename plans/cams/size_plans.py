@@ -19,17 +19,23 @@ from .integration import ACCELERATION, RIGHT, TRAVEL, UP, VELOCITY, foot
 from .sizes import BACK
 
 SIZES, PLATE_SIZES = "sizes", "plate_sizes"
+PHASES = {f"{phase}{end}": phase for phase in ("rise", "fall") for end in ("", BACK)}  # of limits
 OUTWARDS = {"rise": 1, "fall": -1}  # to which side of the abscissas a phase lies when the cam turns counter-clockwise
 
 
 def phase_of(limit: str) -> str:
     """Return the phase that a limit belongs to: `rise` or `fall`, both sides of the normal alike."""
-    return limit.removesuffix(BACK)
+    return PHASES[limit]
+
+
+def is_back(limit: str) -> bool:
+    """Whether a limit is that of the side to which the cam does not push."""
+    return PHASES[limit] != limit
 
 
 def side_of(limit: str, sense: int) -> int:
     """Return the side of the abscissas, +1 or -1, on which the tangent of a limit lies."""
-    return OUTWARDS[phase_of(limit)] * sense * (-1 if limit.endswith(BACK) else 1)
+    return OUTWARDS[phase_of(limit)] * sense * (-1 if is_back(limit) else 1)
 
 
 def ordinates(board: Board, division: Division, given: str) -> None:

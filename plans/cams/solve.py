@@ -22,6 +22,7 @@ from .integration import ACCELERATION, DIAGRAMS, RIGHT, TRAVEL, UP, VELOCITY
 from .inversion import PLATE_PROFILE, PROFILE
 from .motion import Array, Motion, motion_of
 from .rocker_plans import ROCKER_SIZES
+from .sections import EXACT_OF
 from .size_plans import PLATE_SIZES, SIZES
 
 # the scale factor in which each plan shows values; on the diagrams that of the axis of ordinates
@@ -69,7 +70,7 @@ UNITS = {
 
 def unit_of(name: str) -> str:
     """Return the SI unit of a cam's quantity by its name; analogues have that of the travel."""
-    return UNITS.get(name.removesuffix("_chord"), "m")
+    return UNITS.get(EXACT_OF.get(name, name), "m")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -30,6 +30,8 @@ LEAST_WINDOW = 1.5
 MARGIN = 0.08  # of the window, round the contour
 BLOCKING = ("undercut_1", "undercut_2", "interference_1", "interference_2", "contact_1", "pointed_1", "pointed_2")
 CURVES = (*BLOCKING, "contact_1.2", "thin_1", "thin_2")
+_KINDS = {"undercut": "12", "interference": "12", "contact": ("1", "1.2"), "pointed": "12", "thin": "12"}
+OF_CURVE = {f"{kind}_{of}": (kind, of) for kind, every in _KINDS.items() for of in every}  # kind, wheel or ratio
 RATIOS = {"contact_1": 1.0, "contact_1.2": 1.2}
 # what is compared: the shift with the least one, curvatures, the contact ratio, the thickness of the tip
 COMPARED = {
@@ -89,7 +91,7 @@ class Plane:
         return {name: self._measure(name, [found[part] for part in COMPARED[name]]) for name in names}
 
     def _measure(self, name: str, parts: list[Array]) -> Array:
-        kind, unit = name.split("_")[0], 1.0 / self.values["m"]
+        kind, unit = OF_CURVE[name][0], 1.0 / self.values["m"]
         if kind == "contact":
             return np.asarray(parts[0] - RATIOS[name])
         if kind in ("pointed", "thin"):

@@ -9,12 +9,19 @@ import math
 from collections.abc import Mapping
 
 from ..check import AT_LEAST, AT_MOST, EQUAL, Check
+from ..names import role
 from .gear import WHEELS, GearPair, unit_of
 
 EPSILON = 1.2  # the least contact ratio advised for spur gears
 ROUNDING = 1e-12  # part of a length by which two ways to it may differ, and a limit may be missed
 SAME = 1e-9  # part of the active line: flanks that touch along all of it
 CENTRES = ("a_w_rolling", "a_w_shift", "a_w_tip1", "a_w_tip2")
+
+
+def rule_of(check: Check) -> tuple[str, str]:
+    """Return the rule that a check is of, and the wheel, if it is that of one."""
+    name = role(check.name)
+    return (name.kind, name.of) if name.of.isdigit() else (check.name, "")
 
 
 def judged(name: str, quantity: str, value: float, limit: float, relation: str, of: str = "") -> Check:

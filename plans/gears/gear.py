@@ -10,6 +10,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from ..names import role
+
 CCW, CW = ROTATIONS = ("ccw", "cw")
 HOMOGENEOUS, HARDENED = MATERIALS = ("homogeneous", "hardened")
 WHEELS = (1, 2)  # the pinion, which drives, and the wheel
@@ -40,8 +42,9 @@ MODULES = (
 # what is not given: the basic rack of GOST 13755-81, a drawn length, a scale factor
 STANDARD = {"alpha": math.radians(20.0), "h_a": 1.0, "h_l": 2.0, "c": 0.25, "PW": 40e-3, "mu_theta": 50.0}
 # beginnings of the names of calculated quantities that are no lengths
-ANGLES = ("alpha_", "tau_", "nu_p", "phi_alpha")
-PLAIN = ("x_", "inv_", "epsilon_", "theta_", "z_W")
+ANGLES = ("alpha", "tau", "nu", "phi")  # kinds of quantities
+PLAIN = ("x", "inv", "epsilon", "theta")
+NUMBERS = ("u", "y", "delta_y", *(f"z_W{i}" for i in WHEELS))
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +80,6 @@ class GearPair:
 
 def unit_of(name: str) -> str:
     """Return the SI unit of a quantity of a pair by its name."""
-    if name in ("u", "y", "delta_y") or name.startswith(PLAIN):
+    if name in NUMBERS or role(name).kind in PLAIN:
         return "1"
-    return "rad" if name.startswith(ANGLES) else "m"
+    return "rad" if role(name).kind in ANGLES else "m"

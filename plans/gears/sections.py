@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import cache
 
 from ..calculated import calculated
+from ..names import role
 from .geometry import SIZES
 
 # of the calculated quantities, each the steps of one part of the geometry
@@ -32,7 +33,7 @@ def section_of(name: str) -> str:
     known = _calculated().get(name)
     if known is not None:
         return known
-    return SLIDING if name.startswith(("y_", "theta_")) or name in OF_DIAGRAMS else DRAWN
+    return SLIDING if role(name).kind in ("y", "theta") or name in OF_DIAGRAMS else DRAWN
 
 
 def place_of(name: str) -> int:

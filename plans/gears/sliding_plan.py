@@ -19,7 +19,8 @@ SLIDING, THETA = "sliding", "theta"
 DIAGRAMS = (SLIDING, THETA)
 RIGHT, UP = "_right", "_up"
 FIRST = {1: POINTS[0], 2: POINTS[-1]}  # the point of a wheel's own base circle
-ENDLESS = tuple(f"theta_{i}{3 - i}_{point}" for i, point in FIRST.items())  # minus infinity, which nobody draws
+# what is minus infinity, which nobody draws, with the other one of its point
+ENDLESS = {f"theta_{i}{3 - i}_{point}": f"theta_{3 - i}{i}_{point}" for i, point in FIRST.items()}
 
 
 def sliding(board: Board, pole: str) -> None:

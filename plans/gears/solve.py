@@ -154,7 +154,7 @@ def _with_ends(results: Mapping[str, Quantity]) -> dict[str, Quantity]:
     """Return the quantities with those of the table that are undefined, each beside the other one of its point."""
     found: dict[str, Quantity] = {}
     for name, quantity in results.items():
-        ends = [Quantity(end, None, unit_of(end)) for end in ENDLESS if end[-3:] == name[-3:] and "theta" in name]
+        ends = [Quantity(end, None, unit_of(end)) for end, other in ENDLESS.items() if name == other]
         found |= {item.name: item for item in sorted((quantity, *ends), key=lambda item: item.name)}
     return found
 

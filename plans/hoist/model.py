@@ -17,6 +17,7 @@ import numpy as np
 from ..board import Board, Program, RecordingBoard
 from ..boards.arrays import ArrayBoard
 from ..boards.exact import ExactBoard
+from ..names import is_shown, role
 from .lift_off import BEAMS, lifting_off, reduced, rope_force
 from .refining import rest_of_root
 
@@ -100,7 +101,7 @@ def moved_on(board: Board) -> None:
 
 def motion_given(name: str) -> str:
     """Return the name of the given that is a quantity's value in the motion."""
-    return f"_{name.lstrip('_')}_motion"
+    return f"_{role(name).shown}_motion"
 
 
 TWO_SIDED = (reduced, lifting_off, extremes, circle, suspended, lifted, strength, printed)
@@ -144,6 +145,6 @@ def model(values: Mapping[str, Any], wanted: Iterable[str] = (), one_sided: bool
     board = ArrayBoard(givens, np.broadcast(*many).size) if many else ExactBoard(givens)
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         program.run(board)
-    names = (name for name in (*values, *program.names) if "." not in name and name[0] != "_")
+    names = (name for name in (*values, *program.names) if is_shown(name))
     found = {name: board.values[name] for name in names}
     return {name: value if np.ndim(value) else float(value) for name, value in found.items()}

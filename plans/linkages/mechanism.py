@@ -11,12 +11,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from ..names import POINT, Name, spelled
+from ..names import POINT, Name, role, spelled
 
 ZERO = "zero"
 MINUS = "_minus_"
 FRAME = 0
 ONE_DIGIT = range(10)  # numbers of links that need no parting in names
+
+
+def positive(place: str) -> str:
+    """Return the name of a length for that of its opposite, any other name as it is."""
+    name = role(place)
+    return name.of if name.hidden and name.kind == "minus" else place
 
 
 @dataclass(frozen=True, slots=True)
@@ -286,7 +292,7 @@ class Mechanism:
         places: list[tuple[str, ...]] = [place for link in self.links for place in link.points.values()]
         for pair in self.pairs:
             places.append((*pair.through, pair.offset) if isinstance(pair, Prismatic) else pair.at or ())
-        return {name: name.removeprefix(MINUS) for place in places for name in place if name.startswith(MINUS)}
+        return {name: positive(name) for place in places for name in place if positive(name) != name}
 
     @property
     def frame_points(self) -> dict[str, tuple[str, str]]:

@@ -12,7 +12,7 @@ from typing import Protocol
 
 from ..board import Board
 from ..names import NORMAL, Name, arm, between, mark, moment, rate, role, spelled, vector
-from .mechanism import FRAME, MINUS, ZERO, Link, Mechanism
+from .mechanism import FRAME, ZERO, Link, Mechanism, positive
 
 SYMBOLS = {"velocity": "V", "acceleration": "a"}
 Forces = dict[int, list[tuple[str, str]]]
@@ -97,7 +97,7 @@ class Span:
     def measured(self) -> bool:
         """Whether the distance of the joints is measured: it is given where `end` stands on the x axis from `start`."""
         start, (x, y) = self.link.points[self.start], self.link.points[self.end]
-        return start != (ZERO, ZERO) or y != ZERO or x.startswith(MINUS)
+        return start != (ZERO, ZERO) or y != ZERO or x != positive(x)
 
     @property
     def length(self) -> str:
@@ -105,7 +105,7 @@ class Span:
         points = self.link.points
         if not self.measured:
             return points[self.end][0]
-        taken = {xy.removeprefix(MINUS) for place in points.values() for xy in place}
+        taken = {positive(xy) for place in points.values() for xy in place}
         length = between("l", self.start, self.end)
         return length.size if length in taken else length
 
@@ -237,7 +237,7 @@ def lay_off(board: Board, name: str, start: str, direction: str, along: str, acr
         board.same(name, start)
         return
     if along != ZERO:
-        foot = name if across == ZERO else f"_{name.lstrip('_')}_along"
+        foot = name if across == ZERO else f"_{role(name).shown}_along"
         board.lay(foot, start, direction, along)
         start = foot
     if across != ZERO:

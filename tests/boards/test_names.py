@@ -20,7 +20,7 @@ from kulman.variants import load_task
 from kulman.variants.shelf import bundled
 
 ROOT = Path(__file__).parents[2]
-MOST = 180  # places that take a name apart
+MOST = 120  # places that take a name apart
 APART = {"startswith", "endswith", "partition", "rpartition", "removeprefix", "removesuffix", "split", "rsplit"}
 APART |= {"lstrip", "rstrip", "strip"}  # `removeprefix` under another name
 # What users write, files and tables of text are taken apart by modules that do nothing else.

@@ -16,6 +16,7 @@ from ...plans.hands.hand import preset
 from ...plans.linkages.accuracy.stability import DEAD, Stability, stability
 from ...plans.linkages.cycles.cycle import Cycle
 from ...plans.linkages.solved import solve_linkage
+from ...plans.names import role
 from ...plans.quantities import BALANCES
 from ...scales.errors import InputError
 from ..spreadsheets.csv_write import Cell
@@ -148,7 +149,8 @@ class StabilityChart:
         from ...drawing.charts.stability import Abscissa, stability_page
 
         name = driver_name(self.cycle)
-        symbol = GREEK.get(name.partition("_")[0], name.partition("_")[0])
+        kind = role(name).kind or name
+        symbol = GREEK.get(kind, kind)
         unit = "°" if self.cycle.drive.turns else words.unit("mm")
         along = Abscissa(f"{symbol}, {unit}", self.cycle.drive.turns)
         title, apart = self.scene.title(self.heading), self.cycle.reach.apart

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ...plans.linkages.mechanism import FRAME, MINUS, ZERO, Link, Mechanism, Pair, Prismatic, Revolute, Start
+from ...plans.linkages.mechanism import FRAME, ZERO, Link, Mechanism, Pair, Prismatic, Revolute, Start, positive
 from ...plans.linkages.structure import analyse
 from ...scales.errors import InputError
 from ...scales.names import unknown
@@ -75,7 +75,7 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | Non
         lettered = {key: place(checker, (*path, key), at) for key, at in raw.items()}
         for at in lettered.values():
             if at and ZERO in at:
-                names.bounds.update((length.removeprefix(MINUS), Bound.POSITIVE) for length in at)
+                names.bounds.update((positive(length), Bound.POSITIVE) for length in at)
         return None if None in letters or None in lettered.values() else names.on_axis(lettered)
 
     place = array_of(names.place, 2)

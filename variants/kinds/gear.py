@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...plans.check import Check
+from ...plans.gears.checks import rule_of
 from ...plans.gears.gear import MODULES, PLANS, GearPair
 from ...plans.gears.limits import impossible
 from ...scales.choose import Choosers
@@ -122,7 +123,7 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         """Tell which limits are not kept, and of teeth that are pointed."""
         found = []
         for check in solved.checks:
-            rule, _, wheel = check.name.rpartition("_") if check.name[-1].isdigit() else (check.name, "", "")
+            rule, wheel = rule_of(check)
             if check.ok or rule not in RULES:
                 continue
             if rule == "tip" and solved.meshing.teeth[int(wheel) - 1].pointed:

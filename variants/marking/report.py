@@ -11,6 +11,7 @@ from ...drawing.words import Words
 from ...plans.board import Step
 from ...plans.marking.verdicts import Line, Verdict, behind
 from ...plans.mistakes.rules import Broken
+from ...plans.names import role
 from ...scales.units import format_unit
 from ..roster import WHO
 from .marked import Marked
@@ -214,7 +215,7 @@ class _Teller:
 
     def _where(self, at: str) -> str:
         """Return the symbol of a quantity or given, or the letter of a mark, at which a rule was broken."""
-        name = at.lstrip("_")
+        name = role(at).shown
         if name in self.marked.keyed.solution.quantities or name in self.marked.keyed.solution.task.givens:
             return self.symbol(name)
         return letter(self.words, at) if "." in at else ""

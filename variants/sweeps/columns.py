@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ...plans.linkages.cycles.cycle import Cycle
 from ...plans.linkages.cycles.strokes import Output
 from ...plans.linkages.mechanism import Mechanism
+from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
 from ...scales.display import Display
 from ...scales.units import unit
@@ -49,7 +50,7 @@ def driver_column(cycle: Cycle) -> Column:
 def driver_name(cycle: Cycle) -> str:
     """Return the name of the driver's variable, `phi` or `s` where the task has a literal in its place."""
     variable = cycle.drive.variable
-    return ("phi" if cycle.drive.turns else "s") if variable.startswith("_") else variable
+    return ("phi" if cycle.drive.turns else "s") if role(variable).hidden else variable
 
 
 def place_name(output: Output) -> str:

@@ -12,6 +12,7 @@ from ...plans.extremes import Extreme
 from ...plans.graphs import Curve, Diagrams
 from ...plans.linkages.cycles.cycle import Cycle
 from ...plans.linkages.cycles.strokes import OutputMotion
+from ...plans.names import role
 from ...plans.quantities import unit_of
 from ...scales.units import format_unit, unit
 from ..spreadsheets.csv_write import csv_text
@@ -31,7 +32,7 @@ DIGITS = 6
 ROUGHLY = 4  # decimals of the angle of an extreme, near which values hardly change
 ROUNDING = 1e-12  # part of the largest value of a column below which one is zero
 CONSTANT = 1e-7  # part of its size within which a quantity does not change over the cycle
-LESS_WANTED = ("h_", "delta_", "l_")  # quantities whose extremes a reader hardly looks for
+LESS_WANTED = ("h", "delta", "l")  # kinds of quantities whose extremes a reader hardly looks for
 
 
 def as_table(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
@@ -122,7 +123,7 @@ def _amount(words: Words, value: float, of: str) -> str:
 
 def _extremes(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
     """Return the largest and smallest values with the driver's places, constants left out."""
-    names = [name for name in quantities_of(cycle, chosen) if not name.startswith(LESS_WANTED)]
+    names = [name for name in quantities_of(cycle, chosen) if role(name).kind not in LESS_WANTED]
     steps = {step.name: step for step in cycle.program}
     names = [name for name in names if steps[name].law != "opposite"]
     rows = [["", words["sweep.most"], "", words["sweep.least"], ""]]

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ....plans.linkages.structure import Structure
+from ....plans.names import role
 from ....scales.scale import Scale
 from ...compose import arrange_rest
 from ...extents import Rungs
@@ -31,12 +32,12 @@ ZONES: dict[str, Box] = {
 }
 # what may become coarser for the sake of a zone: the plan's own scale factor, not one that other zones share
 OWN = {
-    "positions": "mu_l",
-    "velocity": "mu_V",
-    "acceleration": "mu_a",
-    "last": "mu_F",
-    "first": "mu_F",
-    "driver": "mu_F",
+    "positions": "l",
+    "velocity": "V",
+    "acceleration": "a",
+    "last": "F",
+    "first": "F",
+    "driver": "F",
 }
 BOTH = (295.0, 12.0, 645.0, 325.0)  # of a mechanism with one group
 GAP = 5.0
@@ -56,7 +57,7 @@ def zoned(fitting: Fitting, sheet: Format, norm: Norm, first: Rungs) -> Zoned | 
         placed, tight = _place(views, zones, structure)
         coarser: dict[str, str] = {}
         for (_, symbol), zone in zip(built, zones, strict=True):
-            own = bool(symbol) and zone in tight - crowded and symbol.startswith(OWN[zone])
+            own = bool(symbol) and zone in tight - crowded and role(symbol).of == OWN[zone]
             if own and not fitting.is_fixed(symbol):
                 coarser[symbol] = zone
         if not coarser:
@@ -76,8 +77,7 @@ def zone_of(name: str, structure: Structure) -> str:
     if name in ("driver", "lever", f"forces_{structure.driver}"):
         return "driver"
     for group in structure.groups:
-        own = {group.name, *map(str, group.links)}
-        if name.removeprefix("group_").removeprefix("forces_").removeprefix("link_") in own:
+        if name in {f"{kind}_{own}" for kind in ("group", "forces", "link") for own in (group.name, *group.links)}:
             return "last" if group is structure.groups[-1] else "first"
     return ""
 

@@ -15,6 +15,7 @@ from ...boards.arrays import ArrayBoard
 from ...boards.batch import FEW, batch
 from ...boards.exact import run
 from ...boards.template import ASTRAY, CLOSED, FOLDED
+from ...names import role
 from ..chain import construct
 from ..mechanism import Driver, Mechanism
 from ..parts import local_mark
@@ -106,7 +107,7 @@ class Course:
         board.place("_start", start.x, start.y)
         board.turn("_start_turn", start.angle)
         for mark in self._joints():
-            local_mark(board, self._mechanism.link(number), mark.removeprefix(f"_{number}_"))
+            local_mark(board, self._mechanism.link(number), role(mark).of)
         board.incline("_start_arm", "_start_turn", self._joints()[0])
         board.chain("_start_joint", "_start", "_start_arm")
         return Program(board.steps)
