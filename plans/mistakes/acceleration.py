@@ -1,4 +1,4 @@
-"""The acceleration plan: mistakes M37 to M56, M115, M116 and M121."""
+"""The acceleration plan: mistakes M37 to M56, M115, M116, M121 and M125."""
 
 from __future__ import annotations
 
@@ -155,6 +155,19 @@ def normal_sizes(scene: Scene) -> Iterator[tuple[Step, tuple[Step, ...], str, st
 
 def _signs() -> dict[str, float]:
     return {constant(sense): sense for sense in (1.0, -1.0)}
+
+
+@mistake("M125")
+def parts_exchanged(scene: Scene) -> Iterator[Change]:
+    """The normal part is written for the tangential one, and the other way round; the rate follows."""
+    laid = [scene.steps.get(step.operands[2].removeprefix("_")) for step, _ in normals(scene)]
+    by_end = {normal.operands[1]: normal for normal in laid if normal is not None and normal.verb == "read"}
+    for rate, tangential in rates(scene, ACCELERATION):
+        normal = by_end.get(tangential.operands[0])
+        if normal is not None:
+            found = rate_from(scene, rate, tangential.name)
+            both = replace(tangential, operands=normal.operands), replace(normal, operands=tangential.operands)
+            yield Change(tangential.name, {normal.name: (), tangential.name: both, **found.steps}, found.givens)
 
 
 @mistake("M115")

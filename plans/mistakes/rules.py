@@ -1,6 +1,6 @@
 """Rules that can be broken: each a rewrite of the same construction, found to apply from its steps alone.
 
-The mistakes have numbers, M01 to M124; the other modules here, a chapter each, hold their rules, `book` all of them.
+The mistakes have numbers, M01 to M125; the other modules here, a chapter each, hold their rules, `book` all of them.
 """
 
 from __future__ import annotations

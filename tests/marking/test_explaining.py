@@ -92,6 +92,17 @@ def test_closed_forms_of_a_slotted_lever_are_explained(id: str, found: Motion) -
     assert id in explanation.candidates[0].ids
 
 
+def test_exchanged_parts_of_an_acceleration_are_named() -> None:
+    of_key = key("nau-slider-crank", "0")
+    sizes = {a.name: a for a in right_answers(of_key, directions=False)}
+    normal, tangential = sizes["a_BA_n"].value, sizes["a_BA_t"].value
+    rate = (normal or 0.0) / of_key.paper.givens["l_AB"]
+    said = {"a_BA_n": tangential, "a_BA_t": normal, "epsilon_2": rate}
+    answers = [replace(a, value=said.get(name, a.value)) for name, a in sizes.items()]
+
+    assert explain(book(of_key), mark(of_key, answers)).candidates[0].mistakes[0].mistake == "M125"
+
+
 def test_mistakes_that_answers_cannot_tell_apart_are_reported_together() -> None:
     explanation = of(rod_answers(rod(offset=-OFFSET)))  # in sizes the same as an angle laid off clockwise
 

@@ -340,6 +340,9 @@ def test_scales_broken_multiply_the_readings_of_a_plan() -> None:
     assert abs(tens["V_B"]) == pytest.approx(10.0 * abs(right["V_B"]), rel=1e-12)
     swapped = after(where, "M21", at="V_BA")
     assert (swapped["V_BA"], swapped["V_B"]) == (right["V_B"], right["V_BA"])
+    parts = after(where, "M125", at="a_BA_t")
+    assert (parts["a_BA_n"], parts["a_BA_t"]) == (right["a_BA_t"], right["a_BA_n"])
+    assert abs(parts["epsilon_2"]) == pytest.approx(abs(right["a_BA_n"]) / right["l_AB"], rel=1e-12)
     letter = after(where, "M56", at="a_B", how="")
     assert abs(letter["a_B"]) == pytest.approx(abs(right["V_B"]) * acceleration / velocity, rel=1e-12)
 
@@ -351,7 +354,7 @@ def test_what_concerns_a_construction_follows_from_its_steps() -> None:
     assert not {"M33", "M34", "M35", "M48", "M54"} & crank
     assert {"M12", "M26", "M30", "M73"} <= crank
     assert not {"M12", "M38"} & slotted
-    assert set(MISTAKES) == {f"M{n:02}" for n in range(1, 125) if n != 87}  # of a displacement counted backwards
+    assert set(MISTAKES) == {f"M{n:02}" for n in range(1, 126) if n != 87}  # of a displacement counted backwards
     assert set(MISTAKES) == {id for chapter in CHAPTERS for id in chapter.MISTAKES}
     assert len(crank) >= 60
 

@@ -274,6 +274,9 @@ def test_another_word_for_directions_is_refused() -> None:
         ("3,386 м/с вправо", "", None),
         ("3.386 →", "", None),
         ("3.386 m/s (right)", "0", None),
+        ("-3,386", "0", "-"),
+        ("+3.386 m/s", "", "+"),
+        ("−3,386", "right", "−"),
         ("-", "-", None),  # no answer
     ],
 )
@@ -287,5 +290,11 @@ def test_a_sense_is_no_direction_of_a_vector_and_that_is_told(
 
     assert len(answers.problems) == (told is not None)
     assert all(f"V_B: '{told}' is no direction of a vector" in problem.text("en") for problem in answers.problems)
-    assert line is None or (line.value, line.sense) == (pytest.approx(3.386), None)
+    assert line is None or (abs(line.value or 0.0), line.sense) == (pytest.approx(3.386), None)
     assert line is None or line.direction == (0.0 if {"right", "0"} & {direction} or told is None else None)
+
+
+def test_the_sign_of_a_reaction_says_whether_its_sense_was_assumed_rightly(tmp_path: Path) -> None:
+    answers = check(TASK, "1").read(write(tmp_path, form("R_12", "-500", "0"), ".xlsx"))[0]
+
+    assert answers.problems == ()

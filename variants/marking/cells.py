@@ -22,6 +22,7 @@ PHRASES = {
     for kind, sense in (("counter", 1), ("clockwise", -1))
     for phrase in (*TURNING[f"{kind}_phrases"], *TURNING[kind])
 }
+SIGNS = ("+", "-", "−", "–")
 WORDIEST = 200  # characters of a cell in which a sense is looked for
 _ALONG_OR_AGAINST = frozenset((*TURNING["along"], *TURNING["against"]))
 _BEHIND = ("(+)", "(-)", "(−)", "(–)", "+")
@@ -229,7 +230,7 @@ def direction(text: str, vector: bool = False) -> tuple[float | None, int | None
     word = tidy(text)
     if word in SIDES:
         return math.radians(SIDES[word]), None
-    if text in ("+", "-", "−", "–") and not vector:
+    if text in SIGNS and not vector:
         return None, 1 if text == "+" else -1
     if word in SENSES and not vector:
         return None, SENSES[word]

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from ...plans.marking.answers import FREE
 from ...scales.errors import InputError
 from ...scales.names import latin, unknown
 from ...scales.numbers import quote
@@ -180,6 +181,9 @@ class _Sheet:
             if rest != text:
                 words = quote(text.replace(rest, "", 1).strip(" ,;"))
                 self.refuse(row, column, name, InputError("answer-vector-direction", text=words))
+        sign = bare[0][:1]
+        if sign in cells.SIGNS and bare[0][1:] and not FREE.match(name):
+            self.refuse(row, column, name, InputError("answer-vector-direction", text=quote(sign)))
         (text, of_value), (written, of_unit) = map(cells.split_side, bare)
         sides = [angle for angle in (said[2], of_value, of_unit) if angle is not None]
         return text, written, next(iter(sides), None)
