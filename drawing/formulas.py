@@ -10,11 +10,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from operator import add, mul, sub, truediv
+from typing import Any, NamedTuple
 
 from ..plans.laws import Sign, form_of
 
-FUNCTIONS = {name: name for name in ("sin", "cos", "tan", "arccos", "arcsin", "arctan")}
+FUNCTIONS = ("sin", "cos", "tan", "arccos", "arcsin", "arctan")
+OPERATORS = {"add": add, "subtract": sub, "multiply": mul, "divide": truediv}
 POWERS = {1.5: "3/2"}
 CONSTANTS = {math.pi: "π", 0.5 * math.pi: "π/2", 2.0 * math.pi: "2π"}
 HALF = 0.5  # as a factor it is 2 below the line
@@ -29,30 +31,32 @@ class Atom:
     rest: str = ""
 
     @property
-    def is_compound(self) -> bool:
-        """Whether it must stand in brackets below the line, or raised to a power."""
-        return ("·" in self.text and not self.base) or self.text == "2π"
+    def within(self) -> str:
+        """Its text below the line or raised to a power, a product in brackets."""
+        return f"({self.text})" if ("·" in self.text and not self.base) or self.text == "2π" else self.text
 
 
 Factor = tuple["Atom | Symbol", float]  # what stands there, and its power
 
 
-@dataclass(frozen=True, slots=True)
-class Term:
+class Term(NamedTuple):
     """A product of factors over a product of others, perhaps negative."""
 
-    above: tuple[Factor, ...]
+    above: tuple[Factor, ...] = ()
     below: tuple[Factor, ...] = ()
     negative: bool = False
 
     @property
     def over(self) -> str:
         """What stands below the line, behind a stroke."""
-        below = "·".join(map(_written, self.below))
-        alone = len(self.below) == 1 and not (isinstance(self.below[0][0], Atom) and self.below[0][0].is_compound)
-        return f"/{below}" if alone else f"/({below})" if below else ""
+        texts = [*map(_written, self.below)]
+        if len(texts) == 1 and isinstance(self.below[0][0], Atom) and self.below[0][1] == 1:
+            texts = [self.below[0][0].within]
+        return "/" * bool(texts) + (f"({'·'.join(texts)})" if len(texts) > 1 else "".join(texts))
 
-    def __str__(self) -> str:
+    @property
+    def text(self) -> str:
+        """The term without its sign."""
         return ("·".join(map(_written, self.above)) or "1") + self.over
 
 
@@ -93,14 +97,13 @@ class Symbol:
     @property
     def chunks(self) -> list[str]:
         """The terms of the sum with their signs, also those of a sum over something."""
-        first, *rest = self.terms
-        whole = first.above[0][0] if len(first.above) == 1 and first.above[0][1] == 1 else None
-        if not rest and not first.negative and isinstance(whole, Symbol):
-            chunks = whole.chunks
-            chunks[0] = f"({chunks[0]}"
-            chunks[-1] += f"){first.over}"
+        first, *rest = self.terms or (Term(((Atom("0"), 1),)),)
+        if not rest and not first.negative and len(first.above) == 1 and isinstance(first.above[0][0], Symbol):
+            chunks = first.above[0][0].chunks
+            chunks[0], end = f"({chunks[0]}", _written(first.above[0]).rpartition(")")[2]
+            chunks[-1] += f"){end}{first.over}"
             return chunks
-        return [f"{'−' * first.negative}{first}", *(f"{'−' if term.negative else '+'} {term}" for term in rest)]
+        return ["−" * first.negative + first.text, *(f"{'−' if term.negative else '+'} {term.text}" for term in rest)]
 
     def __str__(self) -> str:
         return " ".join(self.chunks)
@@ -109,22 +112,25 @@ class Symbol:
         return isinstance(other, Symbol) and self.terms == other.terms
 
     def __neg__(self) -> Symbol:
-        return Symbol(*(Term(term.above, term.below, not term.negative) for term in self.terms))
+        return Symbol(*(Term(above, below, not negative) for above, below, negative in self.terms))
 
     def __add__(self, other: Any) -> Symbol:
-        return Symbol(*self.terms, *_symbol(other).terms) if _is_something(other) else self
+        return Symbol(*self.terms, *_symbol(other).terms)
 
     def __radd__(self, other: Any) -> Symbol:
-        return _symbol(other) + self if _is_something(other) else self
+        return _symbol(other) + self
 
     def __sub__(self, other: Any) -> Symbol:
-        return self + -_symbol(other) if _is_something(other) else self
+        return self + -_symbol(other)
 
     def __rsub__(self, other: Any) -> Symbol:
-        return _symbol(other) + -self if _is_something(other) else -self
+        return _symbol(other) + -self
 
     def __mul__(self, other: Any) -> Symbol:
-        one, two = self._term(), _symbol(other)._term()
+        other = _symbol(other)
+        if not self.terms or not other.terms:
+            return Symbol()
+        one, two = self._term, other._term
         above, below = _product(one.above, two.above), _product(one.below, two.below)
         return Symbol(Term(above, below, one.negative != two.negative))
 
@@ -132,63 +138,47 @@ class Symbol:
         return _symbol(other) * self
 
     def __truediv__(self, other: Any) -> Symbol:
-        one, two = self._term(), _symbol(other)._term()
+        other = _symbol(other)
+        one, two = self._term, other._term
         if one.negative or one.below:
             one = Term(((self, 1),))
         if two.below or two.negative:
-            two = Term(((_symbol(other), 1),))
+            two = Term(((other, 1),))
         return Symbol(Term(one.above, two.above)) if two.above else self
 
     def __rtruediv__(self, other: Any) -> Symbol:
         return _symbol(other) / self
 
     def __pow__(self, power: float) -> Symbol:
-        if power == 1:
-            return self
         if power < 0:
             return 1.0 / self**-power
-        if power == 0.5:
-            return self._root()
-        term = self._term()
-        if len(term.above) == 1 and not term.below and not term.negative and term.above[0][1] == 1:
-            return Symbol(Term(((term.above[0][0], power),)))
-        return Symbol(Term(((self, power),)))
+        if power == HALF:
+            return Symbol.of(f"√({self})", f"√({self})")
+        base, has = self._alone or (self, 1)
+        return self if power == 1 else Symbol(Term(((base if has == 1 else self, power),)))
 
     def function(self, name: str) -> Symbol:
-        """Return the function of that name of the expression."""
-        term = self.terms[0]
-        alone = len(self.terms) == 1 and len(term.above) == 1 and not term.below and not term.negative
-        argument = f" {self}" if alone else f" ({self})"
+        """Return the function of that name of the expression; brackets alone where the name is empty."""
+        argument = f" {self}" if self._alone else f" ({self})"
         return Symbol(Term(((Atom(name + argument, name, argument) if name else Atom(argument.lstrip()), 1),)))
-
-    def _root(self) -> Symbol:
-        return Symbol.of(f"√({self})", f"√({self})")
 
     def __array_ufunc__(self, ufunc: Any, method: str, *operands: Any, **options: Any) -> Any:
         """Do for numbers of numpy and functions of numpy what the operators do."""
         name = ufunc.__name__
-        if method != "__call__" or options:
-            return NotImplemented
-        if name in FUNCTIONS:
-            return self.function(FUNCTIONS[name])
-        if name == "sqrt":
-            return self._root()
-        if name in OPERATIONS:
-            first, second = map(_symbol, operands)
-            return OPERATIONS[name](first, second)
-        return NotImplemented
+        if name in OPERATORS:
+            return OPERATORS[name](*map(_symbol, operands))
+        return self**HALF if name == "sqrt" else self.function(name) if name in FUNCTIONS else NotImplemented
 
+    @property
     def _term(self) -> Term:
-        """Return the expression as one term: a sum as a factor in brackets."""
+        """The expression as one term: a sum as a factor in brackets."""
         return self.terms[0] if len(self.terms) == 1 else Term(((self, 1),))
 
-
-OPERATIONS = {
-    "add": Symbol.__add__,
-    "subtract": Symbol.__sub__,
-    "multiply": Symbol.__mul__,
-    "divide": Symbol.__truediv__,
-}
+    @property
+    def _alone(self) -> Factor | None:
+        """The factor that the expression is, where it is no more than one."""
+        above, below, negative = self._term
+        return above[0] if len(self.terms) == len(above) == 1 and not below and not negative else None
 
 
 @cache
@@ -201,25 +191,21 @@ def prints(law: str, operands: int) -> bool:
     return True
 
 
-def _is_something(value: Any) -> bool:
-    return isinstance(value, Symbol) or value != 0.0
-
-
 def _symbol(value: Any) -> Symbol:
-    """Return a number of a formula as a symbol; 1 and a turn by 90 degrees are no factors."""
+    """Return a number of a formula as a symbol; 0 is no term, 1 and a turn by 90 degrees are no factors."""
     if isinstance(value, Symbol):
         return value
     if isinstance(value, Sign):
-        return Symbol.of(value.text) if value.text else Symbol(Term(()))
+        return Symbol.of(value.text) if value.text else Symbol(Term())
     if getattr(value, "ndim", 0):
         raise TypeError("an array in a formula")
     if value in (1.0, 1j):
-        return Symbol(Term(()))
+        return Symbol(Term())
     if value < 0.0:
         return -_symbol(-value)
     if value == HALF:
-        return Symbol(Term((), ((Atom("2"), 1),)))
-    return Symbol(Term(((Atom(CONSTANTS.get(value, f"{value:g}")), 1),)))
+        return Symbol(Term(below=((Atom("2"), 1),)))
+    return Symbol.of(CONSTANTS.get(value, f"{value:g}")) if value else Symbol()
 
 
 def _product(first: tuple[Factor, ...], second: tuple[Factor, ...]) -> tuple[Factor, ...]:
@@ -227,18 +213,13 @@ def _product(first: tuple[Factor, ...], second: tuple[Factor, ...]) -> tuple[Fac
     found = list(first)
     for base, power in second:
         if found and found[-1][0] == base:
-            found[-1] = base, found[-1][1] + power
-        else:
-            found.append((base, power))
+            power += found.pop()[1]
+        found.append((base, power))
     return tuple(found)
 
 
 def _written(factor: Factor) -> str:
     """Return a factor with its power, a sum in brackets."""
     base, power = factor
-    if isinstance(base, Symbol):
-        base = Atom(f"({base})")
-    if power == 1:
-        return base.text
-    text = f"({base.text})" if base.is_compound else base.base or base.text
-    return f"{text}^{{{POWERS.get(power, f'{power:g}')}}}{base.rest}"
+    atom = Atom(f"({base})", f"({base})") if isinstance(base, Symbol) else base
+    return atom.text if power == 1 else f"{atom.base or atom.within}^{{{POWERS.get(power, f'{power:g}')}}}{atom.rest}"

@@ -1,6 +1,8 @@
 """The laws by which a plan's segments become quantities, and quantities segments.
 
-Each law takes and gives floats, complex vectors, or arrays of them. A sheet, a note and a page name a law by its key.
+Each law takes and gives floats, complex vectors, or arrays of them; called with symbols (`drawing.formulas`) it prints
+itself, with numbers of a trace it is written down, with dual numbers it gives derivatives. A sheet, a note and a page
+name a law by its key.
 """
 
 from __future__ import annotations
@@ -39,6 +41,11 @@ def named(name: str, law: Law) -> Law:
         return operand.function(name) if hasattr(operand, "function") else law(operand)
 
     return found
+
+
+def as_number(value: Any) -> Any:
+    """Return what has no axes as a plain number."""
+    return float(value) if getattr(value, "ndim", 1) == 0 else value
 
 
 # what stands in brackets in print, though none are needed
@@ -165,14 +172,11 @@ LAWS: dict[str, Law] = {
     # the same from a to b, in parts of ab
     "part_along": lambda a, b, e: dot(b - a, e - a) / _square(b - a),
     "part_across": lambda a, b, e: cross(b - a, e - a) / _square(b - a),
-    # F_i = -m * a_S
     "inertia_force": lambda mass, a: -mass * a,
-    # M_i = -J_S * epsilon
     "inertia_moment": lambda inertia, epsilon: -inertia * epsilon,
-    # m = k * l, J_S = k * m * l^2
     "mass_by_length": lambda factor, length: factor * length,
     "inertia_by_length": lambda factor, mass, length: factor * mass * length * length,
-    # G = m * g, downwards
+    # downwards
     "weight": lambda mass, g, up: -(mass * g) * up,
     # part of a vector along a direction, place of a point along it
     "component": dot,
@@ -215,7 +219,6 @@ LAWS: dict[str, Law] = {
     "excess": lambda whole, part: whole - part,
     # the moment of a couple on the lever, turned by +90 degrees, is minus its power, like those of forces
     "couple_on_lever": lambda moment, omega: -moment * omega,
-    # M = F * l
     "crank_moment": lambda force, length: force * length,
     # difference of two values in per cent of the first
     "difference": lambda value, other: (value - other) / (value + (value == 0.0)) * 100.0,  # two zeros do not differ

@@ -22,22 +22,20 @@ SLOPES: dict[str, Callable[[Any, Any], Any]] = {
     "sin": lambda x, found: np.cos(x),
     "cos": lambda x, found: -np.sin(x),
     "tan": lambda x, found: 1.0 + found * found,
-    "arccos": lambda x, found: -1.0 / np.sin(found),
     "arctan": lambda x, found: 1.0 / (1.0 + x * x),
     "sqrt": lambda x, found: divided(0.5, found),
-    "floor": lambda x, found: 0.0,
-    "ceil": lambda x, found: 0.0,
+    **dict.fromkeys(("floor", "ceil"), lambda x, found: 0.0),
 }
 SLOPES_OF_TWO: dict[str, Callable[[Any, Any], tuple[Any, Any]]] = {
     "arctan2": lambda y, x: (divided(x, x * x + y * y), divided(-y, x * x + y * y)),
     "hypot": lambda x, y: (divided(x, math.hypot(x, y)), divided(y, math.hypot(x, y))),
-    **dict.fromkeys(("maximum", "fmax"), lambda x, y: (float(not x < y), float(x < y))),
-    **dict.fromkeys(("minimum", "fmin"), lambda x, y: (float(not x > y), float(x > y))),
+    "maximum": lambda x, y: (float(not x < y), float(x < y)),
+    "minimum": lambda x, y: (float(not x > y), float(x > y)),
 }
 OPERATORS = {
     **{"add": operator.add, "subtract": operator.sub, "multiply": operator.mul, "divide": operator.truediv},
     **{"less": operator.lt, "less_equal": operator.le, "greater": operator.gt, "greater_equal": operator.ge},
-    **{"equal": operator.eq, "power": operator.pow},
+    "equal": operator.eq,
 }
 
 
@@ -72,8 +70,7 @@ class Dual:
         if method != "__call__" or options or any(map(np.ndim, values)):
             return NotImplemented
         if name in OPERATORS:
-            numbers = (x if isinstance(x, Dual) else x.item() if isinstance(x, np.generic) else x for x in operands)
-            return OPERATORS[name](*numbers)
+            return OPERATORS[name](*(x.item() if hasattr(x, "item") else x for x in operands))
         if name not in SLOPES and name not in SLOPES_OF_TWO:
             return NotImplemented
         found = ufunc(*values)

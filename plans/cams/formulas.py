@@ -10,22 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from ..laws import Sign, bracketed, define, dot
+from ..laws import Sign, as_number, bracketed, define, dot
 
 MM_PER_M = Sign(1e3, "")  # millimetres in a metre of paper, in which lengths on it are printed
 ARC = "arc_length"  # the law of the stroke of a rocker
 SHARPEST = "sharpest"  # the law of the least radius of curvature
 
 
-def _angle(opposite: Any, adjacent: Any) -> Any:
-    found = np.arctan2(opposite, adjacent)
-    return found if np.ndim(found) else float(found)
-
-
 def _angle_of_triangle(a: Any, b: Any, opposite: Any) -> Any:
     cosine = (a * a + b * b - opposite * opposite) / (2.0 * a * b)
-    found = np.arccos(np.clip(cosine, -1.0, 1.0))  # sides in one line may be off by rounding
-    return found if np.ndim(found) else float(found)
+    return as_number(np.arccos(np.clip(cosine, -1.0, 1.0)))  # sides in one line may be off by rounding
 
 
 def _touching(slope: Any, side: Any, *coordinates: Any) -> Any:
@@ -44,7 +38,7 @@ def _touching(slope: Any, side: Any, *coordinates: Any) -> Any:
         bend, rise = 2.0 * here - before - after, 0.5 * (after - before)
         inside = np.abs(rise) < bend  # else the outermost point is an end of the curve
         most = np.where(inside, here + 0.5 * rise * rise / np.where(inside, bend, 1.0), most)
-    return most * side if np.ndim(most) else float(most) * side
+    return as_number(most) * side
 
 
 def _sharpest(stroke: Any, e: Any, s_0: Any, *parts: Any) -> Any:
@@ -59,13 +53,12 @@ def _sharpest(stroke: Any, e: Any, s_0: Any, *parts: Any) -> Any:
     bend = up * (up - d2s) + aside * (aside + ds)
     convex = bend > 0.0
     radii = np.where(convex, np.sqrt(up * up + aside * aside) ** 3 / np.where(convex, bend, 1.0), np.inf)
-    least = np.min(radii, axis=0)
-    return least if np.ndim(least) else float(least)
+    return as_number(np.min(radii, axis=0))
 
 
 def _other_leg(hypotenuse: Any, leg: Any) -> Any:
-    found = np.sqrt(np.maximum((hypotenuse - leg) * (hypotenuse + leg), 0.0))  # the leg may be said to be longer
-    return found if np.ndim(found) else float(found)
+    # the leg may be said to be longer
+    return as_number(np.sqrt(np.maximum((hypotenuse - leg) * (hypotenuse + leg), 0.0)))
 
 
 def _thirds(parts: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
@@ -75,7 +68,7 @@ def _thirds(parts: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
 
 def _outermost(side: Any, *places: Any) -> Any:
     most = np.max(np.stack(np.broadcast_arrays(*(side * place for place in places))), axis=0)
-    return most * side if np.ndim(most) else float(most) * side
+    return as_number(most) * side
 
 
 define(
@@ -101,7 +94,7 @@ define(
     to_scale=lambda mu, length: mu * length * MM_PER_M,
     ordinate_to_scale=lambda mu, up, segment: dot(up, segment) * mu * MM_PER_M,
     # tg nu = mu_s / mu_ds
-    transfer_angle=_angle,
+    transfer_angle=lambda opposite, adjacent: as_number(np.arctan2(opposite, adjacent)),
     # a size of a mechanism is proportional to the travel
     part_of_travel=lambda travel, part: travel * part,
     # where a tangent of a given direction meets the axis: of every smooth piece, and of the whole curve

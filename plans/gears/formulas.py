@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..laws import HALF_TURN, NAN, WHOLE_TURN, Law, Sign, bracketed, define, named
+from ..laws import HALF_TURN, NAN, WHOLE_TURN, Law, Sign, as_number, bracketed, define, named
 from .involute import angle_of_involute, involute, unrolled
 
 inv = named("inv", involute)
@@ -52,16 +52,6 @@ def _touching(number: Any, rho_p: Any, rho_a: Any, s_b: Any, p_b: Any) -> Any:
     return np.where(least <= most, np.maximum(np.minimum(number, most + 1.0), least + 1.0), NAN)
 
 
-def _tip_thickness(m: Any, z: Any, x: Any, alpha: Any, alpha_a: Any) -> Any:
-    half = 0.5 * math.pi + 2.0 * x * np.tan(alpha) + z * (inv(alpha) - inv(alpha_a))
-    return half * m * np.cos(alpha) / np.cos(alpha_a)
-
-
-def _contact_ratio(z_1: Any, alpha_a1: Any, z_2: Any, alpha_a2: Any, alpha_w: Any) -> Any:
-    tips = z_1 * np.tan(alpha_a1) + z_2 * np.tan(alpha_a2)
-    return (tips - (z_1 + z_2) * np.tan(alpha_w)) / (2.0 * math.pi)
-
-
 def _middle(first: Any, second: Any, third: Any) -> Any:
     return np.maximum(np.minimum(first, second), np.minimum(np.maximum(first, second), third))
 
@@ -72,8 +62,7 @@ def _on_numbers(law: Law) -> Law:
     @wraps(law)
     def found(*operands: Any) -> Any:
         with np.errstate(all="ignore"):
-            value = law(*operands)
-        return float(value) if isinstance(value, float | np.ndarray) and not np.ndim(value) else value
+            return as_number(law(*operands))
 
     return found
 
@@ -123,8 +112,15 @@ _define(
     diameter_of_curvature=lambda rho, d_b: np.hypot(2.0 * rho, d_b),
     least_shift=lambda h_l, h_a, z, alpha: h_l - h_a - 0.5 * z * np.sin(alpha) ** 2,
     boundary_curvature=lambda d, alpha, h_l, h_a, x, m: 0.5 * d * np.sin(alpha) - (h_l - h_a - x) * m / np.sin(alpha),
-    contact_ratio=_contact_ratio,
-    tip_thickness=_tip_thickness,
+    contact_ratio=lambda z_1, alpha_a1, z_2, alpha_a2, alpha_w: (
+        (z_1 * np.tan(alpha_a1) + z_2 * np.tan(alpha_a2) - (z_1 + z_2) * np.tan(alpha_w)) / (2.0 * math.pi)
+    ),
+    tip_thickness=lambda m, z, x, alpha, alpha_a: (
+        (0.5 * math.pi + 2.0 * x * np.tan(alpha) + z * (inv(alpha) - inv(alpha_a)))
+        * m
+        * np.cos(alpha)
+        / np.cos(alpha_a)
+    ),
     # theta_12 = 1 - (rho_2 / rho_1) / u, theta_21 = 1 - u rho_1 / rho_2
     sliding_of_pinion=_sliding,
     sliding_of_wheel=lambda own, other, ratio: _sliding(own, other, 1.0 / ratio),

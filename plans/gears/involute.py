@@ -20,15 +20,9 @@ STEPS = 6  # of Newton, which needs four from the start that it has
 
 def _known(slope: Callable[[Any], Any]) -> Callable[[Callable[[Any], Array]], Callable[[Any], Any]]:
     """Return what lets a function take numbers that know their derivatives, by its own `slope`."""
-
-    def told(function: Callable[[Any], Array]) -> Callable[[Any], Any]:
-        @wraps(function)
-        def found(x: Any) -> Any:
-            return x.through(function, slope) if hasattr(x, "through") else function(x)
-
-        return found
-
-    return told
+    return lambda function: wraps(function)(
+        lambda x: x.through(function, slope) if hasattr(x, "through") else function(x)
+    )
 
 
 @_known(lambda t: t * t / (1.0 + t * t))
