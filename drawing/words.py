@@ -256,8 +256,8 @@ def _joined(index: str) -> str:
 
 def _split(symbol: str) -> tuple[str, str]:
     """Cut a symbol into its letter and its scripts."""
-    cut = min((i for i in (symbol.find("^"), symbol.find("_")) if i >= 0), default=len(symbol))
-    return symbol[:cut], symbol[cut:]
+    markup = re.fullmatch(r"([^_^]*)(.*)", symbol)
+    return (markup[1], markup[2]) if markup else (symbol, "")
 
 
 def _plain(value: float, digits: int) -> str:

@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable
 
 POINT, POLE, NORMAL, CORIOLIS = "", "p", "n", "k"  # kinds of marks: a point, the pole, ends of parts of accelerations
+MAGNITUDE = "|"  # kind of the size of a load, beside its vector
 ORIGIN = "origin"  # the mark on a guide from which distances count
 INERTIA, LEVER, COUPLE = "i", "lever", "couple"  # parts of forces, moments and arms
 # Parts of vectors: normal, tangential, Coriolis, sliding; in compound motion those of transport (e) and relative
@@ -53,7 +54,7 @@ class Name(str):
     ('velocity', True)
     """
 
-    __slots__ = ("about", "hidden", "kind", "links", "of", "part", "plan")
+    __slots__ = ("_shown", "about", "hidden", "kind", "links", "of", "part", "plan")
     kind: str
     of: str
     about: str
@@ -61,6 +62,7 @@ class Name(str):
     links: tuple[int, ...]
     plan: Name
     hidden: bool
+    _shown: Name | None
 
     def __new__(
         cls, text: str, kind: str | None = None, of: str = "", about: str = "", part: str = "",
@@ -71,6 +73,7 @@ class Name(str):
         before, _, letter = text.rpartition(".")
         name.plan = _plan(plan or before) if plan or before else POSITION
         name.hidden = text.startswith("_")
+        name._shown = None if name.hidden or kind == MAGNITUDE else name
         if kind is None:
             kind, of, about, part = _read_mark(letter) if before else _read(letter)
         name.kind, name.of, name.about, name.part, name.links = kind, of, about, part, tuple(links)
@@ -79,7 +82,14 @@ class Name(str):
     @property
     def shown(self) -> Name:
         """The quantity whose size a hidden name is, such as `a_BA_n` of `_a_BA_n`; any other name itself."""
-        return self._like(self.lstrip("_")) if self.hidden else self
+        if self._shown is None:
+            self._shown = role(self.of) if self.kind == MAGNITUDE else self._like(self.lstrip("_"))
+        return self._shown
+
+    @property
+    def across_guide(self) -> bool:
+        """Whether a direction is the normal to a guide."""
+        return self.kind == "n" and role(self.of).kind == "u"
 
     @property
     def letters(self) -> str:
@@ -105,6 +115,7 @@ class Name(str):
 POSITION: Name = str.__new__(Name, "position")
 POSITION.plan, POSITION.kind, POSITION.hidden, POSITION.links = POSITION, "position", False, ()
 POSITION.of = POSITION.about = POSITION.part = ""
+POSITION._shown = POSITION
 
 
 def _read(text: str) -> tuple[str, str, str, str]:
@@ -202,6 +213,11 @@ def couple(moment: str, point: str = "") -> Name:
 def lever_arm(force: str, point: str = "") -> Name:
     """Return the arm of a force on Zhukovsky's lever; of a couple that of its force at a point."""
     return Name("_".join(filter(None, ("h", LEVER, force, point))), "h", force, point, LEVER, role(force).links)
+
+
+def magnitude(load: str) -> Name:
+    """Return the size of a load, whose own name may be that of a vector."""
+    return Name(f"|{load}|", MAGNITUDE, load)
 
 
 def scale_factor(kind: str, part: str = "", links: Iterable[int] = ()) -> Name:

@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ..board import Board
+from ..names import Name
 
 ACCELERATION, VELOCITY, TRAVEL = "diagram_a", "diagram_v", "diagram_s"
 DIAGRAMS = (ACCELERATION, VELOCITY, TRAVEL)
@@ -33,6 +34,11 @@ def ray(plan: str, section: int) -> str:
     return f"_{plan}_ray{section}"
 
 
+def mean(section: int) -> Name:
+    """Return the name of the mean ordinate of a section on the given diagram."""
+    return Name(f"_mean{section}", "mean", str(section))
+
+
 def axes(board: Board, plan: str, sections: Iterable[int]) -> None:
     """Draw the axes of a diagram and its section lines."""
     board.pole(f"{plan}.0")
@@ -45,8 +51,8 @@ def given_means(board: Board, plan: str, sections: Iterable[int]) -> None:
     """Mark on the given diagram the mean ordinate of every section, in its middle."""
     for i in sections:
         board.calc(f"_middle{i}", "on_axis", f"_phi_middle{i}", "mu_phi")
-        board.calc(f"_mean{i}", "part_of_amplitude", "l_A1", f"_part{i}")
-        board.place(f"{plan}.m{i}", f"_middle{i}", f"_mean{i}")
+        board.calc(mean(i), "part_of_amplitude", "l_A1", f"_part{i}")
+        board.place(f"{plan}.m{i}", f"_middle{i}", mean(i))
 
 
 def drawn_means(board: Board, plan: str, sections: Iterable[int]) -> None:

@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from ..names import role
+from ..names import Name, role
 
 CCW, CW = ROTATIONS = ("ccw", "cw")
 HOMOGENEOUS, HARDENED = MATERIALS = ("homogeneous", "hardened")
@@ -76,6 +76,11 @@ class GearPair:
     def least_tip(self) -> float:
         """The least thickness of a tooth at its tip, in modules."""
         return 0.4 if self.material == HARDENED else 0.3
+
+
+def ordinate(wheel: int, point: str) -> Name:
+    """Return the ordinate of a wheel's velocity in a point of the table."""
+    return Name(f"y_{wheel}_{point}", "y", str(wheel), point)
 
 
 def unit_of(name: str) -> str:

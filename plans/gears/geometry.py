@@ -15,7 +15,7 @@ from ..board import Board, Program, RecordingBoard
 from ..boards.exact import ExactBoard
 from ..names import role
 from . import formulas as formulas  # its laws of calculation
-from .gear import WHEELS
+from .gear import WHEELS, ordinate
 
 NAMES = {1: "pinion", 2: "wheel"}
 POINTS = tuple(f"{k:02d}" for k in range(1, 13))  # of the table of sliding
@@ -136,7 +136,7 @@ def calculated_ordinates(board: Board) -> None:
     """Ordinates of the velocities along the profiles at the twelve points, by proportion."""
     for point in POINTS:
         for i in WHEELS:
-            board.calc(f"y_{i}_{point}", "velocity_ordinate", "PW", f"_rho_{i}_{point}", f"_rho_at_P{i}")
+            board.calc(ordinate(i, point), "velocity_ordinate", "PW", f"_rho_{i}_{point}", f"_rho_at_P{i}")
 
 
 def sliding_at(board: Board, point: str, i: int) -> None:

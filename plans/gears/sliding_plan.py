@@ -12,7 +12,7 @@ Source: GOST 16532-70; the construction is that of the note to the task `madi-ge
 from __future__ import annotations
 
 from ..board import Board
-from .gear import WHEELS
+from .gear import WHEELS, ordinate
 from .geometry import POINTS, sliding_at, sliding_places
 
 SLIDING, THETA = "sliding", "theta"
@@ -62,13 +62,13 @@ def ordinates(board: Board, point: str, pole: str) -> None:
         tip = f"{SLIDING}.V{i}_{point}"
         if point == FIRST[i]:
             board.same(tip, f"{SLIDING}.N{i}")
-            board.calc(f"y_{i}_{point}", "sum", "_zero")
+            board.calc(ordinate(i, point), "sum", "_zero")
             continue
         if point == pole:
             board.same(tip, f"{SLIDING}.W")
         else:
             board.divide(tip, f"{SLIDING}.N{i}", f"{SLIDING}.W", f"_rho_{i}_{point}", f"_rho_at_P{i}")
-        board.distance(f"y_{i}_{point}", foot, tip)
+        board.distance(ordinate(i, point), foot, tip)
 
 
 def theta_diagram(board: Board) -> None:

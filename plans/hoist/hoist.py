@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 
 LEFT, RIGHT = SIDES = ("left", "right")
 # parts of the construction that may be wanted, each of one plan or more
+DRAWN = "drawn"  # part: a quantity as a drawing gives it
 SCHEME_PART, FORCES_PART, ROOTS_PART, CIRCLE_PART, BEAMS_PART = PLANS = ("scheme", "forces", "roots", "circle", "beams")
 # names of the numbers, and what they are
 VALUES = {

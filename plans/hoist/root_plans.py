@@ -12,7 +12,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ..board import Board
+from ..names import Name, role
 from .diagram_plan import line, part, point
+from .hoist import DRAWN
 from .model import HORIZONTAL
 
 LIFT_OFF, EXTREMES = "lift_off", "extremes"
@@ -26,7 +28,12 @@ def lift_off_plan(board: Board, sections: int, crossed: int) -> None:
     for curve in "YO":
         chord(board, LIFT_OFF, curve, crossed)
     board.meet(f"{LIFT_OFF}.X", *_on(LIFT_OFF, "Y", crossed), *_on(LIFT_OFF, "O", crossed))
-    read_time(board, "t_1_drawn", LIFT_OFF, "X")
+    read_time(board, drawn("t_1"), LIFT_OFF, "X")
+
+
+def drawn(name: str) -> Name:
+    """Return the name of a quantity as a drawing gives it."""
+    return Name(f"{name}_{DRAWN}", role(name).kind, role(name).of, part=DRAWN)
 
 
 def seen(i: int | str) -> str:
@@ -60,7 +67,7 @@ def extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
         chord(board, EXTREMES, "W", i)
         board.meet(f"{EXTREMES}.X{n}", *_on(EXTREMES, "W", i), *_on(EXTREMES, "L", 0))
         board.calc(f"t_2_{n}", "given", f"_t_2_{n}_exact")
-        read_time(board, f"t_2_{n}_drawn", EXTREMES, f"X{n}")
+        read_time(board, drawn(f"t_2_{n}"), EXTREMES, f"X{n}")
 
 
 def extremes_point(board: Board, i: int | str) -> None:

@@ -12,7 +12,7 @@ from typing import Any
 from ...scales.errors import InputError
 from ..board import Board
 from ..laws import TURN
-from ..names import inertia, rate, vector
+from ..names import inertia, magnitude, rate, vector
 from .mechanism import (
     ANGLE,
     BOTH,
@@ -186,7 +186,7 @@ def _couple(board: Board, moving: Moving, couple: Couple) -> None:
 def _size(board: Board, mechanism: Mechanism, load: Load | Couple) -> str:
     """Return the name of a load's magnitude in this position."""
     diagrams = {diagram.name for diagram in mechanism.diagrams}
-    size = f"_diagram_{load.magnitude}" if load.magnitude in diagrams else f"|{load.magnitude}|"
+    size = f"_diagram_{load.magnitude}" if load.magnitude in diagrams else magnitude(load.magnitude)
     if load.stroke == BOTH:
         return size
     board.calc(f"_acting_{load.name}", "in_working" if load.stroke == WORKING else "in_idle", size, "_working")
@@ -217,7 +217,7 @@ def _over_angle(board: Board, mechanism: Mechanism, diagram: Diagram) -> None:
 def _marks(mechanism: Mechanism, values: Sequence[str]) -> list[str]:
     """Return the names of a diagram's values on the board, where that of a load is its vector."""
     sizes = mechanism.sizes
-    return [f"|{name}|" if name in sizes else name for name in values]
+    return [magnitude(name) if name in sizes else name for name in values]
 
 
 def in_order(diagram: Diagram, values: Mapping[str, Any]) -> None:

@@ -11,6 +11,7 @@ from dataclasses import replace
 from functools import cached_property
 
 from ..board import POSITION, Program, Step
+from ..names import role
 from .answers import Answer
 from .key import Key
 from .lines import Line
@@ -107,7 +108,7 @@ class Judged:
     def _shifted(self, step: Step, program: Program) -> tuple[str, ...]:
         """Return what a step may put elsewhere on the student's board, besides what it makes."""
         mark = shifted(step, program)
-        asked = step.operands[2][1:] if step.verb in LAID else step.name
+        asked = role(step.operands[2]).shown if step.verb in LAID else step.name
         return (mark,) if mark and (step.verb == "arm" or asked in self._marker.answers) else ()
 
     @cached_property
@@ -134,8 +135,9 @@ class Judged:
             own[place] |= 1 << place | sized.get(step.name, 0)
             for name in back:
                 own[place] |= 1 << places[name] if name in places else 0
-            if step.verb in LAID and step.operands[2][1:] in places:
-                own[places[step.operands[2][1:]]] |= 1 << place  # what is read is what is laid off
+            laid = role(step.operands[2]) if step.verb in LAID else None
+            if laid is not None and laid.hidden and laid.shown in places:
+                own[places[laid.shown]] |= 1 << place  # what is read is what is laid off
             for name in step.operands:
                 users[name] = users.get(name, 0) | 1 << place
         return users | {s.name: own[place] | users.get(s.name, 0) for place, s in enumerate(self._program.steps)}

@@ -16,6 +16,7 @@ import numpy as np
 from ..board import POSITION, Step
 from ..hands.tolerances import MARKS, READ, longer
 from ..laws import LAWS
+from ..names import role
 from ..quantities import POINTS
 from .answers import Answer
 from .key import COARSER, ROUNDED, Key
@@ -127,7 +128,7 @@ class Allowance:
         seen, left = {step.name}, list(step.operands)
         while left:
             operand = left.pop()
-            visible = operand if operand in self.answers else operand.lstrip("_")
+            visible = operand if operand in self.answers else role(operand).shown
             if visible in self.answers:
                 found.append(visible)
             elif operand not in seen and (before := self._steps.get(operand)) and before.verb in ("calc", "moment"):
@@ -170,7 +171,7 @@ class Allowance:
         answer, step = self.answers.get(name), self._steps.get(name)
         if answer is not None and self.sure(name):
             return max(self._last(name), self._read_to(name)) + self._unsure(name)
-        laid = name.lstrip("_")
+        laid = role(name).shown
         if step is None:
             return 0.0
         if laid in self.answers and laid != name and self.sure(laid):

@@ -17,6 +17,7 @@ import numpy as np
 from ..board import Program, Step
 from ..boards.exact import NAN, ExactBoard
 from ..laws import cross, dot
+from ..names import role
 from .answers import Said
 
 ASIDE = 1e-9  # part of a vector that is rounding
@@ -105,9 +106,9 @@ class StudentBoard(ExactBoard):
                     self.values[name] = NAN
                 if moved is not None:
                     moved.add(name)
-            if verb in LAID and operands[2].startswith("_"):
-                self._lay_off(name, operands[0], operands[2][1:])
-            elif verb in TAKEN and not name.startswith("_"):
+            if verb in LAID and role(operands[2]).hidden:
+                self._lay_off(name, operands[0], role(operands[2]).shown)
+            elif verb in TAKEN and not role(name).hidden:
                 self._replace(verb, name, operands)
 
     def _put(self, name: str, value: Any) -> None:
@@ -160,7 +161,7 @@ def shifted(step: Step, program: Program) -> str:
     if step.verb == "read":
         return made_last(program, *step.operands)
     if step.verb in LAID:
-        return step.operands[2] if step.operands[2].startswith("_") else ""
+        return step.operands[2] if role(step.operands[2]).hidden else ""
     return step.operands[0] if step.verb == "arm" else ""
 
 
@@ -173,10 +174,10 @@ def _turning(vector: complex, normal: complex, length: float) -> float:
 @lru_cache(maxsize=64)
 def settled(steps: Program | tuple[Step, ...]) -> Mapping[str, int]:
     """Return for each quantity how many steps must be done until it is known what follows for it."""
-    found = {}
+    found: dict[str, int] = {}
     for place, step in enumerate(steps, start=1):
-        if step.verb in LAID and step.operands[2].startswith("_"):
-            found[step.operands[2][1:]] = place
-        elif step.verb in TAKEN and not step.name.startswith("_"):
+        if step.verb in LAID and role(step.operands[2]).hidden:
+            found[role(step.operands[2]).shown] = place
+        elif step.verb in TAKEN and not role(step.name).hidden:
             found[step.name] = place
     return found

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 from ...scales.names import unknown
 from ..board import Step
+from ..names import role
 from .allowance import Allowance
 from .answers import Answer, Said, known, measured, nearest, readings, values_of
 from .comparing import NEVER, SIZE, Miss, miss, ratio
@@ -165,7 +166,7 @@ def _on_paper(key: Key, answer: Answer, said: Mapping[str, Answer]) -> Answer:
     if question.step.verb != "calc":
         return replace(answer, mu=key.paper.mus[question.plan])
     factor = question.step.operands[0]
-    if known(answer.mu) or not factor.startswith("mu_"):
+    if known(answer.mu) or role(factor).kind != "mu":
         return answer if known(answer.mu) else replace(answer, mm=None)
     own = said[factor].value if factor in said else None
     return replace(answer, mu=own if own and known(own) else float(key.values[factor]))

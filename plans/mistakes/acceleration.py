@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..board import Step
+from ..names import CORIOLIS, POLE, mark, pole, role, spelled
 from .rules import (
     Change,
     Chapter,
@@ -34,7 +35,7 @@ from .velocity import (
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
-POLE = f"{ACCELERATION}.p"
+ORIGIN = pole(ACCELERATION)
 
 
 @mistake("M37")
@@ -55,9 +56,9 @@ def normals(scene: Scene) -> Iterator[tuple[Step, str]]:
     for step in scene.made_by("back", plan=ACCELERATION):
         if step is first:
             continue
-        if step.name[-2:-1].isdigit() or any(letter.isdigit() for letter in step.name.partition(".n_")[2][1:2]):
+        if role(role(step.name).of).links:
             yield step, "slotted"
-        elif step.operands[0] == POLE and partner is not None:
+        elif step.operands[0] == ORIGIN and partner is not None:
             yield step, "rocker"
         else:
             yield step, "link"
@@ -119,7 +120,7 @@ def normal_from_another(scene: Scene) -> Iterator[Change]:
     for step, reading in normal_laws(scene):
         for other in _to_the_same_end(scene, reading):
             yield instead(
-                step, "v" if other.operands[0].endswith(".p") else other.name, operands=operand(step, 0, other.name)
+                step, "v" if role(other.operands[0]).kind == POLE else other.name, operands=operand(step, 0, other.name)
             )
         if "omega_1" in scene.steps:
             yield instead(step, "omega_1", operands=operand(step, 0, "omega_1"), law="centripetal")
@@ -160,7 +161,7 @@ def _signs() -> dict[str, float]:
 @mistake("M125")
 def parts_exchanged(scene: Scene) -> Iterator[Change]:
     """The normal part is written for the tangential one, and the other way round; the rate follows."""
-    laid = [scene.steps.get(step.operands[2].removeprefix("_")) for step, _ in normals(scene)]
+    laid = [scene.steps.get(role(step.operands[2]).shown) for step, _ in normals(scene)]
     by_end = {normal.operands[1]: normal for normal in laid if normal is not None and normal.verb == "read"}
     for rate, tangential in rates(scene, ACCELERATION):
         normal = by_end.get(tangential.operands[0])
@@ -202,7 +203,7 @@ def tangential_along_link(scene: Scene) -> Iterator[Change]:
 def rate_from_full(scene: Scene) -> Iterator[Change]:
     """The angular acceleration is calculated from the full relative acceleration."""
     for step, reading in rates(scene, ACCELERATION):
-        full = reading.name.removesuffix("_t")
+        full = role(reading.name).whole
         if full != reading.name and full in scene.steps:
             yield rate_from(scene, step, full)
 
@@ -212,7 +213,7 @@ def rate_from_absolute(scene: Scene) -> Iterator[Change]:
     """The angular acceleration is calculated from the absolute acceleration."""
     for step, reading in rates(scene, ACCELERATION):
         absolute = absolute_reading(scene, reading)
-        if absolute is not None and absolute.name != reading.name.removesuffix("_t"):
+        if absolute is not None and absolute.name != role(reading.name).whole:
             yield rate_from(scene, step, absolute.name)
 
 
@@ -285,21 +286,21 @@ def coriolis_without_rotation(scene: Scene) -> Iterator[Change]:
     """An acceleration of Coriolis is added where the guide does not turn."""
     for step in scene.made_by("meet", plan=ACCELERATION):
         for place in (1, 3):
-            tip = step.name.partition(".")[2]
-            own = next((u for u in step.operands[1::2] if u.startswith("n_") and not u.startswith("n_u")), None)
+            tip = role(step.name).of
+            own = next((u for u in step.operands[1::2] if role(u).kind == "n" and not role(u).across_guide), None)
             rate = next((s.name for s, _ in rates(scene, "velocity") if s.operands[1] == own), None)
-            still = step.operands[place].startswith("u_") and step.operands[place - 1] == POLE
+            still = role(step.operands[place]).kind == "u" and step.operands[place - 1] == ORIGIN
             if still and rate is not None and f"V_{tip}" in scene.steps:
                 for omega in dict.fromkeys((rate, "omega_1" if "omega_1" in scene.steps else rate)):
                     yield _with_coriolis(step, place, omega, f"V_{tip}")
 
 
 def _with_coriolis(step: Step, place: int, omega: str, speed: str) -> Change:
-    vector, mark = f"_k_at_{step.name}", f"{ACCELERATION}.k_{step.name.partition('.')[2]}"
+    vector, end = f"_k_at_{step.name}", mark(ACCELERATION, role(step.name).of, CORIOLIS)
     new = (
         Step("calc", vector, (omega, speed), "coriolis"),
-        Step("chain", mark, (step.operands[place - 1], vector)),
-        replace(step, operands=operand(step, place - 1, mark)),
+        Step("chain", end, (step.operands[place - 1], vector)),
+        replace(step, operands=operand(step, place - 1, end)),
     )
     return Change(step.name, {step.name: new}, {}, omega)
 
@@ -319,7 +320,8 @@ def point_wrong(scene: Scene) -> Iterator[Change]:
 def read_from_velocity_plan(scene: Scene) -> Iterator[Change]:
     """An acceleration is read from the letter of the velocity plan."""
     for step in scene.made_by("read", plan=ACCELERATION):
-        speed = f"V_{step.name.partition('_')[2]}"
+        read = role(step.name)
+        speed = spelled("V", read.of, read.about, read.part)
         if step.plan == ACCELERATION and speed in scene.steps and step.name not in scene.laid_off:
             factor = scene.mu(ACCELERATION) / scene.mu("velocity")
             made, givens = times(Step("calc", step.name, (speed,), "given"), factor)

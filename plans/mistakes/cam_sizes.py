@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from ..board import Step
+from ..names import role
 from .cams import sizes_scaled
 from .rules import Change, Chapter, Scene, aside, constant, instead, operand, scaled
 
@@ -39,8 +40,8 @@ def unequal_scales(scene: Scene) -> Iterator[Change]:
 def _limits(scene: Scene) -> dict[str, float]:
     """Return the permitted transmission angle of every tangent."""
     givens = scene.paper.givens
-    tangents = (s.operands[0] for s in scene.made_by("turn") if s.name.startswith("_tangent_"))
-    names = {name.removeprefix("_inclination_"): float(givens[name]) for name in tangents if name in givens}
+    tangents = (s.operands[0] for s in scene.made_by("turn") if role(s.name).kind == "tangent")
+    names = {role(name).of: float(givens[name]) for name in tangents if name in givens}
     return {limit: angle if angle < RIGHT_ANGLE else math.pi - angle for limit, angle in names.items()}
 
 
@@ -114,7 +115,7 @@ def radius_to_another_point(scene: Scene) -> Iterator[Change]:
 @mistake("M96")
 def plate_by_another_line(scene: Scene) -> Iterator[Change]:
     """The tangent at 45 degrees touches the positive branch; or none is drawn, and the greatest ordinate is taken."""
-    touching = [s for s in scene.made_by("calc", law="touching") if s.name.startswith("_touch_plate")]
+    touching = [s for s in scene.made_by("calc", law="touching") if role(s.name).kind == "touch"]
     last = scene.steps.get("_touch_plate")
     if touching and last is not None:
         steps = {s.name: (Step(s.verb, s.name, operand(s, 1, "one"), s.law),) for s in touching}
@@ -131,7 +132,7 @@ def _upright(step: Step) -> Step:
 def not_added(scene: Scene) -> Iterator[Change]:
     """What is to be added to a size is left out, or twice the size is given: a diameter."""
     for step in scene.made_by("calc", law="enlarged"):
-        if not step.name.startswith("_"):
+        if not role(step.name).hidden:
             yield instead(step, "none", operands=operand(step, 1, "zero"))
             yield scaled(step, 2.0, "diameter")
 

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 from ..board import Step
+from ..names import role
 from .rules import Change, Chapter, Scene, all_scaled, aside, constant, instead, operand, scaled
 
 MISTAKES = Chapter()
@@ -70,11 +71,11 @@ def angular_velocity_lost(scene: Scene) -> Iterator[Change]:
 @mistake("M86")
 def ordinates_of_the_wrong_line(scene: Scene) -> Iterator[Change]:
     """The ordinate at the beginning or at the end of a section is taken for its mean."""
-    means = {s.name: s for s in scene.made_by("calc", law="part_of_amplitude") if s.name.startswith("_mean")}
+    means = {s.name: s for s in scene.made_by("calc", law="part_of_amplitude") if role(s.name).kind == "mean"}
     for how, back, word in (("begin", 1, "after"), ("end", 0, "before")):
         steps = {}
         for name, step in means.items():
-            part = f"_part{int(name.removeprefix('_mean')) - back}_{word}"
+            part = f"_part{int(role(name).of) - back}_{word}"
             steps[name] = (Step(step.verb, name, operand(step, 1, part), step.law),)
         if steps:
             yield Change(next(scene.made_by("distance")).name, steps, {}, how)
@@ -98,7 +99,7 @@ def _drawn(scene: Scene, alone: Change, times: float, right: float, how: str) ->
     givens = scene.paper.givens
     parts = {name: float(givens[name]) for name in givens if PART.match(name)}
     highest = next(scene.made_by("distance")).operands[1]  # of the travel, at the end of the rise
-    second = set(_second_lobe(parts, right, int(highest.rpartition(".")[2])))
+    second = set(_second_lobe(parts, right, int(role(highest).of)))
     higher = {name: value * times for name, value in parts.items() if name in second}
     return Change(alone.at, alone.steps, {**alone.givens, **higher}, how)
 
@@ -154,12 +155,12 @@ def paper_for_size(scene: Scene) -> Iterator[Change]:
 def ordinates_in_centimetres(scene: Scene) -> Iterator[Change]:
     """An ordinate of a diagram is measured in centimetres."""
     for step in scene.made_by("distance"):
-        if step.plan in scene.paper.unscaled or step.operands[0].rpartition(".")[0] in scene.paper.unscaled:
+        if step.plan in scene.paper.unscaled or role(step.operands[0]).plan in scene.paper.unscaled:
             for factor in CENTIMETRES:
                 yield scaled(step, factor, f"{factor} paper")
 
 
 def sizes_scaled(scene: Scene, plan: str, factor: float, how: str) -> Change:
     """Read all sizes on a plan as so many times larger."""
-    steps = [s for s in scene.made_by("distance", "read") if s.operands[0].rpartition(".")[0] == plan]
+    steps = [s for s in scene.made_by("distance", "read") if role(s.operands[0]).plan == plan]
     return all_scaled(steps[0].name, steps, factor, how)

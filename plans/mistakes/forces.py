@@ -6,7 +6,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ..board import Step
+from ..board import POSITION, Step
+from ..names import MAGNITUDE, role
+from ..quantities import F_BAL
 from .rules import (
     Change,
     Chapter,
@@ -50,7 +52,7 @@ def hung(scene: Scene) -> dict[str, list[Step]]:
 
 def loads(scene: Scene) -> list[str]:
     """Return the forces that are known beforehand: inertia forces, weights, outer loads."""
-    return [force for force in hung(scene) if not force.lstrip("_").startswith(("R", "F_bal"))]
+    return [force for force in hung(scene) if role(force).kind != "R" and role(force).shown != F_BAL]
 
 
 @mistake("M57")
@@ -101,13 +103,18 @@ def inertia_moment_lost(scene: Scene) -> Iterator[Change]:
         yield opposed(step, "sense")
 
 
+def _is_couple(name: str) -> bool:
+    """Whether a name is that of a couple, no moment of a force."""
+    return role(name).kind == "M" and not role(name).hidden
+
+
 def sums(scene: Scene) -> Iterator[tuple[Step, list[str]]]:
     """Go through the equations and sums of moments, the lever's too, with the couples in them."""
     for step in scene.made_by("calc"):
         if step.law in ("moment_equation", "closing_moment", "closing_force"):
             first = 0 if step.law == "closing_moment" else 1
-            yield step, [name for name in step.operands[first:] if name.startswith("M_") and scene.values[name]]
-        elif step.law == "sum" and step.name.startswith("M_"):
+            yield step, [name for name in step.operands[first:] if _is_couple(name) and scene.values[name]]
+        elif step.law == "sum" and _is_couple(step.name):
             yield step, [name for name in step.operands if scene.values[name]]
 
 
@@ -175,7 +182,12 @@ def force_at_wrong_point(scene: Scene) -> Iterator[Change]:
     for step in scene.made_by("moment"):
         force, at, _ = step.operands
         centre = scene.steps.get(at)
-        if force not in inertia or "." in at or centre is None or centre.verb not in ("divide", "similar"):
+        if (
+            force not in inertia
+            or role(at).plan != POSITION
+            or centre is None
+            or centre.verb not in ("divide", "similar")
+        ):
             continue
         for end in centre.operands[:2]:  # about the end where it is thought to act it has no moment
             yield instead(step, end, operands=operand(step, 1, end))
@@ -209,8 +221,8 @@ def load_from_pressure(scene: Scene) -> Iterator[Change]:
         size = step.operands[0] if step.operands else ""
         if (
             step.law in ("along", "resisting_force", "resisting_along")
-            and step.name.startswith(("F_", "P_"))
-            and size.startswith(("|", "_"))
+            and role(step.name).kind in ("F", "P")
+            and (role(size).kind == MAGNITUDE or role(size).hidden)
         ):
             for factor in (4.0, 4.0 / math.pi, 1e3, 1e-3, 1e6, 1e-6):
                 yield scaled(step, factor, f"{factor:.4g}")
@@ -230,7 +242,7 @@ def resistance_along_motion(scene: Scene) -> Iterator[Change]:
 
 def moments(scene: Scene) -> Iterator[Step]:
     """Go through the moments taken on the plan of the mechanism."""
-    return (step for step in scene.made_by("moment") if "." not in step.operands[1])
+    return (step for step in scene.made_by("moment") if role(step.operands[1]).plan == POSITION)
 
 
 def to_point(scene: Scene, step: Step) -> Change:
@@ -252,8 +264,8 @@ def equations(scene: Scene) -> Iterator[tuple[Step, list[Step]]]:
     """Go through the moment equations of the force plans, with the moments of forces in them."""
     for step in scene.made_by("calc", law="moment_equation"):
         taken = [scene.steps[name] for name in step.operands[1:] if name in scene.steps]
-        found = [s for s in taken if s.verb == "moment" and "." not in s.operands[1]]
-        if step.name.startswith("_R"):
+        found = [s for s in taken if s.verb == "moment" and role(s.operands[1]).plan == POSITION]
+        if role(step.name).kind == "R":
             yield step, found
 
 
@@ -262,7 +274,7 @@ def arms_from_another_hinge(scene: Scene) -> Iterator[Change]:
     """Moments are taken about one hinge with arms measured from another."""
     for equation, found in equations(scene):
         direction = next((s for s in scene.made_by("lay", "back") if equation.name in s.operands), None)
-        link = scene.steps.get("e_" + direction.operands[1][2:]) if direction else None
+        link = scene.steps.get(scene.along(direction.operands[1])) if direction else None
         if link is None or link.verb != "direction":
             continue
         new = {}
@@ -278,7 +290,11 @@ def arms_from_another_hinge(scene: Scene) -> Iterator[Change]:
 def arms_in_millimetres(scene: Scene) -> Iterator[Change]:
     """Arms in millimetres beside a moment in newton metres, or the other way round."""
     for equation, _ in equations(scene):
-        couples = [name for name in equation.operands[1:] if not name.startswith("_M_") and scene.values[name]]
+        couples = [
+            name
+            for name in equation.operands[1:]
+            if not (role(name).kind == "M" and role(name).hidden) and scene.values[name]
+        ]
         for factor, how in ((scene.mu("position"), "mu"), (1e3, "mm"), (1e-3, "m")):
             new, operands = [], list(equation.operands)
             for name in couples:
@@ -310,7 +326,7 @@ def component_for_whole(scene: Scene) -> Iterator[Change]:
 def passed(scene: Scene) -> list[Step]:
     """Return the reactions that links before get from the groups, each with its opposite."""
     used = {name for step in scene.program if step.verb in ("chain", "moment") for name in step.operands[:2]}
-    return [s for s in scene.made_by("calc", law="opposite") if s.name.startswith("R_") and s.name in used]
+    return [s for s in scene.made_by("calc", law="opposite") if role(s.name).kind == "R" and s.name in used]
 
 
 @mistake("M71")
@@ -346,17 +362,17 @@ def reaction_along_guide(scene: Scene) -> Iterator[Change]:
     for step in scene.made_by("meet", plan=FORCES):
         for place in (1, 3):
             direction = step.operands[place]
-            if direction.startswith("n_u") and direction[2:] in scene.steps:
-                yield instead(step, direction, operands=operand(step, place, direction[2:]))
+            if role(direction).across_guide:
+                yield instead(step, direction, operands=operand(step, place, role(direction).of))
     for step in scene.made_by("arm"):
         made = scene.steps[step.operands[0]]
-        if made.name.startswith("M_") and made.verb == "calc" and scene.values[made.name]:
+        if _is_couple(made.name) and made.verb == "calc" and scene.values[made.name]:
             yield Change(made.name, {made.name: nothing(made)}, {}, "moment")
 
 
 def closing(scene: Scene) -> Iterator[Step]:
     """Go through the reactions read from force plans."""
-    return (s for s in scene.made_by("read", plan=FORCES) if s.name not in scene.laid_off and s.name[0] == "R")
+    return (s for s in scene.made_by("read", plan=FORCES) if s.name not in scene.laid_off and role(s.name).kind == "R")
 
 
 @mistake("M75")
@@ -381,8 +397,8 @@ def wrong_vertex(scene: Scene) -> Iterator[Change]:
     """A reaction is read to the vertex beside the right one."""
     for step in closing(scene):
         for place, mark in enumerate(step.operands):
-            plan, _, number = mark.rpartition(".")
-            for beside in (int(number) - 1, int(number) + 1):
+            plan, number = role(mark).plan, int(role(mark).of)
+            for beside in (number - 1, number + 1):
                 other = f"{plan}.{beside}"
                 if other in scene.steps and other not in step.operands:
                     yield instead(step, f"{place} {beside}", operands=operand(step, place, other))

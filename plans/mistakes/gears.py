@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from ..board import Step
+from ..names import role
 from .rules import Change, Chapter, Scene, aside, constant, instead, mirrored, operand, reversed_, scaled
 
 MISTAKES = Chapter()
@@ -40,7 +41,7 @@ def after(step: Step, *more: Step) -> tuple[Step, ...]:
 def involute_in_degrees(scene: Scene) -> Iterator[Change]:
     """In tan(alpha) - alpha the angle is subtracted in degrees."""
     for step in scene.made_by("calc", law="involute"):
-        if step.name.startswith("_"):
+        if role(step.name).hidden:
             continue
         right, more, factor = aside(step.name), f"_more_{step.name}", constant(IN_DEGREES)
         degrees = Step("calc", more, (factor, *step.operands), "along")
@@ -189,7 +190,7 @@ def normal_over_one_more(scene: Scene) -> Iterator[Change]:
 def rows_exchanged(scene: Scene) -> Iterator[Change]:
     """The rows of the ordinates are exchanged, all of them or beyond the pole."""
     steps = scene.steps
-    points = [name.rpartition("_")[2] for name in steps if name.startswith("y_1_")]
+    points = [role(name).about for name in steps if (role(name).kind, role(name).of) == ("y", "1")]
     pole = next((p for p in points if scene.values[f"y_1_{p}"] == scene.values[f"y_2_{p}"]), "")
     for how, chosen in (("all", points), ("beyond", [p for p in points if pole and p > pole])):
         pairs = [(steps[f"y_1_{p}"], steps[f"y_2_{p}"]) for p in chosen]

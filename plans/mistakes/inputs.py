@@ -8,6 +8,7 @@ from functools import partial
 from itertools import combinations
 
 from ..board import POSITION, Step
+from ..names import ORIGIN, role
 from .rules import Change, Chapter, Scene, all_scaled, constant, instead, mirrored, operand, scaled
 
 MISTAKES = Chapter()
@@ -27,7 +28,7 @@ IN_LAWS = {
 
 def _speed(scene: Scene) -> str | None:
     """Return the given number of revolutions of the crank, where it is that which is given."""
-    step = next((s for s in scene.made_by("calc", law="signed") if s.name.startswith("omega")), None)
+    step = next((s for s in scene.made_by("calc", law="signed") if role(s.name).kind == "omega"), None)
     return step.operands[0] if step and step.operands[0].startswith("n") and scene.is_given(step.operands[0]) else None
 
 
@@ -58,7 +59,7 @@ def lengths(scene: Scene) -> list[str]:
         if step.law in IN_LAWS:
             places = (IN_LAWS[step.law],)
         found.update((step.operands[i], None) for i in places if scene.is_given(step.operands[i]))
-        if step.law in ("opposite", "excess", "sum") and step.name.startswith(("_minus", "_offset", "_slope")):
+        if step.law in ("opposite", "excess", "sum") and role(step.name).kind in ("minus", "offset", "slope"):
             found.update((name, None) for name in step.operands if scene.is_given(name))
     if "_stroke_travel" in scene.steps:
         found.update({"_stroke_begin": None, "_stroke_end": None})
@@ -124,7 +125,7 @@ def clockwise(scene: Scene) -> Iterator[Change]:
     """The angle is laid off clockwise; or the crank turns the other way."""
     yield from _turned(scene, "angle", -_angle(scene))
     for step in scene.made_by("calc", law="signed"):
-        if step.name.startswith("omega"):
+        if role(step.name).kind == "omega":
             sense = constant(-1.0)
             steps = (Step("calc", f"_against_{step.name}", step.operands, "signed"),)
             again = Step("calc", step.name, (f"_against_{step.name}", sense), "signed")
@@ -162,14 +163,19 @@ def other_assembly(scene: Scene) -> Iterator[Change]:
 def offset_lost(scene: Scene) -> Iterator[Change]:
     """The offset of a guide is forgotten, or laid off on the wrong side."""
     for step in scene.made_by("lay", "back", plan=POSITION):
-        if step.plan == POSITION and step.operands[1].startswith("n_u") and scene.values[step.operands[2]]:
+        if (
+            step.plan == POSITION
+            and role(step.operands[1]).kind == "n"
+            and role(step.operands[1]).across_guide
+            and scene.values[step.operands[2]]
+        ):
             yield instead(step, "none", operands=operand(step, 2, "zero"))
             yield instead(step, "side", verb="back" if step.verb == "lay" else "lay")
     for step in scene.made_by("tangent"):
         if scene.values[step.operands[2]]:
             yield from _offset_at(step, 2)
     for step in scene.made_by("place"):
-        if step.name.startswith("_u_"):
+        if role(step.name).kind == ORIGIN:
             yield from (x for i in (0, 1) if scene.is_given(step.operands[i]) for x in _offset_at(step, i))
 
 

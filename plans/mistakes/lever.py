@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import replace
 
 from ..board import POSITION, Step
+from ..names import COUPLE, rate, role
 from .forces import to_point
 from .rules import Change, Chapter, Scene, instead, nothing, opposed, scaled
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
 LEVER = "lever"
-OF_DRIVER = re.compile(r"R_1(\d(?!_\d)|_\d)")  # a reaction of link 1, of a mechanism of any size
 
 
 def turned(scene: Scene) -> list[Step]:
@@ -23,7 +22,7 @@ def turned(scene: Scene) -> list[Step]:
 
 def moments(scene: Scene) -> Iterator[Step]:
     """Go through the moments of forces on the lever."""
-    return (step for step in scene.made_by("moment") if step.operands[1].startswith(f"{LEVER}."))
+    return (step for step in scene.made_by("moment") if role(step.operands[1]).plan == LEVER)
 
 
 @mistake("M77")
@@ -40,10 +39,10 @@ def force_on_wrong_point(scene: Scene) -> Iterator[Change]:
     marks = {step.name for step in turned(scene)}
     for step in moments(scene):
         force, at, about = step.operands
-        letter = at.partition(".")[2]
+        letter = role(at).of
         for other in _beside(scene, letter):
             mark = f"{LEVER}.{other}"
-            if mark in marks and "_couple" not in force:
+            if mark in marks and role(force).part != COUPLE:
                 yield instead(step, other, operands=(force, mark, about))
 
 
@@ -51,7 +50,7 @@ def _beside(scene: Scene, letter: str) -> list[str]:
     """Return the points that lie on a link with another: its ends, or the points between them."""
     found: dict[str, None] = {}
     for step in scene.made_by("divide", "similar", plan=POSITION):
-        if "." in step.name:
+        if role(step.name).plan != POSITION:
             continue
         ends = step.operands[:2]
         if letter == step.name:
@@ -64,7 +63,7 @@ def _beside(scene: Scene, letter: str) -> list[str]:
 @mistake("M120")
 def arm_to_point(scene: Scene) -> Iterator[Change]:
     """The arm is measured to the point where the force hangs."""
-    yield from (to_point(scene, step) for step in moments(scene) if "_couple" not in step.operands[0])
+    yield from (to_point(scene, step) for step in moments(scene) if role(step.operands[0]).part != COUPLE)
 
 
 def couples(scene: Scene) -> list[Step]:
@@ -88,8 +87,8 @@ def moment_missing(scene: Scene) -> Iterator[Change]:
 
 def _relative(scene: Scene, couple: Step) -> float:
     """Return the size of the relative velocity of the ends of a link with a couple."""
-    rate = f"omega_{couple.operands[0].rpartition('_')[2].lstrip('i')}"
-    return float(abs(scene.values.get(rate, 0.0)) * abs(scene.values[couple.operands[1]]))
+    omega = next((rate("omega", link) for link in role(couple.operands[0]).links), "")
+    return float(abs(scene.values.get(omega, 0.0)) * abs(scene.values[couple.operands[1]]))
 
 
 @mistake("M80")
@@ -98,11 +97,16 @@ def sense_of_moment(scene: Scene) -> Iterator[Change]:
     yield from map(opposed, couples(scene))
 
 
+def _by_driver(name: str) -> bool:
+    """Whether a quantity is the reaction of link 1 on another one."""
+    return role(name).kind == "R" and not role(name).hidden and role(name).links[:1] == (1,)
+
+
 @mistake("M81")
 def reactions_on_lever(scene: Scene) -> Iterator[Change]:
     """A reaction hangs on the lever."""
-    last = next((s for s in scene.made_by("calc", law="moment_equation") if not s.name.startswith("_R")), None)
-    mark, reaction = f"{LEVER}.{scene.pin}", next(filter(OF_DRIVER.match, scene.steps), None)
+    last = next((s for s in scene.made_by("calc", law="moment_equation") if role(s.name).kind != "R"), None)
+    mark, reaction = f"{LEVER}.{scene.pin}", next((name for name in scene.steps if _by_driver(name)), None)
     if last is None or reaction is None or mark not in scene.steps:
         return
     extra = f"_M_{reaction}_p"

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from ..board import POSITION, Step
 from ..boards.exact import run
+from ..names import POLE, role
 from .inputs import TWELFTH, angle_of_driver
 from .rules import Broken, Change, Chapter, Scene, all_scaled, constant, scaled
 from .velocity import rate_from, rates
@@ -21,7 +22,7 @@ PRINTED = 0.955  # of a sheet that the printer has fitted to its page
 def readings(scene: Scene, plan: str = "") -> list[Step]:
     """Return the readings of a plan, or of all, that need its scale."""
     steps = scene.made_by("read", plan=plan)
-    return [s for s in steps if not s.name.startswith("_") and s.plan != POSITION and s.name not in scene.laid_off]
+    return [s for s in steps if not role(s.name).hidden and s.plan != POSITION and s.name not in scene.laid_off]
 
 
 def drawn_plans(scene: Scene) -> list[tuple[str, ...]]:
@@ -47,7 +48,7 @@ def scale_inverted(scene: Scene) -> Iterator[Change]:
 def another_scale(scene: Scene) -> Iterator[Change]:
     """The scale factor of velocities is taken for accelerations, or the other way round, or that of lengths."""
     for plans in drawn_plans(scene):
-        if not plans[0].startswith("forces"):
+        if role(plans[0]).kind != "forces":
             for other in ("velocity", "acceleration", POSITION):
                 if other in scene.paper.mus and other not in plans:
                     yield all_scaled(plans[0], _on(scene, plans), scene.mu(other) / scene.mu(plans[0]), other)
@@ -56,7 +57,7 @@ def another_scale(scene: Scene) -> Iterator[Change]:
 @mistake("M74", by_scale=True)
 def scale_of_another_group(scene: Scene) -> Iterator[Change]:
     """The force plan of one group, or one segment of it, is read with the scale factor of another."""
-    groups = [plans for plans in drawn_plans(scene) if plans[0].startswith("forces")]
+    groups = [plans for plans in drawn_plans(scene) if role(plans[0]).kind == "forces"]
     for plans in groups:
         for other in groups:
             if other != plans:
@@ -77,7 +78,7 @@ def segments_without_scale(scene: Scene) -> Iterator[Change]:
 def millimetres_for_length(scene: Scene) -> Iterator[Change]:
     """The drawn millimetres of a link stand in omega = v / l in the place of its length."""
     for rate in ("omega", "epsilon"):
-        steps = [s for s in scene.made_by("calc", law="turning") if s.name.startswith(rate)]
+        steps = [s for s in scene.made_by("calc", law="turning") if role(s.name).kind == rate]
         if steps:
             yield all_scaled(steps[0].name, steps, scene.mu(POSITION), "all")
             yield all_scaled(steps[0].name, steps, 1e-3, "mm")
@@ -117,7 +118,7 @@ def relative_for_absolute(scene: Scene) -> Iterator[Change]:
         if step.plan in ("velocity", "acceleration"):
             by_tip.setdefault(step.operands[1], []).append(step)
     for steps in by_tip.values():
-        absolute = next((s for s in steps if s.operands[0].endswith(".p")), None)
+        absolute = next((s for s in steps if role(s.operands[0]).kind == POLE), None)
         for step in steps:
             if absolute is not None and step is not absolute:
                 first = Step("read", absolute.name, step.operands)

@@ -10,8 +10,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from ..board import Program, Step
+from ..board import POSITION, Program, Step
 from ..hands.shaky import Paper
+from ..names import role
 
 
 @dataclass(frozen=True)
@@ -43,16 +44,21 @@ class Scene:
         """Whether a name stands for data, other than nothing."""
         return name in self.paper.givens and bool(self.paper.givens[name])
 
+    def along(self, direction: str) -> str:
+        """Return the direction of a link, or of a guide, to which one is the normal; nothing for other directions."""
+        made = self.steps.get(direction)
+        return made.operands[0] if made is not None and made.verb == "normal" and made.plan == POSITION else ""
+
     @cached_property
     def pin(self) -> str:
         """The point of the driver: the first to have a velocity."""
-        return next((s.name.partition(".")[2] for s in self.made_by("lay", plan="velocity")), "")
+        return next((role(s.name).of for s in self.made_by("lay", plan="velocity")), "")
 
     @cached_property
     def laid_off(self) -> frozenset[str]:
         """Vectors that are calculated and laid off; to read them back needs no scale."""
         steps = self.made_by("lay", "back")
-        return frozenset(s.operands[2].removeprefix("_") for s in steps if s.operands[2].startswith("_"))
+        return frozenset(role(s.operands[2]).shown for s in steps if role(s.operands[2]).hidden)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,8 @@ from dataclasses import replace
 
 from ..board import Step
 from ..laws import define, dot
+from ..linkages.mechanism import positive
+from ..names import POINT, POLE, role
 from .inputs import lengths
 from .rules import Change, Chapter, Scene, aside, constant, instead, length_of, mirrored, operand, opposed, with_sign
 
@@ -34,8 +36,8 @@ def against_rotation(scene: Scene) -> Iterator[Change]:
 def along_crank(scene: Scene) -> Iterator[Change]:
     """The vector pa is drawn along the crank: away from its pivot, or towards it."""
     step = drive(scene, VELOCITY)
-    if step is not None and step.operands[1].startswith("n_"):
-        along = operand(step, 1, "e_" + step.operands[1][2:])
+    if step is not None and (link := scene.along(step.operands[1])):
+        along = operand(step, 1, link)
         yield instead(step, operands=along)
         yield instead(step, "other way", operands=along, verb="back")
 
@@ -53,8 +55,8 @@ def along_links(scene: Scene, plan: str) -> Iterator[Change]:
     Then the vector has no sense about the link: whoever goes on takes either.
     """
     for step, place, direction in lines(scene, plan):
-        along = "e_" + direction[2:]
-        if direction.startswith("n_") and along in scene.steps:
+        along = scene.along(direction)
+        if along and not role(direction).across_guide:
             yield from of_either_sense(scene, instead(step, direction, operands=operand(step, place, along)), direction)
 
 
@@ -66,10 +68,10 @@ def relative_along_link(scene: Scene) -> Iterator[Change]:
 
 def _slotted(step: Step) -> bool:
     """Whether a slotted pair meets here: one line goes through the mark of its pin, the other is normal to the link."""
-    starts, directions = step.operands[0::2], step.operands[1::2]
-    pins = [start.partition(".")[2] for start, u in zip(starts, directions, strict=True) if u.startswith("u_")]
-    normals = [u for u in directions if u.startswith("n_") and not u.startswith("n_u")]
-    return bool(normals) and any(pin and normals[0].endswith(pin) for pin in pins)
+    lines = [(role(start), role(u)) for start, u in zip(step.operands[0::2], step.operands[1::2], strict=True)]
+    pins = [start.of for start, u in lines if u.kind == "u" and start.kind == POINT]
+    normals = [u for _, u in lines if u.kind == "n" and not u.across_guide]
+    return bool(normals) and normals[0].about in pins
 
 
 def _exchanged(scene: Scene, step: Step) -> Change:
@@ -92,7 +94,7 @@ def lines_from_swapped_points(scene: Scene) -> Iterator[Change]:
 def across_guide(scene: Scene) -> Iterator[Change]:
     """The line of the guide is drawn normal to it."""
     for step, place, direction in lines(scene, VELOCITY):
-        if direction.startswith("u_") and f"n_{direction}" in scene.steps:
+        if role(direction).kind == "u" and f"n_{direction}" in scene.steps:
             yield instead(step, direction, operands=operand(step, place, f"n_{direction}"))
 
 
@@ -117,7 +119,7 @@ def by_size(scene: Scene, change: Change, against: str = "") -> Change:
 
     Those of links whose normal is `against` get the other sense.
     """
-    steps, plan = {**change.steps}, change.at.rpartition(".")[0]
+    steps, plan = {**change.steps}, role(change.at).plan
     for rate, reading in rates(scene, plan):
         if change.at in reading.operands:
             whole = replace(rate, law="turning_whole")
@@ -136,8 +138,8 @@ def of_either_sense(scene: Scene, change: Change, normal: str) -> Iterator[Chang
 
 def with_another_length(scene: Scene) -> Iterator[Change]:
     """Calculate an angular velocity or acceleration with the length of another link, or of a part of one."""
-    spans = [name for name in lengths(scene) if name.startswith("l_")]
-    spans += [s.name for s in scene.made_by("measure") if s.name.startswith("l_")]
+    spans = [name for name in lengths(scene) if role(name).kind == "l"]
+    spans += [s.name for s in scene.made_by("measure") if role(s.name).kind == "l" and not role(s.name).hidden]
     for rate in scene.made_by("calc", law="turning"):
         for name in spans:
             if name != rate.operands[2]:
@@ -151,7 +153,7 @@ def rates(scene: Scene, plan: str) -> Iterator[tuple[Step, Step]]:
     """Go through the rates that follow from a reading on a plan, with the reading."""
     for step in scene.made_by("calc", law="turning"):
         reading = scene.steps.get(step.operands[0])
-        if reading is not None and reading.verb == "read" and reading.plan.startswith(plan):
+        if reading is not None and reading.verb == "read" and plan in (reading.plan, reading.plan.kind):
             yield step, reading
 
 
@@ -216,7 +218,7 @@ def slide_and_rotation_exchanged(scene: Scene) -> Iterator[Change]:
     """In a slotted pair the directions of sliding and of rotation are exchanged."""
     for step in scene.made_by("meet", plan=VELOCITY):
         if _slotted(step):
-            normal = next(u for u in step.operands[1::2] if u.startswith("n_"))
+            normal = next(u for u in step.operands[1::2] if role(u).kind == "n")
             yield from of_either_sense(scene, _exchanged(scene, step), normal)
 
 
@@ -225,7 +227,7 @@ def over_cosine(scene: Scene) -> Iterator[Change]:
     """The velocity is divided by the cosine instead of multiplied: the right angle stands at the wrong vertex."""
     for step in scene.made_by("meet", plan=VELOCITY):
         if _slotted(step):
-            place = 1 if step.operands[1].startswith("u_") else 3
+            place = 1 if role(step.operands[1]).kind == "u" else 3
             start, pole = step.operands[place - 1], f"{step.plan}.p"
             size, along, across = (f"_{kind}_at_{step.name}" for kind in ("size", "along", "across"))
             new = (
@@ -242,7 +244,7 @@ def points_not_distinguished(scene: Scene) -> Iterator[Change]:
     """The point of the slotted link is taken for that of the slider."""
     for step in scene.made_by("meet", plan=VELOCITY):
         if _slotted(step):
-            start = step.operands[0 if step.operands[1].startswith("u_") else 2]
+            start = step.operands[0 if role(step.operands[1]).kind == "u" else 2]
             yield by_size(scene, Change(step.name, {step.name: (Step("same", step.name, (start,)),)}, {}))
 
 
@@ -251,8 +253,8 @@ def same_side(scene: Scene) -> Iterator[Change]:
     """A point on the other side of the shaft is put on the side of the pin."""
     for step in scene.made_by("divide", plan=VELOCITY):
         part = step.operands[2]
-        if part.startswith("_minus_"):
-            yield instead(step, operands=operand(step, 2, part.removeprefix("_minus_")))
+        if positive(part) != part:
+            yield instead(step, operands=operand(step, 2, positive(part)))
     for step in scene.made_by("similar", plan=VELOCITY):
-        if step.operands[0].endswith(".p") and scene.values[step.operands[2]] < 0.0:
+        if role(step.operands[0]).kind == POLE and scene.values[step.operands[2]] < 0.0:
             yield mirrored(step, 2)

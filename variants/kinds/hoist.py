@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from ...plans.check import Check
-from ...plans.hoist.hoist import PLANS, Hoist
+from ...plans.hoist.hoist import DRAWN, PLANS, Hoist
+from ...plans.names import role
 from ...scales.choose import Choosers
 from ...scales.errors import InputError
 from ...scales.scale import Scale
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
     from ..sweeps.hoist import HoistSweep
 
 CONDITIONS = 2  # columns of the table of checks that say what is asked
-DRAWN = "_drawn"  # what the name of a quantity ends with that is drawn
 UNASKED = ("s_min", "t_P12_max")
 RULES = {  # what is told of a check that fails
     "rope_phase_1": "hoist-rule-rope-phase-1",
@@ -142,7 +142,7 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
     def asks(self, solved: SolvedHoist, question: Question) -> bool:
         """Ask for what is calculated rather than for what a drawing gives in its place, and for no check."""
-        return not question.name.endswith(DRAWN) and question.name not in UNASKED
+        return role(question.name).part != DRAWN and question.name not in UNASKED
 
     def limits(self, drawn: SolvedHoist, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let pass of the times that solve equations what is read off their drawings."""

@@ -193,7 +193,7 @@ def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float)
     formula = " ".join(f"{sign}{words.symbol(other)}" for sign, (other, _) in zip(signs, terms, strict=True))
     inputs = [Input(float(values[other]) * turn) for other, turn in terms]
     texts, result = calculation(words, lambda *x: sum(x), inputs)
-    numbers = " ".join([texts[0], *(f"− {t[1:]}" if t.startswith("−") else f"+ {t}" for t in texts[1:])])
+    numbers = " ".join([texts[0], *(f"− {text[1:]}" if text.startswith("−") else f"+ {text}" for text in texts[1:])])
     last = f"{result} {words.unit(UNITS[role(name).kind])}"
     sense = sensed(words, float(values[name]))
     head = f"{words.symbol(name)} = {formula} =", *([f"{numbers} ="] if len(terms) > 1 else [])

@@ -9,6 +9,7 @@ from typing import Any
 
 from ....plans.board import POSITION, Step
 from ....plans.laws import form_of
+from ....plans.names import role
 from ....plans.quantities import unit_of
 from ....scales.scale import Scale
 from ...formulas import Symbol
@@ -151,7 +152,7 @@ def rate_of(scene: Scene, name: str) -> float:
 
 def factor(scene: Scene, name: str, power: int = 1, symbol: str | None = None) -> Factor:
     """Return a value of the construction as a factor in the units shown; a given is exact."""
-    plain = name.strip("_|")
+    plain = role(name).shown
     value = scene.words.display.value(size_of(scene, name), unit_of(plain))
     return Factor(scene.words.symbol(plain) if symbol is None else symbol, value, is_given(scene, name), power)
 

@@ -22,9 +22,9 @@ def structure_block(scene: Scene, width: float) -> View:
         *(_group(scene, group) for group in s.groups),
         (words["structure.driver"].format(frame=words.frame, link=s.driver),),
     ]
-    head, _, tail = words["structure.formula"].partition("{formula}")
+    text, _, tail = words["structure.formula"].partition("{formula}")
     first, *rest = formula(s, words.frame)
-    lines.append((head.strip(), first, *rest[:-1], *(f"{last}{tail}" for last in rest[-1:])))
+    lines.append((text.strip(), first, *rest[:-1], *(f"{last}{tail}" for last in rest[-1:])))
     return text_block("structure", words["heading.structure"], lines, scene.style, width)
 
 

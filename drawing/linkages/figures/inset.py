@@ -71,7 +71,7 @@ def with_insets(
     insets = []
     for i, (plan, window) in enumerate(shown):
         framed = [(shown[k][1].box, numerals[k]) for k, host in enumerate(hosts) if host == i]
-        insets.append(_inset(plan, window, f"{name}_{numerals[i]}", numerals[i], framed))
+        insets.append(_inset(plan, window, name, numerals[i], framed))
     for k, host in enumerate(hosts):
         if host is None:
             _framed(canvas, shown[k][1].box, 1.0, f"{name}_{numerals[k]}", numerals[k])
@@ -166,9 +166,9 @@ def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
     return complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1)
 
 
-def _inset(plan: Plan, window: Window, name: str, numeral: str, framed: Sequence[tuple[Box, str]]) -> View:
+def _inset(plan: Plan, window: Window, figure: str, numeral: str, framed: Sequence[tuple[Box, str]]) -> View:
     """Draw what stands in the window, enlarged: vectors to a scale factor of their own, those that leave it cut off."""
-    scene, times, (x0, y0, x1, y1) = plan.scene, window.times, window.box
+    scene, times, (x0, y0, x1, y1), name = plan.scene, window.times, window.box, f"{figure}_{numeral}"
     bounds: Box = (x0 * times, y0 * times, x1 * times, y1 * times)
     canvas = Canvas(scene.style, bounds=bounds)
     for i, (tail, found, end, said) in enumerate(plan.lines()):
@@ -184,7 +184,7 @@ def _inset(plan: Plan, window: Window, name: str, numeral: str, framed: Sequence
         symbols = " = ".join(dict.fromkeys(named.pop((vector.tail, vector.tip), ())))
         _enlarged(canvas, scene, vector, times, bounds, symbols)
     for box, other in framed:
-        _framed(canvas, box, times, f"{name.rpartition('_')[0]}_{other}", other)
+        _framed(canvas, box, times, f"{figure}_{other}", other)
     places = {mark: place * times for mark, place in plan.marks().items()}
     seen = {mark: place for mark, place in places.items() if clipped(place, place, bounds) is not None}
     letters = {mark: scene.words.mark(mark) for mark in seen}

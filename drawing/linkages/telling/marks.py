@@ -96,7 +96,7 @@ def _divide(teller: Teller, step: Step) -> Iterator[str]:
     if step.plan == POSITION:
         yield teller.say("on_link", point=s, link=f"{a}{b}", length=teller.segment(f"{a}{s}", part, POSITION))
         return
-    ratio = " : ".join(teller.scene.words.symbol(name.strip("_|")) for name in (part, whole))
+    ratio = " : ".join(teller.scene.words.symbol(role(name).shown) for name in (part, whole))
     yield teller.say("divide", point=s, segment=f"{a}{b}", ratio=ratio)
 
 

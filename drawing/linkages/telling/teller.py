@@ -76,8 +76,8 @@ class Teller:
 
     def segment(self, letters: str, name: str, plan: str) -> str:
         """Return a segment by its letters with the length at which it is drawn; lengths may have the same letters."""
-        drawn = self.drawn(name, plan)
-        return drawn if drawn.startswith((f"{letters}/", f"{letters}·")) else f"{letters} = {drawn}"
+        text = self.drawn(name, plan)
+        return text if text.startswith((f"{letters}/", f"{letters}·")) else f"{letters} = {text}"
 
     def drawn(self, name: str, plan: str) -> str:
         """Return how long a quantity is drawn on a plan: by its scale factor, with the numbers put in."""
