@@ -5,7 +5,7 @@ through one funnel, `step`, so that a board of another kind (recording, exact, w
 values, with one rule broken, tracing) is one class with one method.
 
 A name with a dot, `velocity.B`, is a mark of that plan; a name that begins with an underscore is an intermediate value;
-marks of the mechanism itself are bare letters.
+marks of the mechanism itself are bare letters. What a name is, whose and about what, is its role: see `names`.
 """
 
 from __future__ import annotations
