@@ -1,11 +1,15 @@
-"""Hatching of an area that a closed line bounds."""
+"""Hatching of areas: of one that a closed line bounds, and of one that half planes bound."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from math import hypot
 
-from .shapes import Line, Pen
+from .shapes import Group, Line, Pen
+from .text import Box
 
+SLACK = 1e-9  # mm
+Side = tuple[complex, float]  # unit normal into the area, its least component
 SHORTEST = 0.3  # mm: a shorter stroke would be a dot
 
 
@@ -28,3 +32,33 @@ def strokes(outline: Sequence[complex], along: complex, apart: float) -> list[Li
         ends = zip(cuts[::2], cuts[1::2], strict=True)
         found += [(complex(x, level) * along, complex(y, level) * along) for x, y in ends if y - x > SHORTEST]
     return [Line(a, b, Pen.THIN, role="hatch") for a, b in found]
+
+
+def hatched(sides: Sequence[Side], box: Box, apart: float, name: str) -> Group:
+    """Return strokes at 45 degrees over the part of a box that lies inside of all `sides`."""
+    x0, y0, x1, y1 = box
+    frame: list[Side] = [(1 + 0j, x0), (-1 + 0j, -x1), (1j, y0), (-1j, -y1)]
+    along = complex(1.0, 1.0) / 2**0.5
+    across = along * 1j
+    corners = [complex(x, y) for x in (x0, x1) for y in (y0, y1)]
+    reach = [(corner * across.conjugate()).real for corner in corners]
+    count = int((max(reach) - min(reach)) / apart)
+    lines = (across * (min(reach) + (k + 0.5) * apart) for k in range(count))
+    return Group(tuple(clipped(lines, along, [*frame, *sides], hypot(x1 - x0, y1 - y0))), "permitted", name)
+
+
+def clipped(lines: Iterable[complex], along: complex, sides: Sequence[Side], reach: float) -> Iterator[Line]:
+    """Go through the parts of lines, through points along a direction, that lie inside of all sides."""
+    for point in lines:
+        low, high = -1e3 * reach, 1e3 * reach
+        for normal, least in sides:
+            slope = (normal.conjugate() * along).real
+            lack = least - (normal.conjugate() * point).real
+            if abs(slope) < SLACK:
+                low = high if lack > 0.0 else low
+            elif slope > 0.0:
+                low = max(low, lack / slope)
+            else:
+                high = min(high, lack / slope)
+        if high - low > SLACK * reach:
+            yield Line(point + along * low, point + along * high, Pen.THIN, role="hatch")

@@ -39,9 +39,8 @@ def angle(
     if text:
         out = rect(1.0, start + 0.5 * sweep)
         at = vertex + radius * out
-        canvas.label(
-            text, at, prefer=prefer or (-out if inside else out), clear=clear, height=canvas.style.text, spare=spare
-        )
+        toward = prefer or (-out if inside else out)
+        canvas.label(text, at, prefer=toward, clear=clear, height=canvas.style.text, spare=spare)
 
 
 def turning(

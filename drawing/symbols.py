@@ -130,6 +130,21 @@ def unit(vector: complex) -> complex:
     return vector / abs(vector)
 
 
+def nearer(ray: complex, to: complex) -> complex:
+    """Return a direction or its opposite, that which makes an acute angle with another one."""
+    return ray if (to * ray.conjugate()).real > 0.0 else -ray
+
+
+def down_to(start: complex, along: complex, level: float) -> complex:
+    """Return where a line through a point reaches a level."""
+    return start + along * ((level - start.imag) / along.imag)
+
+
+def polar(radius: float, angle: float) -> complex:
+    """Return the place at a distance from a centre in a direction, rad: letters are laid out about it."""
+    return rect(radius, angle)
+
+
 def swept(a: complex, b: complex, turn: int = 0) -> float:
     """Return the angle from one direction to another: counter-clockwise, 1, clockwise, -1, or the shorter way."""
     return turn * (cmath.phase(b / a) * turn % math.tau) if turn else cmath.phase(b / a)

@@ -1,31 +1,51 @@
-"""What the plans of both cams share: positions numbered against the sense of the cam, phases, shaft, sense, axes."""
+"""What plans of cams by inversion share: numbered positions, phases, shaft, sense; of a roller curves, a normal."""
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-import numpy as np
-
+from ...plans.cams import dense
+from ...plans.cams.dense import dwelling, on_circle, pitch_curve, rests, theta, transmission, up_at
 from ...plans.cams.envelopes import Undercut
 from ...plans.cams.motion import LOWER, Motion
-from ..printed import decimals_for
-from ..shapes import Circle, Group, Head, Line, Pen, Text
-from ..symbols import angle_dimension, turning_arrow
-from ..text import lay_out
+from ...plans.cams.profile import RollerProfile
+from ..hardware import shaft, shaft_radius
+from ..printed import DEGREES, decimals_for
+from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
+from ..style import Style
+from ..symbols import angle_dimension, polar, swept, turning_arrow, unit
+from ..text import box, lay_out
 from ..view import Canvas
-from .hardware import shaft, shaft_radius
 from .scene import CamScene
 
 PAST = 5.0  # mm of the axes of a cam beyond its circles
 Free = tuple[float, float, float]  # radii, mm: text stands between the first two, or beyond the third
-SHARES = (0.5, 0.7, 0.3, 0.8, 0.2)  # of the arc of a phase at which its text may stand
+OF_PHASE = (0.5, 0.7, 0.3, 0.8, 0.2)  # of the arc of a phase at which its text may stand
 LOST = 3  # significant digits of a travel that is lost
+TURNS = [0.1 * k - 1.2 for k in range(25)]  # rad from the middle of the dwell, for the letter of the centre
 SIDEWAYS = 0.3  # sine of the angle below the horizontal from which on the support is there
 BESIDE = 0.15  # rad between the middle of the lower dwell and the letter of the centre
 RADIUS, ARROW = 0.35, 1.2  # rad from that middle towards the rod to the radius dimensioned, and to the arrow of omega
 SMALLEST = 7.0  # least radius of a cam, in heights of letters, that has room for letters inside
+REACH, BEYOND = 6.5, 4.0  # heights of letters from the roller's centre to the arc of theta; mm of the normal beyond it
+PARTS = (
+    1.0,
+    0.9,
+    1.1,
+    0.8,
+    1.2,
+    0.7,
+    1.3,
+    0.6,
+    1.4,
+    0.5,
+    1.5,
+)  # of the radius of an arc that may be taken instead of it
+SHARES = (0.5, 0.4, 0.6, 0.3, 0.7)  # of an arc at which its letter may stand
+ASIDE = 0.5  # rad between a position and the radius dimensioned in it
+FLAT = 1e-6  # rad, of an angle that is not shown
 
 
 def heading(scene: CamScene, key: str, plan: str) -> tuple[str, str]:
@@ -33,25 +53,15 @@ def heading(scene: CamScene, key: str, plan: str) -> tuple[str, str]:
     return scene.words[key], f"{scene.words.drawn_at(scene.mu_l)};  {scene.factor(scene.scale(plan))}"
 
 
-def unit_at(phi: float, sense: int) -> complex:
-    """Return the direction of the follower's axis in the position phi, on the cam that stands still."""
-    return cmath.rect(1.0, math.pi / 2 - sense * phi)
-
-
-def on_circle(e: float, radius: float, up: complex) -> complex:
-    """Return where the follower's line along `up`, at the offset e, meets a circle about the cam's centre."""
-    return up * complex(math.sqrt(max(radius * radius - e * e, 0.0)), -e)
-
-
 def numbers(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
     """Write the number of each position on its line, at `radius`; that of position 0 beside the rod."""
     height, solved = scene.style.text, scene.solved
     written: list[complex] = []
     for i, phi in enumerate(solved.angles.tolist()):
-        up = unit_at(phi, solved.cam.sense)
+        up = up_at(phi, solved.cam.sense)
         at = on_circle(e, radius, up)
         if i == 0:  # beyond the cam's axis from there
-            at = complex(-math.copysign(scene.style.label, e), at.imag)
+            at = complex(-scene.style.label if e >= 0.0 else scene.style.label, at.imag)
         needed = lay_out(str(i), height).width + 0.3 * height
         on_rod = i > 0 and at.imag > 0.0 and abs(at.real - e) < scene.style.label
         if not on_rod and all(
@@ -64,7 +74,7 @@ def numbers(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
 def phases(canvas: Canvas, scene: CamScene, e: float, radius: float, past: complex = 0j) -> None:
     """Dimension the phases in degrees, on an arc outside of all positions; no text stands at the line to `past`."""
     motion, sense, words = scene.solved.motion, scene.solved.cam.sense, scene.words
-    first = cmath.phase(on_circle(e, radius, 1j))
+    first = swept(1.0 + 0j, on_circle(e, radius, 1j))
     for phase in motion.phases:
         if not phase.lasts:
             continue
@@ -72,23 +82,21 @@ def phases(canvas: Canvas, scene: CamScene, e: float, radius: float, past: compl
         name = f"phi_{phase.name}"
         canvas.add(angle_dimension(0j, radius, start, sweep, name, scene.style))
         for angle in (start, start + sweep):
-            canvas.add(
-                Line(cmath.rect(radius - 1.5, angle), cmath.rect(radius + 2.0, angle), Pen.THIN, role="extension")
-            )
+            canvas.add(Line(polar(radius - 1.5, angle), polar(radius + 2.0, angle), Pen.THIN, role="extension"))
         text = f"{words.symbol(name)} = {scene.degrees(phase.length)}"
-        shares = SHARES[2:] if phase.name == LOWER else SHARES  # beside the radius dimensioned
+        shares = OF_PHASE[2:] if phase.name == LOWER else OF_PHASE  # beside the radius dimensioned
         half = 0.6 * lay_out(text, scene.style.text).width / radius
-        middles = [start + sweep * share for share in shares]
-        clear = (a for a in middles if not past or abs(cmath.phase(past * cmath.rect(1.0, -a))) > half)
+        middles = [start + share * sweep for share in shares]
+        clear = (a for a in middles if not past or abs(swept(1.0 + 0j, past * polar(1.0, -a))) > half)
         canvas.add(_along(text, radius, next(clear, middles[0]), abs(sweep), scene.style.text))
 
 
 def _along(text: str, radius: float, angle: float, sweep: float, height: float) -> Text:
     """Return a text outside of an arc about the cam's centre, along it; where the arc is short, clear of its ends."""
     away = 0.5 * height if radius * sweep > 1.3 * lay_out(text, height).width else 1.4 * height
-    out = cmath.rect(1.0, angle)
+    out = polar(1.0, angle)
     below = out.imag < -1e-9
-    turn = cmath.phase(out * (1j if below else -1j))
+    turn = swept(1.0 + 0j, out * (1j if below else -1j))
     return Text(out * (radius + away + (height if below else 0.0)), text, height, "middle", turn)
 
 
@@ -105,21 +113,21 @@ def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: fl
     canvas.add(shaft(0j, r, style))
     middle = dwelling(scene.solved.motion, sense) + turned
     arrow, radius = middle - ARROW * sense, max(1.9 * r, offset + 0.6 * style.label)
-    if math.sin(arrow) < -SIDEWAYS:  # the support is there
+    if polar(1.0, arrow).imag < -SIDEWAYS:  # the support is there
         arrow = -arrow
     canvas.add(turning_arrow(0j, radius, arrow, 0.9, float(sense), "omega"))
-    canvas.label(scene.words.symbol("omega"), cmath.rect(radius, arrow), prefer=cmath.rect(1.0, arrow), clear=0.8)
+    canvas.label(scene.words.symbol("omega"), polar(radius, arrow), prefer=polar(1.0, arrow), clear=0.8)
 
 
 def letter_centre(canvas: Canvas, scene: CamScene, reach: float, turned: float = 0.0, offset: float = 0.0) -> None:
     """Write the letter of the cam's centre, when all else is drawn: near the shaft, clear of all lines if it can be."""
     style, sense = scene.style, scene.solved.cam.sense
     size, middle = max(shaft_radius(reach, style, offset), offset), dwelling(scene.solved.motion, sense) + turned
-    turns = sorted(np.arange(-1.2, 1.21, 0.1), key=lambda turn: abs(turn - BESIDE))
+    turns = sorted(TURNS, key=lambda turn: abs(turn - BESIDE))
     far = (size + style.label * part for part in (0.8, 0.95, 1.1, 1.3, 1.6, 2.0))
-    places = [cmath.rect(away, middle + turn * sense) for away in far for turn in turns]
+    places = [polar(away, middle + turn * sense) for away in far for turn in turns]
     if not canvas.write("O", places, style.label):
-        side = cmath.rect(1.0, middle + BESIDE * sense)
+        side = polar(1.0, middle + BESIDE * sense)
         canvas.label("O", size * side, prefer=side, clear=0.8, priority=1)
 
 
@@ -139,8 +147,8 @@ def radius_at(canvas: Canvas, scene: CamScene, name: str, value: float, angle: f
     str
         The number, if it has no place in the figure.
     """
-    style, size = scene.style, value / scene.mu_l
-    ray, whole = cmath.rect(1.0, angle), f"{scene.words.symbol(name)} = {scene.length(value)}"
+    style, size = scene.style, scene.drawn(value)
+    ray, whole = polar(1.0, angle), f"{scene.words.symbol(name)} = {scene.length(value)}"
     low, high = max(shaft_radius(size, style), free[0]) + 1.0, min(free[1], size - style.arrow)
     text = whole if lay_out(whole, style.text).width < high - low else scene.words.symbol(name)
     left = "" if text == whole else whole
@@ -155,7 +163,7 @@ def radius_at(canvas: Canvas, scene: CamScene, name: str, value: float, angle: f
     middle = 0.5 * (low + high) if inside else free[2] + 0.5 * wide + 1.5
     turn = 1.0 if ray.real > -1e-9 else -1.0
     at = ray * complex(middle, turn)
-    canvas.add(Text(at, text, style.text, "middle", cmath.phase(ray * turn), role="label", name=name))
+    canvas.add(Text(at, text, style.text, "middle", swept(1.0 + 0j, ray * turn), role="label", name=name))
     return left
 
 
@@ -164,22 +172,10 @@ def quiet(motion: Motion, sense: int) -> float:
     return dwelling(motion, sense) - RADIUS * sense
 
 
-def dwelling(motion: Motion, sense: int) -> float:
-    """Return the direction in the middle of the longer dwell, or of the rise where there is none."""
-    longer = motion.lower if rests(motion) or not motion.upper.lasts else motion.upper
-    low, high = (longer.start, longer.end) if longer.lasts else (0.0, motion.rise.end)
-    return cmath.phase(unit_at(0.5 * (low + high), sense))
-
-
-def rests(motion: Motion) -> bool:
-    """Whether the lower dwell is the longer one: then there is room beside the follower in its lowest position."""
-    return motion.lower.lasts and motion.lower.length >= motion.upper.length
-
-
 def corners(canvas: Canvas, scene: CamScene, cuts: Sequence[Undercut]) -> None:
     """Mark the corners of an undercut profile."""
     for k, cut in enumerate(cuts):
-        corner, radius = cut.corner * (1.0 / scene.mu_l), 2.5 * scene.style.node
+        corner, radius = scene.drawn(cut.corner), 2.5 * scene.style.node
         canvas.add(Group((Circle(corner, radius, Pen.THIN),), "corner", str(k + 1)))
         canvas.label(_corner(cuts, k), corner, prefer=-corner, clear=radius + 0.5, height=scene.style.text)
 
@@ -188,7 +184,7 @@ def undercut_notes(scene: CamScene, cuts: Sequence[Undercut], rocks: bool = Fals
     """Say where a profile does not give the motion; the travels of a rocker that `rocks` are angles."""
     words, found = scene.words, []
     for k, cut in enumerate(cuts):
-        lost = math.degrees(cut.lost) if rocks else cut.lost * 1e3
+        lost = cut.lost * DEGREES if rocks else cut.lost * 1e3
         unit = "°" if rocks else f" {words.unit('mm')}"
         text = f"{words.number(lost, decimals_for(lost, LOST))}{unit}"
         ends = {"start": scene.degrees(cut.start), "end": scene.degrees(cut.end)}
@@ -199,3 +195,116 @@ def undercut_notes(scene: CamScene, cuts: Sequence[Undercut], rocks: bool = Fals
 
 def _corner(cuts: Sequence[Undercut], k: int) -> str:
     return "Q" if len(cuts) == 1 else f"Q_{{{k + 1}}}"
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """One position: the roller's centre, where it touches, the instant centre of cam and follower, mm.
+
+    `up` is the unit direction in which the roller rises.
+    """
+
+    line: int
+    at: complex
+    touch: complex
+    pole: complex
+    up: complex
+
+
+def curves(canvas: Canvas, scene: CamScene, profile: RollerProfile) -> None:
+    """Draw the pitch curve dash-dot and the practical profile in main lines; mark corners of the profile."""
+    pitch, outline = scene.curve(pitch_curve(scene.solved)), scene.curve(profile.outline().tolist())
+    for points, pen, name, part in ((pitch, Pen.AXIS, "pitch", "pitch"), (outline, Pen.MAIN, "practical", "profile")):
+        canvas.part(part)
+        canvas.add(Group((Polyline(points, pen, closed=True),), "curve", name))
+    corners(canvas, scene, profile.undercuts)
+
+
+def sharpest(canvas: Canvas, scene: CamScene) -> None:
+    """Mark the place of the least radius of curvature of the pitch curve, and the radius."""
+    found = dense.sharpest(scene.solved)
+    if found is None:
+        return
+    place, core, normal = scene.drawn(found.place), scene.drawn(found.core), found.normal
+    canvas.add(Group((Line(core, place, Pen.THIN), Head(place, normal)), "dimension", "rho_min"))
+    size = 0.8 * scene.style.arrow / 2
+    cross = (Line(core - size * d, core + size * d, Pen.THIN) for d in (1 + 0j, 1j))
+    canvas.add(Group(tuple(cross), "point", "curvature"))
+    canvas.add(Group((Circle(place, scene.style.node, Pen.MAIN, fill="black"),), "sharpest", "rho_min"))
+    anchor = (core, place) if found.arc else core  # about the cam's centre stands enough
+    canvas.label(scene.words.symbol("rho_min"), anchor, prefer=-normal, clear=0.8, height=scene.style.text)
+
+
+def past_normal(contact: Contact, style: Style) -> complex:
+    """Return the outer end of the normal that is drawn."""
+    out = unit(contact.at - contact.touch)
+    return contact.at + out * (REACH * style.label + BEYOND)
+
+
+def normal(canvas: Canvas, scene: CamScene, contact: Contact) -> None:
+    """Draw the normal of one position with the point of contact, the pressure and the transmission angle."""
+    words, style, i = scene.words, scene.style, contact.line
+    at, up = contact.at, contact.up
+    out = unit(at - contact.touch)
+    reach = REACH * style.label
+    canvas.part("normal")
+    canvas.add(Line(contact.pole, past_normal(contact, style), Pen.THIN, role="normal", name=str(i)))
+    canvas.add(Line(at - 1j * up * reach, at + 1j * up * reach, Pen.THIN, role="transverse", name=str(i)))
+    canvas.add(Line(0j, contact.pole, Pen.THIN, role="transverse", name=f"P{i}"))
+    for mark, place, part in (("K", contact.touch, "profile"), ("P", contact.pole, "normal")):
+        canvas.part(part)
+        canvas.add(Group((Circle(place, style.node, Pen.MAIN, fill="white"),), "point", f"{mark}{i}"))
+        canvas.label(f"{mark}_{{{i}}}", place, prefer=place * 1j, clear=0.8, height=style.text)
+    across = up * -1j if swept(out, up) > 0.0 else up * 1j
+    for name, a, b, far in (("theta", out, up, reach), ("gamma", out, across, 0.5 * reach)):
+        if abs(swept(a, b)) > FLAT:
+            _angle(canvas, f"{words.symbol(name)}_{{{i}}}", f"{name}_{i}", at, (a, b), far)
+
+
+def _angle(canvas: Canvas, letter: str, name: str, at: complex, rays: tuple[complex, complex], far: float) -> None:
+    """Dimension the angle between two rays near a radius at which its letter is clear of all lines."""
+    style, height = canvas.style, canvas.style.text
+    start, sweep = swept(1.0 + 0j, rays[0]), swept(*rays)
+    free = [far * part for part in PARTS if _free(canvas, [at + ray * (far * part) for ray in rays])]
+    for radius in free:
+        beside = (radius + away * height for away in (1.0, -1.0, 1.2, -1.3))
+        places = [at + polar(away, start + share * sweep) for away in beside for share in SHARES]
+        canvas.add(angle_dimension(at, radius, start, sweep, name, style))
+        if canvas.write(letter, places, height):
+            return
+        canvas.shapes.pop()
+    far = next(iter(free), far)
+    middle = at + polar(far, start + 0.5 * sweep)
+    canvas.add(angle_dimension(at, far, start, sweep, name, style))
+    canvas.label(letter, middle, prefer=middle - at, clear=0.8, height=height)
+
+
+def _free(canvas: Canvas, places: list[complex]) -> bool:
+    """Whether arrowheads in these places are clear of all numbers."""
+    reach = canvas.style.arrow
+    for x0, y0, x1, y1 in (box(shape) for shape in canvas.shapes if isinstance(shape, Text)):
+        if any(x0 - reach < p.real < x1 + reach and y0 - reach < p.imag < y1 + reach for p in places):
+            return False
+    return True
+
+
+def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> list[str]:
+    """Return the numbers of what has only a letter in the figure: the angles of one position, lengths."""
+    words, solved = scene.words, scene.solved
+    pressure = float(theta(solved, solved.angles[line]))
+    angles = {"theta": pressure, "gamma": transmission(pressure)}
+    lengths = {"rho_min": profile.rho_min, "h": solved.values["h"], "R_roller": profile.R}
+    said = (f"{words.symbol(name)}_{{{line}}} = {scene.degrees(angle)}" for name, angle in angles.items())
+    sizes = (f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size))
+    return [*said, *sizes]
+
+
+def roller_radius(canvas: Canvas, scene: CamScene, places: Sequence[complex], R: float) -> None:
+    """Dimension the radius of the roller R, m, about its centre, one of the `places`, on the side of a dwell."""
+    solved, words = scene.solved, scene.words
+    division, rest = solved.layout.division, rests(solved.motion)
+    line = division.last if rest else division.leave
+    at, aside = places[line], ASIDE if rest else -ASIDE
+    rim = at + up_at(float(solved.angles[line]) + aside, solved.cam.sense) * scene.drawn(R)
+    canvas.add(Group((Line(at, rim, Pen.THIN), Head(rim, rim - at)), "dimension", "R_roller"))
+    canvas.label(words.symbol("R_roller"), rim, prefer=rim - at, clear=1.0, height=scene.style.text)

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from itertools import pairwise
 
+from ...plans.cams.dense import over_acceleration, touch_of_plate
 from ...plans.cams.size_plans import PLATE_SIZES
-from ..dimensions import linear
+from ..dimensions import angle, linear
 from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline
-from ..symbols import angle_dimension
+from ..symbols import unit
 from ..text import lay_out
 from ..view import Canvas, View
-from .diagrams_view import SAME
-from .fan import small
-from .scene import COARSE, CamScene, given, pieces
+from .diagrams_view import SAME, small
+from .scene import COARSE, CamScene, given
 from .sizes_view import on_lines
-from .transfer import transfer
+from .text import transfer
 
 PAST = 8.0  # mm by which axes run past the curve
 OUT = {"r_0_flat_min": 14.0, "r_0_flat": 46.0}  # mm from the axis to the dimensions
+ALONG = unit(-1.0 + 1.0j)  # up the tangent
 LINE = 12.0  # mm by which the tangent runs past the place where it touches
 
 
@@ -28,18 +28,18 @@ def plate_sizes_view(scene: CamScene) -> View:
     solved, words = scene.solved, scene.words
     plate = solved.plate
     assert plate is not None
-    canvas, mu = FIGURE.canvas(scene, COARSE), scene.scale(PLATE_SIZES).mu
+    canvas = FIGURE.canvas(scene, COARSE)
     canvas.part("points")
     outline = _curve(canvas, scene)
     left, right = (end(p.real for p in outline) for end in (min, max))
-    top, foot = max(p.imag for p in outline), -plate.sizes.r_0 / mu
+    top, foot = max(p.imag for p in outline), -scene.drawn(plate.sizes.r_0, PLATE_SIZES)
     canvas.part("axes")
     for a, b in ((complex(left - PAST, 0.0), complex(right + PAST, 0.0)), (1j * (foot - PAST), 1j * (top + PAST))):
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
     canvas.label(words.symbol("s"), 1j * (top + PAST), prefer=1 + 0j, clear=1.2)
     canvas.label(words.symbol("d2s"), complex(right + PAST, 0.0), prefer=-1j, clear=1.2)
     canvas.part("tangent")
-    _tangent(canvas, scene, plate.sizes.r_0_min / mu, plate.sizes.phi)
+    _tangent(canvas, scene, -1j * scene.drawn(plate.sizes.r_0_min, PLATE_SIZES))
     canvas.part("points")
     _nodes(canvas, scene)
     canvas.part("centre")
@@ -50,15 +50,12 @@ def plate_sizes_view(scene: CamScene) -> View:
 
 def _curve(canvas: Canvas, scene: CamScene) -> list[complex]:
     """Draw the exact curve by smooth pieces, and the lines across where the acceleration jumps."""
-    motion, mu = scene.solved.motion, scene.scale(PLATE_SIZES).mu
+    motion = scene.solved.motion
     every: list[complex] = []
     for phase in (motion.rise, motion.fall):
-        curves = [
-            [complex(x, y) for x, y in zip((d2s / mu).tolist(), (s / mu).tolist(), strict=True)]
-            for _, s, _, d2s in pieces(scene.solved, phase)
-        ]
-        canvas.add(Group(tuple(Polyline(tuple(points), Pen.MAIN) for points in curves), "curve", phase.name))
-        ends = [[complex(0.0, curves[0][0].imag)], *curves, [complex(0.0, curves[-1][-1].imag)]]
+        curves = [scene.curve(piece, PLATE_SIZES) for piece in over_acceleration(scene.solved, phase)]
+        canvas.add(Group(tuple(Polyline(points, Pen.MAIN) for points in curves), "curve", phase.name))
+        ends = [(complex(0.0, curves[0][0].imag),), *curves, (complex(0.0, curves[-1][-1].imag),)]
         steps = [(a[-1], b[0]) for a, b in pairwise(ends) if abs(b[0] - a[-1]) > SAME]
         for k, (a, b) in enumerate(steps, start=1):
             canvas.add(Group((Line(a, b, Pen.MAIN),), "jump", f"{phase.name}.{k}"))
@@ -66,19 +63,12 @@ def _curve(canvas: Canvas, scene: CamScene) -> list[complex]:
     return every
 
 
-def _tangent(canvas: Canvas, scene: CamScene, r_0_min: float, phi: float) -> None:
-    """Draw the tangent at 45 degrees from past the place where it touches to the axis, with its angle."""
-    motion, mu = scene.solved.motion, scene.scale(PLATE_SIZES).mu
-    ends = [motion.at(phi, side) for side in (1, -1)]
-    s, _, d2s = min(ends, key=lambda at: float(at[0] + at[2]))
-    touch, foot = complex(float(d2s), float(s)) * (1.0 / mu), -1j * r_0_min
-    along = complex(-1.0, 1.0) / math.sqrt(2.0)
-    canvas.add(Line(touch + along * LINE, foot - along * LINE, Pen.THIN, role="limit", name="convex"))
+def _tangent(canvas: Canvas, scene: CamScene, foot: complex) -> None:
+    """Draw the tangent at 45 degrees from past the place where it touches to its foot on the axis, with its angle."""
+    touch = scene.drawn(touch_of_plate(scene.solved), PLATE_SIZES)
+    canvas.add(Line(touch + ALONG * LINE, foot - ALONG * LINE, Pen.THIN, role="limit", name="convex"))
     canvas.add(Group((Circle(touch, scene.style.node, Pen.THIN, fill="black"),), "touch", "convex"))
-    radius = 3.0 * scene.style.label
-    canvas.add(angle_dimension(foot, radius, math.pi / 2, math.pi / 4, "tangent", scene.style))
-    at = foot + radius * complex(math.cos(0.625 * math.pi), math.sin(0.625 * math.pi))
-    canvas.label("45°", at, prefer=at - foot, clear=1.0, height=scene.style.text)
+    angle(canvas, foot, (1j, ALONG), 3.0 * scene.style.label, "tangent", "45°")
 
 
 def _nodes(canvas: Canvas, scene: CamScene) -> None:
@@ -102,8 +92,7 @@ def _sizes(canvas: Canvas, scene: CamScene) -> None:
     """Dimension r_0min and r_0 downwards from the lowest place of the plate."""
     words, style, plate = scene.words, scene.style, scene.solved.plate
     assert plate is not None
-    mu = scene.scale(PLATE_SIZES).mu
-    low, centre = (-1j * size / mu for size in (plate.sizes.r_0_min, plate.sizes.r_0))
+    low, centre = (-1j * scene.drawn(size, PLATE_SIZES) for size in (plate.sizes.r_0_min, plate.sizes.r_0))
     canvas.add(Group((Circle(centre, 1.5 * style.node, Pen.MAIN, fill="white"),), "point", "O"))
     canvas.label("O", centre, prefer=1 - 1j, clear=1.0)
     sizes = ((low, "r_0_flat_min", plate.sizes.r_0_min), (centre, "r_0_flat", plate.sizes.r_0))

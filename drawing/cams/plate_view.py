@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
-
+from ...plans.cams.dense import up_at
 from ...plans.cams.inversion import PLATE_PROFILE
 from ..dimensions import linear
 from ..figure import Figure, Stage
+from ..hardware import Rod
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
 from ..text import Box, box, lay_out
 from ..view import Canvas, View
-from .hardware import Rod
 from .inversion import (
     centre,
     circle,
@@ -22,7 +21,6 @@ from .inversion import (
     quiet,
     radius_at,
     undercut_notes,
-    unit_at,
 )
 from .roller_view import NUMBERS, PHASES
 from .scene import COARSE, CamScene
@@ -36,12 +34,12 @@ THICK = 0.5  # thickness of the plate, in heights of letters
 
 def plate_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the follower is lowest."""
-    solved, canvas, mu = scene.solved, FIGURE.canvas(scene, COARSE), scene.mu_l
+    solved, canvas = scene.solved, FIGURE.canvas(scene, COARSE)
     plate = solved.plate
     assert plate is not None
-    r_0, stroke, R = plate.sizes.r_0 / mu, solved.motion.h / mu, plate.sizes.R_plate / mu
+    r_0, stroke, R = map(scene.drawn, (plate.sizes.r_0, solved.motion.h, plate.sizes.R_plate))
     label = scene.style.label
-    outer = math.hypot(r_0 + stroke, R)
+    outer = abs(complex(r_0 + stroke, R))
     rod = Rod(0.0, r_0 + THICK * label, outer + (PHASES + 1.2) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
     canvas.part("shaft")
@@ -50,8 +48,8 @@ def plate_view(scene: CamScene) -> View:
     canvas.add(circle(r_0, "r_0_flat"))
     _positions(canvas, scene, R, reach - 0.9 * label)
     canvas.part("profile")
-    outline = plate.profile.outline() * (1.0 / mu)
-    canvas.add(Group((Polyline(tuple(outline.tolist()), Pen.MAIN, closed=True),), "curve", "practical"))
+    outline = scene.curve(plate.profile.outline().tolist())
+    canvas.add(Group((Polyline(outline, Pen.MAIN, closed=True),), "curve", "practical"))
     corners(canvas, scene, plate.profile.undercuts)
     canvas.part("circles")
     numbers(canvas, scene, 0.0, reach)
@@ -71,7 +69,7 @@ def _positions(canvas: Canvas, scene: CamScene, R: float, reach: float) -> None:
     """Draw the axis and the plate of each position, its centre, and where it touches the profile."""
     solved = scene.solved
     for i, phi in enumerate(solved.angles.tolist()):
-        up = unit_at(phi, solved.cam.sense)
+        up = up_at(phi, solved.cam.sense)
         at, contact = (scene.mm(f"{PLATE_PROFILE}.{letter}{i}") for letter in "BK")
         canvas.part("circles")
         canvas.add(Line(0j, up * reach, Pen.THIN, role="position", name=str(i)))
@@ -93,29 +91,27 @@ def _follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
 
 def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> list[str]:
     """Dimension radii, the plate, how far to both sides it touches, the stroke; return what has no place there."""
-    solved, words, mu, sense = scene.solved, scene.words, scene.mu_l, scene.solved.cam.sense
+    solved, words, sense = scene.solved, scene.words, scene.solved.cam.sense
     plate, motion = solved.plate, solved.motion
     assert plate is not None
-    middle = quiet(motion, sense)
+    middle, r_0 = quiet(motion, sense), scene.drawn(plate.sizes.r_0)
     canvas.part("circles")
-    left_out = radius_at(
-        canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (0.0, plate.sizes.r_0 / mu, plate.sizes.r_0 / mu)
-    )
+    left_out = radius_at(canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (0.0, r_0, r_0))
     canvas.part("follower")
     level, up = 1j * rod.low, 1j * scene.style.text
     _over(canvas, (level, level - sense * R), ABOVE[1] * up, words.symbol("R_plate"), "R_plate")
     right, left = (motion.maximum(0.0, side, 0.0).value for side in (1.0, -1.0))
     for far, name in ((right, "ds_right"), (-left, "ds_left")):
-        ends = level, level + far / mu
-        if far * sense < 0.0:  # where the lower dwell leaves room
+        ends = level, level + scene.drawn(far)
+        if (far < 0.0) == (sense > 0):  # where the lower dwell leaves room
             _over(canvas, ends, ABOVE[0] * up, ANALOGUE, name)
         else:
             same = abs(right - left) < SAME * right
             linear(canvas, ends, ABOVE[0] * up, "" if same else ANALOGUE, name)
     canvas.part("centres")
     top = solved.layout.division.top
-    axis = unit_at(float(solved.angles[top]), sense)
-    ends = axis * (plate.sizes.r_0 / mu), scene.mm(f"{PLATE_PROFILE}.B{top}")
+    axis = up_at(float(solved.angles[top]), sense)
+    ends = axis * r_0, scene.mm(f"{PLATE_PROFILE}.B{top}")
     linear(canvas, ends, axis * (-1j * sense) * 4.0, words.symbol("h"), "h")
     return [left_out] if left_out else []
 

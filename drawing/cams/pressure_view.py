@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
+from ...plans.cams.dense import courses, permitted, theta
 from ...plans.cams.motion import RISE
 from ...scales.scale import Scale, steps
 from ..diagram import Axis, Field, axes, divisions, numbers
 from ..figure import Figure, stages
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
+from ..symbols import HALF_TURN
 from ..text import Box, box
 from ..view import Canvas, View
 from .diagrams_view import broken
-from .pressing import courses, permitted, theta
 from .scene import COARSE, CamScene
 
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)  # of the line of a limit at which its text may stand
 AROUND = 0.8  # mm around that text
 Place = tuple[float, float]
-DEGREE = math.radians(1.0)
+DEGREE = HALF_TURN / 180.0
 WIDE = {5.0: 160.0, 3.5: 120.0}  # mm of the axis of angles beyond which it is half as long as on the diagrams
 TALL = {5.0: 60.0, 3.5: 45.0}  # mm of the axis of pressure angles, by the height of letters
 
@@ -28,7 +28,7 @@ def pressure_view(scene: CamScene) -> View:
     """Draw theta over phi with the limits dashed over their phases."""
     solved, words = scene.solved, scene.words
     canvas, limits = FIGURE.canvas(scene, COARSE), permitted(solved)
-    curves = [list(zip(phi.tolist(), value.tolist(), strict=True)) for phi, value in courses(solved)]
+    curves = courses(solved)
     every = [y for points in curves for _, y in points] + [limit for _, limit in limits] + [0.0]
     field = _field(scene, min(every), max(every))
     canvas.part("axes")
@@ -49,8 +49,8 @@ def _field(scene: CamScene, low: float, high: float) -> Field:
     tall = TALL[scene.style.label]
     mu = steps((high - low) / DEGREE / tall)[0] * DEGREE
     last = float(scene.solved.angles[-1])
-    half = last > WIDE[scene.style.label] * scene.across.mu
-    scale = Scale("mu_phi", scene.across.mu * (2.0 if half else 1.0), "rad")
+    half = scene.across.drawn(last) > WIDE[scene.style.label]
+    scale = Scale("mu_phi", scene.across.measured(2.0 if half else 1.0), "rad")
     across = Axis(words.symbol("phi"), scale, 0.0, last, {})
     marks = {x * DEGREE: f"{words.short(x)}°" for x in divisions(high / DEGREE, low / DEGREE, mu / DEGREE, 9.0)}
     return Field(0j, across, Axis(words.symbol("theta"), Scale("mu_theta", mu, "rad"), low, high, marks))

@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
-import cmath
-import math
-from collections.abc import Iterator
-
-import numpy as np
-
+from ...plans.cams.dense import (
+    Bound,
+    analogue_end,
+    analogues,
+    bounds,
+    half_planes,
+    limit_direction,
+    pressed,
+    theta,
+    transmission,
+)
 from ...plans.cams.followers import RockerCam
-from ...plans.cams.motion import RISE
-from ...plans.cams.rocker import Limit, tightest
 from ...plans.cams.rocker_plans import ROCKER_SIZES
 from ...plans.cams.size_plans import is_back, phase_of
-from ..dimensions import linear
+from ..areas import hatched
+from ..dimensions import angle, linear, turning
 from ..figure import Figure, Stage
 from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
-from ..symbols import angle_dimension, fixed_pivot, turning_arrow
+from ..symbols import HALF_TURN, down_to, fixed_pivot, nearer, unit
 from ..text import Box
 from ..view import Canvas, View
-from .fan import small
-from .hatching import Side, hatched
-from .pressing import pressed, theta
-from .scene import COARSE, Array, CamScene, given, pieces
+from .diagrams_view import small
+from .scene import COARSE, CamScene, given
 from .sizes_view import SHOWN, on_lines
 
 AROUND = 24.0  # mm of the permitted places shown about the chosen one
@@ -39,9 +41,9 @@ def rocker_sizes_view(scene: CamScene) -> View:
     frame = _frame(scene, centre)
     canvas.part("limits")
     _limits(canvas, scene)
-    for limit in cam.rocker.limits(cam.limits):
-        _bound(canvas, scene, limit, frame)
-    _permitted(canvas, scene, cam, centre)
+    for bound in bounds(scene.solved):
+        _bound(canvas, scene, bound, frame)
+    _permitted(canvas, scene, centre)
     _nodes(canvas, scene)
     _sizes(canvas, scene, cam, centre)
     canvas.part("pressure")
@@ -53,17 +55,14 @@ def rocker_sizes_view(scene: CamScene) -> View:
 
 def _rocker(canvas: Canvas, scene: CamScene, cam: RockerCam) -> None:
     """Draw the rocker in all positions, the path of its roller, and the curve of the analogues' ends."""
-    solved, style, l = scene.solved, scene.style, cam.sizes.l / scene.mu_l
+    solved, style, l = scene.solved, scene.style, scene.drawn(cam.sizes.l)
     over = PAST / l
     canvas.part("positions")
     canvas.add(Arc(0j, l, -over, cam.rocker.motion.h + 2.0 * over, Pen.AXIS, role="path", name="B"))
     canvas.part("analogues")
     for phase in (cam.rocker.motion.rise, cam.rocker.motion.fall):
-        ends: list[complex] = []
-        for phi, *_ in pieces(solved, phase):
-            ends += _ends(cam, phi, l)
-        canvas.add(Group((Polyline(tuple(ends), Pen.MAIN),), "curve", phase.name))
-    division, shown = solved.layout.division, pressed(scene, SHOWN)
+        canvas.add(Group((Polyline(scene.curve(analogues(solved, phase)), Pen.MAIN),), "curve", phase.name))
+    division, shown = solved.layout.division, pressed(scene.solved, SHOWN)
     canvas.part("positions")
     for i in division.lines:
         at, end = (scene.mm(f"{ROCKER_SIZES}.{letter}{i}") for letter in "BD")
@@ -77,14 +76,6 @@ def _rocker(canvas: Canvas, scene: CamScene, cam: RockerCam) -> None:
     canvas.label("C", 0j, prefer=-1 + 1j, clear=style.pair + 1.0)
 
 
-def _ends(cam: RockerCam, phi: Array, l: float) -> list[complex]:
-    """Return the ends of the analogues, laid off along the rocker: at the last angle the limit from before."""
-    rows = [cam.rocker.motion.at(phi, 1), cam.rocker.motion.at(phi[-1:], -1)]
-    psi, dpsi = (np.append(rows[0][k][:-1], rows[1][k]) for k in (0, 1))
-    points: list[complex] = (l * np.exp(1j * psi) * (1.0 - cam.rocker.sense * dpsi)).tolist()
-    return points
-
-
 def _frame(scene: CamScene, centre: complex) -> Box:
     """Return the box in which limits are drawn: from beside the centre to above the highest position."""
     ends = [scene.mm(f"{ROCKER_SIZES}.{letter}{i}") for i in scene.solved.layout.division.lines for letter in "BD"]
@@ -96,78 +87,33 @@ def _frame(scene: CamScene, centre: complex) -> Box:
 def _limits(canvas: Canvas, scene: CamScene) -> None:
     """Draw the direction of the limit at the end of each analogue, towards the cam's centre."""
     for i, phase in on_lines(scene):
-        end = _end(scene, i, phase)
-        past = end + _along(scene, i, phase) * (LIMIT * scene.style.label)
+        end = scene.drawn(analogue_end(scene.solved, i, phase))
+        past = end + limit_direction(scene.solved, i, phase) * (LIMIT * scene.style.label)
         canvas.add(Line(end, past, Pen.THIN, role="limit", name=f"{i}_{phase}"))
 
 
-def _end(scene: CamScene, i: int, phase: str) -> complex:
-    """Return the end of the analogue on a section line: where the velocity jumps, that inside of the phase."""
-    solved, division = scene.solved, scene.solved.layout.division
-    first = (division.rise if phase == RISE else division.fall)[0]
-    if i > first:
-        return scene.mm(f"{ROCKER_SIZES}.D{i}")
-    ds = float(solved.motion.at(float(solved.angles[i]))[1])
-    arm = complex(solved.values[f"_arm{i}"])
-    return scene.mm(f"{ROCKER_SIZES}.B{i}") - arm * (solved.cam.sense * ds / scene.mu_l)
-
-
-def _along(scene: CamScene, i: int, phase: str) -> complex:
-    """Return the direction of the limit on a section line, downwards."""
-    cam = scene.solved.rocker
-    assert cam is not None
-    gamma = cam.limits.gamma_rise if phase == RISE else -cam.limits.gamma_fall
-    return _down(complex(scene.solved.values[f"_arm{i}"]) * cmath.rect(1.0, -scene.solved.cam.sense * gamma))
-
-
-def _down(direction: complex) -> complex:
-    return direction if direction.imag < 0.0 else -direction
-
-
-def _bound(canvas: Canvas, scene: CamScene, limit: Limit, frame: Box) -> None:
+def _bound(canvas: Canvas, scene: CamScene, bound: Bound, frame: Box) -> None:
     """Mark the end of the analogue whose limit comes nearest to the centre, and dimension the angle permitted."""
-    cam, mu = scene.solved.rocker, scene.mu_l
+    cam, limit, arm, along = scene.solved.rocker, bound.limit, bound.arm, bound.along
     assert cam is not None
-    at = tightest(cam.rocker, limit, complex(cam.sizes.e, cam.sizes.s_0))
-    psi, dpsi, _ = (float(v) for v in cam.rocker.motion.at(at, 1 if at < limit.phase.end else -1))
-    arm = cmath.rect(1.0, psi)
-    end = arm * (cam.sizes.l * (1.0 - cam.rocker.sense * dpsi) / mu)
+    end = scene.drawn(bound.end)
     canvas.add(Group((Circle(end, scene.style.node, Pen.THIN, fill="black"),), "touch", limit.name))
-    turned = -limit.way * cam.rocker.sense * limit.gamma
-    along = _down(arm * cmath.rect(1.0, turned))
-    reach = (frame[1] - end.imag) / along.imag
-    canvas.add(Line(end, end + along * reach, Pen.THIN, role="bound", name=limit.name))
+    canvas.add(Line(end, down_to(end, along, frame[1]), Pen.THIN, role="bound", name=limit.name))
     if is_back(limit.name) and limit.name not in cam.sizes.on:
         return
-    start = arm if (along * arm.conjugate()).real > 0.0 else -arm
-    radius, sweep = 5.0 * scene.style.label, cmath.phase(along / start)
-    name = f"gamma_{limit.name}"
-    canvas.add(angle_dimension(end, radius, cmath.phase(start), sweep, name, scene.style))
+    text, radius = scene.words.symbol(f"gamma_{phase_of(limit.name)}"), 5.0 * scene.style.label
+    start = nearer(arm, along)
+    angle(canvas, end, (start, along), radius, f"gamma_{limit.name}", text, clear=0.8)
     if start == arm:  # beyond the rocker
         canvas.add(Line(end, end + arm * (radius + 2.0), Pen.THIN, role="extension"))
-    middle = end + cmath.rect(radius, cmath.phase(start) + sweep / 2)
-    text = scene.words.symbol(f"gamma_{phase_of(limit.name)}")
-    canvas.label(text, middle, prefer=middle - end, clear=0.8, height=scene.style.text)
 
 
-def _permitted(canvas: Canvas, scene: CamScene, cam: RockerCam, centre: complex) -> None:
+def _permitted(canvas: Canvas, scene: CamScene, centre: complex) -> None:
     """Hatch the permitted places of the cam's centre, beside the chosen one."""
     x, y = centre.real, centre.imag
     box = (x - 2.0 * AROUND, y - AROUND, x + 2.0 * AROUND, min(0.0, y + 2.0 * AROUND))
-    canvas.add(hatched([*_sides(scene, cam)], box, 2.5, "centre"))
-
-
-def _sides(scene: CamScene, cam: RockerCam) -> Iterator[Side]:
-    """Go through the half planes in which the cam's centre may lie, the rocker's pivot being the origin."""
-    mu, l, swing = scene.mu_l, cam.sizes.l, cam.rocker.motion.h
-    yield -1j, 0.0  # below the rocker's lowest position, and its highest one
-    yield -1j * cmath.rect(1.0, swing), 0.0
-    for limit in cam.rocker.limits(cam.limits):
-        for phi, *_ in pieces(scene.solved, limit.phase):
-            for places, side in ((phi[:-1], 1), (phi[-1:], -1)):
-                normal, least = cam.rocker.half_planes(limit, places, side)
-                for n, c in zip(normal.tolist(), least.tolist(), strict=True):
-                    yield -n, (c - n.real * l) / mu
+    sides = [(normal, scene.drawn(least)) for normal, least in half_planes(scene.solved)]
+    canvas.add(hatched(sides, box, 2.5, "centre"))
 
 
 def _nodes(canvas: Canvas, scene: CamScene) -> None:
@@ -179,11 +125,11 @@ def _nodes(canvas: Canvas, scene: CamScene) -> None:
         canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"B{i}"))
     canvas.part("analogues")
     for i, phase in on_lines(scene):
-        at = _end(scene, i, phase)
+        at = scene.drawn(analogue_end(scene.solved, i, phase))
         canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"{i}_{phase}"))
         key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
         shared.setdefault(key, []).append(str(i))
-    middle, named = sum(shared) / len(shared), str(pressed(scene, SHOWN))
+    middle, named = sum(shared) / len(shared), str(pressed(scene.solved, SHOWN))
     canvas.part("positions")
     canvas.label(f"B_{{{named}}}", scene.mm(f"{ROCKER_SIZES}.B{named}"), prefer=1 + 0j, height=scene.style.text)
     canvas.part("analogues")
@@ -199,44 +145,36 @@ def _sizes(canvas: Canvas, scene: CamScene, cam: RockerCam, centre: complex) -> 
     low, high = scene.mm(f"{ROCKER_SIZES}.B0"), scene.mm(f"{ROCKER_SIZES}.B{scene.solved.layout.division.top}")
     canvas.part("centre")
     for name, end in (("r_0", low), ("l_OC", 0j)):
-        unit = (end - centre) / abs(end - centre)
-        canvas.add(Group((Line(centre, end, Pen.THIN), Head(end, unit), Head(centre, -unit)), "dimension", name))
-        canvas.label(words.symbol(name), (centre, end), prefer=unit * 1j, clear=0.8, height=style.text)
+        out = unit(end - centre)
+        canvas.add(Group((Line(centre, end, Pen.THIN), Head(end, out), Head(centre, -out)), "dimension", name))
+        canvas.label(words.symbol(name), (centre, end), prefer=out * 1j, clear=0.8, height=style.text)
     canvas.part("positions")
-    out = 1j * high / abs(high) * 3.0 * style.label
+    out = 1j * unit(high) * 3.0 * style.label
     linear(canvas, (0j, high), out, words.symbol("l_rocker"), "l_rocker")
-    radius = 0.45 * abs(low)
-    canvas.add(angle_dimension(0j, radius, 0.0, cam.rocker.motion.h, "psi", style))
-    middle = cmath.rect(radius, 0.5 * cam.rocker.motion.h)
-    canvas.label(words.symbol("psi"), middle, prefer=-1 + 0j, clear=1.0, height=style.text)
+    angle(canvas, 0j, (low, high), 0.45 * abs(low), "psi", words.symbol("psi"), prefer=-1 + 0j)
     canvas.part("centre")
     canvas.add(Group((Circle(centre, style.node * 1.5, Pen.MAIN, fill="white"),), "point", "O"))
     canvas.label("O", centre, prefer=1 + 0j, clear=1.0)
     sense = scene.solved.cam.sense
-    canvas.add(turning_arrow(centre, 2.4 * style.label, math.pi, 1.4, float(sense), "omega"))
-    canvas.label(words.symbol("omega"), centre - 2.4 * style.label, prefer=-1 + 0j, clear=1.0)
+    turning(canvas, centre, 2.4 * style.label, HALF_TURN, 1.4, float(sense), "omega", words.symbol("omega"))
 
 
 def _ray(canvas: Canvas, scene: CamScene, centre: complex) -> None:
     """Draw the direction of the normal in one position of the rise, and its angle to the rocker."""
-    i = pressed(scene, SHOWN)
+    i = pressed(scene.solved, SHOWN)
     at, end = (scene.mm(f"{ROCKER_SIZES}.{letter}{i}") for letter in "BD")
-    arm = at / abs(at)
     canvas.add(Line(centre, end, Pen.DASHED, role="ray", name=str(i)))
-    down = (centre - end) / abs(centre - end)
-    start = arm if (down * arm.conjugate()).real > 0.0 else -arm
-    radius, sweep = 3.0 * scene.style.label, cmath.phase(down / start)
-    canvas.add(angle_dimension(end, radius, cmath.phase(start), sweep, f"gamma_{i}", scene.style))
-    middle = end + cmath.rect(radius, cmath.phase(start) + sweep / 2)
-    canvas.label(f"{scene.words.symbol('gamma')}_{{{i}}}", middle, prefer=middle - end, height=scene.style.text)
+    rays = nearer(unit(at), centre - end), centre - end
+    text = f"{scene.words.symbol('gamma')}_{{{i}}}"
+    angle(canvas, end, rays, 3.0 * scene.style.label, f"gamma_{i}", text)
 
 
 def _lettered(scene: CamScene, cam: RockerCam) -> tuple[str, str]:
     """Return the numbers of what has only a letter in the figure."""
-    words, solved, i = scene.words, scene.solved, pressed(scene, SHOWN)
+    words, solved, i = scene.words, scene.solved, pressed(scene.solved, SHOWN)
     lengths = {"r_0": cam.sizes.r_0, "l_OC": cam.sizes.l_OC, "l_rocker": cam.sizes.l}
     angles = {"psi": cam.rocker.motion.h, "gamma_rise": cam.limits.gamma_rise, "gamma_fall": cam.limits.gamma_fall}
-    shown = 0.5 * math.pi - abs(float(theta(solved, solved.angles[i])))
+    shown = transmission(float(theta(solved, solved.angles[i])))
     said = [f"{words.symbol(name)} = {scene.degrees(angle)}" for name, angle in angles.items()]
     said.append(f"{words.symbol('gamma')}_{{{i}}} = {scene.degrees(shown)}")
     return "; ".join(f"{words.symbol(name)} = {scene.length(size)}" for name, size in lengths.items()), "; ".join(said)

@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 
+from ...plans.cams.dense import dwelling, pole_share, pressed
 from ...plans.cams.inversion import PROFILE
+from ..dimensions import angle
 from ..figure import Figure, Stage
 from ..shapes import Arc, Circle, Group, Line, Pen, Text
-from ..symbols import angle_dimension, fixed_pivot, revolute
+from ..symbols import fixed_pivot, polar, revolute, swept, unit
 from ..view import Canvas, View
-from .inversion import centre, circle, dwelling, letter_centre, phases, radius_at, undercut_notes
-from .pressing import pressed
+from .inversion import (
+    Contact,
+    centre,
+    circle,
+    curves,
+    letter_centre,
+    normal,
+    phases,
+    radius_at,
+    roller_radius,
+    sharpest,
+    undercut_notes,
+)
 from .roller_view import NUMBERS, PHASES
-from .rolling import Contact, curves, normal, roller_radius, sharpest
 from .scene import COARSE, CamScene, is_sharp
 from .sizes_view import SHOWN
 
@@ -23,33 +34,33 @@ OVER = 4.0  # mm of the roller's arcs beyond its extreme places
 
 def rocker_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the rocker is lowest."""
-    solved, canvas, mu = scene.solved, FIGURE.canvas(scene, COARSE), scene.mu_l
+    solved, canvas = scene.solved, FIGURE.canvas(scene, COARSE)
     cam = solved.rocker
     assert cam is not None
-    sizes, label = cam.sizes, scene.style.label
+    r_0, label = scene.drawn(cam.sizes.r_0), scene.style.label
     pivot, start = scene.mm(f"{PROFILE}.A0"), scene.mm(f"{PROFILE}.B0")
-    far = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in solved.layout.division.lines) + cam.profile.R / mu
+    far = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in solved.layout.division.lines) + scene.drawn(cam.profile.R)
     outer = max(abs(pivot), far)
-    turned = cmath.phase(start / 1j)
+    turned = swept(1j, start)
     canvas.part("shaft")
-    centre(canvas, scene, sizes.r_0 / mu, far + 3.0, turned)
+    centre(canvas, scene, r_0, far + 3.0, turned)
     canvas.part("pivots")
-    canvas.add(circle(sizes.r_0 / mu, "r_0"), circle(abs(pivot), "l_OC"))
+    canvas.add(circle(r_0, "r_0"), circle(abs(pivot), "l_OC"))
     _positions(canvas, scene)
     curves(canvas, scene, cam.profile)
     canvas.part("pivots")
     _numbers(canvas, scene, outer + NUMBERS * label)
     reach = outer + (PHASES + 1.0) * label
-    phases(canvas, scene, reach * math.cos(cmath.phase(pivot)), reach)
+    phases(canvas, scene, polar(reach, swept(1.0 + 0j, pivot)).real, reach)
     canvas.part("sharpest")
-    sharpest(canvas, scene, cam.profile)
-    line = pressed(scene, SHOWN)
+    sharpest(canvas, scene)
+    line = pressed(solved, SHOWN)
     _normal(canvas, scene, line)
     canvas.part("follower")
     _follower(canvas, scene)
     left = _sizes(canvas, scene, dwelling(solved.motion, solved.cam.sense) + turned)
     canvas.part("shaft")
-    letter_centre(canvas, scene, sizes.r_0 / mu, turned)
+    letter_centre(canvas, scene, r_0, turned)
     edge = reach + 1.2 * label
     canvas.bounds = -edge, -edge, edge, edge
     scale = f"{scene.words.drawn_at(scene.mu_l)};  {scene.factor(scene.scale(PROFILE))}"
@@ -62,7 +73,7 @@ def _positions(canvas: Canvas, scene: CamScene) -> None:
     solved, node = scene.solved, scene.style.node
     cam = solved.rocker
     assert cam is not None
-    l, R, swing = cam.sizes.l / scene.mu_l, cam.profile.R / scene.mu_l, cam.rocker.motion.h
+    l, R, swing = scene.drawn(cam.sizes.l), scene.drawn(cam.profile.R), cam.rocker.motion.h
     over = OVER / l
     for i, phi in enumerate(solved.angles.tolist()):
         pivot, at = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "AB")
@@ -83,7 +94,7 @@ def _numbers(canvas: Canvas, scene: CamScene, radius: float) -> None:
     height = scene.style.text
     for i in scene.solved.layout.division.lines:
         pivot = scene.mm(f"{PROFILE}.A{i}")
-        out = pivot / abs(pivot)
+        out = unit(pivot)
         canvas.add(Line(pivot, out * (radius - 0.9 * scene.style.label), Pen.THIN, role="position", name=str(i)))
         canvas.add(Text(out * radius - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
 
@@ -91,13 +102,10 @@ def _numbers(canvas: Canvas, scene: CamScene, radius: float) -> None:
 def _normal(canvas: Canvas, scene: CamScene, i: int) -> None:
     """Draw the rocker of one position, and its normal through the instant centre on the line of both pivots."""
     pivot, at, touch = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "ABK")
-    cam = scene.solved.rocker
-    assert cam is not None
-    dpsi = float(cam.rocker.motion.at(float(scene.solved.angles[i]))[1]) * scene.solved.cam.sense
-    pole = pivot * (dpsi / (dpsi - 1.0))  # the roller's velocity is that of the cam there
+    pole = pivot * pole_share(scene.solved, i)
     canvas.part("normal")
     canvas.add(Group((Line(pivot, at, Pen.THIN),), "rocker", str(i)))
-    normal(canvas, scene, Contact(i, at, touch, pole, 1j * (at - pivot) / abs(at - pivot)))
+    normal(canvas, scene, Contact(i, at, touch, pole, 1j * unit(at - pivot)))
 
 
 def _follower(canvas: Canvas, scene: CamScene) -> None:
@@ -105,9 +113,9 @@ def _follower(canvas: Canvas, scene: CamScene) -> None:
     pivot, at = (scene.mm(f"{PROFILE}.{letter}0") for letter in "AB")
     cam, style = scene.solved.rocker, scene.style
     assert cam is not None
-    unit = (at - pivot) / abs(at - pivot)
-    canvas.add(Group((Circle(at, cam.profile.R / scene.mu_l, Pen.MAIN),), "roller", "0"))
-    canvas.add(Group((Line(pivot + unit * style.pair, at - unit * style.pair, Pen.MAIN),), "rocker", "0"))
+    along = unit(at - pivot)
+    canvas.add(Group((Circle(at, scene.drawn(cam.profile.R), Pen.MAIN),), "roller", "0"))
+    canvas.add(Group((Line(pivot + along * style.pair, at - along * style.pair, Pen.MAIN),), "rocker", "0"))
     canvas.add(fixed_pivot(pivot, "A0", style), revolute(at, "B0", style))
     canvas.label("C", pivot, prefer=1 - 1j, clear=style.pair + 0.5)
     canvas.label("B", at, prefer=1 + 1j, clear=style.pair + 0.5)
@@ -118,29 +126,27 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
 
     `quiet` is the middle of the lower dwell.
     """
-    solved, words, mu, style = scene.solved, scene.words, scene.mu_l, scene.style
+    solved, words = scene.solved, scene.words
     cam, division = solved.rocker, solved.layout.division
     assert cam is not None
     sizes, R = cam.sizes, cam.profile.R
+    r_0, far = scene.drawn(sizes.r_0), scene.drawn(sizes.l_OC)
     canvas.part("pivots")
-    left = [radius_at(canvas, scene, "r_0", sizes.r_0, quiet, (0.0, (sizes.r_0 - R) / mu, sizes.r_0 / mu))]
-    far = sizes.l_OC / mu
-    left += [radius_at(canvas, scene, "l_OC", sizes.l_OC, quiet + ASIDE * solved.cam.sense, (sizes.r_0 / mu, far, far))]
+    left = [radius_at(canvas, scene, "r_0", sizes.r_0, quiet, (0.0, scene.drawn(sizes.r_0 - R), r_0))]
+    left += [radius_at(canvas, scene, "l_OC", sizes.l_OC, quiet + ASIDE * solved.cam.sense, (r_0, far, far))]
     canvas.part("profile")
     roller_radius(canvas, scene, [scene.mm(f"{PROFILE}.B{i}") for i in division.lines], R)
     canvas.part("pitch")
     top = division.top
     pivot = scene.mm(f"{PROFILE}.A{top}")
     swing, low = cam.rocker.motion.h, -solved.cam.sense * float(solved.angles[top])
-    for angle in (low, low + swing):
-        canvas.add(Line(pivot, pivot + cmath.rect(sizes.l / mu, angle), Pen.THIN, role="rocker", name=str(top)))
-    radius = 0.4 * sizes.l / mu
-    canvas.add(angle_dimension(pivot, radius, low, swing, "psi", style))
-    middle = pivot + cmath.rect(radius, low + 0.5 * swing)
-    canvas.label(words.symbol("psi"), middle, prefer=middle - pivot, clear=0.8, height=style.text)
+    rays = polar(scene.drawn(sizes.l), low), polar(scene.drawn(sizes.l), low + swing)
+    for ray in rays:
+        canvas.add(Line(pivot, pivot + ray, Pen.THIN, role="rocker", name=str(top)))
+    angle(canvas, pivot, rays, 0.4 * abs(rays[0]), "psi", words.symbol("psi"), clear=0.8)
     zero, start = scene.mm(f"{PROFILE}.A0"), scene.mm(f"{PROFILE}.B0")
     canvas.part("follower")
-    canvas.label(words.symbol("l_rocker"), (zero, start), prefer=1j, clear=0.8, height=style.text)
+    canvas.label(words.symbol("l_rocker"), (zero, start), prefer=1j, clear=0.8, height=scene.style.text)
     return [text for text in left if text]
 
 

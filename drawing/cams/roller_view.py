@@ -2,31 +2,32 @@
 
 from __future__ import annotations
 
-import math
-
+from ...plans.cams.dense import on_circle, pressed, rests, up_at
 from ...plans.cams.inversion import PROFILE
 from ..dimensions import linear
 from ..figure import Figure, Stage
+from ..hardware import Rod
 from ..shapes import Circle, Group, Line, Pen
 from ..symbols import revolute
 from ..view import Canvas, View
-from .hardware import Rod
 from .inversion import (
+    Contact,
     centre,
     circle,
+    curves,
     heading,
     letter_centre,
+    lettered_sizes,
+    normal,
     numbers,
-    on_circle,
+    past_normal,
     phases,
     quiet,
     radius_at,
-    rests,
+    roller_radius,
+    sharpest,
     undercut_notes,
-    unit_at,
 )
-from .pressing import pressed
-from .rolling import Contact, curves, lettered_sizes, normal, past_normal, roller_radius, sharpest
 from .scene import COARSE, CamScene, is_aside, is_sharp
 from .sizes_view import SHOWN
 
@@ -36,36 +37,36 @@ NUMBERS, PHASES = 1.7, 2.8  # heights of letters from the outermost roller to th
 
 def roller_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the follower is lowest."""
-    solved, canvas, mu = scene.solved, FIGURE.canvas(scene, COARSE), scene.mu_l
+    solved, canvas = scene.solved, FIGURE.canvas(scene, COARSE)
     roller = solved.roller
     assert roller is not None
-    e, s_0, stroke = roller.sizes.e / mu, roller.sizes.s_0 / mu, solved.motion.h / mu
-    R = roller.profile.R / mu
-    outer = math.hypot(e, s_0 + stroke) + R
+    e, s_0, stroke = map(scene.drawn, (roller.sizes.e, roller.sizes.s_0, solved.motion.h))
+    R, r_0 = scene.drawn(roller.profile.R), scene.drawn(roller.sizes.r_0)
+    outer = abs(complex(e, s_0 + stroke)) + R
     label = scene.style.label
     rod = Rod(e, s_0, outer + (PHASES + 1.2) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
     canvas.part("shaft")
-    centre(canvas, scene, roller.sizes.r_0 / mu, rod.top + 12.0, offset=abs(e))
+    centre(canvas, scene, r_0, rod.top + 12.0, offset=abs(e))
     canvas.part("circles")
-    canvas.add(circle(roller.sizes.r_0 / mu, "r_0"))
+    canvas.add(circle(r_0, "r_0"))
     if abs(e) > 0.05:
         canvas.add(circle(abs(e), "e"))
     _positions(canvas, scene, e, reach - 0.9 * label)
     curves(canvas, scene, roller.profile)
     canvas.part("lines")
     numbers(canvas, scene, e, reach)
-    contact = _contact(scene, pressed(scene, SHOWN))
+    contact = _contact(scene, pressed(solved, SHOWN))
     canvas.part("circles")
     phases(canvas, scene, e, outer + PHASES * label, past_normal(contact, scene.style))
     canvas.part("sharpest")
-    sharpest(canvas, scene, roller.profile)
+    sharpest(canvas, scene)
     normal(canvas, scene, contact)
     canvas.part("follower")
     _follower(canvas, scene, rod, R)
     left = _sizes(canvas, scene, rod)
     canvas.part("shaft")
-    letter_centre(canvas, scene, roller.sizes.r_0 / mu, offset=abs(e))
+    letter_centre(canvas, scene, r_0, offset=abs(e))
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
     notes = (
@@ -77,9 +78,9 @@ def roller_view(scene: CamScene) -> View:
 
 def _positions(canvas: Canvas, scene: CamScene, e: float, reach: float) -> None:
     """Draw the follower's line and the roller in each position; the line touches the circle of the offset."""
-    solved, R = scene.solved, scene.solved.values["R_roller"] / scene.mu_l
+    solved, R = scene.solved, scene.drawn(float(scene.solved.values["R_roller"]))
     for i, phi in enumerate(solved.angles.tolist()):
-        up = unit_at(phi, solved.cam.sense)
+        up = up_at(phi, solved.cam.sense)
         foot, at = scene.mm(f"{PROFILE}.E{i}"), scene.mm(f"{PROFILE}.B{i}")
         canvas.part("lines")
         canvas.add(Line(foot, on_circle(e, reach, up), Pen.THIN, role="position", name=str(i)))
@@ -93,7 +94,7 @@ def _positions(canvas: Canvas, scene: CamScene, e: float, reach: float) -> None:
 def _contact(scene: CamScene, i: int) -> Contact:
     """Return the position of a section line."""
     pole, at, touch = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "PBK")
-    return Contact(i, at, touch, pole, unit_at(float(scene.solved.angles[i]), scene.solved.cam.sense))
+    return Contact(i, at, touch, pole, up_at(float(scene.solved.angles[i]), scene.solved.cam.sense))
 
 
 def _follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
@@ -106,13 +107,15 @@ def _follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
 
 def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
     """Dimension r_0, e, the roller and the stroke; return what has no place in the figure."""
-    solved, words, mu = scene.solved, scene.words, scene.mu_l
+    solved, words = scene.solved, scene.words
     roller, sense = solved.roller, solved.cam.sense
     assert roller is not None
     middle = quiet(solved.motion, sense)
-    r_0 = roller.sizes.r_0
+    r_0, R = scene.drawn(roller.sizes.r_0), scene.drawn(roller.profile.R)
     canvas.part("circles")
-    left = radius_at(canvas, scene, "r_0", r_0, middle, (0.0, (r_0 - roller.profile.R) / mu, r_0 / mu))
+    left = radius_at(
+        canvas, scene, "r_0", roller.sizes.r_0, middle, (0.0, scene.drawn(roller.sizes.r_0 - roller.profile.R), r_0)
+    )
     level = rod.top + 6.0
     ends = complex(0.0, rod.top), complex(rod.x, rod.top)
     linear(canvas, ends, 1j * (level - rod.top), f"{words.symbol('e')} = {scene.length(abs(roller.sizes.e))}", "e")
@@ -122,12 +125,12 @@ def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
     canvas.part("pitch")
     if rests(solved.motion):
         low = complex(rod.x, rod.low)
-        out = complex(-sense * max(roller.profile.R / mu + OUT * scene.style.text, OUT * scene.style.label))
+        out = complex(-sense * max(R + OUT * scene.style.text, OUT * scene.style.label))
         ends = low, low + 1j * rod.stroke
     else:
-        up = unit_at(float(solved.angles[division.top]), sense)
-        out = up * (-1j * sense) * (0.5 * roller.profile.R / mu)
-        ends = on_circle(rod.x, r_0 / mu, up), scene.mm(f"{PROFILE}.B{division.top}")
+        up = up_at(float(solved.angles[division.top]), sense)
+        out = up * (-1j * sense) * (0.5 * R)
+        ends = on_circle(rod.x, r_0, up), scene.mm(f"{PROFILE}.B{division.top}")
     linear(canvas, ends, out, words.symbol("h"), "h")
     return [left] if left else []
 

@@ -3,30 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from itertools import pairwise
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+import re
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from ...plans.cams.integration import DIAGRAMS
-from ...plans.cams.motion import Phase
+from ...plans.cams.sections import EXACT_OF
 from ...plans.cams.solve import SCALES, SolvedCam
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
+from ...scales.packaged import packaged
 from ...scales.scale import Scale
 from ..givens import Given
-from ..printed import decimals_for
+from ..printed import DEGREES, decimals_for
 from ..style import Style
 from ..words import Words
 
-Array = NDArray[np.float64]
+Size = TypeVar("Size", float, complex)
 MU_DIGITS = 5  # of a scale factor that follows from a drawing: enough for 0.01 mm
 CENTRAL = 0.05  # mm, of a circle of the offset that is not drawn
 COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
-FINE = np.radians(0.5)  # between points of a curve
+DRAWING = __name__.rpartition(".cams.")[0]
+INDEXED = re.compile(r"([^_]+)(?:_\{?(.*?)\}?)?")  # a symbol: its letter, its index
+CHORD = "chord"  # the mark in the index of what is read from chords: above it, it would meet the squares of derivatives
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +69,15 @@ class CamScene:
             return self.solved.point(mark) * (1.0 / PAPER_MM)
         return self.solved.point(mark) * (1.0 / self.scale(plan).mu)
 
+    def drawn(self, size: Size, plan: str = "") -> Size:
+        """Return a length or a place of the mechanism as a plan shows it, or without one the profiles, mm."""
+        mu = self.scale(plan).mu if plan else self.mu_l
+        return size / mu if isinstance(size, float) else size * (1.0 / mu)
+
+    def curve(self, places: Iterable[complex], plan: str = "") -> tuple[complex, ...]:
+        """Return a curve as a plan shows it, or without one the profiles, mm."""
+        return tuple(self.drawn(place, plan) for place in places)
+
     def paper(self, name: str) -> float:
         """Return a length on the diagrams, mm as drawn."""
         return float(self.solved.values[name]) / PAPER_MM
@@ -96,23 +105,11 @@ class CamScene:
 
     def degrees(self, angle: float) -> str:
         """Return an angle as a dimension has it: to a hundredth of a degree, without zeros at the end."""
-        return f"{self.words.short(round(float(np.degrees(angle)), 2))}°"
+        return f"{self.words.short(round(float(angle) * DEGREES, 2))}°"
 
     def value(self, value: float) -> str:
         """Return a value with the usual digits."""
         return self.words.number(value, decimals_for(value))
-
-
-def pieces(solved: SolvedCam, phase: Phase) -> list[tuple[Array, Array, Array, Array]]:
-    """Return the smooth pieces of a phase, densely: phi, s, s', s'' of each, with the limits at both its ends."""
-    found = []
-    for low, high in pairwise(phase.corners):
-        phi = np.linspace(low, high, max(2, int(np.ceil((high - low) / FINE))) + 1)
-        here: list[Any] = [np.array(v) for v in solved.motion.at(phi)]
-        for value, last in zip(here, solved.motion.at(phi[-1:], -1), strict=True):
-            value[-1] = last[0]
-        found.append((phi, *here))
-    return found
 
 
 def given(*names: str) -> Callable[[CamScene], str]:
@@ -130,3 +127,16 @@ def is_sharp(scene: CamScene) -> bool:
     """Whether a pitch curve is convex anywhere, so that it has a least radius of curvature."""
     cam = scene.solved.roller or scene.solved.rocker
     return cam is not None and 0.0 < cam.profile.sharpest.value < math.inf
+
+
+def lettered(words: Words) -> Words:
+    """Return the words with the letters of a cam."""
+    table: dict[str, str] = dict(packaged(DRAWING, "texts", f"cams.{words.language}"))
+    mark = table.pop(CHORD)
+    for name, exact in EXACT_OF.items():
+        letter, index = INDEXED.fullmatch(table.get(exact) or words.symbol(exact)).groups("")  # type: ignore[union-attr]
+        table[name] = f"{letter}_{{{' '.join(filter(None, (index, mark)))}}}"
+    symbols = words.notation["symbols"]
+    merged = {**symbols, words.language: {**symbols[words.language], **table}}
+    # the chain of diagrams is calculated with values of a millimetre, so that the whole sheet has them
+    return replace(words, notation={**words.notation, "symbols": merged, "scales": "per mm"})

@@ -1,24 +1,26 @@
-"""The work on a cam told step by step, as an explanatory note numbers it: the stages in which its views are drawn."""
+"""The work on a cam told step by step, as an explanatory note numbers it, and what the note concludes."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
+from ...plans.cams.cam import PLATE
+from ...plans.cams.dense import permitted, pressed, rolls, theta, transmission
 from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.rocker_plans import ROCKER_SIZES
+from ...plans.cams.rules import Rule, rules_of
 from ...plans.cams.size_plans import OUTWARDS, PLATE_SIZES, SIZES
 from ..notes.blocks import Sentences, Story
 from ..printed import segment_decimals
-from .conclusions import conclusions
-from .offsets import offsets_line
-from .pressing import permitted, pressed, rolls, theta
+from .inversion import undercut_notes
 from .scene import MU_DIGITS, CamScene, is_aside
 from .sizes_view import SHOWN
-from .transfer import ratio
+from .text import offsets_line, ratio
 
 PAPER = 2  # decimals of segments on paper
 Said = dict[str, str]
+Texts = Mapping[str, str]
 
 
 def story(scene: CamScene, texts: Mapping[str, str]) -> Story:
@@ -110,9 +112,9 @@ def _of_diagrams(scene: CamScene, texts: Mapping[str, str]) -> Said:
 def _of_pressure(scene: CamScene) -> Said:
     """Return the angles of the position that is shown, the least ones of each phase, the permitted ones."""
     solved, words = scene.solved, scene.words
-    line = pressed(scene, SHOWN)
+    line = pressed(scene.solved, SHOWN)
     angle = float(theta(solved, solved.angles[line]))
-    shown = {"theta": angle, "gamma": 0.5 * math.pi - abs(angle)}
+    shown = {"theta": angle, "gamma": transmission(angle)}
     found = {name: f"{words.symbol(name)}_{{{line}}} = {scene.degrees(value)}" for name, value in shown.items()}
     for name in ("gamma_rise_min", "gamma_fall_min"):
         found[name] = f"{words.symbol(name)} = {scene.degrees(solved.values[name])}"
@@ -134,7 +136,7 @@ def _of_roller(scene: CamScene, texts: Mapping[str, str]) -> Said:
     found["rise_side"], found["fall_side"] = sides[:: solved.cam.sense]
     found |= {"ratio_s": ratio(scene, "mu_s", "mu_s_ds"), "ratio_ds": ratio(scene, "mu_ds", "mu_s_ds")}
     found["mu_s_ds"] = scene.factor(scene.scale(SIZES))
-    line = pressed(scene, SHOWN)
+    line = pressed(scene.solved, SHOWN)
     ds = abs(float(solved.motion.at(float(solved.angles[line]))[1]))
     found["OP"] = f"OP_{{{line}}} = |{words.symbol('ds')}| = {scene.length(ds)} {words.unit('mm')}"
     return found
@@ -165,7 +167,7 @@ def _of_rocker(scene: CamScene) -> Said:
     found |= {"l_rocker_paper": on_paper(scene, cam.sizes.l / scene.mu_l), "l_OC_letter": words.symbol("l_OC")}
     angles = {"psi": cam.rocker.motion.h, "psi_0": float(solved.values["psi_0"])}
     found |= {name: f"{words.symbol(name)} = {scene.degrees(angle)}" for name, angle in angles.items()}
-    dpsi = abs(float(cam.rocker.motion.at(float(solved.angles[pressed(scene, SHOWN)]))[1]))
+    dpsi = abs(float(cam.rocker.motion.at(float(solved.angles[pressed(scene.solved, SHOWN)]))[1]))
     return found | {"ratio": words.short(float(f"{dpsi:.4g}"))}
 
 
@@ -183,3 +185,86 @@ def _of_plate(scene: CamScene) -> Said:
     parts = scene.length(solved.motion.ds_max.value), scene.length(solved.values["margin"])
     total = f"{' + '.join(parts)} = {scene.length(sizes.R_plate)} {words.unit('mm')}"
     return found | {"R_plate_sum": f"{words.symbol('R_plate')} = {total}"}
+
+
+def conclusions(scene: CamScene, texts: Texts) -> Iterator[str]:
+    """Go through the sentences for the end of the note."""
+    solved = scene.solved
+    yield _motion(scene, texts)
+    yield _chords(scene, texts)
+    if solved.roller is not None or solved.rocker is not None:
+        yield from _roller(scene, texts)
+    if solved.plate is not None:
+        yield from _plate(scene, texts)
+    elif PLATE in solved.cam.followers and solved.motion.velocity_jumps:
+        yield texts["cam.conclusion.no_plate"]
+
+
+def _motion(scene: CamScene, texts: Texts) -> str:
+    """Tell the greatest velocity, and the greatest acceleration of a law that has one."""
+    words, values = scene.words, scene.solved.values
+    units = {"v_max": "m/s", "a_max": "m/s^2"}
+    said = {
+        name: f"{words.symbol(name)} = {scene.value(float(values[name]))} {words.unit(unit)}"
+        for name, unit in units.items()
+        if name in values
+    }
+    moved = texts["cam.roller_centre" if scene.solved.layout.rocks else "cam.follower"]
+    return texts[f"cam.conclusion.{'motions' if 'a_max' in said else 'motion'}"].format(of=moved, **said)
+
+
+def _chords(scene: CamScene, texts: Texts) -> str:
+    """Compare the stroke that chords draw with that of the exact curve."""
+    words = scene.words
+    exact, drawn = scene.solved.motion.h / scene.mu("mu_s"), scene.paper("S_max_chord")
+    gap = f"{words.symbol('s_close')} = {words.number(scene.paper('s_close'), 2)} {words.unit('mm')}"
+    part = words.number(100.0 * abs(drawn - exact) / exact, 2)
+    return texts["cam.conclusion.chords"].format(part=part, s_close=gap)
+
+
+def _roller(scene: CamScene, texts: Texts) -> Iterator[str]:
+    """Tell the sizes of a cam for a roller, the rules, and where the profile is undercut."""
+    solved = scene.solved
+    cam = solved.roller or solved.rocker
+    assert cam is not None
+    names = {"r_0": cam.sizes.r_0, "R_roller": cam.profile.R, "e": abs(cam.sizes.e)}
+    if solved.rocker is not None:
+        names["l_OC"] = solved.rocker.sizes.l_OC
+    said = {name: scene.stated(name, size) for name, size in names.items()}
+    yield texts[f"cam.conclusion.{'roller' if solved.rocker is None else 'rocker'}"].format(**said)
+    for rule in rules_of(solved):
+        key = f"cam.conclusion.{rule.name}_{'kept' if rule.ok else 'broken'}"
+        yield texts[key].format(**_rule(scene, rule))
+    yield from _undercuts(scene, undercut_notes(scene, cam.profile.undercuts, rocks=solved.rocker is not None))
+
+
+def _rule(scene: CamScene, rule: Rule) -> dict[str, str]:
+    """Return a rule's numbers: sizes of the roller in mm, transmission angles in degrees."""
+    words = scene.words
+    if rule.of:
+        limit = f"{scene.length(rule.limit)} {words.unit('mm')}"
+        part = f"{words.short(rule.part)}·{words.symbol(rule.of)}"
+        return {"part": part, "limit": limit, rule.of: scene.stated(rule.of, rule.size)}
+    return {
+        "value": f"{words.symbol(f'{rule.name}_min')} = {scene.degrees(rule.value)}",
+        "limit": f"{words.symbol(rule.name)} = {scene.degrees(rule.limit)}",
+    }
+
+
+def _plate(scene: CamScene, texts: Texts) -> Iterator[str]:
+    """Tell the sizes of a cam for a plate, and how its profile is curved."""
+    plate = scene.solved.plate
+    assert plate is not None
+    sizes, least = plate.sizes, float(plate.profile.rho_min)
+    said = {"r_0_flat": sizes.r_0, "R_plate": sizes.R_plate}
+    yield texts["cam.conclusion.plate"].format(**{name: scene.stated(name, size) for name, size in said.items()})
+    if 0.0 <= least < math.inf:
+        yield texts["cam.conclusion.convex"].format(rho=f"{scene.length(least)} {scene.words.unit('mm')}")
+    yield from _undercuts(scene, undercut_notes(scene, plate.profile.undercuts))
+
+
+def _undercuts(scene: CamScene, notes: tuple[str, ...]) -> Iterator[str]:
+    """Join what the sheet says of an undercut profile to a sentence."""
+    if notes:
+        warning, *places = notes
+        yield f"{warning} {'; '.join(places)}."

@@ -1,18 +1,30 @@
-"""Calculations of a cam with their numbers: scale factors, sizes, rules of design and whether they are kept."""
+"""Calculations of a cam with their numbers: scale factors, sizes, rules of design; the table of its motion."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
+from ...plans.cams.dense import rolls, theta
+from ...plans.cams.formulas import ARC
 from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.rules import Rule, rules_of
+from ...plans.cams.size_plans import PLATE_SIZES, SIZES
+from ...plans.cams.solve import SCALES
 from ..givens import choice
-from ..printed import Input, Shown, calculation, worked
-from ..table import text_block, words_of
+from ..printed import DEGREES, Input, Shown, calculation, worked
+from ..symbols import swept
+from ..table import table, text_block, words_of
 from ..view import View
-from .offsets import offsets_line
 from .scene import CamScene
 
 Lines = list[tuple[str, ...]]
 MM = Shown("mm", 1e3)
+FROM = {SIZES: ("mu_s", "mu_ds"), PLATE_SIZES: ("mu_s", "mu_d2s")}  # scale factors of the diagrams
+DRAWN = {"mu_s": "s", "mu_ds": "ds", "mu_d2s": "d2s"}  # what they draw
+ANGLES = {SIZES: ("nu", "mu_s", "mu_ds")}  # of the straight line that projects one diagram to the scale of the other
+DECIMALS = 4
+SAME = 1e-9  # part of the greatest value of its column within which two limits at a jump are one
 
 
 def scales_block(scene: CamScene, width: float) -> View:
@@ -178,3 +190,79 @@ def _of_transmission(scene: CamScene, rule: Rule) -> str:
     """Return the least transmission angle of a phase beside the one permitted."""
     least, permitted = (scene.words.symbol(name) for name in (f"{rule.name}_min", rule.name))
     return f"{least} = {scene.degrees(rule.value)} ≥ {permitted} = {scene.degrees(rule.limit)}"
+
+
+def offsets_line(scene: CamScene) -> list[str]:
+    """Return the offsets permitted at a given r_0, and the one chosen."""
+    roller, words = scene.solved.roller, scene.words
+    if roller is None or roller.offsets is None:
+        return []
+    found, e = roller.offsets, roller.sizes.e
+    sizes = {"e_least": found.least, "e": e, "e_most": found.most}
+    least, chosen, most = (f"{words.symbol(n)} = {scene.length(size)} {words.unit('mm')}" for n, size in sizes.items())
+    if e < found.least:
+        return [f"{chosen} < {least}"]
+    return [f"{chosen} > {most}" if e > found.most else f"{least} ≤ {chosen} ≤ {most}"]
+
+
+def rocker_block(scene: CamScene, width: float) -> View:
+    """Return the sizes of the cam for a rocker, with the rules for its roller and the transmission angles."""
+    cam, words = scene.solved.rocker, scene.words
+    assert cam is not None
+    sizes, swing = cam.sizes, cam.rocker.motion.h
+    travel = [Input(swing * DEGREES, True, name="psi", times=DEGREES), length("l_rocker", sizes.l, True)]
+    given = "l_OC" in scene.givens
+    sides = [length("l_rocker", sizes.l, True), length("l_OC", sizes.l_OC, given), length("r_0", sizes.r_0)]
+    lines: Lines = [
+        (f"{words['said.cam_arc']}:",),
+        worked(words, "h", ARC, travel, MM),
+        (f"{words['said.cam_first_angle']}:",),
+        worked(words, "psi_0", "angle_of_triangle", sides, Shown("deg", DEGREES)),
+        *rules(scene),
+    ]
+    return text_block("equations_rocker", words["heading.cam_rocker"], lines, scene.style, width)
+
+
+def transfer(scene: CamScene, plan: str) -> tuple[str, ...]:
+    """Return by how much the ordinates of both diagrams are multiplied, and the angle of the projecting line."""
+    words = scene.words
+    ratios = [f"{words.symbol(DRAWN[mu])}: {ratio(scene, mu, SCALES[plan])}" for mu in FROM[plan]]
+    lines = [words["said.cam_equal"], ";  ".join(ratios)]
+    if plan in ANGLES:
+        nu, over, under = ANGLES[plan]
+        angle = scene.degrees(swept(1.0 + 0j, complex(scene.mu(under), scene.mu(over))))
+        lines.append(f"tg {words.symbol(nu)} = {ratio(scene, over, under)};  {words.symbol(nu)} = {angle}")
+    return tuple(lines)
+
+
+def ratio(scene: CamScene, over: str, under: str) -> str:
+    """Return the ratio of two scale factors in letters and its value."""
+    ratio = scene.words.short(round(scene.mu(over) / scene.mu(under), DECIMALS))
+    return f"{scene.words.symbol(over)}/{scene.words.symbol(under)} = {ratio}"
+
+
+def motion_table(scene: CamScene) -> View:
+    """Return travel, analogues and pressure angle by section lines; at a jump the limits before and after it."""
+    solved, words = scene.solved, scene.words
+    before, after = (solved.motion.at(solved.angles, side) for side in (-1, 1))
+    columns = [[words.number(float(phi) * DEGREES, 2) for phi in solved.angles]]
+    columns += [_column(scene, [a * 1e3, b * 1e3]) for a, b in zip(before, after, strict=True)]
+    mm = words.unit("mm")
+    head = [words["table.cam_row"], f"{words.symbol('phi')}, °"]
+    head += [f"{words.symbol(name)}, {mm}" for name in ("s", "ds", "d2s")]
+    if rolls(solved):
+        angles = [theta(solved, solved.angles, side) * DEGREES for side in (-1, 1)]
+        columns.append(_column(scene, angles))
+        head.append(f"{words.symbol('theta')}, °")
+    rows = [[str(i), *cells] for i, cells in enumerate(zip(*columns, strict=True))]
+    return table("motion", words["heading.cam_table"], [head, *rows], scene.style)
+
+
+def _column(scene: CamScene, limits: Sequence[Any]) -> list[str]:
+    """Return the cells of a column, two numbers where the limits from both sides differ."""
+    least = SAME * max(abs(value) for side in limits for value in side.tolist())
+    cells = []
+    for a, b in zip(*(side.tolist() for side in limits), strict=True):
+        texts = [scene.words.number(value, 2) for value in ((a,) if abs(b - a) <= least else (a, b))]
+        cells.append(" / ".join(texts))
+    return cells

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from kulman import note
-from kulman.drawing.cams.fitting import Contents, Fitting, Rungs, figures
+from kulman.drawing.cams.sheet import Contents, Fitting, Rungs, figures
 from kulman.drawing.figure import Figure, families, family
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts.begun import begun_pages

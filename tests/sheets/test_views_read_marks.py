@@ -14,13 +14,13 @@ from pathlib import Path
 import pytest
 
 DRAWING = Path(__file__).parents[2] / "drawing"
-SUBJECTS = ("hoist", "gears")
+SUBJECTS = ("hoist", "gears", "cams")
 MODULES = {path: path.read_text(encoding="utf-8") for name in SUBJECTS for path in (DRAWING / name).glob("*.py")}
 # of the module math what tells finite numbers and rounds them for print
-PRINTING = {"ceil", "floor", "inf", "isfinite", "isinf", "isnan", "isclose", "log10"}
+PRINTING = {"ceil", "floor", "inf", "isfinite", "isinf", "isnan", "isclose", "log10", "tau"}
 READING = {"mm", "point", "places", "size", "values", "sizes", "mu", "mus", "mu_l", "found", "motion"}
 # modules that print, or choose scale factors
-TEXTS = {"steps", "tables", "text", "ladders", "sheet", "fitting", "conclusions"}
+TEXTS = {"steps", "tables", "text", "ladders", "sheet", "fitting", "conclusions", "transfer"}
 TO_PAPER = {"mm", "places", "paper"}
 PRODUCTS = (ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow, ast.MatMult)
 
@@ -97,8 +97,10 @@ def _assignments(node: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
 
 def _is_read(expression: ast.expr, names: set[str]) -> bool:
     """Whether an expression has a part that is read off what is solved; a text of it counts for nothing."""
-    if isinstance(expression, ast.JoinedStr):
+    if isinstance(expression, (ast.JoinedStr, ast.Compare)):
         return False
+    if isinstance(expression, ast.IfExp):
+        return _is_read(expression.body, names) or _is_read(expression.orelse, names)
     if isinstance(expression, ast.Name):
         return expression.id in names
     if isinstance(expression, ast.Attribute) and expression.attr in READING:

@@ -237,8 +237,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a cam."""
-        from ...drawing.cams.fitting import Contents
-        from ...drawing.cams.sheet import draw
+        from ...drawing.cams.sheet import Contents, draw
 
         note = case.task.note_in(words.language)
         contents = Contents(cam(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
@@ -278,7 +277,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def lettered(self, words: Words, solved: SolvedCam) -> Words:
         """Return the words with the letters of a cam's quantities."""
-        from ...drawing.cams.letters import lettered
+        from ...drawing.cams.scene import lettered
 
         return lettered(words)
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..shapes import Circle, Group, Line, Pen, Polyline, Shape
-from ..style import Style
-from ..symbols import guide, hatching
+from .shapes import Circle, Group, Line, Pen, Polyline, Shape
+from .style import Style
+from .symbols import guide, hatching
 
 COILS = 5
 GUIDE = 0.75  # length of a guide in sliders
