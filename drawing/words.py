@@ -89,6 +89,16 @@ class Words:
         """Return the words for results in the units of `display`."""
         return replace(self, display=display)
 
+    def letters_of(self, subject: str) -> dict[str, str]:
+        """Return the letters of the quantities of a subject, `cams`, by name."""
+        return dict(packaged(__package__, "texts", f"{subject}.{self.language}"))
+
+    def lettered(self, letters: Mapping[str, str]) -> Words:
+        """Return the words with more letters; scale factors are values of a millimetre, as such sheets calculate."""
+        symbols = self.notation["symbols"]
+        merged = {**symbols, self.language: {**symbols[self.language], **letters}}
+        return replace(self, notation={**self.notation, "symbols": merged, "scales": "per mm"})
+
     def __getitem__(self, key: str) -> str:
         """Return a text by its key."""
         return self.texts[key]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TypeVar
 
 from ...plans.cams.integration import DIAGRAMS
@@ -13,7 +13,6 @@ from ...plans.cams.sections import EXACT_OF
 from ...plans.cams.solve import SCALES, SolvedCam
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
-from ...scales.packaged import packaged
 from ...scales.scale import Scale
 from ..givens import Given
 from ..printed import DEGREES, decimals_for
@@ -24,7 +23,6 @@ Size = TypeVar("Size", float, complex)
 MU_DIGITS = 5  # of a scale factor that follows from a drawing: enough for 0.01 mm
 CENTRAL = 0.05  # mm, of a circle of the offset that is not drawn
 COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
-DRAWING = __name__.rpartition(".cams.")[0]
 INDEXED = re.compile(r"([^_]+)(?:_\{?(.*?)\}?)?")  # a symbol: its letter, its index
 CHORD = "chord"  # the mark in the index of what is read from chords: above it, it would meet the squares of derivatives
 
@@ -131,12 +129,9 @@ def is_sharp(scene: CamScene) -> bool:
 
 def lettered(words: Words) -> Words:
     """Return the words with the letters of a cam."""
-    table: dict[str, str] = dict(packaged(DRAWING, "texts", f"cams.{words.language}"))
+    table = words.letters_of("cams")
     mark = table.pop(CHORD)
     for name, exact in EXACT_OF.items():
         letter, index = INDEXED.fullmatch(table.get(exact) or words.symbol(exact)).groups("")  # type: ignore[union-attr]
         table[name] = f"{letter}_{{{' '.join(filter(None, (index, mark)))}}}"
-    symbols = words.notation["symbols"]
-    merged = {**symbols, words.language: {**symbols[words.language], **table}}
-    # the chain of diagrams is calculated with values of a millimetre, so that the whole sheet has them
-    return replace(words, notation={**words.notation, "symbols": merged, "scales": "per mm"})
+    return words.lettered(table)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ...plans.gears.checks import SAME
 from ...plans.gears.geometry import POINTS
 from ...plans.gears.meshing import Meshing
 from ...plans.gears.wheels import Wheel, wheels
-from ...scales.packaged import packaged
 from ...scales.scale import Scale
 from ..givens import Given
 from ..printed import DEGREES, decimals_for
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
 
 MESHING = "meshing"
 TALL = 7.0  # heights of letters that a tooth must have for what is measured on it
-DRAWING = __name__.rpartition(".gears.")[0]
 OF_POINTS = {"y_1": "y_{1}", "y_2": "y_{2}", "theta_12": "θ_{12}", "theta_21": "θ_{21}"}
 # rho_1 of a place, its distance from N1: by the name of a quantity
 PLACES = {"A1": "rho_p1", "P": "rho_w1", "A2": "rho_a1"}
@@ -117,12 +115,10 @@ class GearScene:
 
 def lettered(words: Words) -> Words:
     """Return the words with the letters of a gear pair; what is of a point of the sliding table has its number."""
-    table: dict[str, str] = dict(packaged(DRAWING, "texts", f"gears.{words.language}"))
+    table = words.letters_of("gears")
     for name, letter in OF_POINTS.items():
         table |= {f"{name}_{point}": f"{letter}({int(point)})" for point in POINTS}
-    symbols = words.notation["symbols"]
-    merged = {**symbols, words.language: {**symbols[words.language], **table}}
-    return replace(words, notation={**words.notation, "symbols": merged, "scales": "per mm"})
+    return words.lettered(table)
 
 
 def along(values: Mapping[str, Any]) -> dict[str, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from numpy.typing import NDArray
@@ -12,7 +12,6 @@ from ...plans.hoist.paper import SCALED
 from ...plans.hoist.solve import ON_PAPER, SCALES, SolvedHoist
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
-from ...scales.packaged import packaged
 from ...scales.scale import Scale
 from ..givens import Given
 from ..printed import decimals_for
@@ -20,7 +19,6 @@ from ..shapes import Circle, Group, Pen
 from ..style import Style
 from ..words import Words
 
-DRAWING = __name__.rpartition(".hoist.")[0]
 COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
 DIGITS = 4
 
@@ -75,10 +73,8 @@ class HoistScene:
 
 def lettered(words: Words, roots: int = 0) -> Words:
     """Return the words with the letters of a hoist that has so many roots of (12)."""
-    table: dict[str, str] = dict(packaged(DRAWING, "texts", f"hoist.{words.language}"))
+    table = words.letters_of("hoist")
     drawn = table.pop("drawn")
     for n in range(1, roots + 1):
         table |= {f"t_2_{n}": f"t_{{2}}({n})", f"t_2_{n}_drawn": f"t^{{{drawn}}}_{{2}}({n})"}
-    symbols = words.notation["symbols"]
-    merged = {**symbols, words.language: {**symbols[words.language], **table}}
-    return replace(words, notation={**words.notation, "symbols": merged, "scales": "per mm"})
+    return words.lettered(table)
