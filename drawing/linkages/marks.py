@@ -45,10 +45,6 @@ def symbol(scene: Scene, quantity: str) -> str:
 
 def vectors_of(steps: tuple[Step, ...]) -> list[tuple[str, str, str]]:
     """Return (quantity, tail, tip) of the vectors that the steps draw."""
-    vectors = []
-    for step in steps:
-        if step.verb == "read":
-            vectors.append((step.name, step.operands[0], step.operands[1]))
-        elif step.verb == "chain":
-            vectors.append((step.operands[1], step.operands[0], step.name))
-    return vectors
+    drawn = (step for step in steps if step.verb in ("read", "chain"))
+    ends = ((step.name, *step.operands) if step.verb == "read" else (*step.operands[::-1], step.name) for step in drawn)
+    return [(quantity, tail, tip) for quantity, tail, tip in ends]

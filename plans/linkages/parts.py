@@ -83,11 +83,6 @@ class Span:
     end: str
 
     @property
-    def name(self) -> str:
-        """The link by its ends."""
-        return self.start + self.end
-
-    @property
     def straight(self) -> bool:
         """Whether all points stand on the x axis, `start` at the origin."""
         points = self.link.points

@@ -97,16 +97,14 @@ def sense_of_moment(scene: Scene) -> Iterator[Change]:
     yield from map(opposed, couples(scene))
 
 
-def _by_driver(name: str) -> bool:
-    """Whether a quantity is the reaction of link 1 on another one."""
-    return role(name).kind == "R" and not role(name).hidden and role(name).links[:1] == (1,)
-
-
 @mistake("M81")
 def reactions_on_lever(scene: Scene) -> Iterator[Change]:
     """A reaction hangs on the lever."""
     last = next((s for s in scene.made_by("calc", law="moment_equation") if role(s.name).kind != "R"), None)
-    mark, reaction = f"{LEVER}.{scene.pin}", next((name for name in scene.steps if _by_driver(name)), None)
+    mark, reaction = (
+        f"{LEVER}.{scene.pin}",
+        next((n for n in map(role, scene.steps) if n.kind == "R" and not n.hidden and n.links[:1] == (1,)), None),
+    )
     if last is None or reaction is None or mark not in scene.steps:
         return
     extra = f"_M_{reaction}_p"

@@ -162,7 +162,7 @@ def _force(scene: Scene, step: Step) -> Lines:
     """Tell a step of the force plans: a sum of moments, or the sums of forces of a plan."""
     if step.verb == "pole" and role(step.name).plan.kind == "forces":
         return list(closed(scene, role(step.name).plan))
-    if step.law in SIGNS and not _on_lever(step):
+    if step.law in SIGNS and role(step.operands[0]).kind != "V":  # of the lever
         return _for_a_force(scene, step)
     if step.law == "closing_moment":
         return _for_a_moment(scene, step, step)
@@ -174,11 +174,6 @@ def _force(scene: Scene, step: Step) -> Lines:
 
 
 SIGNS = {"moment_equation": -1.0, "closing_force": 1.0}  # of the force's own moment in the sum
-
-
-def _on_lever(step: Step) -> bool:
-    """Whether moments are those about the pole of the lever."""
-    return role(step.operands[0]).kind == "V"
 
 
 def _is_sum(moment: str) -> bool:

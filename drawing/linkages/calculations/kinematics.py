@@ -15,6 +15,7 @@ from ....plans.quantities import unit_of
 from ...printed import Input, calculation
 from ...table import text_block
 from ...view import View
+from ..figures.similarity import on_link
 from ..reading import Reading, read
 from ..scene import Scene
 from .equations import (
@@ -222,11 +223,8 @@ def _given(scene: Scene, reading: Reading, step: Step) -> tuple[str, ...]:
 
 def triangles(scene: Scene, step: Step) -> tuple[str, str]:
     """Return the triangle on a plan that is similar to one of a link, and that one, by the letters of their corners."""
-    words, point, made = scene.words, role(step.name).of, read(scene.solved.program).made
-    ends = step.operands[:2]
-    # at the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism
-    marks = [made[point].operands[i] if role(mark).kind == POLE else mark for i, mark in enumerate(ends)]
-    plan, link = (*ends, step.name), (*(role(mark).of for mark in marks), point)
+    words, plan = scene.words, (step.operands[0], step.operands[1], step.name)
+    link = on_link(scene.solved.program, plan)
     return "".join(map(words.mark, plan)), "".join(map(words.mark, link))
 
 
