@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+from ...plans.cams.construction import PLATE_SIZES
 from ...plans.cams.dense import over_acceleration, touch_of_plate
-from ...plans.cams.size_plans import PLATE_SIZES
 from ..dimensions import angle, linear
 from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline

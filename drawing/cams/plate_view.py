@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ...plans.cams.construction import PLATE_PROFILE
 from ...plans.cams.dense import up_at
-from ...plans.cams.inversion import PLATE_PROFILE
 from ..dimensions import linear
 from ..figure import Figure, Stage
 from ..hardware import Rod

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...plans.cams.construction import ROCKER_SIZES, is_back, phase_of
 from ...plans.cams.dense import (
     Bound,
     analogue_end,
@@ -14,8 +15,6 @@ from ...plans.cams.dense import (
     transmission,
 )
 from ...plans.cams.followers import RockerCam
-from ...plans.cams.rocker_plans import ROCKER_SIZES
-from ...plans.cams.size_plans import is_back, phase_of
 from ..areas import hatched
 from ..dimensions import angle, linear, turning
 from ..figure import Figure, Stage

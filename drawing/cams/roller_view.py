@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ...plans.cams.construction import PROFILE
 from ...plans.cams.dense import on_circle, pressed, rests, up_at
-from ...plans.cams.inversion import PROFILE
 from ..dimensions import linear
 from ..figure import Figure, Stage
 from ..hardware import Rod

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ...plans.cams.construction import SIZES, is_back, phase_of
 from ...plans.cams.dense import analogue, offset_places, outwards, over_velocity, pressed, touch_of
 from ...plans.cams.followers import RollerCam
-from ...plans.cams.half_planes import HalfPlane
 from ...plans.cams.motion import FALL, RISE
-from ...plans.cams.size_plans import SIZES, is_back, phase_of
-from ...plans.cams.sizes import wedge
+from ...plans.cams.sizes import HalfPlane, wedge
 from ..areas import hatched
 from ..dimensions import angle, linear, turning
 from ..figure import Figure, Stage

@@ -6,11 +6,10 @@ import math
 from collections.abc import Iterator, Mapping
 
 from ...plans.cams.cam import PLATE
+from ...plans.cams.construction import OUTWARDS, PLATE_SIZES, ROCKER_SIZES, SIZES
 from ...plans.cams.dense import permitted, pressed, rolls, theta, transmission
 from ...plans.cams.integration import ACCELERATION
-from ...plans.cams.rocker_plans import ROCKER_SIZES
 from ...plans.cams.rules import Rule, rules_of
-from ...plans.cams.size_plans import OUTWARDS, PLATE_SIZES, SIZES
 from ..notes.blocks import Sentences, Story
 from ..printed import segment_decimals
 from .inversion import undercut_notes

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from ...plans.cams.construction import PLATE_SIZES, SIZES
 from ...plans.cams.dense import rolls, theta
 from ...plans.cams.formulas import ARC
 from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.rules import Rule, rules_of
-from ...plans.cams.size_plans import PLATE_SIZES, SIZES
 from ...plans.cams.solve import SCALES
 from ..givens import choice
 from ..printed import DEGREES, Input, Shown, calculation, worked

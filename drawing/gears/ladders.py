@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
+from ...plans.gears.construction import MESHING, SLIDING, THETA
 from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
-from ...plans.gears.meshing_plan import MESHING
-from ...plans.gears.sliding_plan import SLIDING, THETA
 from ...plans.gears.solve import SolvedGear
 from ...plans.solved import PAPER_MM
 from ...scales.choose import Choosers, From

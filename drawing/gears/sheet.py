@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product
 
+from ...plans.gears.construction import SLIDING, THETA
 from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
-from ...plans.gears.sliding_plan import SLIDING, THETA
 from ...plans.gears.solve import SolvedGear
 from ...scales.errors import InputError
 from ...scales.scale import Scale

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 
 from ...plans.check import AT_LEAST, AT_MOST, Check
 from ...plans.gears.checks import rule_of
+from ...plans.gears.construction import THETA
 from ...plans.gears.gear import WHEELS
-from ...plans.gears.sliding_plan import THETA
 from ...scales.scale import Scale
 from ..notes.blocks import Story
 from .scene import MESHING, GearScene

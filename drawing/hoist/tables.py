@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from ...plans.check import Check
 from ...plans.hoist.checks import STRENGTH, strength
+from ...plans.hoist.model import DRAWN, section_of
 from ...plans.hoist.paper import SCALED
-from ...plans.hoist.sections import DRAWN, section_of
 from ...plans.hoist.solve import unit_of
 from ..givens import Given, givens_view
 from ..printed import Input, calculation

@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from .graduation import cosine_of, mark_of, sine_of
+from .arrays import cosine_of, mark_of, sine_of
 from .protractor import MARKS, ROUND, graduation
 from .trace import Calm, Entry, Rare, Trace
 

@@ -13,9 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .division import Division
 from .formulas import MM_PER_M
-from .integration import ACCELERATION, TRAVEL, VELOCITY
+from .integration import ACCELERATION, TRAVEL, VELOCITY, Division
 from .sectioned import ordinates
 from .solve import SolvedCam
 

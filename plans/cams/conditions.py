@@ -1,4 +1,4 @@
-"""The condition of a cam's quantities: how much of an error of the data comes through, how flatly lines meet.
+"""How much of an error of the data comes through in a cam's quantities, and what a teacher should let pass of them.
 
 K is that of `plans.condition`, over Q, or over the size that Q is a part of (of e that is r_0). Much of a cam is found
 beside the board, by closed forms of its law, so that the derivatives are central differences of all of it.
@@ -6,12 +6,18 @@ beside the board, by closed forms of its law, so that the derivatives are centra
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 from ..boards.exact import run
 from ..condition import Condition, by_solving_again, ratio
-from ..references import worst_behind
+from ..hands.hand import Tolerance
+from ..hands.sensitivities import added_up
+from ..hands.shaky import Paper
+from ..marking.key import rounded
+from ..names import role
+from ..references import results, worst_behind
 from .cam import VALUES
 from .solve import SolvedCam, again
 
@@ -40,3 +46,33 @@ def conditions_of(solved: SolvedCam) -> dict[str, Condition]:
     worst = worst_behind(solved.program, solved.sines)
     sizes = {name: float(abs(solved.values[BESIDE.get(name, name)])) for name in totals}
     return {name: Condition(ratio(total, sizes[name]), worst.get(name, 1.0)) for name, total in totals.items()}
+
+
+MEASURED = ("distance", "read")
+
+
+def tolerances_of(drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
+    """Return by how much the quantities of a cam that is drawn may differ, SI.
+
+    Each may miss what all errors of the hand add up to; a length that the sheet shows as a segment, also what is let
+    pass of such a segment; an angle, what is let pass of a direction where a protractor may have found it. What is
+    only calculated from exact numbers, such as the inclination of the line of transfer, is rounded.
+    """
+    names = [step.name for step in results(paper.program)]
+    found = added_up(paper, tolerance, names)
+    return {name: max(found[name], _alone(name, drawn, paper, tolerance)) for name in names}
+
+
+def _alone(name: str, drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> float:
+    """Return what a quantity may miss by itself."""
+    value = float(abs(drawn.values[name]))
+    least = rounded(value, tolerance)
+    if drawn.quantities[name].unit == "rad":
+        return max(least, math.radians(tolerance.degrees))
+    step = paper.program.by_name[name]
+    plan = role(step.operands[0]).plan if step.verb in MEASURED else drawn.shown_on.get(name, "")
+    if not plan:
+        return least
+    calculated_there = plan in paper.unscaled and step.verb not in MEASURED
+    mu = drawn.values[drawn.scale_of_plan[plan]] if calculated_there else paper.mus[plan]
+    return max(least, float(tolerance.of_segment(value / mu) * mu))

@@ -1,19 +1,290 @@
-"""The whole construction of a cam: which drawings, in which order."""
+"""The whole construction of a cam: diagrams with scale factors, plans of the smallest sizes, profiles by inversion.
+
+Scale factors of the three diagrams go from the stroke that the last curve reaches back to the first one. Each stands
+twice: after the exact curve of the law, and, with `_chord`, after the curve of chords as it is drawn.
+
+The smallest sizes are read from plans of the travel over its analogues, in equal scales.
+
+`sizes` shows S over ds/dphi: points `1_rise`, `13_fall` on the section lines, from the curves of chords. On each limit
+a tangent runs at the permitted transmission angle from `T_rise`, `T_fall` on the axis; where they meet, in `A`, a cam's
+centre has the limits on both sides. `C` is the centre of the smallest cam, `0` the lowest place of the roller's centre.
+
+`plate_sizes` shows S over d2s/dphi2; a tangent at 45 degrees to the negative branch meets the axis of travels in `T`.
+
+By inversion the cam stands still, and the follower goes round it against the sense of the cam.
+
+On `profile` the line of a follower with a roller touches the circle of the offset in `E1`; `B1` is the roller's centre,
+a point of the pitch curve; `P1` the instant centre of cam and follower, through which the normal runs; `K1` where the
+roller touches the practical profile. On `plate_profile` `B1` is the plate's centre on its axis, `K1` where it touches.
+
+A rocker has both of its own.
+
+On `rocker_sizes` the pivot is `0`; `B1` is the roller's centre in a position, `D1` the end of the analogue of its
+velocity, laid off along the rocker towards the pivot where it rises against the sense of the cam's turning. A cam's
+centre sees `D1` along the normal, so that the line through `D1` at the permitted transmission angle, of the direction
+`limit(1)`, bounds where it may lie. `C` is the centre of the smallest cam that all positions permit; `psi_0` the angle
+at the pivot between the rocker's lowest position and the line of centres.
+
+On its `profile` the pivot goes round the cam against its sense, `A1`; `B1` is the roller's centre, `D1` the same point
+as above, seen from the cam, `K1` where the roller touches the practical profile.
+
+Sources: Artobolevsky, Theory of mechanisms and machines (S-ds/dphi diagram, inversion of motion, cams with an
+oscillating follower); Geronimus (tangent at 45 degrees).
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ..board import Program, RecordingBoard, with_needs
+from ..board import Board, Program, RecordingBoard, with_needs
 from .cam import DIAGRAMS_PART, PLANS, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART
-from .division import Division
 from .formulas import ARC
-from .integration import ACCELERATION, diagrams
-from .inversion import plate_profile, positions, roller_profile
-from .rocker_plans import rocker_profile, rocker_sizes
-from .scale_factors import chord_factors, exact_factors
-from .size_plans import ordinates, permitted_offsets, plate_sizes, roller_sizes, smallest_plate_cam, smallest_roller_cam
+from .integration import ACCELERATION, RIGHT, TRAVEL, UP, VELOCITY, Division, diagrams, foot
+from .sizes import BACK
+
+
+def exact_factors(board: Board, given: str) -> None:
+    """Calculate the scale factors of the exact curves, and with them what these show."""
+    board.calc("_x_rise", "on_axis", "phi_rise", "mu_phi")
+    if given == ACCELERATION:
+        board.calc("_V_max", "first_integral", "_part_v", "l_A1", "_x_rise", "H_a")
+        board.calc("_S_max", "second_integral", "_part_s", "l_A1", "_x_rise", "H_a", "H_v")
+    else:
+        board.calc("_V_max", "part_of_amplitude", "l_A1", "_part_v")
+        board.calc("_S_max", "first_integral", "_part_s", "l_A1", "_x_rise", "H_v")
+    _factors(board, given, "_S_max", "")
+    board.calc("s_max", "to_scale", "mu_s", "_S_max")
+    board.calc("ds_max", "to_scale", "mu_ds", "_V_max")
+    board.calc("v_max", "to_scale", "mu_v", "_V_max")
+    if given == ACCELERATION:
+        board.calc("l_A2", "second_amplitude", "l_A1", "u")
+        board.calc("A_1", "to_scale", "mu_d2s", "l_A1")
+        board.calc("A_2", "to_scale", "mu_d2s", "l_A2")
+        board.calc("_A_max", "part_of_amplitude", "l_A1", "_part_a")
+        board.calc("a_max", "to_scale", "mu_a", "_A_max")
+
+
+def chord_factors(board: Board, division: Division, fastest: int, given: str) -> None:
+    """Measure the curves of chords: the stroke, the greatest velocity, by how much they do not close."""
+    top, last = division.top, division.last
+    board.distance("S_max_chord", foot(TRAVEL, top), f"{TRAVEL}.{top}")
+    board.distance("s_close", foot(TRAVEL, last), f"{TRAVEL}.{last}")
+    _factors(board, given, "S_max_chord", "_chord")
+    if given == ACCELERATION:
+        board.distance("V_max_chord", foot(VELOCITY, fastest), f"{VELOCITY}.{fastest}")
+        board.distance("v_close", foot(VELOCITY, last), f"{VELOCITY}.{last}")
+        board.calc("ds_max_chord", "to_scale", "mu_ds_chord", "V_max_chord")
+
+
+def _factors(board: Board, given: str, height: str, after: str) -> None:
+    board.calc(f"mu_s{after}", "scale_factor", "h", height)
+    board.calc(f"mu_ds{after}", "derived_scale", f"mu_s{after}", "mu_phi", "H_v")
+    board.calc(f"mu_v{after}", "speed_scale", "omega", f"mu_ds{after}")
+    board.calc(f"nu{after}", "transfer_angle", f"mu_s{after}", f"mu_ds{after}")
+    if given == ACCELERATION:
+        board.calc(f"mu_d2s{after}", "derived_scale", f"mu_ds{after}", "mu_phi", "H_a")
+        board.calc(f"mu_a{after}", "acceleration_scale", "omega", f"mu_d2s{after}")
+        board.calc(f"nu_a{after}", "transfer_angle", f"mu_ds{after}", f"mu_d2s{after}")
+
+
+PROFILE, PLATE_PROFILE = "profile", "plate_profile"
+
+
+def positions(board: Board, division: Division) -> None:
+    """Lay off the phase angles against the sense of the cam; the travels and the analogues of velocity go with them."""
+    for i in division.lines:
+        board.turn(f"_axis{i}", f"_axis_angle{i}")
+        board.normal(f"_left{i}", f"_axis{i}")
+        board.calc(f"_s{i}", "part_of_travel", "h", f"_s_part{i}")
+        board.calc(f"_x{i}_exact", "part_of_travel", "h", f"_x_part{i}")
+
+
+def roller_profile(board: Board, division: Division) -> None:
+    """Draw the pitch curve and the practical profile of a cam for a roller."""
+    centre = f"{PROFILE}.O"
+    board.pole(centre)
+    for i in division.lines:
+        e, b, p, k = (f"{PROFILE}.{letter}{i}" for letter in "EBPK")
+        board.back(e, centre, f"_left{i}", "e")
+        board.calc(f"_reach{i}", "enlarged", "s_0", f"_s{i}")
+        board.lay(b, e, f"_axis{i}", f"_reach{i}")
+        board.back(p, centre, f"_left{i}", f"_x{i}_exact")
+        board.measure(f"_normal_length{i}", p, b)
+        board.direction(f"_normal{i}", p, b, f"_normal_length{i}")
+        board.back(k, b, f"_normal{i}", "R_roller")
+    board.calc("rho_min", "part_of_travel", "h", "_rho_part")
+
+
+def plate_profile(board: Board, division: Division) -> None:
+    """Draw the plate in all positions and where it touches the profile."""
+    centre = f"{PLATE_PROFILE}.O"
+    board.pole(centre)
+    for i in division.lines:
+        b, k = (f"{PLATE_PROFILE}.{letter}{i}" for letter in "BK")
+        board.calc(f"_plate_reach{i}", "enlarged", "r_0_flat", f"_s{i}")
+        board.lay(b, centre, f"_axis{i}", f"_plate_reach{i}")
+        board.back(k, b, f"_left{i}", f"_x{i}_exact")
+
+
+SIZES, PLATE_SIZES = "sizes", "plate_sizes"
+PHASES = {f"{phase}{end}": phase for phase in ("rise", "fall") for end in ("", BACK)}  # of limits
+OUTWARDS = {"rise": 1, "fall": -1}  # to which side of the abscissas a phase lies when the cam turns counter-clockwise
+
+
+def phase_of(limit: str) -> str:
+    """Return the phase that a limit belongs to: `rise` or `fall`, both sides of the normal alike."""
+    return PHASES[limit]
+
+
+def is_back(limit: str) -> bool:
+    """Whether a limit is that of the side to which the cam does not push."""
+    return PHASES[limit] != limit
+
+
+def side_of(limit: str, sense: int) -> int:
+    """Return the side of the abscissas, +1 or -1, on which the tangent of a limit lies."""
+    return OUTWARDS[phase_of(limit)] * sense * (-1 if is_back(limit) else 1)
+
+
+def ordinates(board: Board, division: Division, given: str) -> None:
+    """Read the curves on every section line, as values: a velocity that is given, because it jumps, in both phases."""
+    for i in division.lines:
+        _ordinate(board, TRAVEL, f"_s{i}_drawn", "mu_s_chord", i)
+        if given == ACCELERATION:
+            _ordinate(board, VELOCITY, f"_ds{i}_drawn", "mu_ds_chord", i)
+    for phase, lines in (("rise", division.rise), ("fall", division.fall)):
+        for i in lines:
+            analogue = f"_ds{i}_drawn"
+            if given == VELOCITY:
+                analogue = f"_ds{i}_{phase}_drawn"
+                board.calc(f"_height{i}_{phase}", "part_of_amplitude", "l_A1", f"_node{i}_{phase}")
+                board.calc(analogue, "to_scale", "mu_ds_chord", f"_height{i}_{phase}")
+            board.calc(f"_x{i}_{phase}_drawn", "turned_with", analogue, "_sense")
+
+
+def _ordinate(board: Board, plan: str, name: str, mu: str, line: int) -> None:
+    board.read(f"{name}_segment", foot(plan, line), f"{plan}.{line}")
+    board.calc(name, "ordinate_to_scale", mu, UP, f"{name}_segment")
+
+
+def roller_sizes(board: Board, division: Division, limits: Iterable[str], corner: Iterable[str]) -> None:
+    """Draw S over ds/dphi, the limit tangents, and a cam's centre where the two of `corner` meet.
+
+    Limits are named as the half planes of `sizes.wedge`.
+    """
+    board.pole(f"{SIZES}.0")
+    for phase, lines in (("rise", division.rise), ("fall", division.fall)):
+        for i in lines:
+            board.place(f"{SIZES}.{i}_{phase}", f"_x{i}_{phase}_drawn", f"_s{i}_drawn")
+    for limit in limits:
+        slope, side, at = (f"_{word}_{limit}" for word in ("slope", "side", "touch"))
+        pieces = division.pieces(phase_of(limit))
+        for k, piece in enumerate(pieces):
+            coordinates = (*(f"_x{i}_{phase_of(limit)}_drawn" for i in piece), *(f"_s{i}_drawn" for i in piece))
+            board.calc(f"{at}{k}", "touching", slope, side, *coordinates)
+        board.calc(at, "outermost", side, *(f"{at}{k}" for k in range(len(pieces))))
+        board.place(f"{SIZES}.T_{limit}", at, "zero")
+        board.turn(f"_tangent_{limit}", f"_inclination_{limit}")
+    tangents = [operand for limit in corner for operand in (f"{SIZES}.T_{limit}", f"_tangent_{limit}")]
+    board.meet(f"{SIZES}.A", *tangents)
+    board.distance("r_0_tangents", f"{SIZES}.0", f"{SIZES}.A")
+    board.read("_centre", f"{SIZES}.0", f"{SIZES}.A")
+    board.calc("e_tangents", "component", RIGHT, "_centre")
+
+
+def smallest_roller_cam(board: Board) -> None:
+    """Mark the centre of the smallest cam that the exact curves permit."""
+    board.calc("e", "part_of_travel", "h", "_e_part")
+    board.calc("s_0", "part_of_travel", "h", "_s_0_part")
+    board.calc("_below", "negative", "s_0")
+    board.pole(f"{SIZES}.0")
+    board.place(f"{SIZES}.C", "e", "_below")
+    board.distance("r_0", f"{SIZES}.0", f"{SIZES}.C")
+    for phase in OUTWARDS:
+        board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
+
+
+def permitted_offsets(board: Board) -> None:
+    """Calculate between which offsets a given r_0 keeps the limits."""
+    board.calc("e_least", "part_of_travel", "h", "_e_least")
+    board.calc("e_most", "part_of_travel", "h", "_e_most")
+
+
+def plate_sizes(board: Board, division: Division) -> None:
+    """Draw S over d2s/dphi2 and the tangent at 45 degrees to its negative branch."""
+    board.pole(f"{PLATE_SIZES}.0")
+    for i in division.lines:
+        for end in ("before", "after"):  # where it jumps, the two ends of a line across
+            board.calc(f"_d2s{i}_{end}", "part_of_amplitude", "A_1", f"_part{i}_{end}")
+            board.place(f"{PLATE_SIZES}.{i}_{end}", f"_d2s{i}_{end}", f"_s{i}_drawn")
+    places: list[str] = []
+    for phase in OUTWARDS:
+        for k, piece in enumerate(division.pieces(phase)):
+            ends = ["after", *["before"] * (len(piece) - 1)]
+            xs = [f"_d2s{i}_{end}" for i, end in zip(piece, ends, strict=True)]
+            places.append(f"_touch_plate_{phase}{k}")
+            board.calc(places[-1], "touching", "_minus_one", "_minus_one", *xs, *(f"_s{i}_drawn" for i in piece))
+    board.calc("_touch_plate", "outermost", "_minus_one", *places)
+    board.place(f"{PLATE_SIZES}.T", "zero", "_touch_plate")
+    board.distance("r_0_flat_tangent", f"{PLATE_SIZES}.0", f"{PLATE_SIZES}.T")
+
+
+def smallest_plate_cam(board: Board, given: bool) -> None:
+    """Calculate the smallest cam for a plate, or how sharp that of a given r_0 is, and the plate."""
+    board.calc("r_0_flat_min", "part_of_travel", "h", "_r_0_flat_part")
+    if given:
+        board.calc("rho_flat_min", "excess", "r_0_flat", "r_0_flat_min")
+    else:
+        board.calc("r_0_flat", "enlarged", "r_0_flat_min", "rho_flat")
+    board.calc("R_plate", "enlarged", "ds_max", "margin")
+
+
+ROCKER_SIZES = "rocker_sizes"
+
+
+def limit(line: int) -> str:
+    """Return the name of the direction of the limit through `D` of a section line."""
+    return f"_limit{line}"
+
+
+def rocker_sizes(board: Board, division: Division) -> None:
+    """Draw the rocker in all positions, their limits, and the centre of the smallest cam."""
+    board.pole(f"{ROCKER_SIZES}.0")
+    for i in division.lines:
+        board.turn(f"_arm{i}", f"_swing{i}")
+        board.calc(f"_x{i}_arm", "part_of_travel", "l_rocker", f"_analogue{i}")
+        b, d = (f"{ROCKER_SIZES}.{letter}{i}" for letter in "BD")
+        board.lay(b, f"{ROCKER_SIZES}.0", f"_arm{i}", "l_rocker")
+        board.back(d, b, f"_arm{i}", f"_x{i}_arm")
+        if i in division.rise or i in division.fall:
+            board.turn(limit(i), f"_limit_angle{i}")
+    for name, part in (("_centre_x", "_centre_x_part"), ("_centre_y", "_centre_y_part")):
+        board.calc(name, "part_of_travel", "l_rocker", part)
+    board.place(f"{ROCKER_SIZES}.C", "_centre_x", "_centre_y")
+    board.distance("r_0", f"{ROCKER_SIZES}.C", f"{ROCKER_SIZES}.B0")
+    board.distance("l_OC", f"{ROCKER_SIZES}.0", f"{ROCKER_SIZES}.C")
+    board.calc("psi_0", "angle_of_triangle", "l_rocker", "l_OC", "r_0")
+    for phase in OUTWARDS:
+        board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
+
+
+def rocker_profile(board: Board, division: Division) -> None:
+    """Draw the pitch curve and the practical profile."""
+    centre = f"{PROFILE}.O"
+    board.pole(centre)
+    for i in division.lines:
+        a, b, d, k = (f"{PROFILE}.{letter}{i}" for letter in "ABDK")
+        board.turn(f"_pivot{i}", f"_pivot_angle{i}")
+        board.lay(a, centre, f"_pivot{i}", "l_OC")
+        board.turn(f"_arm{i}_turned", f"_arm_angle{i}")
+        board.lay(b, a, f"_arm{i}_turned", "l_rocker")
+        board.back(d, b, f"_arm{i}_turned", f"_x{i}_arm")
+        board.measure(f"_normal_length{i}", centre, d)
+        board.direction(f"_normal{i}", centre, d, f"_normal_length{i}")
+        board.back(k, b, f"_normal{i}", "R_roller")
+    board.calc("rho_min", "part_of_travel", "l_rocker", "_rho_part")
+
 
 NEEDS = {DIAGRAMS_PART: (), SIZES_PART: (DIAGRAMS_PART,), PROFILE_PART: (SIZES_PART,), PRESSURE_PART: (SIZES_PART,)}
 

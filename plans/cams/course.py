@@ -18,9 +18,9 @@ from .cam import PLATE, ROCKER, ROLLER
 from .envelopes import Undercut
 from .motion import TURN, Array, Jump
 from .places import Function, Minimum, minima
-from .pressure import pressure_angle
 from .profile import PlateProfile, RollerProfile
 from .rocker import rocker_pressure
+from .sizes import pressure_angle
 from .solve import SolvedCam
 
 

@@ -15,15 +15,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .construction import ROCKER_SIZES
 from .course import pressure_of
 from .followers import RockerCam
-from .half_planes import HalfPlane
 from .motion import FALL, RISE, Motion, Phase
-from .pressure import SIDES
 from .profile import RollerProfile
 from .rocker import Limit, tightest
-from .rocker_plans import ROCKER_SIZES
-from .sizes import Limits
+from .sizes import SIDES, HalfPlane, Limits
 from .solve import SolvedCam
 
 Array = NDArray[np.float64]

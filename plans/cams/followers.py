@@ -9,9 +9,9 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...scales.errors import InputError
 from .cam import Cam
-from .division import Division
+from .construction import OUTWARDS, phase_of, side_of
+from .integration import Division
 from .motion import FALL, RISE, Array, Motion, motion_of
-from .pressure import least_transmission
 from .profile import PlateProfile, RollerProfile, StraightPath
 from .rocker import (
     NoPlace,
@@ -22,7 +22,6 @@ from .rocker import (
     smallest_rocker,
     smallest_rocker_at,
 )
-from .size_plans import OUTWARDS, phase_of, side_of
 from .sizes import (
     BACK,
     RIGHT_ANGLE,
@@ -33,6 +32,7 @@ from .sizes import (
     RollerSizes,
     apex,
     central,
+    least_transmission,
     offsets,
     smallest_plate,
     smallest_roller,

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .division import Division
-from .integration import ACCELERATION, VELOCITY
+from .integration import ACCELERATION, VELOCITY, Division
 from .motion import FALL, RISE, Array, Motion
 from .sizes import RIGHT_ANGLE
 

@@ -1,4 +1,4 @@
-"""Graphical integration by chords, on the board: from the analogue of acceleration to that of velocity, to the travel.
+"""Graphical integration by chords, on the board: from acceleration to velocity, to the travel.
 
 Three diagrams stand on one axis of angles, divided into sections. The mean ordinate of every section is projected on
 the ordinate axis and joined to a pole at the distance H to the left of it; on the next diagram the chord of the section
@@ -15,9 +15,52 @@ Source: Artobolevsky, Theory of mechanisms and machines, graphical integration (
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import pairwise
 
 from ..board import Board
 from ..names import Name
+
+
+@dataclass(frozen=True, slots=True)
+class Division:
+    """Numbers of section lines: the rise runs from 0 to `top`, the upper dwell to `leave`, the fall to `last`.
+
+    The lower dwell is the rest of the turn; nothing changes in it, so that it has no sections. `jumps` are the lines
+    within a phase at which the acceleration jumps.
+    """
+
+    top: int
+    leave: int
+    last: int
+    jumps: tuple[int, ...] = ()
+
+    @property
+    def lines(self) -> range:
+        """All section lines."""
+        return range(self.last + 1)
+
+    @property
+    def sections(self) -> range:
+        """All sections; each has the number of the line at its end."""
+        return range(1, self.last + 1)
+
+    @property
+    def rise(self) -> range:
+        """Lines of the rise, both ends among them."""
+        return range(self.top + 1)
+
+    @property
+    def fall(self) -> range:
+        """Lines of the fall, both ends among them."""
+        return range(self.leave, self.last + 1)
+
+    def pieces(self, phase: str) -> tuple[range, ...]:
+        """Return the lines of the `rise` or the `fall`, between jumps: of each piece both ends are among them."""
+        lines = self.rise if phase == "rise" else self.fall
+        ends = sorted({lines[0], *(line for line in self.jumps if line in lines), lines[-1]})
+        return tuple(range(a, b + 1) for a, b in pairwise(ends))
+
 
 ACCELERATION, VELOCITY, TRAVEL = "diagram_a", "diagram_v", "diagram_s"
 DIAGRAMS = (ACCELERATION, VELOCITY, TRAVEL)

@@ -18,9 +18,8 @@ from numpy.typing import NDArray
 
 from ...scales.errors import InputError
 from .cam import MIRROR, NEAR, Cam
-from .division import Division
-from .laws_of_motion import SAME, LawOfMotion, law_of_curve, law_of_motion
-from .smooth import Smooth
+from .integration import Division
+from .laws_of_motion import SAME, LawOfMotion, Smooth, law_of_curve, law_of_motion
 
 Array = NDArray[np.float64]
 RISE, UPPER, FALL, LOWER = PHASES = ("rise", "upper", "fall", "lower")

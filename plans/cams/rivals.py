@@ -22,9 +22,8 @@ from ..hands.hand import Hand
 from ..hands.shaky import draw
 from ..hands.spread import kept
 from .convergence import DRAWINGS, SEED
-from .division import Division
 from .formulas import MM_PER_M
-from .integration import ACCELERATION, TRAVEL, VELOCITY
+from .integration import ACCELERATION, TRAVEL, VELOCITY, Division
 from .motion import TURN, Motion
 from .sectioned import drawn_on, equal_division, inner_jumps, nodes, ordinates
 from .solve import SolvedCam

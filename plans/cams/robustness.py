@@ -14,9 +14,8 @@ from ..hands.shaky import draw
 from ..hands.spread import kept
 from .closing import travel_errors
 from .convergence import DRAWINGS, SEED
-from .division import Division
 from .formulas import MM_PER_M
-from .integration import ACCELERATION, TRAVEL, VELOCITY
+from .integration import ACCELERATION, TRAVEL, VELOCITY, Division
 from .sectioned import NEAR, drawn_on, exact_values, inner_jumps, nodes, ordinates
 from .solve import SolvedCam
 

@@ -22,10 +22,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .half_planes import HalfPlane, Nearest, nearest
 from .motion import RISE, Extreme, Motion, Phase
 from .places import Minimum, minima
-from .sizes import BACK, RIGHT_ANGLE, Limits
+from .sizes import BACK, RIGHT_ANGLE, HalfPlane, Limits, Nearest, nearest
 
 Array = NDArray[np.float64]
 Points = NDArray[Any]  # complex

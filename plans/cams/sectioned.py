@@ -14,9 +14,8 @@ from ..boards.exact import run
 from ..hands.shaky import Paper
 from .cam import DIAGRAMS_PART, ROLLER, SIZES_PART
 from .construction import construct
-from .division import Division
 from .givens import diagram_givens
-from .integration import ACCELERATION, TRAVEL, VELOCITY
+from .integration import ACCELERATION, TRAVEL, VELOCITY, Division
 from .motion import Motion, Phase
 from .solve import EQUAL, SolvedCam
 

@@ -6,7 +6,8 @@ angle is tan(theta) = (sense s' - e) / (s_0 + s). A limit of it is linear in (e,
 e + i s_0 every limit permits a half plane, all of them a wedge, and the smallest cam is its place nearest to the
 origin, which is its apex or the foot of the perpendicular on one side.
 
-On the S-ds/dphi diagram with the points (sense s', s) the cam's centre is (e, -s_0).
+Where the cam pushes, sense * theta is positive in the rise, negative in the fall; the transmission angle is the rest to
+a right angle. On the S-ds/dphi diagram with the points (sense s', s) the cam's centre is (e, -s_0).
 
 Sources: Artobolevsky, Theory of mechanisms and machines; Geronimus (flat follower).
 """
@@ -16,9 +17,77 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
 
-from .half_planes import HalfPlane, meeting, nearest
+import numpy as np
+from numpy.typing import NDArray
+
+from ..laws import cross, dot
 from .motion import FALL, RISE, Extreme, Motion
+
+PARALLEL = 1e-13  # sine of the angle between lines below which they do not meet
+ON = 1e-12  # part of the largest distance by which a place may be outside: rounding
+
+
+@dataclass(frozen=True, slots=True)
+class HalfPlane:
+    """All places whose component along `normal`, a unit vector, is at least `least`.
+
+    `name` tells where it comes from, `phi` the angle of the cam at which its line touches the curve that it bounds.
+    """
+
+    name: str
+    normal: complex
+    least: float
+    phi: float = 0.0
+
+    def lack(self, place: complex) -> float:
+        """Return by how far a place is outside, negative inside."""
+        return self.least - float(dot(self.normal, place))
+
+    @property
+    def foot(self) -> complex:
+        """The foot of the perpendicular from the origin on its line."""
+        return self.normal * self.least
+
+
+@dataclass(frozen=True, slots=True)
+class Nearest:
+    """The place nearest to the origin, and the half planes, one or two, on whose lines it lies."""
+
+    place: complex
+    on: tuple[HalfPlane, ...]
+
+
+def meeting(first: HalfPlane, second: HalfPlane) -> complex | None:
+    """Return where two lines meet, None when they are parallel."""
+    sine = cross(first.normal, second.normal)
+    if abs(sine) < PARALLEL:
+        return None
+    return (second.normal * first.least - first.normal * second.least) * complex(0.0, -1.0 / sine)
+
+
+def nearest(planes: Sequence[HalfPlane]) -> Nearest | None:
+    """Return the place nearest to the origin in all half planes, None when they have none in common.
+
+    It is the origin, a foot of the perpendicular on one line, or where two lines meet: the region is convex.
+    """
+    if all(plane.least <= 0.0 for plane in planes):
+        return Nearest(0j, ())
+    size = max(abs(plane.least) for plane in planes)
+    found = [Nearest(plane.foot, (plane,)) for plane in planes if plane.least > 0.0]
+    for first, second in combinations(planes, 2):
+        if (place := meeting(first, second)) is not None:
+            found.append(Nearest(place, (first, second)))
+    inside = [one for one in found if _inside(one, planes, size)]
+    return min(inside, key=lambda one: abs(one.place), default=None)
+
+
+def _inside(one: Nearest, planes: Sequence[HalfPlane], size: float) -> bool:
+    slack = ON * max(size, abs(one.place))
+    return math.isfinite(slack) and all(plane.lack(one.place) <= slack for plane in planes if plane not in one.on)
+
 
 RIGHT_ANGLE = 0.5 * math.pi
 BACK = "_back"  # ends the name of a limit on the side to which the cam does not push
@@ -170,3 +239,43 @@ def smallest_plate(motion: Motion, rho_flat: float, margin: float) -> PlateSizes
 
 def _sizes(place: complex, on: tuple[str, ...]) -> RollerSizes:
     return RollerSizes(abs(place), place.real, place.imag, on)
+
+
+ROUNDS = 60  # of a search that doubles its figures in every round
+SIDES = {RISE: (1, -1), FALL: (-1, 1)}  # of the velocity: first where the cam pushes, then the other
+
+
+def pressure_angle(motion: Motion, sizes: RollerSizes, phi: Any, sense: int = 1, side: int = 1) -> NDArray[np.float64]:
+    """Return theta, rad, at the angles `phi` of the cam; where s' jumps, the limit from one side."""
+    s, ds, _ = motion.at(phi, side)
+    theta: NDArray[np.float64] = np.arctan2(sense * ds - sizes.e, sizes.s_0 + s)
+    return theta
+
+
+def least_transmission(
+    motion: Motion, sizes: RollerSizes, phase: str, sense: int = 1, two_sided: bool = False
+) -> Extreme:
+    """Return the least transmission angle of the rise or the fall, rad, exactly, and where it is.
+
+    One-sided, only pressure to the side to which the cam pushes counts, and the angle may exceed a right angle.
+    """
+    sides = SIDES[phase][: 1 + two_sided]
+    steepest = max((_steepest(motion, sizes, phase, sense, way) for way in sides), key=lambda found: found.value)
+    return Extreme(RIGHT_ANGLE - math.atan(steepest.value), steepest.phi, phase)
+
+
+def _steepest(motion: Motion, sizes: RollerSizes, phase: str, sense: int, way: int) -> Extreme:
+    """Return the greatest way * sense * tan(theta) = way * (s' - sense e) / (s_0 + s).
+
+    A quotient is greatest where its numerator less so many times its denominator is (Dinkelbach).
+    """
+    best = Extreme(-math.inf, 0.0, phase)
+    slope = 0.0
+    for _ in range(ROUNDS):
+        found = motion.maximum(-slope, way, 0.0, (phase,))
+        s = float(motion.at(found.phi)[0])
+        slope = (found.value + slope * s - way * sense * sizes.e) / (sizes.s_0 + s)
+        if slope <= best.value:
+            break
+        best = Extreme(slope, found.phi, phase)
+    return best

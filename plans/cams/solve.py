@@ -13,17 +13,13 @@ from ..laws import LAWS
 from ..quantities import Quantity, quantities, shown_on
 from ..solved import PAPER_MM, Solved
 from .cam import PLANS, PLATE, ROCKER, ROLLER, SIZES_PART, Cam
-from .construction import NEEDS, Layout, construct
-from .division import Division
+from .construction import NEEDS, PLATE_PROFILE, PLATE_SIZES, PROFILE, ROCKER_SIZES, SIZES, Layout, construct
 from .followers import PlateCam, RockerCam, RollerCam, limits_of, plate_cam, rocker_cam, roller_cam
 from .formulas import ARC
 from .givens import diagram_givens, profile_givens
-from .integration import ACCELERATION, DIAGRAMS, RIGHT, TRAVEL, UP, VELOCITY
-from .inversion import PLATE_PROFILE, PROFILE
+from .integration import ACCELERATION, DIAGRAMS, RIGHT, TRAVEL, UP, VELOCITY, Division
 from .motion import Array, Motion, motion_of
-from .rocker_plans import ROCKER_SIZES
 from .sections import EXACT_OF
-from .size_plans import PLATE_SIZES, SIZES
 
 # the scale factor in which each plan shows values; on the diagrams that of the axis of ordinates
 SCALES = {

@@ -16,7 +16,7 @@ from ...scales.errors import InputError
 from ..hands.hand import Hand
 from ..hands.shaky import draw, drawing_of
 from ..hands.spread import kept
-from .meshing_plan import MESHING
+from .construction import MESHING
 from .sections import DRAWN, section_of
 from .solve import SolvedGear
 

@@ -14,14 +14,26 @@ from ..check import Check
 from ..quantities import Quantity, quantities, shown_on
 from ..solved import PAPER_MM, Solved
 from .checks import checks, cut, on_flanks
-from .construction import Layout, construct
+from .construction import (
+    CENTRES,
+    DIAGRAMS,
+    ENDLESS,
+    MESHING,
+    NUMBERS,
+    RIGHT,
+    SLIDING,
+    TANGENT,
+    THETA,
+    UP,
+    Layout,
+    construct,
+    rolling,
+)
 from .gear import PLANS, WHEELS, GearPair, unit_of
 from .geometry import DIVISIONS, NOTHING, PARTS, POINTS, geometry
 from .givens import complete
 from .meshing import Meshing, meshing_of
-from .meshing_plan import CENTRES, MESHING, NUMBERS, TANGENT, rolling
 from .sections import place_of
-from .sliding_plan import DIAGRAMS, ENDLESS, RIGHT, SLIDING, THETA, UP
 
 SCALES = {MESHING: "mu_l", SLIDING: "mu_rho", THETA: "mu_theta"}
 # the plan that shows a quantity as a segment, beside those that are read from one

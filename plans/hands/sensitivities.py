@@ -1,6 +1,7 @@
 """Which step errs most: the construction drawn once for each single error of the hand, all others being none.
 
-To first order these errors add up like variances. Nothing here is left to chance.
+To first order these errors add up like variances. Nothing here is left to chance. Along a chain of marks, each drawn
+from the one before it, they add up to what a teacher should let pass.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from ..boards.exact import run
 from ..laws import dot
 from ..references import results
-from .hand import Hand
+from .hand import Hand, Tolerance, hand_within
 from .shaky import Paper, Shape, draw
 
 Array = NDArray[Any]
@@ -94,3 +95,17 @@ def _misses(values: Array, exact: Any) -> Array:
     slope, kink = (forth - back) * (0.5 / STEP), abs((forth + back) * 0.5 - exact) * (1.0 / STEP)
     found: Array = np.where(kink > abs(slope), kink, slope)
     return found
+
+
+MOST = 2.0  # standard deviations that nearly all honest hands keep
+
+
+def added_up(paper: Paper, tolerance: Tolerance, names: Iterable[str]) -> dict[str, float]:
+    """Return by how much quantities may differ, SI: twice what all errors of the hand come to, as variances do.
+
+    The rule of `tolerances` looks at a segment and at the lines that meet at its ends. The last mark of a curve that is
+    drawn chord by chord also misses by what all marks before it have missed.
+    """
+    wanted = tuple(names)
+    found = sensitivities(paper, hand_within(tolerance), wanted)
+    return {name: MOST * found.deviation(name) for name in wanted}

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from ..board import Board, Program, RecordingBoard
 from ..boards.exact import ExactBoard
 from ..columned import Columned
-from ..laws import TURN
-from .lift_off import rope_force
+from ..laws import LAWS, TURN
+from . import formulas as formulas
+from .model import rope_force
 from .onesided import OneSided, Piece
 
 Array = NDArray[np.float64]
@@ -148,3 +149,17 @@ def marks(found: Mapping[str, float], motion: OneSided | None) -> dict[str, floa
         least = motion.extremes(lifted=True)[1][0]
     known = {"F_12_max": found["t_F12_max"], "t_1": t_1, "P_12_max": t_1 + found["T_1"], "P_12_min": least}
     return dict(sorted(known.items(), key=lambda mark: mark[1]))
+
+
+def article_force(found: Mapping[str, Any], T: Any) -> Any:
+    """Return the force of the rope at times after the lift-off as the article has it, N.
+
+    Parameters
+    ----------
+    found : mapping of str to float
+        Quantities `m g a V_0 slack P_st C_12 k_1`, SI.
+    T : float or array
+        s
+    """
+    V = LAWS["article_speed"](*(found[name] for name in ("V_0", "a", "slack", "P_st", "C_12")))
+    return LAWS["article_force"](*(found[name] for name in ("m", "g", "a")), V, found["C_12"], found["k_1"], T)

@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 from ..board import Board
 from ..laws import TURN
 from ..solved import PAPER_MM
-from .article import article_force
 from .beam_plans import BENT, bent_beam
-from .course import course, end_of
+from .course import article_force, course, end_of
 from .diagram_plan import FORCES, line, point
 from .root_plans import EXTREMES, LIFT_OFF, extremes_point, lift_off_points, seen
 from .solve import SolvedHoist

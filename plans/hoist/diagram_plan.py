@@ -9,8 +9,7 @@ angles; `T` stands where the force is greatest, `L` where it is least, `M` where
 from __future__ import annotations
 
 from ..board import Board
-from .lift_off import rope_force
-from .model import CIRCLE, HORIZONTAL
+from .model import CIRCLE, HORIZONTAL, rope_force
 
 FORCES = "forces"
 UP = "_up"

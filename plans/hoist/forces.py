@@ -10,8 +10,7 @@ import numpy as np
 
 from ..check import Check
 from .checks import strength, valid, validity
-from .givens import complete, in_range
-from .hoist import VALUES
+from .hoist import VALUES, complete, in_range
 from .model import model, motion_given
 from .onesided import OneSided, one_sided
 

@@ -3,6 +3,10 @@
 Until t_1 the load stands on the support beam, and the rope only takes it up; then it hangs. What the two-sided formulas
 give is only valid while the rope pulls and the support pushes: `forces` looks, and takes the motion where it is not.
 
+Near k t_1 = 2 pi n, without acceleration of the drum, speed and acceleration of the load are both nearly zero at the
+lift-off, and the root of (11) is nearly triple: sixteen digits leave five of t_1. What is missing is found with
+fifty digits, from the givens.
+
 Source: Karpenko, Muzyka, Gudym; the primed formulas are exact where the article simplifies.
 """
 
@@ -17,9 +21,53 @@ import numpy as np
 from ..board import Board, Program, RecordingBoard
 from ..boards.arrays import ArrayBoard
 from ..boards.exact import ExactBoard
+from ..boards.fifty_digits import DIGITS, fifty_digits
+from ..calculated import calculated
+from ..laws import define
 from ..names import is_shown, role
-from .lift_off import BEAMS, lifting_off, reduced, rope_force
-from .refining import rest_of_root
+from . import formulas as formulas
+from .hoist import VALUES
+from .roots import lag_rate
+
+BEAMS = (0, 2)  # the support beam and the bridge beam
+
+
+def reduced(board: Board) -> None:
+    """Reduced mass and stiffnesses, formulas (4) to (7)."""
+    board.calc("m", "reduced_mass", "G_1", "G_2", "g")
+    board.calc("P_st", "static_force", "m", "g")
+    for i in BEAMS:
+        board.calc(f"alpha_{i}", "place_factor", f"beta_{i}")
+        board.calc(f"b_{i}", "product", f"beta_{i}", f"l_{i}")
+    board.calc("C_01", "beam_stiffness", "E_0", "I_0", "alpha_0", "l_0")
+    board.calc("C_k", "rope_stiffness", "S", "E_k", "L")
+    board.calc("C_2", "beam_stiffness", "E_2", "I_2", "alpha_2", "l_2")
+    board.calc("C_12", "in_series", "C_k", "C_2")
+    board.calc("C", "in_series", "C_01", "C_12")
+    board.calc("k", "frequency_between", "C_01", "C_12", "m")
+    board.calc("k_1", "frequency", "C_12", "m")
+    board.calc("V_t", "taut_speed", "V_0", "a", "slack")
+
+
+def lifting_off(board: Board) -> None:
+    """The end of phase 1, formula (11), and what the rope and the load do there."""
+    board.calc("_mu", "support_share", "C_12", "C_01")
+    board.calc("_C_osc", "product", "_mu", "C_12")
+    board.calc("_height", "ratio", "P_st", "C")
+    board.calc("_t_1", "lift_off", "V_t", "a", "k", "_height")
+    board.calc("t_1", "later", "_t_1", "_rest")
+    rope_force(board, "F_12_t1", "t_1")
+    board.calc("_dosc_t1", "oscillation_rate", "V_t", "a", "k", "t_1")
+    board.calc("_dy_t1", "winding_speed", "V_t", "a", "t_1")
+    board.calc("_dF_t1", "rope_force", "C", "_dy_t1", "_C_osc", "_dosc_t1")
+
+
+def rope_force(board: Board, name: str, time: str) -> None:
+    """The force of the rope in phase 1 at a time: formula (10)."""
+    board.calc(f"_y_{name}", "wound", "V_t", "a", time)
+    board.calc(f"_osc_{name}", "oscillation", "V_t", "a", "k", time)
+    board.calc(name, "rope_force", "C", f"_y_{name}", "_C_osc", f"_osc_{name}")
+
 
 CIRCLE, HORIZONTAL = "circle", "_right"
 
@@ -148,3 +196,114 @@ def model(values: Mapping[str, Any], wanted: Iterable[str] = (), one_sided: bool
     names = (name for name in (*values, *program.names) if is_shown(name))
     found = {name: board.values[name] for name in names}
     return {name: value if np.ndim(value) else float(value) for name, value in found.items()}
+
+
+ILL = 1e3  # how much larger than those of the givens errors of t_1 may be without more digits
+ROUNDS = 400
+CLOSE = 1e-20  # part of t_1 that is none
+BRACKET = 1e-4  # rad, first guess of how far the root is from that found with sixteen digits
+
+
+@np.errstate(invalid="ignore", divide="ignore")
+def _condition(V: Any, a: Any, k: Any, height: Any, t_1: Any) -> Any:
+    """Return by how much errors of m g / C grow in t_1: height / (t_1 * slope), one or less on a rigid support."""
+    x = np.where(np.isinf(k), 0.0, np.where(np.isinf(k), 1.0, k) * t_1)
+    return np.where(np.isinf(k), 1.0, height / (t_1 * lag_rate(V, a / k, x)))
+
+
+define(condition_of_root=_condition)
+
+
+@cache
+def _programs() -> tuple[Program, Program]:
+    """Return the calculation of the root with its condition, and of what it depends on."""
+    board = RecordingBoard()
+    reduced(board)
+    lifting_off(board)
+    board.calc("_condition", "condition_of_root", "V_t", "a", "k", "_height", "_t_1")
+    whole = Program(board.steps)
+    return whole.needed_for(("_condition",)), whole.needed_for(("V_t", "k", "_height"))
+
+
+def rest_of_root(values: Mapping[str, Any]) -> Any:
+    """Return what has to be added to t_1 as it is found with sixteen digits: zero almost everywhere.
+
+    Parameters
+    ----------
+    values : mapping of str to float or array
+        The complete givens, with any shapes that go together.
+    """
+    program, exact = _programs()
+    board = ExactBoard(values)
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        board.follow(program)
+    condition, t_1 = np.broadcast_arrays(board.values["_condition"], board.values["_t_1"])
+    rest = np.zeros(condition.shape)
+    ill = np.argwhere(condition > ILL)
+    if not len(ill):
+        return rest if rest.ndim else 0.0
+    arrays = {name: np.broadcast_to(np.asarray(values[name]), rest.shape) for name in VALUES}
+    for index in map(tuple, ill):
+        one = {name: float(array[index]) for name, array in arrays.items()}
+        rest[index] = _rest(exact, one, float(t_1[index]))
+    return rest if rest.ndim else float(rest)
+
+
+def _rest(program: Program, values: Mapping[str, float], t_1: float) -> float:
+    """Return the rest of one root: Newton's steps in a bracket that closes, for the function never falls."""
+    from mpmath import mp, mpf
+
+    with mp.workdps(DIGITS):
+        found = fifty_digits(program, values)
+        V, k, height, a = found["V_t"], found["k"], found["_height"], mpf(values["a"])
+        u, x = a / k, k * mpf(t_1)
+
+        def surplus(x: Any) -> tuple[Any, Any]:  # (11) once more: fifty digits cancel without harm, `lag` has but 16
+            sine, cosine = x - mp.sin(x), 1 - mp.cos(x)
+            return V * sine + u * (x * x / 2 - cosine) - k * height, V * cosine + u * sine
+
+        reach = mpf(BRACKET)
+        while surplus(x - reach)[0] > 0 or surplus(x + reach)[0] < 0:
+            reach *= 2
+        low, high = x - reach, x + reach
+        for _ in range(ROUNDS):
+            value, slope = surplus(x)
+            low, high = (x, high) if value <= 0 else (low, x)
+            following = x - value / slope if slope else low
+            if not low < following < high:
+                following = (low + high) / 2
+            if abs(following - x) <= CLOSE * x:
+                break
+            x = following
+        return float(following / k - mpf(t_1))
+
+
+DRAWN = "drawn"
+PARTS = {
+    "reduced": (reduced,),
+    "resting": (lifting_off, extremes),
+    "hanging": (circle, suspended, lifted),
+    "strength": (strength,),
+    "printed": (printed,),
+}
+SECTIONS = (*PARTS, DRAWN)
+
+
+@cache
+def _calculated() -> Mapping[str, str]:
+    """Return the section of every calculated quantity."""
+    return calculated(PARTS)
+
+
+def section_of(name: str) -> str:
+    """Return the section of a quantity, of `SECTIONS`: what is not calculated is drawn.
+
+    >>> section_of("C_12"), section_of("t_1"), section_of("T_1"), section_of("t_1_drawn")
+    ('reduced', 'resting', 'hanging', 'drawn')
+    """
+    return _calculated().get(name, DRAWN)
+
+
+def place_of(name: str) -> int:
+    """Return the place of a quantity's section among all."""
+    return SECTIONS.index(section_of(name))

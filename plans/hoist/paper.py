@@ -17,7 +17,7 @@ from .construction import Layout, Roots
 from .course import course, marks
 from .diagram_plan import HANGING, RESTING, part
 from .forces import Forces, motion_givens
-from .refining import rest_of_root
+from .model import rest_of_root
 
 TIMES, ORDINATES, SPAN, BEND = 180.0, 120.0, 160.0, 40.0  # mm of paper that axes should take
 WIDEST = 2.0  # ratio of neighbours in the series of scale factors

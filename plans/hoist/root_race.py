@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..laws import TURN
 from .finders import FINDERS, Equation, Found, approximations, find, lift_off_equation
 from .rivals import exact
-from .series import sine_rest
+from .roots import sine_rest
 
 Array = NDArray[np.float64]
 EVALUATIONS = 60

@@ -4,17 +4,128 @@ With x = k t, u = a/k the first is V (x - sin x) + u (x^2/2 - 1 + cos x) = k h, 
 falls; the second is u sin x + V cos x + (C_01/C_12) (V + u x) = 0, a cosine on a rising line. The second differs by one
 positive factor from the rate of the rope's force, so that its roots on the way down are maxima of the force. A turn of
 k t later the force is always greater by what has been wound up: maxima follow one another upwards, and so do minima.
+
+A wave A cos(x - psi) + c + d x with d >= 0 is level where sin(x - psi) = d/A, at crests and troughs in turn, and only
+rises or only falls between two of them; if one trough is not below zero none of the later ones is.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ..laws import NAN, TURN
-from .series import cosine_rest, sine_rest
-from .waves import Wave, rising_zero
+
+NEAR = 1.0
+TERMS = 10  # the next one is 1e-22 of the first at `NEAR`
+
+
+def sine_rest(x: Any) -> Any:
+    """Return x - sin x."""
+    return np.where(np.abs(x) < NEAR, _series(x, 3), x - np.sin(x))
+
+
+def cosine_rest(x: Any) -> Any:
+    """Return x^2 / 2 - 1 + cos x."""
+    half = np.sin(0.5 * x)
+    return np.where(np.abs(x) < NEAR, _series(x, 4), 0.5 * x * x - 2.0 * (half * half))
+
+
+def _series(x: Any, power: int) -> Any:
+    """Return x^p/p! - x^(p+2)/(p+2)! + ..., by Horner's rule; places that are far have no part in it."""
+    x = np.where(np.abs(x) < NEAR, x, 0.0)
+    square, found = x * x, 0.0
+    for k in range(TERMS, 0, -1):
+        n = power + 2 * k
+        found = (1.0 - found) * square * (1.0 / (n * (n - 1)))
+    first = x * square if power == 3 else square * square
+    return (1.0 - found) * first * (1.0 / math.factorial(power))
+
+
+Function = Callable[[Any], tuple[Any, Any]]
+MOST_ROUNDS = 600  # halving alone needs 54 beside one end that is not zero
+CLOSE = 2.0**-52
+
+
+def rising_zero(function: Function, low: Any, high: Any) -> Any:
+    """Return the zero of a function that only rises, between `low` and `high`.
+
+    Newton's steps that stay inside the bracket and are at most half as long as the last but one; else the bracket is
+    halved: nothing can make it fail. Each element of an array goes its own way, and stays where it has arrived.
+
+    Parameters
+    ----------
+    function : callable
+        Returns value and slope.
+    """
+    low, high = (np.array(end, float) for end in np.broadcast_arrays(low, high))
+    x, step = 0.5 * (low + high), high - low
+    last, arrived = step, np.isnan(x)
+    for _ in range(MOST_ROUNDS):
+        value, slope = function(x)
+        low, high = np.where(value <= 0.0, x, low), np.where(value >= 0.0, x, high)
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            by_newton = x - value / slope
+        quick = (by_newton >= low) & (by_newton <= high) & (2.0 * np.abs(by_newton - x) <= np.abs(last))
+        following = np.where(arrived, x, np.where(quick, by_newton, 0.5 * (low + high)))
+        last, step = step, following - x
+        x = following
+        arrived |= np.abs(step) <= CLOSE * np.abs(x)
+        if bool(np.all(arrived)):
+            break
+    return x
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Wave:
+    """A cos(x - psi) + c + d x; not negative at x = 0, and d >= 0."""
+
+    amplitude: Any
+    psi: Any
+    c: Any
+    d: Any
+
+    @property
+    def crest(self) -> Any:
+        """How far a crest is beyond x = psi + 2 pi n; NaN where the function only rises."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            sine = np.asarray(self.d / self.amplitude)
+            return np.arcsin(np.where(sine < 1.0, sine, NAN))
+
+    @property
+    def first(self) -> Any:
+        """The number n of the first trough beyond zero."""
+        return np.ceil((self.crest - self.psi - math.pi) / TURN)
+
+    @property
+    def last(self) -> Any:
+        """The number of the last trough below zero: less than the first where none is, infinite where all are."""
+        crest = self.crest
+        trough = self.c + self.d * (self.psi + math.pi - crest) - self.amplitude * np.cos(crest)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.ceil(-trough / (self.d * TURN)) - 1.0
+
+    def falling(self, n: Any) -> Any:
+        """Return the zero on the way down to trough `n`."""
+        crest = self.crest
+        place = rising_zero(lambda z: self._at(z, n, -1.0), crest, math.pi - crest)
+        return self.psi + TURN * n + place
+
+    def rising(self, n: Any) -> Any:
+        """Return the zero on the way up from trough `n`."""
+        crest = self.crest
+        place = rising_zero(lambda z: self._at(z, n, 1.0), math.pi - crest, TURN + crest)
+        return self.psi + TURN * n + place
+
+    def _at(self, z: Any, n: Any, sign: float) -> tuple[Any, Any]:
+        """Return value and slope at z beyond psi + 2 pi n."""
+        value = self.amplitude * np.cos(z) + (self.c + self.d * (self.psi + TURN * n + z))
+        return sign * value, sign * (self.d - self.amplitude * np.sin(z))
+
 
 STANDING = 1e-9  # part of the speeds that is none
 

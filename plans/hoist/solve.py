@@ -17,12 +17,10 @@ from .beam_plans import BENT, SCHEME
 from .construction import Layout, construct, layout_of
 from .diagram_plan import FORCES, UP
 from .forces import Forces, forces
-from .givens import complete
-from .hoist import PLANS, VALUES, Hoist
-from .model import CIRCLE, HORIZONTAL
+from .hoist import PLANS, VALUES, Hoist, complete
+from .model import CIRCLE, HORIZONTAL, place_of
 from .paper import SCALED, board_givens
 from .root_plans import EXTREMES, LIFT_OFF
-from .sections import place_of
 
 # the scale factor in which each plan shows values; on the diagrams that of the axis of ordinates
 SCALES = {

@@ -12,7 +12,6 @@ from kulman import check, note, sweep
 from kulman.plans.cams.cam import Cam
 from kulman.plans.cams.laws_of_motion import law_of_motion
 from kulman.plans.cams.motion import Motion, motion_of
-from kulman.plans.cams.pressure import least_transmission, pressure_angle
 from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath
 from kulman.plans.cams.rocker import (
     NoPlace,
@@ -32,7 +31,9 @@ from kulman.plans.cams.sizes import (
     apex,
     central,
     convexity,
+    least_transmission,
     offsets,
+    pressure_angle,
     smallest_plate,
     smallest_roller,
     wedge,

@@ -11,7 +11,7 @@ import pytest
 import kulman
 from kulman.plans.cams.closing import BOTH, drift, stroke_closed
 from kulman.plans.cams.convergence import BETWEEN, CLOSED, NODES, Convergence, convergence
-from kulman.plans.cams.division import Division
+from kulman.plans.cams.integration import Division
 from kulman.plans.cams.robustness import late, robustness
 from kulman.plans.cams.sectioned import R_0, S_MAX, V_MAX, drawn_on
 from kulman.plans.cams.solve import SolvedCam

@@ -12,10 +12,10 @@ import pytest
 
 from kulman.plans.boards.arrays import ArrayBoard
 from kulman.plans.boards.batch import batch
-from kulman.plans.gears import meshing_plan, sliding_plan
+from kulman.plans.gears import construction
+from kulman.plans.gears.construction import MOST, TEETH, TIP, mark, rolling
 from kulman.plans.gears.gear import CCW, CW, STANDARD, GearPair
 from kulman.plans.gears.geometry import POINTS
-from kulman.plans.gears.meshing_plan import MOST, TEETH, TIP, mark, rolling
 from kulman.plans.gears.solve import SolvedGear, solve_gear
 from kulman.plans.hands.hand import Hand, preset
 from kulman.plans.hands.shaky import draw, paper_of
@@ -215,7 +215,7 @@ def test_pole_outside_the_active_line_stands_at_another_point_of_the_table() -> 
 def test_involutes_far_out_are_divided_into_no_more_parts_than_can_be_told_apart() -> None:
     for rho_w, rho_a in ((1.0, 1.2), (1.0, 0.4), (1.0, 7.0), (1.0, 40.0), (1e-6, 1.0)):
         rolled = rolling(rho_w, rho_a)
-        assert 1 <= rolled.parts <= meshing_plan.PARTS
+        assert 1 <= rolled.parts <= construction.PARTS
         assert rolled.last <= MOST
         assert rolled.last == MOST or rolled.last * rho_w / rolled.parts <= rho_a < (
             (rolled.last + 1) * rho_w / rolled.parts
@@ -266,7 +266,7 @@ def test_what_follows_from_a_students_value_follows_from_it_on_the_drawing() -> 
 
 def test_every_mark_is_explained() -> None:
     program = solve_gear(GearPair(), madi()).program
-    said = (meshing_plan.__doc__ or "") + (sliding_plan.__doc__ or "")
+    said = construction.__doc__ or ""
     known = set(re.findall(r"`(\w+?)(?:_\d+|_start|_end|_a)?`", said)) | set(re.findall(r"`(\w+)`", said))
 
     for name in (step.name.partition(".")[2] for step in program if "." in step.name):

@@ -10,8 +10,7 @@ from mpmath import mp
 
 from kulman.plans.hoist.forces import forces, forces_of_many
 from kulman.plans.hoist.model import model
-from kulman.plans.hoist.roots import extremes
-from kulman.plans.hoist.series import cosine_rest, sine_rest
+from kulman.plans.hoist.roots import cosine_rest, extremes, sine_rest
 from kulman.tests.support.hoists import LONGEST, SEED, VARIANTS, constants, random_hoists, together, two_sided
 
 NEAR = 1e-9

@@ -9,10 +9,10 @@ import pytest
 
 from kulman import solve
 from kulman.plans.hoist.choice import choose
-from kulman.plans.hoist.curves import MOST, Curve
 from kulman.plans.hoist.forces import forces
 from kulman.plans.hoist.hoist import VALUES, Hoist
 from kulman.plans.hoist.model import model
+from kulman.plans.hoist.onesided import MOST, Curve
 from kulman.plans.hoist.rope import TremblingError, rope_of
 from kulman.plans.hoist.solve import solve_hoist
 from kulman.scales.errors import LANGUAGES, InputError

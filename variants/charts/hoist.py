@@ -13,7 +13,7 @@ from ...plans.hands.hand import preset
 from ...plans.hoist.choice import choose
 from ...plans.hoist.depth import depth
 from ...plans.hoist.drawn import by_board, by_hand
-from ...plans.hoist.givens import complete
+from ...plans.hoist.hoist import complete
 from ...plans.hoist.rivals import rivals
 from ...plans.hoist.root_race import root_race
 from ...plans.hoist.solve import SolvedHoist

@@ -217,7 +217,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def limits(self, drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let pass what the errors of all chords add up to."""
-        from ...plans.cams.tolerances import tolerances_of
+        from ...plans.cams.conditions import tolerances_of
 
         return tolerances_of(drawn, paper, tolerance)
 

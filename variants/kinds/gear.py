@@ -201,7 +201,7 @@ class Gears(Kind[GearPair, "SolvedGear"]):
 
     def limits(self, drawn: SolvedGear, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let pass of angles what the errors of the marks they hang on add up to."""
-        from ...plans.gears.tolerances import tolerances_of
+        from ...plans.gears.conditions import tolerances_of
 
         return tolerances_of(drawn, paper, tolerance)
 

@@ -63,7 +63,7 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
     def varies(self, checker: Checker, task: Task) -> None:
         """Check that every variant moves its load."""
-        from ...plans.hoist.givens import complete
+        from ...plans.hoist.hoist import complete
 
         for row, variant in enumerate(task.variants):
             try:
@@ -135,7 +135,7 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
     def headings(self, solved: SolvedHoist, words: Words) -> dict[str, str]:
         """Return the headings of the sections of the note."""
-        from ...plans.hoist.sections import section_of
+        from ...plans.hoist.model import section_of
 
         first = first_of(solved.quantities, section_of)
         return {name: words[f"heading.hoist_{section}"] for section, name in first.items()}
@@ -146,13 +146,13 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
     def limits(self, drawn: SolvedHoist, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let pass of the times that solve equations what is read off their drawings."""
-        from ...plans.hoist.tolerances import tolerances_of
+        from ...plans.hoist.conditions import tolerances_of
 
         return tolerances_of(drawn, tolerance)
 
     def section(self, solved: SolvedHoist, question: Question, current: str) -> str:
         """Return the section of a question: that of the note."""
-        from ...plans.hoist.sections import section_of
+        from ...plans.hoist.model import section_of
 
         return section_of(question.name)
 
