@@ -190,7 +190,7 @@ def normal_over_one_more(scene: Scene) -> Iterator[Change]:
 def rows_exchanged(scene: Scene) -> Iterator[Change]:
     """The rows of the ordinates are exchanged, all of them or beyond the pole."""
     steps = scene.steps
-    points = [role(name).about for name in steps if (role(name).kind, role(name).of) == ("y", "1")]
+    points = [here.about for here in map(role, steps) if (here.kind, here.of) == ("y", "1") and here.about]
     pole = next((p for p in points if scene.values[f"y_1_{p}"] == scene.values[f"y_2_{p}"]), "")
     for how, chosen in (("all", points), ("beyond", [p for p in points if pole and p > pole])):
         pairs = [(steps[f"y_1_{p}"], steps[f"y_2_{p}"]) for p in chosen]

@@ -122,3 +122,9 @@ def test_right_answers_have_no_mistake_told() -> None:
     right = [Answer(name, value=float(f"{key()[name]:.{DIGITS}g}")) for name in key().questions]
 
     assert explain(mistakes(), mark(key(), right)).candidates == ()
+
+
+def test_beams_of_a_hoist_that_bend_are_no_rows_of_the_sliding() -> None:
+    found = keyed(Request(load_task("karpenko-hoist"), ""), "V01", {}, Rubric(preset("careful").tolerance)).key
+
+    assert "M113" not in {one.mistake for one in broken(found.paper, found.values)}
