@@ -113,7 +113,9 @@ class _Answers:
         off = self.missed(book.vector, table, most)
         if np.all(book.other == 1.0):
             return off
-        return np.asarray(np.fmin(off, self.missed(book.vector, table * book.other, most)))
+        with np.errstate(invalid="ignore"):  # of values beyond all floats
+            turned = table * book.other
+        return np.asarray(np.fmin(off, self.missed(book.vector, turned, most)))
 
     def of_line(self, place: int) -> _Answers:
         """Return the answer of one line alone."""
