@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -31,7 +32,7 @@ def references(program: Program, values: Mapping[str, Any]) -> dict[str, float]:
         found[step.name] = key = plans.get(step.name) or unit_of(step.name)
         if step.verb not in POINTS:
             size = abs(values[step.name])
-            if size == size:
+            if math.isfinite(size):
                 largest[key] = max(largest.get(key, 0.0), float(size))
     return {name: PER_CENT if key == "%" else largest.get(key, 0.0) for name, key in found.items()}
 

@@ -125,7 +125,7 @@ def _allowed(key: Key, name: str, mu: float | None) -> tuple[float | None, float
 
 
 def _undefined(value: Any) -> bool:
-    return bool(value != value)
+    return not np.isfinite(value)
 
 
 def as_data(expected: Expectation) -> Mapping[str, Any]:

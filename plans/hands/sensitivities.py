@@ -91,6 +91,8 @@ def sensitivities(paper: Paper, hand: Hand, names: Iterable[str] = ()) -> Sensit
 
 def _misses(values: Array, exact: Any) -> Array:
     """Return what errors forth and back do: a distance that should be none grows with either."""
+    if np.isinf(exact):  # of a rigid beam
+        return np.zeros(values.shape[1:])
     forth, back = values
     slope, kink = (forth - back) * (0.5 / STEP), abs((forth + back) * 0.5 - exact) * (1.0 / STEP)
     found: Array = np.where(kink > abs(slope), kink, slope)

@@ -87,7 +87,7 @@ class Drawn:
         exact, drawings = self.exact[name], self[name]
         values = drawings[~np.isnan(drawings)]
         undrawn = 1.0 - values.size / self.board.codes.size
-        if not values.size or exact != exact:
+        if not values.size or not np.isfinite(exact):  # infinite is what a rigid beam has
             nothing = float("nan")
             return Spread(None, None, None, nothing, nothing, None, None, None, None, undrawn)
         misses = np.abs(values - exact)

@@ -173,16 +173,18 @@ def same_plan(step: Step, operand: str) -> bool:
 def failing(drawn: Drawn, allowed: Mapping[str, float]) -> dict[str, float]:
     """Return for each quantity the part of the drawings that a tolerance would fail, undrawn ones among them.
 
-    Of vectors the magnitudes are compared, of points the places. What is undefined is not marked.
+    Of vectors the magnitudes are compared, of points the places. What is undefined or infinite is not marked.
     """
     found = {}
     for step in results(drawn.paper.program):
         values, exact = drawn[step.name], drawn.exact[step.name]
-        if step.verb in RESULTS:
-            square = dot(values, values) if np.iscomplexobj(values) else None
-            miss = abs(values - exact) if square is None else abs(np.sqrt(square) - abs(exact))
+        if not np.isfinite(exact):
+            found[step.name] = 0.0
+            continue
+        if step.verb in RESULTS and np.iscomplexobj(values):
+            miss = abs(np.sqrt(dot(values, values)) - abs(exact))
         else:
             miss = abs(values - exact)
         wrong = ~(miss <= allowed[step.name] * (1.0 + ROUNDING))
-        found[step.name] = float(np.mean(wrong)) if exact == exact else 0.0
+        found[step.name] = float(np.mean(wrong))
     return found

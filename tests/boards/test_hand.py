@@ -36,6 +36,23 @@ def items(task: str = "nau-slider-crank", variant: str | None = "example", **mor
     return {name: item["hand"] for name, item in found.items() if "hand" in item}
 
 
+@pytest.mark.parametrize("rigid", [("I_0",), ("I_2",), ("I_0", "I_2")], ids=",".join)
+def test_what_is_infinite_of_rigid_beams_misses_nothing(rigid: tuple[str, ...]) -> None:
+    solution = solve("karpenko-hoist", hand="normal", set=dict.fromkeys(rigid, "inf"))
+    found = {name: item.get("hand") for name, item in solution.to_json()["quantities"].items()}
+
+    infinite = [{"I_0": "C_01", "I_2": "C_2"}[name] for name in rigid]
+    for name in infinite:
+        assert solution[name].value is None
+        assert found[name] == dict.fromkeys(KEYS) | {"failed": 0.0, "undrawn": 0.0}, name
+    of_one = {name for name, item in found.items() if item and item["low"] is not None}
+    assert len(of_one) > 20
+    assert all(found[name]["low"] <= solution[name].value <= found[name]["high"] for name in of_one)
+    for language in LANGUAGES:
+        row = next(row for row in solution.drawn(language).splitlines() if row.startswith(f"{infinite[0]} "))
+        assert row.split() == [infinite[0], "–", *row.split()[2:3], "–"]
+
+
 def test_json_of_the_command_line_says_what_a_hand_draws(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = run("solve|nau-slider-crank|-v|example|--hand|normal|--json", capsys)
 
