@@ -202,3 +202,13 @@ def test_values_that_do_not_come_from_segments_blame_no_scale_factor(tmp_path: P
     marked = check(TASK, "3", lang="en").mark(read(tmp_path, tenths, "3")).marked
 
     assert marked.misfits == {}
+
+
+def test_a_scale_factor_beside_which_a_mistake_is_beyond_all_floats_is_marked(tmp_path: Path) -> None:
+    checked = check("madi-cam", set={"mu_phi": "7e-9 deg/mm"})
+    file = tmp_path / "answers.csv"
+    file.write_text(HEAD + "mu_a;;;180;;\n", encoding="utf-8")
+
+    found = checked.mark(checked.read(str(file))[0])
+
+    assert "mu_a" in {row.name for _, rows in found.parts for row in rows if row.answer}
