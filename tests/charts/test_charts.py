@@ -23,7 +23,7 @@ from kulman.drawing.charts.stability import _log, _lost, _widen
 from kulman.drawing.words import Words
 from kulman.plans import contest as contests
 from kulman.plans.contest import Effort
-from kulman.scales.errors import LANGUAGES
+from kulman.scales.errors import LANGUAGES, PositionError
 from kulman.tests.support.documents import run_here
 from kulman.variants.charts import linkage as charts
 from kulman.variants.charts.charts import Charts, chart
@@ -327,6 +327,17 @@ def test_a_crank_that_cannot_turn_round_has_its_charts(tmp_path: Path) -> None:
     assert "cannot be assembled" in found.table()
     (svg, _) = found.save(tmp_path / "a.svg")
     assert "limit" in svg.read_text(encoding="utf-8")
+
+
+def test_a_crank_that_hardly_moves_has_its_stability() -> None:
+    task, moving, still = "scheme-03-crank-rocker", "10 mm", "0.2 mm"  # couplers: it moves by some degrees, by none
+
+    found = chart(task, "0", set={"l_AB": moving}, chart=("stability",)).charts["stability"].to_json()
+
+    assert 0 < found["statuses"].count("ok") < 60
+    assert any(mm is not None for item in found["quantities"].values() for mm in item["miss"])
+    with pytest.raises(PositionError, match="cannot be assembled"):
+        chart(task, "0", set={"l_AB": still}, chart=("stability",))
 
 
 def test_a_slider_that_drives_has_its_charts(tmp_path: Path) -> None:

@@ -11,14 +11,14 @@ import numpy as np
 from ...drawing.charts.stability import SPOTS
 from ...drawing.linkages.layout.ladders import first_scales
 from ...drawing.words import GREEK, Words
-from ...plans.boards.exact import SMALL
+from ...plans.boards.exact import SMALL, STATUSES
 from ...plans.hands.hand import preset
 from ...plans.linkages.accuracy.stability import DEAD, Stability, stability
 from ...plans.linkages.cycles.cycle import Cycle
-from ...plans.linkages.solved import solve_linkage
+from ...plans.linkages.solved import SolvedLinkage, solve_linkage
 from ...plans.names import role
 from ...plans.quantities import BALANCES
-from ...scales.errors import InputError
+from ...scales.errors import InputError, PositionError
 from ..spreadsheets.csv_write import Cell
 from ..sweeps.columns import driver_name
 from ..tables import aligned
@@ -186,13 +186,19 @@ def scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
     ------
     InputError
         What is chosen gives none at any of them.
+    PositionError
+        None of them can be assembled.
     """
     case, mus, reason = scene.case, dict[str, float](), None
     values = case.task.values(case.variant, case.settings)
-    places = cycle.angles[:: max(len(cycle.angles) // LOOKED, 1)]
     plans = (*case.plans, "position")
-    solutions = [solve_linkage(cycle.mechanism, {**values, cycle.drive.variable: at}, plans) for at in places]
-    sound = [solved for solved in solutions if solved.trouble is None]
+    sound: list[SolvedLinkage] = []
+    for angles in (cycle.angles, cycle.angles[cycle.codes < STATUSES.index("singular")]):
+        places = angles[:: max(len(angles) // LOOKED, 1)]
+        solutions = [solve_linkage(cycle.mechanism, {**values, cycle.drive.variable: at}, plans) for at in places]
+        sound = sound or [solved for solved in solutions if solved.trouble is None]
+    if not sound:
+        raise case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
     for solved in [solved for solved in sound if solved.worst_sine()[1] >= SMALL] or sound:
         try:
             _, scales = first_scales(solved, case.choosers, plans)
