@@ -33,6 +33,7 @@ ANGLED = frozenset(("M08", "M09", "M10"))  # mistakes that put the crank at anot
 SLIP = 1.5  # tolerances by which a line that stays wrong misses clearly
 ODD = 1e4  # times the right scale factor that none is
 EXACT, CLOSE = 0.006, 0.03  # parts of a number by which mm times mu, and a calculation, may differ from it
+ASIDE, ALMOST = 0.1, 6  # tolerances by which another number is worse, and decimals to which explanations are as good
 BY_HAND = Step("read", "", ())
 BEAM = 4  # chains of mistakes that are made longer
 LOCAL = 16  # mistakes at one line that are looked at closely
@@ -84,6 +85,8 @@ class _Found:
     clear: tuple[int, ...]  # places of lines that stay wrong by more than a slip
     missed: float  # by how many tolerances these miss together, each by MOST at most
     spoilt: int  # how many lines are wrong by a slip that were not without it
+    aside: float  # part by which the first number, where it is calculated, misses what the mistake makes of it
+    moved: int  # how many lines it moves, directions that nobody has said among them
 
     @property
     def fits(self) -> bool:
@@ -94,6 +97,17 @@ class _Found:
 def _rank(one: _Found) -> float:
     """Return the misses, worse for each line that stays clearly wrong, or is spoilt, and for a second mistake."""
     return one.candidate.misses + LEFT * one.missed + SPOILT * one.spoilt + SECOND * (len(one.chain) - 1)
+
+
+def _order(one: _Found) -> tuple[float, int]:
+    """Return the rank among all explanations; of single mistakes as good as each other the one that moves fewer lines.
+
+    A single mistake is worse where a calculated number is not what it makes of it, however wide the tolerance of the
+    segment is.
+    """
+    if len(one.chain) > 1:
+        return _rank(one), 0
+    return round(_rank(one) + (ASIDE if one.aside > EXACT else 0.0), ALMOST), one.moved
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +202,7 @@ class _Search:
             found += [one for one in local if one.chain[0].broken.place not in tried]
             found += [] if found else self._together(off)
             found += self._chained(found, off)
-        ranked = sorted(found, key=_rank)
+        ranked = sorted(found, key=_order)
         candidates = _simplest(_grouped(ranked, self.said))
         if not candidates or candidates[0].misses > 1.0:
             candidates = _simplest((*self._put_right(off), *candidates))
@@ -283,11 +297,7 @@ class _Search:
         """Whether mm times mu gives another number than is written, or what is calculated from earlier numbers does."""
         if answer.mm and any(abs(x - other) <= EXACT * other for x in measured(answer, self.mus.get(line.plan))):
             return True
-        steps = self.book.key.paper.program.by_name
-        if line.follows != line.follows or "calc" not in (
-            steps[line.name].verb,
-            steps.get(f"_{line.name}", BY_HAND).verb,
-        ):
+        if line.follows != line.follows or not self._calculated(line.name):
             return False
         return bool(abs(other - abs(line.follows)) <= min(line.allowed, CLOSE * other))
 
@@ -367,7 +377,22 @@ class _Search:
         spoilt = sum(name not in self.faulty for name in left if name not in {again[i].name for i in clear})
         candidate = Candidate(tuple(s.broken for s in chain), (), explained, left, misses)
         missed = sum(min(again[i].off, MOST) for i in clear)
-        return _Found(candidate, chain, again, clear, missed, spoilt)
+        aside = self._aside(next(line for line in again if line.name == self.marking.first_wrong))
+        moved = int(np.count_nonzero(~(np.abs(chain[-1].row - self.book.right) <= self.book.allowed)))
+        return _Found(candidate, chain, again, clear, missed, spoilt, aside, moved)
+
+    def _aside(self, line: Line) -> float:
+        """Return by what part a number that was calculated misses what it is held against; nothing for what was not."""
+        answer, against = line.answer, abs(line.follows)
+        if answer is None or not known(answer.value) or not self._calculated(line.name) or not against < np.inf:
+            return 0.0
+        off = abs(abs(answer.value or 0.0) - against)
+        return off / against if against else np.inf if off else 0.0
+
+    def _calculated(self, name: str) -> bool:
+        """Whether a quantity is calculated, before it is laid off or not."""
+        steps = self.book.key.paper.program.by_name
+        return "calc" in (steps[name].verb, steps.get(f"_{name}", BY_HAND).verb)
 
     def _carried(self, candidate: Candidate) -> Marking:
         """Return the marking in which the first line that each mistake explains is wrong, and the others are carried.

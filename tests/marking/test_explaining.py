@@ -92,6 +92,27 @@ def test_closed_forms_of_a_slotted_lever_are_explained(id: str, found: Motion) -
     assert id in explanation.candidates[0].ids
 
 
+def sizes_of(name: str, factor: float) -> list[Answer]:
+    """Return the sizes of the slider-crank in which one line alone is so many times the right one."""
+    made = right_answers(key("nau-slider-crank", "0"), directions=False)
+    return [replace(a, value=(a.value or 0.0) * (factor if a.name == name else 1.0)) for a in made]
+
+
+def test_a_normal_part_of_omega_alone_is_named_however_small_it_is() -> None:
+    of_key = key("nau-slider-crank", "0")
+    answers = sizes_of("a_BA_n", 1.0 / abs(of_key["omega_2"]))
+
+    assert explain(book(of_key), mark(of_key, answers)).candidates[0].mistakes[0].mistake == "M115"
+
+
+def test_a_sense_alone_is_a_wrong_sense_and_not_another_motion() -> None:
+    of_key = key("nau-slider-crank", "0")
+    turned = -1 if of_key["omega_2"] > 0.0 else 1
+    answers = [replace(a, sense=turned) if a.name == "omega_2" else a for a in sizes_of("", 1.0)]
+
+    assert explain(book(of_key), mark(of_key, answers)).candidates[0].mistakes[0].mistake == "M29"
+
+
 def test_exchanged_parts_of_an_acceleration_are_named() -> None:
     of_key = key("nau-slider-crank", "0")
     sizes = {a.name: a for a in right_answers(of_key, directions=False)}
