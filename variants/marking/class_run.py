@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -23,6 +24,7 @@ from .result import Result, failed, result_of
 
 JOURNAL = ".kulman-check.jsonl"
 REPORTS_NOTED = ".kulman-reports.json"  # which reports of a folder are the program's own
+COLLECTED = 20_000  # objects made anew after which garbage is looked for
 Item = tuple[int, Answers]
 
 
@@ -67,13 +69,25 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
     found = {item[0]: result for item in students if (result := marked.before(item)) is not None}
     advance(len(found), len(students))
     todo = [item for item in students if item[0] not in found]
-    for done in shared_out(job, todo, jobs or os.cpu_count() or 1):
-        for number, result in (marked.noted(todo[one.place], one.made) for one in done):
-            found[number] = result
-        advance(len(done), len(students))
+    with _seldom_collected():
+        for done in shared_out(job, todo, jobs or os.cpu_count() or 1):
+            for number, result in (marked.noted(todo[one.place], one.made) for one in done):
+                found[number] = result
+            advance(len(done), len(students))
     results = [found[number] for number, _ in students]
     marked.finish(results)
     return results
+
+
+@contextmanager
+def _seldom_collected() -> Iterator[None]:
+    """Look for garbage less often, in this process and its copies: keys are many objects, gone through every time."""
+    usual = gc.get_threshold()
+    gc.set_threshold(max(COLLECTED, usual[0]) if usual[0] else 0, *usual[1:])
+    try:
+        yield
+    finally:
+        gc.set_threshold(*usual)
 
 
 def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
