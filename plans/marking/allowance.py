@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,7 @@ from ..names import role
 from ..quantities import POINTS
 from .answers import Answer
 from .key import COARSER, ROUNDED, Key
-from .student import StudentBoard
+from .student import StudentBoard, settled
 
 THREE = 3  # digits that a number has at the least where nobody knows how it was written
 LAYING = 0.6  # part of the tolerance in mm by which a segment that is laid off and read again may miss
@@ -69,6 +70,10 @@ class Allowance:
         self._inputs: dict[str, list[str]] = {}
         self._calculated: dict[str, float] = {}
         self.sized: set[str] = set()  # what was held against the size of its plan
+
+    @cached_property
+    def _settled(self) -> Mapping[str, int]:
+        return settled(self.key.paper.program)
 
     def after(self, other: Allowance, anew: Collection[str]) -> None:
         """Take over what another one has found, but for the names that are made `anew`."""
@@ -244,16 +249,19 @@ class Allowance:
         if times >= 1.0:
             return allowed * times
         self.sized.add(name)
-        return allowed * max(times, min(1.0, COARSER * self._grown(question.plan)))
+        return allowed * max(times, min(1.0, COARSER * self._grown(name, question.plan)))
 
-    def _grown(self, plan: str) -> float:
-        """Return how many times larger the student's plan is than the right one, its longest vectors compared."""
+    def _grown(self, name: str, plan: str) -> float:
+        """Return how many times larger the student's plan is than the right one, its longest vectors compared.
+
+        They are those drawn until `name` is known, even if the plan is drawn farther already.
+        """
         if plan == POSITION:
             return 1.0
-        right, own, count = 0.0, 0.0, 0
-        for name in self.key.vectors.get(plan, ()):
-            if name in self.drawn.follows:
-                value = self.drawn.values[name]
-                right, count = max(right, abs(self.key[name])), count + 1
+        right, own, count, end = 0.0, 0.0, 0, self._settled[name]
+        for vector in self.key.vectors.get(plan, ()):
+            if vector in self.drawn.follows and self._settled[vector] <= end:
+                value = self.drawn.values[vector]
+                right, count = max(right, abs(self.key[vector])), count + 1
                 own = max(own, abs(value) if value == value else 0.0)
         return own / right if right and count >= FEWEST else 1.0
