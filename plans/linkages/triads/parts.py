@@ -48,7 +48,8 @@ class Triad:
     @property
     def X(self) -> Name:
         """Letter of Assur's special point, `X3` for the central link 3 (not S3, which is a centre of mass)."""
-        return Name(f"X{self.number}", POINT, "X", links=(self.number,))
+        letter = f"X{self.number}"
+        return Name(letter, POINT, letter, links=(self.number,))
 
     @property
     def D(self) -> str:
