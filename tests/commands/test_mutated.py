@@ -100,6 +100,7 @@ FOUND = {
         "sweep nau-slider-crank --only structure -o s.svg", "need the plans of velocities"
     ),
     "a point hundreds of kilometres off": Found("sheet bertyaev-six-bar --set l_AM=34064609cm -o x.svg", "fits on A1"),
+    "a field over millions of kilometres": Found("sweep nau-slider-crank --set l_AB=2.3e9mm -o s.svg", "fits on A1"),
     "a stroke that is nothing": Found(
         "solve scheme-02-forging-press --set e=0 --set l_AB=4.0391552127004423e-09 --only forces", "are missing at B", 3
     ),

@@ -15,6 +15,7 @@ from ..scene import Scene
 from .links import draw_links, letter_links
 
 PITCH = 5.0  # distance of neighbouring points in arrowheads
+MOST = 100.0  # such distances along a side, more than a sheet has room for
 APART = 0.9  # longest vector in parts of the distance of neighbouring points
 
 
@@ -41,7 +42,8 @@ def _grid(scene: Scene, link: int) -> tuple[int, int]:
     points = [scene.solved.point(point) for point in scene.solved.mechanism.link(link).points]
     width, height = (float(np.ptp(part)) for part in (np.real(points), np.imag(points)))
     side = max(width, height)
-    columns, rows = (max(2, round((part + 2.0 * MARGIN * side) / pitch) + 1) for part in (width, height))
+    wanted = ((part + 2.0 * MARGIN * side) / pitch for part in (width, height))
+    columns, rows = (max(2, round(min(count, MOST)) + 1) for count in wanted)
     return columns, rows
 
 

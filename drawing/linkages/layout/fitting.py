@@ -112,11 +112,11 @@ class Fitting:
         """Return the next rung worth drawing for a view that is `excess` times as large as its room.
 
         Letters keep their size, so that a view shrinks by less than its scale factor grows; even if they find better
-        places, so far off no rung fits.
+        places, so far off no rung fits. Where none can be right, the last one shows how far off it is.
         """
         ladder = self.extents.ladders[symbol].values
         wanted = ladder[rung] * excess * SURELY
-        return next((k for k in range(rung + 1, len(ladder)) if ladder[k] >= wanted), rung + 1)
+        return next((k for k in range(rung + 1, len(ladder)) if ladder[k] >= wanted), max(rung + 1, len(ladder) - 1))
 
     def build(self, sheet: Format, rungs: Rungs) -> tuple[list[tuple[View, str]], Mapping[str, Scale]]:
         """Draw all figures with the scale factors on these rungs; each with the ladder that sizes it, or ""."""
