@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ..board import POSITION, Step
@@ -339,15 +339,17 @@ def not_reversed(scene: Scene) -> Iterator[Change]:
 def from_driver_end(scene: Scene) -> Iterator[Change]:
     """Groups are solved from the driver's end: the reaction of the later group is missing."""
     driver = next((s.operands[1] for s in reversed(list(scene.made_by("chain", plan=FORCES)))), "")
+    polygons = hung(scene)
     for step in passed(scene):
         if step.name != driver:
             yield Change(step.name, {step.name: nothing(step)}, {})
-            yield _left_out(scene, step.name)
+            if step.name in polygons:  # else it has been left out before
+                yield _left_out(scene, step.name, polygons[step.name])
 
 
-def _left_out(scene: Scene, force: str) -> Change:
-    """Leave a force out of the polygons and the equations of moments, though it is known."""
-    steps = {step.name: (Step("same", step.name, step.operands[:1]),) for step in hung(scene)[force]}
+def _left_out(scene: Scene, force: str, hangs: Sequence[Step]) -> Change:
+    """Leave a known force out of the steps that hang it on polygons, and out of the equations of moments."""
+    steps = {step.name: (Step("same", step.name, step.operands[:1]),) for step in hangs}
     taken = {step.name for step in scene.made_by("moment") if step.operands[0] == force}
     for step in scene.made_by("calc", law="moment_equation"):
         if taken & set(step.operands):

@@ -344,6 +344,16 @@ def test_planted_mistakes_are_found(tasks: list[str], count: int, directions: bo
     assert downstream >= 0.95
 
 
+def test_every_mistake_can_be_made_after_a_force_is_left_out() -> None:
+    of_book = book(key("scheme-10-shaper-two-blocks", "1"))
+    left_out = [one for one in of_book.signatures if one.broken.mistake in ("M58", "M72")]
+    assert {one.broken.mistake for one in left_out} == {"M58", "M72"}
+
+    for one in left_out:
+        paper = Paper(one.broken.program, one.broken.givens, of_book.key.paper.mus)
+        assert len(list(broken(paper, one.values))) > 200
+
+
 def twice_broken(of_book: Book, first: str, second: str) -> Signature:
     one = next(s for s in of_book.signatures if s.broken.mistake == first)
     paper = Paper(one.broken.program, one.broken.givens, of_book.key.paper.mus)
