@@ -96,7 +96,7 @@ def ran(work: Callable[[], T], clock: Clock) -> tuple[T, float]:
     start = clock()
     found = work()
     spent = clock() - start
-    return found, spent if spent > ENOUGH * ROUNDS else timed(work, clock)
+    return found, spent if spent > ENOUGH else timed(work, clock)
 
 
 def timed(work: Callable[[], object], clock: Clock) -> float:

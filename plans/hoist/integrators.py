@@ -7,8 +7,9 @@ its method is refused: its numbers would look like some.
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -24,6 +25,7 @@ NAMES = ("m", "C_01", "C_12", "V_t", "a", "g")
 GROWN = 1.1  # growth of an oscillation over a run from which on it is refused
 ROUNDS = 60  # of closing in on an event within a step
 CLOSE = 1e-15  # parts of a step that are no step
+BLOCK = 16  # steps between looks at whether loads have left their supports
 MARGIN = 1.5  # times as long as the exact lift-off can take
 
 
@@ -204,41 +206,44 @@ def _judged(
     return Run(z, t_1, F_12_t1, F_12_max, P_12_max, highest, grown, refused, first + last, *masked)
 
 
+def _rows(take: Stepper, motion: Motion, t: Array, state: State, h: Array) -> Iterator[tuple[Array, Any, Any]]:
+    """Go through times and states, from the beginning on without an end."""
+    yield t, *state
+    for i in itertools.count():
+        state = take(motion, t + i * h, state, h)
+        yield t + (i + 1) * h, *state
+
+
 def _steps(take: Stepper, motion: Motion, t: Array, state: State, h: Array, count: int) -> Trace:
     """Go so many steps."""
-    rows = [(t, *state)]
-    for i in range(count):
-        state = take(motion, t + i * h, state, h)
-        rows.append((t + (i + 1) * h, *state))
-    return _trace(rows)
+    return _trace(itertools.islice(_rows(take, motion, t, state, h), count + 1))
 
 
 def _until_lift_off(hoists: Hoists, method: str, t: Array, state: State, h: Array) -> tuple[Trace, Any]:
     """Step until every load has left its support; return the steps, and time and state where it does."""
     take, motion = STEPPERS[method], hoists.on_support()
-    rows = [(t, *state)]
-    going = np.ones(h.shape, bool)
-    for i in range(int(np.ceil(MARGIN * hoists.latest() / h).max()) + 1):
-        new = take(motion, t + i * h, state, h)
-        going = going & (hoists.lift(t + (i + 1) * h, new) < 0.0)
-        old = rows[-1]
-        state = new[0], new[1]
-        rows.append(
-            (
-                np.where(going, t + (i + 1) * h, old[0]),
-                *(np.where(going, *pair) for pair in zip(new, old[1:], strict=True)),
-            )
-        )
-        if not going.any():
-            break
-    begin = rows[-1]
-    lifted = _within(hoists.lift, _Step(take, motion, (begin[0], (begin[1], begin[2])), h))
+    source = _rows(take, motion, t, state, h)
+    rows, most = [next(source)], int(np.ceil(MARGIN * hoists.latest() / h).max()) + 1
+    borne, going = np.zeros(h.shape, int), np.ones(h.shape, bool)
+    while going.any() and len(rows) <= most:
+        block = list(itertools.islice(source, min(BLOCK, most + 1 - len(rows))))
+        new = _trace(block)
+        bears = np.logical_and.accumulate(hoists.lift(new.t, (new.u, new.v)) < 0.0) & going
+        borne, going = borne + bears.sum(axis=0), bears[-1]
+        rows += block
+    rows = rows[: borne.max() + 2]
+    found = _trace(rows)
+    last, own = np.minimum(np.arange(len(rows))[:, None], borne), np.arange(len(h))
+    held = _at(found, last, own)  # where the load has left, its last state on the support
+    begin = _at(found, borne, own)
+    lifted = _within(hoists.lift, _Step(take, motion, begin, h))
     off = tuple(np.where(going, np.nan, one) for one in lifted)
-    return _trace([*rows, off]), off
+    whole = (held[0], *held[1])
+    return Trace(*(np.concatenate((one, end[None])) for one, end in zip(whole, off, strict=True))), off
 
 
-def _trace(rows: list[Any]) -> Trace:
-    return Trace(*(np.stack([row[i] for row in rows]) for i in range(3)))
+def _trace(rows: Iterable[Any]) -> Trace:
+    return Trace(*(np.stack(column) for column in zip(*rows, strict=True)))
 
 
 def _peak(hoists: Hoists, take: Stepper, phase: Callable[[Hoists], Motion], trace: Trace, end: Array) -> Array:

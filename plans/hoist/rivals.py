@@ -31,6 +31,7 @@ FORMULAS, MISSED, DRAWN, HAND = "hoist-closed", "rk4-missed", "hoist-drawn", "ha
 TOLERANCES = (1e-2, 1e-4, 1e-8, 1e-15)
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # k h, rad
 TINY = (0.005, 0.002, 0.001)  # beside these for the method of the least order
+MOST_STEPS = 10_000  # of a run; ten times as many of the method of the least order
 MOST_AT_ONCE = 100_000  # hoists; a million would fill a gigabyte
 PLACES = 200  # times at which closed forms are compared
 CORRECTIONS = 4  # of the exact root: from 1e-8 on two are enough
@@ -104,11 +105,15 @@ class _Race:
                 yield from self._entries(finder, tolerance, follow(self.values, t_1), (alone, alone + after), 1)
 
     def steps(self) -> Iterator[Entry]:
-        """Go through integrators and steps; runs that are refused give nothing."""
+        """Go through integrators and steps; runs that are refused, or too long, give nothing."""
         found = model(self.values, COMPARED) | {"a": self.values["a"]}
+        angle = float(self.right["k"] * (self.right["t_1"] + TURN / self.right["k_1"]))  # k t of a whole run
         ways = [(method, method, True) for method in STEPPERS] + [(MISSED, RK4, False)]
         for name, method, located in ways:
             for step in (*STEPS, *(TINY if method == EXPLICIT else ())):
+                if angle > step * MOST_STEPS * (10 if method == EXPLICIT else 1):
+                    yield from self._nothing(name, step)
+                    continue
                 work = partial(integrate, found, method, step, located)
                 run, spent = ran(work, self.clock)
                 if run.refused[0]:

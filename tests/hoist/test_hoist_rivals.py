@@ -109,6 +109,18 @@ def test_steps_show_their_orders(method: str, order: float) -> None:
     assert limits().order(method) == pytest.approx(order, abs=0.15)
 
 
+def test_runs_of_too_many_steps_give_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(contests, "ROUNDS", 1)
+    monkeypatch.setattr(races, "STEPS", (0.4, 0.1))
+    monkeypatch.setattr(races, "TINY", (0.05, 0.0125))
+    monkeypatch.setattr(races, "MOST_STEPS", 100)
+    found = rivals(STEADY, time.process_time, Effort((1,), 10))  # 15 rad of the swing
+
+    taken = {(entry.method, entry.setting) for entry in found.of(PEAK) if entry.error is not None}
+    assert {(RK4, 0.4), (VERLET, 0.4)} <= taken
+    assert not {(method, step) for method, step in taken if step in (0.1, 0.0125)}
+
+
 def test_steps_are_refused_beyond_their_limits() -> None:
     refused = {method: limits().refused_from(method) for method in ORDERS}
 
