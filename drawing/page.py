@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import rect
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import pi
+from math import pi, tau
 from typing import assert_never
 
 from .pens import Norm, Pens, pens_for
@@ -46,7 +46,8 @@ def _reach(shape: Shape) -> tuple[complex, ...]:
         case Circle(centre=centre, radius=radius):
             return centre - complex(radius, radius), centre + complex(radius, radius)
         case Arc(centre=centre, radius=radius, start=start, sweep=sweep):
-            low, high = min(start, start + sweep), max(start, start + sweep)
+            low = min(start, start + sweep)
+            high = min(max(start, start + sweep), low + tau)  # however often it goes round
             quarters = (quarter * pi / 2 for quarter in range(int(low // (pi / 2)) + 1, int(high // (pi / 2)) + 1))
             return tuple(centre + radius * rect(1.0, angle) for angle in (low, high, *quarters))
         case Head(tip=tip):

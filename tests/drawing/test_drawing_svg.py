@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from kulman.drawing.page import Page
+from kulman.drawing.page import Page, _reach, extent
 from kulman.drawing.pens import pens_for
 from kulman.drawing.shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Text, Vector
 from kulman.drawing.svg import svg_text, write_svg
@@ -196,3 +196,11 @@ def test_the_comparison_with_the_golden_drawing_can_fail():
     moved = replace(ONE_OF_EACH[0], b=205.00001 + 292j)
 
     assert without_font(svg_text(page(moved, *ONE_OF_EACH[1:]))) != GOLDEN.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("sweep", [math.tau, 1e5, -1e5])
+def test_an_arc_covers_a_circle_however_often_it_goes_round(sweep: float):
+    arc = Arc(1.0 + 2.0j, 5.0, 0.0, sweep)
+
+    assert extent([arc]) == pytest.approx((-4.0, -3.0, 6.0, 7.0), abs=1e-6)
+    assert len(_reach(arc)) <= 7  # not one for every quarter of a turn
