@@ -83,7 +83,7 @@ def read_file(task: str | os.PathLike[str]) -> tuple[Task | None, tuple[InputErr
 
 
 def check_file(task: str | os.PathLike[str]) -> tuple[tuple[InputError, ...], tuple[InputError, ...]]:
-    """Return the faults of a task file, those among them that only solving each variant tells, and remarks.
+    """Return the faults of a bundled task or of a file, those too that only solving each variant tells, and remarks.
 
     Raises
     ------
@@ -91,7 +91,8 @@ def check_file(task: str | os.PathLike[str]) -> tuple[tuple[InputError, ...], tu
         As `read_file`.
     """
     shown = _shown(task)
-    return check_text(_file_text(task, shown), shown)
+    known = isinstance(task, str) and task in bundled()
+    return check_text(bundled_text(task) if known else _file_text(task, shown), shown)
 
 
 def read_text(toml: str, file: str) -> tuple[Task | None, tuple[InputError, ...]]:

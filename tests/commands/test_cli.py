@@ -133,11 +133,16 @@ def test_a_check_shows_every_fault_of_a_file(tmp_path: Path, capsys: pytest.Capt
     assert [fault["message"] for fault in data["errors"]] == out.splitlines()
 
 
+def test_check_takes_a_bundled_task(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["list", "--check", "madi-gear"], capsys) == (0, "madi-gear: no faults\n", "")
+
+
 def test_a_check_of_a_good_file_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "t.toml"
     file.write_text(bundled_text(TASK), encoding="utf-8")
 
     assert run(["list", "--check", str(file)], capsys) == (0, f"{file}: no faults\n", "")
+
     assert json.loads(run(["list", "--check", str(file), "--json"], capsys)[1]) == {
         "file": str(file),
         "ok": True,
