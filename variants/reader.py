@@ -91,8 +91,9 @@ def check_file(task: str | os.PathLike[str]) -> tuple[tuple[InputError, ...], tu
         As `read_file`.
     """
     shown = _shown(task)
-    known = isinstance(task, str) and task in bundled()
-    return check_text(bundled_text(task) if known else _file_text(task, shown), shown)
+    if isinstance(task, str) and task in bundled():
+        return check_text(bundled_text(task), shown)
+    return check_text(_file_text(task, shown), shown)
 
 
 def read_text(toml: str, file: str) -> tuple[Task | None, tuple[InputError, ...]]:
