@@ -107,7 +107,7 @@ class Desk:
             explanation = explain(key.book, marking)
             marking, candidates = explanation.marking, explanation.candidates
         marking, borne = counted_once(marking, found, {line.name for line in self._counted(key, marking, answers)})
-        others = self._others(variant)
+        others = self._other_variants(variant)
         fits = fits_other(marking, given, others, lambda other: self.keyed(other, settings, own=False).key)
         marking = bounded(marking, self.keyed(fits, settings, own=False).key if fits else None)
         lines = self._counted(key, marking, answers)
@@ -123,7 +123,7 @@ class Desk:
         all_notes = (*answers.problems, *notes)
         return Marked(answers, entry, key, marking, candidates, lines, marks, parts, all_notes, borne, fits)
 
-    def _others(self, variant: str) -> list[str]:
+    def _other_variants(self, variant: str) -> list[str]:
         """Return the other variants, as many as there are keys kept."""
         return [other for other in self.check.request.task.variants if other != variant][: KEPT - 1]
 
