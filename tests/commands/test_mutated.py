@@ -156,7 +156,7 @@ def test_a_crash_a_flood_and_a_hang_are_faults(fault: Any, kind: str, monkeypatc
     monkeypatch.setattr("kulman.cli.refuse", fault)
     monkeypatch.setattr("kulman.tests.support.mutated_runs.SECONDS", 0.5)
 
-    found = list(faults(range(6)))
+    found = list(faults(range(6), method="fork"))  # with what is planted here
 
     assert kind in {fault.what.partition(":")[0] for fault in found}
 
@@ -171,3 +171,11 @@ def test_no_mutated_input_crashes_hangs_or_floods(half: int) -> None:
     ]
 
     assert not found, "\n".join(f"case {fault.n}: {fault.what}\n{fault.line}\n{fault.trace}" for fault in found)
+
+
+@pytest.mark.soak
+def test_cases_end_in_a_process_that_has_written_a_note_before(tmp_path: Path) -> None:
+    run(Case(["note", "nau-slider-crank", "-o", str(tmp_path / "note.pdf")]))
+
+    assert (tmp_path / "note.pdf").exists()
+    assert not list(faults(range(124, 125), "classes"))  # notes of a class

@@ -147,12 +147,16 @@ def _chunk(numbers: range, family: str) -> list[Fault]:
     return [fault for n in numbers if (fault := tried(n, family)) is not None]
 
 
-def faults(numbers: range, family: str = "solved") -> Iterator[Fault]:
-    """Run the cases with these numbers, a process for each `CHUNK` of them."""
-    fork = multiprocessing.get_context("fork")
+def faults(numbers: range, family: str = "solved", method: str = "forkserver") -> Iterator[Fault]:
+    """Run the cases with these numbers, a process for each `CHUNK` of them, started by this method of Python's.
+
+    A plain fork of a process that has written a note waits for ever: the threads of typst are not in the copy.
+    """
+    context = multiprocessing.get_context(method)
+    context.set_forkserver_preload(["kulman.tests.support.mutated_runs"])
     size = CHUNK if family == "solved" else CHUNK // 5
     for start in range(numbers.start, numbers.stop, size):
-        with ProcessPoolExecutor(1, mp_context=fork) as pool:
+        with ProcessPoolExecutor(1, mp_context=context) as pool:
             yield from pool.submit(_chunk, range(start, min(start + size, numbers.stop)), family).result()
 
 
