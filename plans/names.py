@@ -192,6 +192,12 @@ def inertia(kind: str, link: int) -> Name:
     return Name(f"{kind}_{INERTIA}{link}", kind, f"{INERTIA}{link}", part=INERTIA, links=(link,))
 
 
+def on_link(couple: str, link: int) -> Name:
+    """Return a couple, whatever a task calls it, with the link on which it acts."""
+    said = role(couple)
+    return Name(couple, said.kind, said.of, said.about, said.part, (link,))
+
+
 def moment(force: str, about: str) -> Name:
     """Return the moment of a force about a point, which is hidden."""
     return Name(f"_M_{force}_{about}", "M", force, about, links=role(force).links)

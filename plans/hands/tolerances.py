@@ -139,7 +139,8 @@ class _Rule:
         for i, name in enumerate(step.operands):
             if miss := self.allowed.get(name, 0.0):
                 changed = ([*operands[:i], longer, *operands[i + 1 :]] for longer in longer(operands[i], miss))
-                changes = [abs(law(*others) - exact) for others in changed]  # a load diagram may be steep on one side
+                with np.errstate(all="ignore"):  # a miss may lead out of where a law holds
+                    changes = [abs(law(*others) - exact) for others in changed]  # a load diagram may be steep one way
                 total += max((change for change in changes if change == change), default=0.0)
         return total
 

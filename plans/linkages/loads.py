@@ -12,7 +12,7 @@ from typing import Any
 from ...scales.errors import InputError
 from ..board import Board
 from ..laws import TURN
-from ..names import inertia, magnitude, rate, vector
+from ..names import inertia, magnitude, on_link, rate, vector
 from .mechanism import (
     ANGLE,
     BOTH,
@@ -93,14 +93,15 @@ def _couples(mechanism: Mechanism, bodies: Bodies) -> Couples:
         if link.inertia and bodies[link.number].epsilon:
             found[link.number].append(inertia("M", link.number))
     for couple in mechanism.couples:
-        found[couple.link].append(couple.name)
+        found[couple.link].append(on_link(couple.name, couple.link))
     return found
 
 
 def _sums(mechanism: Mechanism, bodies: Bodies) -> dict[str, list[str]]:
     """Return the sums of couples on links that have several: `M_sum`, of more such links `M_sum_3`."""
     several = {number: parts for number, parts in _couples(mechanism, bodies).items() if len(parts) > 1}
-    return {"M_sum" if len(several) == 1 else f"M_sum_{number}": parts for number, parts in several.items()}
+    own = "M_sum" if len(several) == 1 else ""
+    return {on_link(own or f"M_sum_{number}", number): parts for number, parts in several.items()}
 
 
 def _inertia(board: Board, moving: Moving, link: Link) -> None:
@@ -175,12 +176,13 @@ def _line(board: Board, moving: Moving, load: Load) -> str | None:
 def _couple(board: Board, moving: Moving, couple: Couple) -> None:
     """Lay down a moment: in its sense, or against the turning of its link."""
     size, omega = _size(board, moving.mechanism, couple), moving.bodies[couple.link].omega
+    name = on_link(couple.name, couple.link)
     if couple.sense is not None:
-        board.calc(couple.name, "signed", size, couple.sense)
+        board.calc(name, "signed", size, couple.sense)
     elif omega is None:
-        board.calc(couple.name, "signed", size, ZERO)
+        board.calc(name, "signed", size, ZERO)
     else:
-        board.calc(couple.name, "resisting_moment", size, omega, moving.turning)
+        board.calc(name, "resisting_moment", size, omega, moving.turning)
 
 
 def _size(board: Board, mechanism: Mechanism, load: Load | Couple) -> str:

@@ -24,6 +24,7 @@ from kulman.variants.marking.marked import Desk, Marked
 from kulman.variants.marking.report import Report
 from kulman.variants.marking.result import result_of
 from kulman.variants.roster import Who
+from kulman.variants.shelf import bundled_text
 
 TASK = "nau-slider-crank"
 OF = key(TASK, "3")
@@ -102,6 +103,18 @@ def test_moments_on_the_lever_that_are_lost_or_turned_are_found(id: str) -> None
         ]
         assert planted
         assert marking.first_wrong == moved[0]
+
+
+@pytest.mark.parametrize("called", ["M_3", "M_r", "T"])
+def test_a_couple_hangs_wrong_on_the_lever_in_all_ways_whatever_it_is_called(called: str, tmp_path: Path) -> None:
+    text = bundled_text("scheme-03-crank-rocker").replace('name = "M_3"', f'name = "{called}"')
+    (tmp_path / "x.toml").write_text(text, encoding="utf-8")
+
+    planted = [s.broken for s in mistakes(str(tmp_path / "x.toml")).signatures if s.broken.mistake == "M79"]
+
+    ways = {(str(one.at), one.how) for one in planted}
+    assert {how for at, how in ways if "sum" in at} == {how for at, how in ways if "i2" in at}
+    assert len({how for _, how in ways}) == 3
 
 
 def test_tolerances_follow_a_smaller_value_of_the_students_own() -> None:

@@ -104,8 +104,8 @@ def judged(case: Case, status: int, out: str, err: str) -> str:
     return ""
 
 
-def tried(n: int, family: str) -> Fault | None:
-    """Run case `n` in a folder of its own: its fault, None where it is well."""
+def tried(n: int, family: str, seconds: float) -> Fault | None:
+    """Run case `n` in a folder of its own: its fault, None where it is well and takes no more processor time."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         raise TooLongError
@@ -115,7 +115,7 @@ def tried(n: int, family: str) -> Fault | None:
     what = where = trace = ""
     with tempfile.TemporaryDirectory() as folder, chdir(folder):
         lay_out(case, Path())
-        signal.setitimer(signal.ITIMER_PROF, SECONDS)
+        signal.setitimer(signal.ITIMER_PROF, seconds)
         try:
             what = judged(case, *run(case))
         except (Exception, TooLongError) as problem:
@@ -136,18 +136,20 @@ def _data() -> int:
     return next(int(line.split()[1]) * 1024 for line in status.splitlines() if line.startswith("VmData"))
 
 
-def _chunk(numbers: range, family: str) -> list[Fault]:
+def _chunk(numbers: range, family: str, seconds: float) -> list[Fault]:
     most_data = _data() + MEMORY  # beside what the forked process has of its parent
     resource.setrlimit(resource.RLIMIT_DATA, (most_data, most_data))
-    most = int(SECONDS * (len(numbers) + 2) + time.process_time())
+    most = int(seconds * (len(numbers) + 2) + time.process_time())
     resource.setrlimit(resource.RLIMIT_CPU, (most, most))  # of what does not even hear the alarm
     ranges.TRIES = TRIES
     object.__setattr__(FULL, "batches", (1, 10, 100))  # races are run at length, to measure times
     object.__setattr__(FULL, "at_once", 100)
-    return [fault for n in numbers if (fault := tried(n, family)) is not None]
+    return [fault for n in numbers if (fault := tried(n, family, seconds)) is not None]
 
 
-def faults(numbers: range, family: str = "solved", method: str = "forkserver") -> Iterator[Fault]:
+def faults(
+    numbers: range, family: str = "solved", method: str = "forkserver", seconds: float = SECONDS
+) -> Iterator[Fault]:
     """Run the cases with these numbers, a process for each `CHUNK` of them, started by this method of Python's.
 
     A plain fork of a process that has written a note waits for ever: the threads of typst are not in the copy.
@@ -157,7 +159,8 @@ def faults(numbers: range, family: str = "solved", method: str = "forkserver") -
     size = CHUNK if family == "solved" else CHUNK // 5
     for start in range(numbers.start, numbers.stop, size):
         with ProcessPoolExecutor(1, mp_context=context) as pool:
-            yield from pool.submit(_chunk, range(start, min(start + size, numbers.stop)), family).result()
+            chunk = range(start, min(start + size, numbers.stop))
+            yield from pool.submit(_chunk, chunk, family, seconds).result()
 
 
 def _alone(n: int, family: str) -> None:
