@@ -22,6 +22,7 @@ from .spots import (
     Flags,
     Grid,
     Obstacles,
+    Points,
     Reals,
     Request,
     Segment,
@@ -259,37 +260,62 @@ class _Scene:
         return self.apart[key]
 
     def _led(self, i: int, one: Wanted, grid: Grid, board: _Board, limit: float) -> bool:
-        few = grid.cost < limit  # what follows only adds to the cost
-        if not few.any():
-            return False
-        x, y, cost = grid.x[few], grid.y[few], grid.cost[few]
-        cost = cost + COVER * board.clashes(i, x, y).sum(axis=1)
-        foot = one.feet(x + 1j * y)
-        head = np.clip(foot.real, x - one.hw, x + one.hw) + 1j * np.clip(foot.imag, y - one.hh, y + one.hh)
-        far = abs(head - foot)
-        way = (head - foot) / np.where(far > TOUCH, far, 1.0)
-        cost[far < FAR[0] - 1.0] += COVER
-        start = foot + way * one.rim[0]
-        lines = Bodies.strokes(start + TOUCH * way, head)
-        cost += self._on_labels(i, lines, board)
-        if board.leaders:
-            old = Bodies.strokes(*np.array(list(board.leaders.values())).T)
-            on = old.distance(x[:, None], y[:, None], one.hw, one.hh, slice(None)) < one.gap
-            cost += COVER * on.sum(axis=1) + CROSSING * crossings(lines, old)
-        cost += CROSSING * (crossings(lines, self.bodies) + overlaps(lines, self.bodies))
-        k = int(cost.argmin())
-        if cost[k] >= limit:
-            return False
-        leader = complex(head[k] - way[k] * one.gap / 2), complex(start[k])
-        board.set_apart(i, complex(x[k], y[k]), leader)
+        leads, cost = _leads(i, one, grid, board, limit)
+        for price in (self._on_labels, self._on_leaders, self._on_bodies):
+            cost = cost + price(i, one, leads, board)
+            few = cost < limit  # what follows only adds to the cost
+            if not few.any():
+                return False
+            leads, cost = leads[:, few], cost[few]
+        at, head, start, way = leads[:, int(cost.argmin())].tolist()
+        board.set_apart(i, at, (head - way * one.gap / 2, start))
         return True
 
-    def _on_labels(self, i: int, lines: Bodies, board: _Board) -> Reals:
+    def _on_labels(self, i: int, one: Wanted, leads: Points, board: _Board) -> Reals:
         """Return what it costs that leaders of label i run through other labels: none may."""
         w = self.wanted
         others = board.now_x[:, None], board.now_y[:, None], w.hw[:, None], w.hh[:, None]
-        touched = lines.distance(*others, slice(None)) < w.gap / 2
+        touched = _lines(leads).distance(*others, slice(None)) < w.gap / 2
         touched &= board.down[:, None]
         touched[i] = False
         result: Reals = COVER * touched.sum(axis=0)
         return result
+
+    def _on_leaders(self, i: int, one: Wanted, leads: Points, board: _Board) -> Reals:
+        """Return what it costs that label i stands on older leaders, or its own crosses them."""
+        if not board.leaders:
+            return np.zeros(leads.shape[1])
+        old = Bodies.strokes(*np.array(list(board.leaders.values())).T)
+        x, y = leads[0].real[:, None], leads[0].imag[:, None]
+        on = old.distance(x, y, one.hw, one.hh, slice(None)) < one.gap
+        result: Reals = COVER * on.sum(axis=1) + CROSSING * crossings(_lines(leads), old)
+        return result
+
+    def _on_bodies(self, i: int, one: Wanted, leads: Points, board: _Board) -> Reals:
+        """Return what it costs that leaders of label i cross what is drawn, or run along it."""
+        lines = _lines(leads)
+        count = crossings(lines, self.bodies) + overlaps(lines, self.bodies)
+        result: Reals = np.multiply(CROSSING, count)
+        return result
+
+
+def _leads(i: int, one: Wanted, grid: Grid, board: _Board, limit: float) -> tuple[Points, Reals]:
+    """Return places of label i on leaders that cost less than `limit`: shape (4, K), and what they cost, shape (K,).
+
+    The four are the middle of the label, head and start of its leader, and the way from the start to the head.
+    """
+    few = grid.cost < limit
+    x, y, cost = grid.x[few], grid.y[few], grid.cost[few]
+    cost = cost + COVER * board.clashes(i, x, y).sum(axis=1)
+    foot = one.feet(x + 1j * y)
+    head = np.clip(foot.real, x - one.hw, x + one.hw) + 1j * np.clip(foot.imag, y - one.hh, y + one.hh)
+    far = abs(head - foot)
+    way = (head - foot) / np.where(far > TOUCH, far, 1.0)
+    cost[far < FAR[0] - 1.0] += COVER
+    leads, few = np.array([x + 1j * y, head, foot + way * one.rim[0], way]), cost < limit
+    return leads[:, few], cost[few]
+
+
+def _lines(leads: Points) -> Bodies:
+    _, head, start, way = leads
+    return Bodies.strokes(start + TOUCH * way, head)
