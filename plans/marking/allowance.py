@@ -133,7 +133,7 @@ class Allowance:
         seen, left = {step.name}, list(step.operands)
         while left:
             operand = left.pop()
-            visible = operand if operand in self.answers else role(operand).shown
+            visible = role(operand).shown if role(operand).hidden else operand  # the size of a load is data
             if visible in self.answers:
                 found.append(visible)
             elif operand not in seen and (before := self._steps.get(operand)) and before.verb in ("calc", "moment"):
