@@ -1,19 +1,22 @@
 """What the program prints and writes, hashed: a change that is to change nothing proves it.
 
     python -m kulman.tests.corpus.corpus            compare all with what is kept, on all cores: make corpus
-    python -m kulman.tests.corpus.corpus --keep     keep what there is now
+    python -m kulman.tests.corpus.corpus --keep     keep what there is now, with --only TEXT of some cases
     python -m kulman.tests.corpus.corpus --write DIR --only TEXT    write the outputs of some cases, to look at them
 
 A case is a command in a folder of its own; its output is what it prints on both streams, its status, and the bytes of
-the files it writes, of workbooks the values of cells. Answers to be marked are made from the right ones.
+the files it writes, of workbooks the values of cells. Answers to be marked are made from the right ones. What is kept
+holds where library functions and the packages that draw are the same, bit for bit (`machine`).
 """
 
 from __future__ import annotations
 
 import argparse
+import cmath
 import hashlib
 import io
 import json
+import math
 import os
 import sys
 import tempfile
@@ -21,10 +24,15 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import chdir
 from dataclasses import dataclass
+from importlib.metadata import version
 from pathlib import Path
+
+import numpy as np
 
 KEPT = Path(__file__).with_name("digests.txt")
 LANGUAGES = ("uk", "ru", "en")
+MACHINE = "machine"  # stands in the place of a case
+PACKAGES = ("click", "matplotlib", "numpy", "openpyxl", "reportlab")
 DIGITS = 16  # of a digest
 EVERY = {"few": 24, "many": 7}  # every how-manieth case a short and a longer run compare
 WRONG = 1.25  # how many times too large the student's answers of every fifth line are
@@ -143,8 +151,19 @@ def some(which: str) -> list[Case]:
     return [case for number, case in enumerate(cases()) if number % EVERY[which] == 0]
 
 
+def machine() -> str:
+    """Return a digest of what this machine makes of library functions, and of the versions of what draws and writes."""
+    x = np.linspace(-30.0, 30.0, 20_001)
+    probe = hashlib.sha256(sys.version.encode())
+    for y in (np.sin(x), np.cos(x), np.tan(x), np.exp(x), np.arctan2(x, x[::-1]), np.hypot(x, 3.0), abs(x) ** 0.3):
+        probe.update(y.tobytes())
+        probe.update(np.array([math.sin(z) * math.exp(z) + cmath.exp(1j * z).real for z in x[::10]]).tobytes())
+    probe.update(" ".join(f"{name} {version(name)}" for name in PACKAGES).encode())
+    return probe.hexdigest()[:DIGITS]
+
+
 def kept() -> dict[str, str]:
-    """Return the digests that are kept, by the names of their cases."""
+    """Return the digests that are kept, by the names of their cases; `MACHINE` names where they hold."""
     lines = KEPT.read_text(encoding="utf-8").splitlines()
     return {name: found for found, _, name in (line.partition(" ") for line in lines)}
 
@@ -170,13 +189,14 @@ def main() -> int:
             print(digest(case, folder), case.name)
         return 0
     found = digests(wanted)
-    if said.keep:
-        KEPT.write_text("".join(f"{value} {name}\n" for name, value in found.items()), encoding="utf-8")
-        return 0
-    if not KEPT.exists():
-        print("nothing is kept yet to compare with: --keep", file=sys.stderr)
-        return 2
     before = kept()
+    if said.keep:
+        whole = {MACHINE: machine(), **(before if said.only else {}), **found}
+        KEPT.write_text("".join(f"{value} {name}\n" for name, value in whole.items()), encoding="utf-8")
+        return 0
+    if before[MACHINE] != machine():
+        print("what is kept is that of another machine, or of other packages", file=sys.stderr)
+        return 2
     changed = [name for name, value in found.items() if before.get(name) != value]
     print("\n".join(["changed:", *changed] if changed else [f"{len(found)} outputs, none changed"]))
     return bool(changed)

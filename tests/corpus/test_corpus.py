@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from kulman.tests.corpus.corpus import Case, cases, digest, some
+import pytest
+
+from kulman.tests.corpus.corpus import MACHINE, Case, cases, digest, kept, machine, some
+
+here = pytest.mark.skipif(kept()[MACHINE] != machine(), reason="library functions round otherwise here")
 
 
 def test_cases_are_many_and_each_is_one_of_its_own() -> None:
@@ -16,3 +20,20 @@ def test_same_command_has_the_same_digest_and_another_one_another() -> None:
     first, again, other = (digest(Case(("solve", "madi-gear", "--lang", language))) for language in ("uk", "uk", "en"))
 
     assert first == again != other
+
+
+@here
+@pytest.mark.parametrize("case", some("few"), ids=lambda case: case.name)
+def test_output_is_what_it_was(case: Case) -> None:
+    assert digest(case) == kept()[case.name]
+
+
+@here
+@pytest.mark.soak
+@pytest.mark.parametrize("case", some("many"), ids=lambda case: case.name)
+def test_outputs_are_what_they_were(case: Case) -> None:
+    assert digest(case) == kept()[case.name]
+
+
+def test_every_case_is_kept() -> None:
+    assert [*kept()] == [MACHINE, *(case.name for case in cases())]
