@@ -115,17 +115,14 @@ def radius_to_another_point(scene: Scene) -> Iterator[Change]:
 @mistake("M96")
 def plate_by_another_line(scene: Scene) -> Iterator[Change]:
     """The tangent at 45 degrees touches the positive branch; or none is drawn, and the greatest ordinate is taken."""
-    touching = [s for s in scene.made_by("calc", law="touching") if role(s.name).kind == "touch"]
     last = scene.steps.get("_touch_plate")
-    if touching and last is not None:
+    if last is not None:
+        touching = [scene.steps[name] for name in last.operands[1:]]
         steps = {s.name: (Step(s.verb, s.name, operand(s, 1, "one"), s.law),) for s in touching}
         steps[last.name] = (Step(last.verb, last.name, operand(last, 0, "one"), last.law),)
         yield Change("r_0_flat_min", steps, {}, "branch")
-        yield Change("r_0_flat_min", {s.name: (_upright(s),) for s in touching}, {}, "ordinate")
-
-
-def _upright(step: Step) -> Step:
-    return Step(step.verb, step.name, operand(step, 0, "zero"), step.law)
+        upright = {s.name: (Step(s.verb, s.name, operand(s, 0, "zero"), s.law),) for s in touching}
+        yield Change("r_0_flat_min", upright, {}, "ordinate")
 
 
 @mistake("M97")

@@ -127,6 +127,8 @@ def test_the_plate_by_ordinates_alone_is_the_greatest_negative_one() -> None:
 
     assert after("M96", "ordinate")["r_0_flat_min"] == pytest.approx(key["A_2"], rel=1e-9)
     assert after("M96", "branch")["r_0_flat_min"] > key["A_1"]
+    for how in ("ordinate", "branch"):  # the tangents of the roller's cam stay
+        assert after("M96", how)["r_0"] == key["r_0"]
 
 
 def test_an_angle_of_the_rocker_is_that_at_another_corner() -> None:
