@@ -9,7 +9,12 @@ from kulman import solve
 from kulman.plans.hands.hand import preset
 from kulman.plans.linkages.accuracy.stability import CHANGE, DEAD, LIMIT, Stability, spots, stability
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
+from kulman.plans.linkages.mechanism import Mechanism
+from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
 from kulman.tests.support.linkages import four_bar, four_bar_values, slider_crank, slider_crank_values
+from kulman.variants.case import solve_case
+from kulman.variants.charts import stability as chart_of
+from kulman.variants.charts.data import Scene
 from kulman.variants.reader import load_task
 
 PLANS = ("position", "velocity", "acceleration")
@@ -89,6 +94,23 @@ def test_scales_of_the_paper_divide_the_errors_of_drawing() -> None:
 
     assert np.median(small.misses["V_B"] / large.misses["V_B"]) == pytest.approx(1.0, rel=0.3)  # in mm they are alike
     assert stability(whole, ("V_B",), MUS, NORMAL).misses["V_B"].tolist() == large.misses["V_B"].tolist()
+
+
+def test_positions_for_scales_are_solved_once_where_they_are_sound(monkeypatch: pytest.MonkeyPatch) -> None:
+    case = solve_case("madi-four-bar", None, None, None, None)
+    values = case.task.values(case.variant, case.settings)
+    whole = cycle(case.task.mechanism, values, case.plans, 2 * chart_of.LOOKED, start=values["phi"])
+    places: list[float] = []
+
+    def solved_at(mechanism: Mechanism, values: dict[str, float], plans: tuple[str, ...]) -> SolvedLinkage:
+        places.append(values["phi"])
+        return solve_linkage(mechanism, values, plans)
+
+    monkeypatch.setattr(chart_of, "solve_linkage", solved_at)
+
+    chart_of.scales_of_cycle(Scene(case, case.words("en"), "normal"), whole)
+
+    assert places == [*whole.angles[::2]]
 
 
 def test_dead_positions_of_the_bundled_shaper_are_marked() -> None:

@@ -13,8 +13,9 @@ import pytest
 
 from kulman import all_variants, cli, load_task, sheet, solve
 from kulman.plans.boards.exact import SMALL
+from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.case import solve_case
-from kulman.variants.making.ranges import ranges_of
+from kulman.variants.making.ranges import most_pages, ranges_of
 from kulman.variants.making.task_text import with_variants
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled
@@ -239,3 +240,10 @@ def test_a_table_has_a_decimal_sign_of_its_language(tmp_path: Path) -> None:
     rows = list(csv.reader(found.read_text("utf-8-sig").splitlines(), delimiter=";"))
 
     assert rows[1][:3] == ["V_B", "м/с", "2,16225964"]
+
+
+@pytest.mark.parametrize("x_1", [pytest.param("0.2", id="drawn"), pytest.param("-3", id="refused")])
+def test_pages_are_counted_though_the_first_variant_of_a_task_is_refused(x_1: str) -> None:
+    task = task_of(with_changes(load_task("madi-gear").text, ("x_1 = 0.2", f"x_1 = {x_1}")))
+
+    assert most_pages(task)() == 2

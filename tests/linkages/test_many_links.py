@@ -126,6 +126,18 @@ def test_indices_of_many_links_are_printed_with_a_comma() -> None:
     assert "{1,2}" in words.symbol("R_1_2_t")
 
 
+def test_headings_of_force_plans_name_whole_links() -> None:
+    solution = solved(12)
+    kind, structure, words = solution.kind, solution.solved.structure, solution.words
+    found = {plan: kind.plan_heading(solution.solved, plan, words) for plan in solution.solved.program.plans}
+    groups = {f"forces_{group.name}": ", ".join(map(str, group.links)) for group in structure.groups}
+
+    assert "forces_10_11" in groups
+    for plan, links in groups.items():
+        assert found[plan] == words["heading.group_forces"].format(links=links)
+    assert found["forces_24"] == words["heading.link_forces"].format(link=24)
+
+
 def renumbered(mechanism: Mechanism, by: int = 10) -> Mechanism:
     """Return a mechanism whose moving links have other numbers."""
 

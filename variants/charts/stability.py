@@ -196,7 +196,9 @@ def scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
     for angles in (cycle.angles, cycle.angles[cycle.codes < STATUSES.index("singular")]):
         places = angles[:: max(len(angles) // LOOKED, 1)]
         solutions = [solve_linkage(cycle.mechanism, {**values, cycle.drive.variable: at}, plans) for at in places]
-        sound = sound or [solved for solved in solutions if solved.trouble is None]
+        sound = [solved for solved in solutions if solved.trouble is None]
+        if sound:
+            break
     if not sound:
         raise case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
     for solved in [solved for solved in sound if solved.worst_sine()[1] >= SMALL] or sound:
