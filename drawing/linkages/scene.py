@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ...plans.board import POSITION
 from ...plans.linkages.mechanism import Driver
 from ...plans.linkages.solved import SolvedLinkage
+from ...plans.linkages.structure import Structure
 from ...plans.names import inertia, rate, role
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
@@ -85,6 +86,17 @@ class Scene:
         """Return the heading lines of a view: its name and the scale factors of `plans`."""
         scales = dict.fromkeys(self.words.scale(self.scales[plan]) for plan in plans)
         return (self.words[key].format(**fill), *scales)
+
+
+def plan_heading(words: Words, structure: Structure, plan: str) -> str:
+    """Return the heading of a plan; that of a plan of forces names its group or its link."""
+    drawn = role(plan)
+    if drawn.kind != "forces":
+        return words[f"heading.{plan}"]
+    links = structure.parts.get(drawn.of, ())
+    if len(links) > 1:
+        return words["heading.group_forces"].format(links=", ".join(map(str, links)))
+    return words["heading.link_forces"].format(link=drawn.of)
 
 
 def arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:

@@ -70,7 +70,7 @@ def _kinematics(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> 
         yield Figure(scheme, "mu_l")
     for plan in ("velocity", "acceleration"):
         if plan in plans:
-            yield _plan(plan, f"heading.{plan}", symbols[plan])
+            yield _plan(plan, symbols[plan])
     yield from (_kinematics_text(part, width) for part in kinematics_parts(solved, plans))
     parts = results_parts(solved)
     yield from (_results(p) for p in parts if p.kind in ("velocity", "acceleration") and p.kind in plans)
@@ -116,7 +116,7 @@ def _forces(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Iter
             yield from _group(solved, group)
             yield from (_forces_text(part, width) for part in parts if part == group.name)
         yield Figure(driver_view, "mu_l")
-        yield _plan(f"forces_{link}", "heading.link_forces", symbols[f"forces_{link}"], link=link)
+        yield _plan(f"forces_{link}", symbols[f"forces_{link}"])
         yield from (_forces_text(part, width) for part in parts if part in (WHOLE, link))
 
 
@@ -136,12 +136,9 @@ def _group(solved: SolvedLinkage, group: Group) -> Iterator[Figure]:
     yield _apart(group, None)
     for plan in plans:
         link = role(plan).of
-        if link == group.name:
-            yield _plan(plan, "heading.group_forces", symbols[plan], links=", ".join(map(str, group.links)))
-            continue
-        if int(link) in apart:
+        if link != group.name and int(link) in apart:
             yield _apart(group, int(link))
-        yield _plan(plan, "heading.link_forces", symbols[plan], link=link)
+        yield _plan(plan, symbols[plan])
     yield from (_apart(group, number) for number in apart if f"forces_{number}" not in plans)
 
 
@@ -173,8 +170,8 @@ def _compound_text(coupler: Coupler, kind: str, width: float) -> Figure:
     return Figure(lambda scene: compound_block(scene, width, coupler, kind))
 
 
-def _plan(plan: str, key: str, symbol: str, **fill: str) -> Figure:
-    return Figure(lambda scene: plan_view(scene, plan, key, **fill), symbol)
+def _plan(plan: str, symbol: str) -> Figure:
+    return Figure(lambda scene: plan_view(scene, plan), symbol)
 
 
 def _kinematics_text(part: KinematicsPart, width: float) -> Figure:

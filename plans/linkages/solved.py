@@ -103,8 +103,7 @@ def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:
     """Return the symbol of the scale factor of every plan; a group and its links share one."""
     kinds = {POSITION: "l", "velocity": "V", "acceleration": "a", "lever": "V"}
     symbols: dict[str, str] = {Name(plan, plan): scale_factor(kind) for plan, kind in kinds.items()}
-    parts = {str(structure.driver): (structure.driver,), **{group.name: group.links for group in structure.groups}}
-    for part, links in parts.items():
+    for part, links in structure.parts.items():
         symbols |= {spelled("forces", name): scale_factor("F", part, links) for name in (part, *map(str, links))}
     symbols |= {plan: symbol for plan in program.plans if (symbol := compound.scale_symbol(plan))}
     drawn = set(program.plans)

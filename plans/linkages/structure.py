@@ -90,10 +90,15 @@ class Structure:
     groups: tuple[Group, ...]
 
     @property
+    def parts(self) -> dict[str, tuple[int, ...]]:
+        """Links of the driver and of each group, by the name that its forces go by."""
+        return {str(self.driver): (self.driver,), **{group.name: group.links for group in self.groups}}
+
+    @property
     def scale_symbols(self) -> tuple[Name, ...]:
         """Symbols of the scale factors of its plans; the driver and each group have one for their forces."""
-        parts = {str(self.driver): (self.driver,), **{group.name: group.links for group in self.groups}}
-        return *map(scale_factor, ("l", "V", "a")), *(scale_factor("F", part, parts[part]) for part in parts)
+        forces = (scale_factor("F", part, links) for part, links in self.parts.items())
+        return *map(scale_factor, ("l", "V", "a")), *forces
 
 
 def letter(pair: Pair) -> str:

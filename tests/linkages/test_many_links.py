@@ -129,13 +129,14 @@ def test_indices_of_many_links_are_printed_with_a_comma() -> None:
 def test_headings_of_force_plans_name_whole_links() -> None:
     solution = solved(12)
     kind, structure, words = solution.kind, solution.solved.structure, solution.words
-    found = {plan: kind.plan_heading(solution.solved, plan, words) for plan in solution.solved.program.plans}
     groups = {f"forces_{group.name}": ", ".join(map(str, group.links)) for group in structure.groups}
+    right = {plan: words["heading.group_forces"].format(links=links) for plan, links in groups.items()}
+    right["forces_24"] = words["heading.link_forces"].format(link=24)
+
+    headings = {plan: kind.plan_heading(solution.solved, plan, words) for plan in right}
 
     assert "forces_10_11" in groups
-    for plan, links in groups.items():
-        assert found[plan] == words["heading.group_forces"].format(links=links)
-    assert found["forces_24"] == words["heading.link_forces"].format(link=24)
+    assert headings == right
 
 
 def renumbered(mechanism: Mechanism, by: int = 10) -> Mechanism:

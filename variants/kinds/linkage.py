@@ -263,16 +263,16 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def plan_heading(self, solved: SolvedLinkage, plan: str, words: Words) -> str:
         """Return the heading of a plan, as the sheet has it; `V_at` alone stands for the points of one drawing."""
-        kind, links = role(plan).kind, role(plan).of
-        if kind == "forces":
-            driver = str(solved.structure.driver)
-            key = "driver" if links == driver else "group_forces" if len(links) > 1 else "link_forces"
-            return words[f"heading.{key}"].format(links=", ".join(links), link=links)
-        if kind == VELOCITY:
-            return ": ".join(filter(None, (words["heading.compound_velocity"], links)))
-        if kind == ACCELERATION:
-            return words["heading.compound_acceleration"].format(point=links)
-        return words[f"heading.{plan}"]
+        from ...drawing.linkages.scene import plan_heading
+
+        drawn = role(plan)
+        if drawn == spelled("forces", solved.structure.driver):
+            return words["heading.driver"]
+        if drawn.kind == VELOCITY:
+            return ": ".join(filter(None, (words["heading.compound_velocity"], drawn.of)))
+        if drawn.kind == ACCELERATION:
+            return words["heading.compound_acceleration"].format(point=drawn.of)
+        return plan_heading(words, solved.structure, plan)
 
     def vector_letters(self, solved: SolvedLinkage, words: Words) -> dict[str, str]:
         """Return the letters of the vector that shows a quantity on its plan: pb, ab, n_BA b."""

@@ -9,7 +9,7 @@ from ....plans.names import role
 from ...shapes import Line, Pen
 from ...view import Canvas, View
 from ..marks import letter_marks, symbol, vectors_of
-from ..scene import Scene
+from ..scene import Scene, plan_heading
 from .flat import said_flat
 from .force_plan import FORCES, ForcePlan, construction_line, in_inset
 from .inset import with_insets
@@ -18,7 +18,7 @@ from .similarity import draw_sides
 SHORT = 2.0  # mm below which a vector cannot be drawn as an arrow
 
 
-def plan_view(scene: Scene, plan: str, key: str, **fill: str) -> View:
+def plan_view(scene: Scene, plan: str) -> View:
     """Draw a plan from the steps that made it: construction lines, vectors, letters; of forces also insets."""
     canvas = Canvas(scene.style)
     steps = scene.solved.program.on(plan)
@@ -31,7 +31,8 @@ def plan_view(scene: Scene, plan: str, key: str, **fill: str) -> View:
     _vectors(canvas, scene, vectors, left)
     ends = {mark for _, *marks in left for mark in marks}
     _letters(canvas, scene, plan, [tip for _, _, tip in vectors if tip in ends])
-    heading, notes = scene.heading(key, plan, **fill), (*_said(scene, plan, left), *forces.said(shown))
+    heading = plan_heading(scene.words, scene.solved.structure, plan), scene.words.scale(scene.scales[plan])
+    notes = *_said(scene, plan, left), *forces.said(shown)
     return with_insets(canvas, plan, heading, notes, [(forces, window) for window in shown])
 
 

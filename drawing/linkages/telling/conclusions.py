@@ -9,15 +9,14 @@ from ....plans.boards.exact import SMALL
 from ....plans.laws import dot
 from ....plans.linkages.mechanism import MOMENT, Driver
 from ....plans.linkages.solved import disagreement
-from ....plans.names import Name, role
+from ....plans.names import role
 from ....plans.quantities import Quantity
 from ....plans.references import point_of
 from ...printed import value_text
-from ...words import Words
 from ..at_point import is_at_point
 from ..calculations.equations import rate_of, sensed, size_of, stated
 from ..calculations.tables import printed_segment
-from ..scene import Scene
+from ..scene import Scene, plan_heading
 from .teller import Teller
 
 PLANS = ("velocity", "acceleration")
@@ -163,14 +162,7 @@ def _angles(teller: Teller) -> Iterator[str]:
 
 def _met(teller: Teller, mark: str, sine: float) -> str:
     """Return a point with its plan and the angle at which its lines meet."""
-    words = teller.scene.words
+    words, solved = teller.scene.words, teller.scene.solved
+    heading = plan_heading(words, solved.structure, role(mark).plan)
     angle = words.short(math.degrees(math.asin(min(sine, 1.0))), 3)
-    return f"{words.mark(point_of(teller.scene.solved.program, mark))} ({_heading(words, role(mark).plan)}, {angle}°)"
-
-
-def _heading(words: Words, plan: Name) -> str:
-    """Return the heading of a plan, in the middle of a sentence."""
-    links, forces = plan.of, "heading.group_forces" if len(plan.of) > 1 else "heading.link_forces"
-    key = forces if plan.kind == "forces" else f"heading.{plan}"
-    heading = words[key].format(links=", ".join(links), link=links)
-    return heading[:1].lower() + heading[1:]
+    return f"{words.mark(point_of(solved.program, mark))} ({heading[:1].lower()}{heading[1:]}, {angle}°)"
