@@ -270,7 +270,7 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
     choices = read_choices(checker, raw.get("choices", {}), givens, kind.words(raw.get(table)))
     names = _names(checker, givens, choices)
     subject = kind.read(checker, raw[table], names, givens) if table in raw else None
-    givens = {key: _bounded(given, names) for key, given in givens.items()}
+    givens = {key: _bounded(checker, given, names) for key, given in givens.items()}
     variants = read_variants(checker, raw["variant"], givens, names.optional) if "variant" in raw else {}
     _signs(checker, names, choices)
     display = _units(kind.display, head.get("display", {}))
@@ -322,9 +322,13 @@ def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Nam
     return names
 
 
-def _bounded(given: Given, names: Names) -> Given:
-    """Return a given with the bound of what it is: a distance on a link must be greater than zero."""
-    return replace(given, bound=names.bounds.get(given.name, given.bound))
+def _bounded(checker: Checker, given: Given, names: Names) -> Given:
+    """Return a given with the bound of what it is, which its default keeps too: a distance on a link is positive."""
+    bound, default = names.bounds.get(given.name, given.bound), given.default
+    if given.unit is not None and isinstance(default, float) and not bound.admits(default):
+        text = quote(f"{given.unit.from_si(default):.7g} {given.unit.name}")
+        checker.fault(("givens", given.name, "default"), InputError(bound.value, text=text))
+    return replace(given, bound=bound)
 
 
 def _signs(checker: Checker, names: Names, choices: Settings) -> None:

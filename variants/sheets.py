@@ -214,11 +214,6 @@ def stamp_of(case: Case, block: Mapping[str, str], notation: str | None = None, 
     )
 
 
-def scales_of(case: Case, words: Words, paper: Format) -> Mapping[str, Scale]:
-    """Return the scale factors that the sheet of a case takes on a format, by plan; errors are those of `drawn_on`."""
-    return drawn_on(case, words, paper).scales
-
-
 def drawn_on(case: Case, words: Words, paper: Format) -> Drawn:
     """Draw a case on a format, for what it measures there.
 

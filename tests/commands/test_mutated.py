@@ -114,6 +114,17 @@ FOUND = {
         "check nau-slider-crank printed --rubric r.toml", "list of quantities", files={"r.toml": "asked = [{a = 1}]"}
     ),
     "a miss that leads out of where a law holds": Found("variants karpenko-hoist --set g=2.32e-07", status=0),
+    "a default that no variant could have": Found(
+        "solve x.toml",
+        "givens.mu_theta.default: '0 1/mm': must be greater than zero",
+        task="madi-gear",
+        changes=(('default = "0.05 1/mm"', 'default = "0 1/mm"'),),
+    ),
+    "a length of a link that is nothing by default": Found(
+        "list --check x.toml",
+        "givens.l_OA.default: '0 mm': must be greater than zero",
+        changes=(('l_OA = { unit = "mm" }', 'l_OA = { unit = "mm", default = "0 mm" }'),),
+    ),
     "an answer that is nothing": Found(
         "check nau-slider-crank --jobs 1 a.csv", "", 0, files={"a.csv": "quantity,value\nV_B,1e-320\na_B,-5e-324\n"}
     ),

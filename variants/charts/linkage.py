@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from ...drawing.formats import format_named
+from ...drawing.linkages.layout.ladders import first_scales
 from ...plans.board import with_needs
 from ...plans.contest import FULL, Contest, Effort, Entry
 from ...plans.hands.hand import preset
@@ -20,7 +21,6 @@ from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
 from ...scales.names import unknown
 from ..case import Case
-from ..sheets import scales_of
 from .accuracy import AccuracyChart
 from .data import Scene, driver_unit
 from .depth import depth_chart
@@ -103,12 +103,12 @@ def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
 
 
 def _mus(scene: Scene, name: str) -> Mapping[str, float] | None:
-    """Return the scale factors, by plan, that a sheet of a format takes; None where there is no such sheet."""
+    """Return the scale factors, by plan, that a format takes by the extents; None where a plan has no room on it."""
     case = scene.case
     if case.solved.trouble is not None:
         return None
     try:
-        scales = scales_of(case, scene.words, format_named(name))
+        _, scales = first_scales(SolvedLinkage.of(case.solved), case.choosers, case.plans, format_named(name))
     except InputError:  # too small for a plan, or for a scale factor that was asked for
         return None
     return {plan: scale.mu for plan, scale in scales.items()}
