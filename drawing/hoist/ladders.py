@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from ...plans.hoist.beam_plans import BENT, SCHEME
 from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PART, SCHEME_PART
@@ -20,36 +20,37 @@ SPAN, ROPE, DIAMETER = 160.0, 350.0, 110.0  # mm of paper that the longer beam, 
 # mm^2 of A1: of figures with their texts, and of tables that every sheet has
 AREAS = {SCHEME_PART: 2e4, FORCES_PART: 1.25e5, ROOTS_PART: 9e4, CIRCLE_PART: 3e4, BEAMS_PART: 3e4}
 TABLES = 4e4
+UNITS = {SCALES[SCHEME]: "m", SCALES[CIRCLE]: "N"}  # of the scale factors that may be chosen
 
 
-def scheme_ladder(solved: SolvedHoist, choosers: Choosers) -> tuple[float, ...]:
-    """Return the scale factors of the scheme, the one wanted first: beams of 160 mm at most, a rope of 350."""
-    return _ladder(
-        solved, choosers, SCHEME, max(max(solved.size(f"l_{i}") for i in BENT) / SPAN, solved.size("L") / ROPE)
-    )
+def ladder(solved: SolvedHoist, choosers: Choosers, symbol: str) -> tuple[float, ...]:
+    """Return the values of a scale factor that may be chosen, one of `UNITS`, the one wanted first.
 
-
-def circle_ladder(solved: SolvedHoist, choosers: Choosers) -> tuple[float, ...]:
-    """Return the scale factors of the circle, the one wanted first: where nothing is said, one of 110 mm at most."""
-    return _ladder(solved, choosers, CIRCLE, max(2.0 * solved.size("R"), LEAST * solved.size("P_m")) / DIAMETER)
-
-
-def _ladder(solved: SolvedHoist, choosers: Choosers, plan: str, finest: float) -> tuple[float, ...]:
-    symbol, part = SCALES[plan], SPAN if plan == SCHEME else DIAMETER
+    Where nothing is said, beams take 160 mm at most and a rope 350, a circle 110.
+    """
+    if symbol == SCALES[SCHEME]:
+        span, rope = max(solved.size(f"l_{i}") for i in BENT), solved.size("L")
+        finest, largest = max(span / SPAN, rope / ROPE), max(span, rope)
+    else:
+        largest = 2.0 * solved.size("R")
+        finest = max(largest, LEAST * solved.size("P_m")) / DIAMETER
     chooser = choosers.get(symbol, From(steps(finest)[0]))
     values = chooser.ladder(solved.size)
-    if plan in solved.scale_of_plan:
-        visible(chooser, symbol, values[0], finest * part, "m" if plan == SCHEME else "N")
+    if symbol in solved.scale_of_plan.values():
+        visible(chooser, symbol, values[0], largest, UNITS[symbol])
     return values
+
+
+def scale_of(solved: SolvedHoist, symbol: str, mus: Mapping[str, float]) -> Scale:
+    """Return a scale factor as it is drawn: of a diagram the one that is known, else the one of `mus`, SI per mm."""
+    if symbol in SCALED:
+        return Scale(symbol, float(solved.values[symbol]) * PAPER_MM, SCALED[symbol])
+    return Scale(symbol, mus[symbol], UNITS[symbol])
 
 
 def first_scales(solved: SolvedHoist, choosers: Choosers, plans: Sequence[str]) -> tuple[Format, dict[str, Scale]]:
     """Return the format and the scale factors by plan: those of the diagrams are known."""
-    found = {}
-    for plan, symbol in solved.scale_of_plan.items():
-        if symbol in SCALED:
-            found[plan] = Scale(symbol, float(solved.values[symbol]) * PAPER_MM, SCALED[symbol])
-        else:
-            ladder = scheme_ladder if plan == SCHEME else circle_ladder
-            found[plan] = Scale(symbol, ladder(solved, choosers)[0], "m" if plan == SCHEME else "N")
+    symbols = solved.scale_of_plan
+    mus = {symbol: ladder(solved, choosers, symbol)[0] for symbol in symbols.values() if symbol in UNITS}
+    found = {plan: scale_of(solved, symbol, mus) for plan, symbol in symbols.items()}
     return smallest((TABLES, *(AREAS[plan] for plan in plans))), found

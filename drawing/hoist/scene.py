@@ -8,7 +8,6 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from ...plans.hoist.paper import SCALED
 from ...plans.hoist.solve import ON_PAPER, SCALES, SolvedHoist
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
@@ -18,6 +17,7 @@ from ..printed import decimals_for
 from ..shapes import Circle, Group, Pen
 from ..style import Style
 from ..words import Words
+from .ladders import scale_of
 
 COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
 DIGITS = 4
@@ -39,9 +39,7 @@ class HoistScene:
 
     def scale(self, symbol: str) -> Scale:
         """Return a scale factor as it is drawn."""
-        if symbol in SCALED:
-            return Scale(symbol, float(self.solved.values[symbol]) * PAPER_MM, SCALED[symbol])
-        return Scale(symbol, self.mus[symbol], "m" if symbol == "mu_l" else "N")
+        return scale_of(self.solved, symbol, self.mus)
 
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""

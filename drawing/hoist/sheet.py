@@ -18,7 +18,7 @@ from ..style import STYLES
 from ..table import note_block, text_block
 from ..view import View
 from ..words import Words
-from .ladders import circle_ladder, first_scales, scheme_ladder
+from .ladders import UNITS, first_scales, ladder
 from .scene import HoistScene, lettered
 
 TEXT_WIDTH = 120.0
@@ -54,16 +54,13 @@ class Fitting:
         """Find the ladders."""
         contents, roots = self.contents, self.contents.solved.layout.roots
         self._words = lettered(contents.words, len(roots.times) if roots else 0)
-        self.ladders = {
-            "mu_l": scheme_ladder(contents.solved, contents.choosers),
-            "mu_F_circle": circle_ladder(contents.solved, contents.choosers),
-            "part": PARTS,
-        }
+        chosen = {symbol: ladder(contents.solved, contents.choosers, symbol) for symbol in UNITS}
+        self.ladders = {**chosen, "part": PARTS}
 
     def scene(self, sheet: Format, rungs: Rungs) -> HoistScene:
         """Return the scene of a sheet on a format."""
         contents = self.contents
-        mus = {name: ladder[getattr(rungs, name)] for name, ladder in self.ladders.items()}
+        mus = {name: values[getattr(rungs, name)] for name, values in self.ladders.items()}
         return HoistScene(self.solved(rungs), self._words, STYLES[sheet.letters], contents.givens, mus)
 
     def solved(self, rungs: Rungs) -> SolvedHoist:

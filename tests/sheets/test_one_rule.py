@@ -155,6 +155,27 @@ def test_scale_factors_at_which_a_plan_is_a_point_are_refused(task: str, symbol:
         assert (refused.value.key, refused.value.data["symbol"]) == ("plan-too-small", symbol)
 
 
+@pytest.mark.parametrize(
+    ("asked", "size"),
+    [
+        pytest.param({"set": {"L": "40 m"}, "scales": {"mu_l": 45}}, 40.0 / 45, id="a rope longer than the beams"),
+        pytest.param({"scales": {"mu_l": 20}}, 16.5 / 20, id="the longer beam"),
+        pytest.param({"scales": {"mu_F_circle": 25000}}, 2 * 10491.92 / 25000, id="the diameter of the circle"),
+    ],
+)
+def test_a_refusal_tells_the_true_size_of_the_largest_segment_of_a_hoist(asked: dict[str, object], size: float) -> None:
+    with pytest.raises(InputError) as refused:
+        kulman.solve("karpenko-hoist", **asked)  # type: ignore[arg-type]
+
+    assert refused.value.data["size"] == f"{size:.2g}"
+
+
+def test_a_scheme_with_a_long_rope_is_refused_only_where_the_rope_is_a_point() -> None:
+    solution = kulman.solve("karpenko-hoist", set={"L": "40 m"}, scales={"mu_l": 25})
+
+    assert mus(solution)["mu_l"] == 25
+
+
 def test_a_plan_on_the_cranks_scale_is_counted_with_the_mechanism_when_a_page_is_filled() -> None:
     ladders = {"mu_l": Ladder((0.001, 0.002, 0.004), 0.4), "mu_V": Ladder((0.01, 0.02, 0.04), 4.0, root="mu_l")}
     mechanism, plan = Extent("mu_l", (0.4, 0.3), (0.0, 0.0)), Extent("mu_V", (4.0, 3.0), (0.0, 0.0), part=1)
