@@ -13,6 +13,7 @@ POINT, POLE, NORMAL, CORIOLIS = "", "p", "n", "k"  # kinds of marks: a point, th
 MAGNITUDE = "|"  # kind of the size of a load, beside its vector
 ORIGIN = "origin"  # the mark on a guide from which distances count
 INERTIA, LEVER, COUPLE = "i", "lever", "couple"  # parts of forces, moments and arms
+FORCES = "forces"  # kind of the plans of forces
 # Parts of vectors: normal, tangential, Coriolis, sliding; in compound motion those of transport (e) and relative
 # rotation (r).
 PARTS = {

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from itertools import chain
 
 from ...plans.board import POSITION
-from ...plans.names import role
+from ...plans.names import FORCES, role
 from ..notes.blocks import Block, Equations, Heading, Story
 from .at_point import is_at_point
 from .calculations.equations import Lines
@@ -37,7 +37,7 @@ def story(scene: Scene, texts: Mapping[str, str]) -> Story:
     equations, views = _kinematics(scene)
     equations |= compound_equations(teller)
     before: dict[str, tuple[Block, ...]] = {}
-    if any(role(plan).kind == "forces" for plan in steps):
+    if any(role(plan).kind == FORCES for plan in steps):
         groups = scene.solved.structure.groups
         apart = {number for group in groups for number in links_apart(scene.solved, group)}
         equations |= lines_by_plan(scene, apart)
@@ -60,7 +60,7 @@ def drawn_views(teller: Teller) -> list[str]:
     """Return the views whose drawing is told step by step, in order: the plans, the figures of compound motion."""
     scene = teller.scene
     plans = [plan for plan in scene.solved.program.plans if plan in scene.scales and not is_at_point(plan)]
-    forces = next((at for at, plan in enumerate(plans) if role(plan).kind == "forces"), len(plans))
+    forces = next((at for at, plan in enumerate(plans) if role(plan).kind == FORCES), len(plans))
     return [*plans[:forces], *teller.figures, *plans[forces:]]
 
 

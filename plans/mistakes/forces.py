@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ..board import POSITION, Step
-from ..names import MAGNITUDE, role
+from ..names import FORCES, MAGNITUDE, role
 from ..quantities import F_BAL
 from .rules import (
     Change,
@@ -28,7 +28,6 @@ from .rules import (
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
-FORCES = "forces"
 G = 9.81
 
 

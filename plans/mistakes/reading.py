@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from ..board import POSITION, Step
 from ..boards.exact import run
-from ..names import POLE, role
+from ..names import FORCES, POLE, role
 from .inputs import TWELFTH, angle_of_driver
 from .rules import Broken, Change, Chapter, Scene, all_scaled, constant, scaled
 from .velocity import rate_from, rates
@@ -48,7 +48,7 @@ def scale_inverted(scene: Scene) -> Iterator[Change]:
 def another_scale(scene: Scene) -> Iterator[Change]:
     """The scale factor of velocities is taken for accelerations, or the other way round, or that of lengths."""
     for plans in drawn_plans(scene):
-        if role(plans[0]).kind != "forces":
+        if role(plans[0]).kind != FORCES:
             for other in ("velocity", "acceleration", POSITION):
                 if other in scene.paper.mus and other not in plans:
                     yield all_scaled(plans[0], _on(scene, plans), scene.mu(other) / scene.mu(plans[0]), other)
@@ -57,7 +57,7 @@ def another_scale(scene: Scene) -> Iterator[Change]:
 @mistake("M74", by_scale=True)
 def scale_of_another_group(scene: Scene) -> Iterator[Change]:
     """The force plan of one group, or one segment of it, is read with the scale factor of another."""
-    groups = [plans for plans in drawn_plans(scene) if role(plans[0]).kind == "forces"]
+    groups = [plans for plans in drawn_plans(scene) if role(plans[0]).kind == FORCES]
     for plans in groups:
         for other in groups:
             if other != plans:

@@ -15,7 +15,7 @@ from ...plans.linkages.compound import ACCELERATION, VELOCITY
 from ...plans.linkages.mechanism import Mechanism
 from ...plans.linkages.solved import SolvedLinkage, disagreement, scale_symbols, solve_linkage
 from ...plans.linkages.structure import analyse
-from ...plans.names import COUPLE, Name, role, spelled
+from ...plans.names import COUPLE, FORCES, Name, role, spelled
 from ...plans.references import pins_together, point_of
 from ...scales.choose import Choosers, Segment, chooser
 from ...scales.errors import InputError
@@ -251,7 +251,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             return KINEMATIC[kind]
         if question.step.verb == "arm":  # with the force plan of the force that it is the arm of
             plan = role(solved.shown_on.get(role(question.step.operands[1]).shown, plan))
-        if kind in ("R", "M", "h") and plan.kind == "forces":
+        if kind in ("R", "M", "h") and plan.kind == FORCES:
             return spelled("forces", role(solved.scale_of_plan[plan]).about)
         return "loads" if kind not in ("h", "M", "F") or current in OPEN else current
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from ....plans.board import Step
 from ....plans.linkages.solved import SolvedLinkage
-from ....plans.names import role
+from ....plans.names import FORCES, role
 from ....scales.display import AS_INSIDE
 from ...formulas import Symbol
 from ...table import text_block
@@ -75,7 +75,7 @@ def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, Lines]
     last plan of its group.
     """
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))
-    poles = [step for step in scene.solved.program if step.verb == "pole" and role(step.name).plan.kind == "forces"]
+    poles = [step for step in scene.solved.program if step.verb == "pole" and role(step.name).plan.kind == FORCES]
     last = {_part(scene, step): role(step.name).plan for step in poles}
     found: dict[str, Lines] = {role(step.name).plan: [] for step in poles}
     held: dict[str, list[tuple[Step, Lines]]] = {}
@@ -100,7 +100,7 @@ def load_lines(scene: Scene) -> Lines:
 
 def _part(scene: Scene, step: Step) -> str:
     """Return the name of the group to which a step of the force plans belongs, or the number of the driver."""
-    plan = drawn.of if (drawn := role(step.name).plan).kind == "forces" else ""
+    plan = drawn.of if (drawn := role(step.name).plan).kind == FORCES else ""
     known = [group.name for group in scene.solved.structure.groups]
     acting = step.operands[1] if step.verb == "arm" else step.name
     group = group_of(scene, int(plan) if plan and plan not in known else link_of(scene, acting))
@@ -160,7 +160,7 @@ def _sum_of_couples(scene: Scene, step: Step) -> Lines:
 
 def _force(scene: Scene, step: Step) -> Lines:
     """Tell a step of the force plans: a sum of moments, or the sums of forces of a plan."""
-    if step.verb == "pole" and role(step.name).plan.kind == "forces":
+    if step.verb == "pole" and role(step.name).plan.kind == FORCES:
         return list(closed(scene, role(step.name).plan))
     if step.law in SIGNS and role(step.operands[0]).kind != "V":  # of the lever
         return _for_a_force(scene, step)

@@ -6,14 +6,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ....plans.board import Step
-from ....plans.names import role
+from ....plans.names import FORCES, role
 from ....scales.scale import SERIES
 from ...shapes import Vector
 from ..marks import symbol, vectors_of
 from ..scene import Scene
 from .inset import NUMERALS, READABLE, TIMES, WIDEST, Window, shows, size_of, window_about
 
-FORCES = "forces"  # kind of plans
 NARROWEST = 45.0  # mm, the least side of an inset
 PAST = 6.0  # mm by which a construction line runs past the point that it finds
 FEW = 1  # forces too short to be read that a plan shows as points, said in words

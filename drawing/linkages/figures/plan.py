@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ....plans.board import Step
-from ....plans.names import role
+from ....plans.names import FORCES, role
 from ...shapes import Line, Pen
 from ...view import Canvas, View
 from ..marks import letter_marks, symbol, vectors_of
 from ..scene import Scene, plan_heading
 from .flat import said_flat
-from .force_plan import FORCES, ForcePlan, construction_line, in_inset
+from .force_plan import ForcePlan, construction_line, in_inset
 from .inset import with_insets
 from .similarity import draw_sides
 

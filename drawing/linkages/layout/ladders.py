@@ -10,7 +10,7 @@ from ....plans.linkages.compound import ACCELERATION, VELOCITY
 from ....plans.linkages.mechanism import Driver, Prismatic
 from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.structure import TRIAD, Group
-from ....plans.names import role
+from ....plans.names import FORCES, role
 from ....scales.choices import SIZES
 from ....scales.choose import UNITS, Chooser, Choosers, CrankScale, Fixed, From, Round
 from ....scales.errors import InputError
@@ -19,7 +19,6 @@ from ...extents import Extent, Extents, Ladder, Rungs, Size, choose, visible
 from ...formats import FORMATS, Format
 from ..scene import DRIVER
 
-Ladders = Mapping[str, tuple[float, ...]]
 # mm, the longest segment of a plan of forces at the beginning, on one page and on several, by format; that of other
 # plans may be so many times as long
 LONGEST = {"A1": (140.0, 190.0), "A2": (140.0, 190.0), "A3": (130.0, 190.0), "A4": (130.0, 160.0)}
@@ -30,7 +29,7 @@ LARGER = {"l": 2.2, "V": 1.4, "a": 1.4, "F": 0.9}
 CRANK = 45.0  # mm, the least length of a crank drawn apart
 ARROW = 0.7  # of the crank, where the arrow of its rotation stands
 MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same")
-KINEMATICS, FORCES = 0, 1  # parts of the work
+KINEMATICS, KINETOSTATICS = 0, 1  # parts of the work
 # mm that letters and the heading add to the lines of a figure, and what it takes at least
 PLAN, MECHANISM, GROUP, LEVER = (28.0, 34.0), (40.0, 60.0), (62.0, 82.0), (75.0, 100.0)
 GROUPS = {TRIAD: (62.0, 142.0)}  # arms about its special point take more
@@ -135,14 +134,14 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
         for group in solved.structure.groups:
             points = [point for link in solved.mechanism.links if link.number in group.links for point in link.points]
             size = _around([solved.point(point) for point in points])
-            yield Extent("mu_l", size, GROUPS.get(group.kind, GROUP), part=FORCES)
-            yield from (Extent("", (0.0, 0.0), APART, part=FORCES) for _ in links_apart(solved, group))
-        for plan in (plan for plan in symbols if role(plan).kind == "forces"):
-            yield from _plan(solved, plan, FORCES)
-        yield Extent("", (0.0, 0.0), APART, part=FORCES)
+            yield Extent("mu_l", size, GROUPS.get(group.kind, GROUP), part=KINETOSTATICS)
+            yield from (Extent("", (0.0, 0.0), APART, part=KINETOSTATICS) for _ in links_apart(solved, group))
+        for plan in (plan for plan in symbols if role(plan).kind == FORCES):
+            yield from _plan(solved, plan, KINETOSTATICS)
+        yield Extent("", (0.0, 0.0), APART, part=KINETOSTATICS)
     if "lever" in plans:
         high, wide = _box(solved, "velocity")
-        yield Extent("mu_V", (wide, high), LEVER, HEADING, part=FORCES)
+        yield Extent("mu_V", (wide, high), LEVER, HEADING, part=KINETOSTATICS)
 
 
 def _plan(solved: SolvedLinkage, plan: str, part: int) -> Iterator[Extent]:
@@ -150,7 +149,7 @@ def _plan(solved: SolvedLinkage, plan: str, part: int) -> Iterator[Extent]:
     yield Extent(solved.scale_of_plan[plan], _box(solved, plan), PLAN, HEADING, part)
     sizes = [abs(q.value or 0.0) for name, q in solved.quantities.items() if solved.shown_on.get(name) == plan]
     points = sum(ZERO * max(sizes) < size < POINT * max(sizes) for size in sizes)
-    if part == FORCES and points > 1:
+    if part == KINETOSTATICS and points > 1:
         yield Extent("", (0.0, 0.0), (points * INSET[0], INSET[1]), part=part)
 
 

@@ -13,7 +13,7 @@ from ...view import View
 from .fitting import Fitted, Fitting
 
 # views with which the part of the forces begins
-FORCES = ("load_", "equations_forces_loads", "group_", "driver", "lever")
+OF_FORCES = ("load_", "equations_forces_loads", "group_", "driver", "lever")
 
 Several = tuple[Fitted, list[Placement]]
 
@@ -34,7 +34,7 @@ def several(fitting: Fitting, sheet: Format, rungs: Rungs) -> Several:
 
 def forces_begin(names: Sequence[str]) -> int:
     """Return how many views of these names come before the part of the forces."""
-    return next((i for i, name in enumerate(names) if name.startswith(FORCES)), len(names))
+    return next((i for i, name in enumerate(names) if name.startswith(OF_FORCES)), len(names))
 
 
 def _roomy(fitting: Fitting, sheet: Format, rungs: Rungs) -> Several | None:

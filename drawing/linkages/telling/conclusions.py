@@ -9,7 +9,7 @@ from ....plans.boards.exact import SMALL
 from ....plans.laws import dot
 from ....plans.linkages.mechanism import MOMENT, Driver
 from ....plans.linkages.solved import disagreement
-from ....plans.names import role
+from ....plans.names import FORCES, role
 from ....plans.quantities import Quantity
 from ....plans.references import point_of
 from ...printed import value_text
@@ -33,9 +33,9 @@ def conclusions(teller: Teller) -> Iterator[str]:
             yield from _extremes(teller, f"conclusion.{plan}", _absolute(teller, plan))
             yield from _fastest(teller, RATES[plan])
     yield from _both_ways(teller)
-    if any(role(plan).kind == "forces" for plan in teller.scene.scales):
+    if any(role(plan).kind == FORCES for plan in teller.scene.scales):
         quantities = teller.scene.solved.quantities
-        yield from _extremes(teller, "conclusion.reactions", [n for n in quantities if _pair(teller.scene, n)])
+        yield from _extremes(teller, "conclusion.reactions", [n for n in quantities if _pair(n)])
         for name in BALANCES:
             yield from _balance(teller, name)
     for name in BALANCES:
@@ -64,7 +64,7 @@ def _extremes(teller: Teller, key: str, names: Iterable[str]) -> Iterator[str]:
         yield teller.texts[f"{key}_one"].format(value=_alike(teller, found, moving[0]))
 
 
-def _pair(scene: Scene, name: str) -> tuple[int, ...]:
+def _pair(name: str) -> tuple[int, ...]:
     """Return the links of a whole reaction, that which acts first; nothing where a quantity is none."""
     quantity = role(name)
     return quantity.links if quantity.kind == "R" and not quantity.part else ()
@@ -72,7 +72,7 @@ def _pair(scene: Scene, name: str) -> tuple[int, ...]:
 
 def _other_side(scene: Scene, name: str) -> str:
     """Return the reaction that stands for this one, too, since both are as large; nothing where it is itself that."""
-    pair = _pair(scene, name)
+    pair = _pair(name)
     return scene.solved.mechanism.pair("R", pair[1], pair[0]) if pair and pair[0] > pair[1] else ""
 
 
