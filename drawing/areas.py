@@ -1,4 +1,4 @@
-"""Hatching of areas: of one that a closed line bounds, and of one that half planes bound."""
+"""Areas: hatching of one that a closed line bounds, and of one that half planes bound; lines in and beside boxes."""
 
 from __future__ import annotations
 
@@ -44,10 +44,10 @@ def hatched(sides: Sequence[Side], box: Box, apart: float, name: str) -> Group:
     reach = [(corner * across.conjugate()).real for corner in corners]
     count = int((max(reach) - min(reach)) / apart)
     lines = (across * (min(reach) + (k + 0.5) * apart) for k in range(count))
-    return Group(tuple(clipped(lines, along, [*frame, *sides], hypot(x1 - x0, y1 - y0))), "permitted", name)
+    return Group(tuple(_within(lines, along, [*frame, *sides], hypot(x1 - x0, y1 - y0))), "permitted", name)
 
 
-def clipped(lines: Iterable[complex], along: complex, sides: Sequence[Side], reach: float) -> Iterator[Line]:
+def _within(lines: Iterable[complex], along: complex, sides: Sequence[Side], reach: float) -> Iterator[Line]:
     """Go through the parts of lines, through points along a direction, that lie inside of all sides."""
     for point in lines:
         low, high = -1e3 * reach, 1e3 * reach
@@ -62,3 +62,28 @@ def clipped(lines: Iterable[complex], along: complex, sides: Sequence[Side], rea
                 high = min(high, lack / slope)
         if high - low > SLACK * reach:
             yield Line(point + along * low, point + along * high, Pen.THIN, role="hatch")
+
+
+def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:
+    """Return the part of the line from `a` to `b` inside of a box (Liang and Barsky), None when there is none."""
+    x0, y0, x1, y1 = box
+    low, high, way = 0.0, 1.0, b - a
+    for start, step, least, most in ((a.real, way.real, x0, x1), (a.imag, way.imag, y0, y1)):
+        if abs(step) < 1e-12:
+            if not least <= start <= most:
+                return None
+            continue
+        first, last = sorted(((least - start) / step, (most - start) / step))
+        low, high = max(low, first), min(high, last)
+    return (a + way * low, a + way * high) if low <= high else None
+
+
+def beside(a: complex, b: complex, boxes: Sequence[Box]) -> Iterator[tuple[complex, complex]]:
+    """Go through the pieces of a line from `a` to `b` that lie outside of all boxes."""
+    start, gaps = a, filter(None, (clipped(a, b, box) for box in boxes))
+    for first, last in sorted(gaps, key=lambda gap: abs(gap[0] - a)):
+        if abs(first - a) > abs(start - a):
+            yield start, first
+        start = max(start, last, key=lambda place: abs(place - a))
+    if abs(b - a) > abs(start - a):
+        yield start, b

@@ -13,6 +13,7 @@ from .text import lay_out
 from .view import Canvas
 
 STEPS = (1, 2, 3, 5, 10)  # from one number of a section line to the next
+AT_POLE = 3.0  # mm of an axis beyond the pole
 PAST = 8.0  # mm by which an axis runs past its last division
 
 
@@ -110,6 +111,11 @@ class Pole:
     text: str
 
 
+def small(text: float) -> float:
+    """Return the height of the numbers of rays beside texts of a height, mm."""
+    return max(2.5, 0.7 * text)
+
+
 def rays(canvas: Canvas, field: Field, pole: Pole, ordinates: Iterable[tuple[int, float]]) -> None:
     """Draw the pole at its distance, and a ray to each ordinate, mm, with the numbers of its sections."""
     at, style = field.origin - pole.reach, canvas.style
@@ -119,14 +125,19 @@ def rays(canvas: Canvas, field: Field, pole: Pole, ordinates: Iterable[tuple[int
     for cut, numbers in sorted(cuts.items()):
         end = field.origin + 1j * cut
         canvas.add(Line(at, end, Pen.THIN, role="ray", name=" ".join(numbers)))
-        canvas.label(", ".join(numbers), end, prefer=end - at, clear=0.8, height=max(2.5, 0.7 * style.text))
-    canvas.add(Line(at - 3.0, field.origin, Pen.THIN, role="axis"))
+        canvas.label(", ".join(numbers), end, prefer=end - at, clear=0.8, height=small(style.text))
+    canvas.add(Line(at - AT_POLE, field.origin, Pen.THIN, role="axis"))
+    mark_pole(canvas, pole, at, field.at(0.0, field.y.low), 4.0)
+
+
+def mark_pole(canvas: Canvas, pole: Pole, at: complex, foot: complex, below: float) -> None:
+    """Mark a pole, and dimension its distance `below` mm under the lowest place of its line, its `foot`."""
+    style, level = canvas.style, foot.imag - below
     canvas.add(Circle(at, style.node, Pen.MAIN, fill="white", role="pole"))
     canvas.label(pole.letter, at, prefer=-1.0 + 1j, clear=1.0, height=style.text)
-    below = field.origin + 1j * (field.y.mm(field.y.low) - 4.0)
-    feet = complex(at.real, below.imag), complex(field.origin.real, below.imag)
-    for start, foot in zip((at, field.at(0.0, field.y.low)), feet, strict=True):
-        canvas.add(Line(start, foot - 1.5j, Pen.THIN, role="extension"))
+    feet = complex(at.real, level), complex(foot.real, level)
+    for start, end in zip((at, foot), feet, strict=True):
+        canvas.add(Line(start, end - 1.5j, Pen.THIN, role="extension"))
     canvas.add(dimension(*feet, pole.name, style))
     canvas.label(pole.text, feet, prefer=-1j, clear=0.8, height=style.text)
 

@@ -12,6 +12,7 @@ from ..plans.board import Program
 from ..plans.names import is_shown
 from .view import Canvas, View
 
+COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
 ANSWERS = "answers"  # what is drawn in no stage, but with all the work: what it comes to
 NUMBER = re.compile(r"\d+")
 
@@ -76,7 +77,7 @@ class Figure(Generic[Scene]):
         key = {stage.name: f"{self.key}.{stage.name}{stage.variant(scene)}" if self.key else "" for stage in own[1:]}
         return {own[0].name: "", **key}
 
-    def canvas(self, scene: Any, coarse: float = 0.0) -> Canvas:
+    def canvas(self, scene: Any, coarse: float = COARSE) -> Canvas:
         """Return an empty canvas for the stages that a scene has; letters may take curves for `coarse` ones, mm."""
         keys, parts, last = self.keys(scene), {ANSWERS: ANSWERS}, ""
         for stage in self.stages:

@@ -64,11 +64,11 @@ def fitted(drawer: Drawer[Rungs], sheet: Format, norm: Norm, rungs: Rungs, first
         for ladders, size in tight.items():
             name = next((ladder for ladder in ladders if has_next(drawer, rungs, ladder)), None)
             if name is None:
-                raise too_fine(drawer, rungs, sheet, ladders) or too_small(sheet, size)
+                raise too_fine(drawer, sheet, ladders) or too_small(sheet, size)
             rungs = lower(rungs, name)
 
 
-def too_fine(drawer: Drawer[Rungs], rungs: Rungs, sheet: Format, ladders: tuple[str, ...]) -> InputError | None:
+def too_fine(drawer: Drawer[Rungs], sheet: Format, ladders: tuple[str, ...]) -> InputError | None:
     """Return that a drawing has no room because a user has fixed its scale factor, m/mm; None if nobody has."""
     fixed = next((name for name in ladders if role(name).kind == "mu" and len(drawer.ladders[name]) == 1), None)
     if fixed is None:

@@ -135,13 +135,13 @@ def nearer(ray: complex, to: complex) -> complex:
     return ray if (to * ray.conjugate()).real > 0.0 else -ray
 
 
-def down_to(start: complex, along: complex, level: float) -> complex:
+def at_level(start: complex, along: complex, level: float) -> complex:
     """Return where a line through a point reaches a level."""
     return start + along * ((level - start.imag) / along.imag)
 
 
 def polar(radius: float, angle: float) -> complex:
-    """Return the place at a distance from a centre in a direction, rad: letters are laid out about it."""
+    """Return the vector of a length in a direction, rad from the abscissa."""
     return rect(radius, angle)
 
 

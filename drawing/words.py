@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from string import ascii_lowercase
 from typing import Any
 
-from ..plans.names import CORIOLIS, COUPLE, LEVER, NORMAL, PARTS, POLE, POSITION, Name, couple, role, spelled
+from ..plans.names import CORIOLIS, COUPLE, FORCES, LEVER, NORMAL, PARTS, POLE, POSITION, Name, couple, role, spelled
 from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import LANGUAGES, InputError
 from ..scales.names import unknown
@@ -225,8 +225,7 @@ class Words:
         if re.match(r"\d", name.of):
             above = f"^{{{self._part(name.part)}}}" if name.part else ""
             return "h", f"{above}_{{{self._links('h', _joined(name.of))}{name.about}}}"
-        force = f"{name.of}{name.about and '_'}{name.about}"
-        return "h", f"_{{{re.sub(r'[_^{}]', '', self.symbol(force))}}}"
+        return "h", f"_{{{re.sub(r'[_^{}]', '', self.symbol(name.of))}{name.about}}}"
 
     def mark(self, mark: str) -> str:
         """Return the letter of a mark: `velocity.S2` is s_2, `forces_23.1` is a, `A` is A."""
@@ -235,7 +234,7 @@ class Words:
         name, of = role(mark), role(mark).of
         if name.plan == POSITION:
             return indexed(mark)
-        if name.plan.kind == "forces":
+        if name.plan.kind == FORCES:
             return self._force_letter(int(of))
         if name.kind == POLE:
             return str(self.notation[f"{name.plan}_pole"])
@@ -266,8 +265,8 @@ def _joined(index: str) -> str:
 
 def _split(symbol: str) -> tuple[str, str]:
     """Cut a symbol into its letter and its scripts."""
-    markup = re.fullmatch(r"([^_^]*)(.*)", symbol)
-    return (markup[1], markup[2]) if markup else (symbol, "")
+    head = re.split(r"[_^]", symbol, maxsplit=1)[0]
+    return head, symbol[len(head) :]
 
 
 def _plain(value: float, digits: int) -> str:

@@ -10,14 +10,14 @@ from ...plans.cams.dense import diagram
 from ...plans.cams.integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
 from ...plans.cams.motion import PHASES, RISE
 from ...plans.names import role
-from ..diagram import Axis, Field, Pole, axes, numbers
+from ..areas import beside
+from ..diagram import AT_POLE, Axis, Field, Pole, axes, mark_pole, numbers, small
 from ..dimensions import linear
 from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
-from ..symbols import dimension
 from ..text import Box, box, lay_out
 from ..view import Canvas, View
-from .scene import COARSE, CamScene
+from .scene import CamScene
 
 ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a diagram shows
 LETTER = {TRAVEL: "s", VELOCITY: "ds", ACCELERATION: "d2s"}
@@ -30,12 +30,11 @@ SAME = 1e-6  # mm, of ends of a jump
 APART = 1.2  # heights of letters between the numbers of rays under one another
 AROUND = 0.5  # mm between a number and the broken lines beside it
 RUN = 3  # how many numbers in a row are written with a dash
-AT_POLE = 3.0  # mm of an axis beyond the pole
 
 
 def diagrams_view(scene: CamScene) -> View:
     """Draw the diagrams under one another, the one that the law gives on top."""
-    canvas, solved = DIAGRAMS_FIGURE.canvas(scene, COARSE), scene.solved
+    canvas, solved = DIAGRAMS_FIGURE.canvas(scene), scene.solved
     drawn = [plan for plan in DIAGRAMS if f"{plan}.0" in solved.values]
     fields: list[Field] = []
     low = 0.0
@@ -107,20 +106,10 @@ def _section_lines(canvas: Canvas, scene: CamScene, fields: Sequence[Field], box
     top, bottom, height = fields[0], fields[-1], scene.style.text
     for i, phi in enumerate(scene.solved.angles.tolist()):
         a, b = top.at(phi, top.y.high) + 1.5j, bottom.at(phi, bottom.y.low) - 1.5j
-        canvas.add(Group(tuple(Line(*part, Pen.THIN) for part in broken(a, b, boxes)), "section", str(i)))
+        canvas.add(Group(tuple(Line(*part, Pen.THIN) for part in beside(a, b, boxes)), "section", str(i)))
     lines = [top.at(phi, 0.0).real for phi in scene.solved.angles.tolist()]
     above, below = top.at(0.0, top.y.high).imag + 2.3, bottom.at(0.0, bottom.y.low).imag - 2.3 - height
     canvas.add(*numbers(lines, above, height)[1:], *numbers(lines, below, height))
-
-
-def broken(a: complex, b: complex, boxes: Sequence[Box]) -> Iterator[tuple[complex, complex]]:
-    """Go through the pieces of an upright line, from its upper end, that lie beside the boxes."""
-    through = (box for box in boxes if box[0] < a.real < box[2] and b.imag < box[3] and box[1] < a.imag)
-    gaps = [(min(y1, a.imag), max(y0, b.imag)) for _, y0, _, y1 in through]
-    ends = [a.imag, *(y for gap in sorted(gaps, reverse=True) for y in gap), b.imag]
-    for start, end in zip(ends[::2], ends[1::2], strict=True):
-        if start > end:
-            yield complex(a.real, start), complex(a.real, end)
 
 
 def _exact(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:
@@ -230,11 +219,6 @@ def shelved(found: Sequence[Number], height: float) -> Number | None:
     return min(near, key=lambda n: abs(n.level), default=None)
 
 
-def small(text: float) -> float:
-    """Return the height of the numbers of rays beside texts of a height, mm."""
-    return max(2.5, 0.7 * text)
-
-
 def aside(ordinates: Sequence[Sequence[tuple[int, float]]], text: float) -> float:
     """Return how far to the left of the ordinates the rays of several diagrams end: there is room for all numbers."""
     height = small(text)
@@ -269,19 +253,19 @@ def fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, com
     for foot, (_, equal) in zip(feet, sorted(cuts.items()), strict=True):
         canvas.add(Line(at, foot, Pen.THIN, role="ray", name=" ".join(str(i) for i, _ in equal)))
         nearest = min((mean for _, mean in equal), key=lambda mean: mean.real)
-        canvas.add(*_broken(nearest, foot, boxes, Pen.DASHED, "projection"))
+        level = complex(foot.real, nearest.imag)
+        canvas.add(*(Line(*part, Pen.DASHED, role="projection") for part in beside(nearest, level, boxes)))
     rays = canvas.part("axes")
     if len(feet) > 1:
         canvas.add(Line(min(feet[0], zero, key=_height), max(feet[-1], zero, key=_height), Pen.THIN, role="feet"))
     wide = lay_out(beyond.text, height).width + AROUND if beyond else 0.0
-    canvas.add(*_broken(field.origin, at - max(AT_POLE, wide), boxes, Pen.THIN, "axis"))
+    axis = beside(field.origin, at - max(AT_POLE, wide), boxes)
+    canvas.add(*(Line(*part, Pen.THIN, role="axis") for part in axis))
     if beyond:
         canvas.part(rays)
         canvas.add(Text(at - wide - 1j * (height + 2.0 * AROUND), beyond.text, height, role="number"))
         canvas.part("axes")
-    canvas.add(Circle(at, style.node, Pen.MAIN, fill="white", role="pole"))
-    canvas.label(pole.letter, at, prefer=-1.0 + 1j, clear=1.0, height=style.text)
-    _distance(canvas, pole, (at, min(feet[0], zero, key=_height)))
+    mark_pole(canvas, pole, at, min(feet[0], zero, key=_height), 5.0)
 
 
 def _height(place: complex) -> float:
@@ -295,27 +279,6 @@ def _written(canvas: Canvas, found: Sequence[Number], middle: complex, height: f
         half = 0.5 * lay_out(number.text, height).width + AROUND
         canvas.add(Text(at, number.text, height, "middle", role="number"))
         yield at.real - half, at.imag - AROUND, at.real + half, at.imag + height + AROUND
-
-
-def _broken(a: complex, b: complex, boxes: Sequence[Box], pen: Pen, role: str) -> Iterator[Line]:
-    """Go through the pieces of a level line from the right to the left that lie beside the boxes."""
-    gaps = sorted(
-        ((x1, x0) for x0, y0, x1, y1 in boxes if y0 < a.imag < y1 and b.real < x1 and x0 < a.real), reverse=True
-    )
-    ends = [a.real, *(x for gap in gaps for x in gap), b.real]
-    for start, end in zip(ends[::2], ends[1::2], strict=True):
-        yield Line(complex(start, a.imag), complex(end, a.imag), pen, role=role)
-
-
-def _distance(canvas: Canvas, pole: Pole, ends: tuple[complex, complex]) -> None:
-    """Dimension the distance of the pole below the lowest ray."""
-    at, foot = ends
-    level = foot.imag - 5.0
-    feet = complex(at.real, level), complex(foot.real, level)
-    for start, below in zip(ends, feet, strict=True):
-        canvas.add(Line(start, below - 1.5j, Pen.THIN, role="extension"))
-    canvas.add(dimension(*feet, pole.name, canvas.style))
-    canvas.label(pole.text, feet, prefer=-1j, clear=0.8, height=canvas.style.text)
 
 
 DIAGRAMS_FIGURE = Figure(

@@ -30,19 +30,8 @@ BESIDE = 0.15  # rad between the middle of the lower dwell and the letter of the
 RADIUS, ARROW = 0.35, 1.2  # rad from that middle towards the rod to the radius dimensioned, and to the arrow of omega
 SMALLEST = 7.0  # least radius of a cam, in heights of letters, that has room for letters inside
 REACH, BEYOND = 6.5, 4.0  # heights of letters from the roller's centre to the arc of theta; mm of the normal beyond it
-PARTS = (
-    1.0,
-    0.9,
-    1.1,
-    0.8,
-    1.2,
-    0.7,
-    1.3,
-    0.6,
-    1.4,
-    0.5,
-    1.5,
-)  # of the radius of an arc that may be taken instead of it
+# of the radius of an arc that may be taken instead of it
+PARTS = (1.0, 0.9, 1.1, 0.8, 1.2, 0.7, 1.3, 0.6, 1.4, 0.5, 1.5)
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7)  # of an arc at which its letter may stand
 ASIDE = 0.5  # rad between a position and the radius dimensioned in it
 FLAT = 1e-6  # rad, of an angle that is not shown
@@ -71,22 +60,25 @@ def numbers(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
             written.append(at)
 
 
-def phases(canvas: Canvas, scene: CamScene, e: float, radius: float, past: complex = 0j) -> None:
-    """Dimension the phases in degrees, on an arc outside of all positions; no text stands at the line to `past`."""
+def phases(canvas: Canvas, scene: CamScene, start: complex, radius: float, past: complex = 0j) -> None:
+    """Dimension the phases in degrees, from the ray to `start` on, outside of all positions.
+
+    No text stands at the line to `past`.
+    """
     motion, sense, words = scene.solved.motion, scene.solved.cam.sense, scene.words
-    first = swept(1.0 + 0j, on_circle(e, radius, 1j))
+    first = swept(1.0 + 0j, start)
     for phase in motion.phases:
         if not phase.lasts:
             continue
-        start, sweep = first - sense * phase.start, -sense * phase.length
+        begin, sweep = first - sense * phase.start, -sense * phase.length
         name = f"phi_{phase.name}"
-        canvas.add(angle_dimension(0j, radius, start, sweep, name, scene.style))
-        for angle in (start, start + sweep):
+        canvas.add(angle_dimension(0j, radius, begin, sweep, name, scene.style))
+        for angle in (begin, begin + sweep):
             canvas.add(Line(polar(radius - 1.5, angle), polar(radius + 2.0, angle), Pen.THIN, role="extension"))
         text = f"{words.symbol(name)} = {scene.degrees(phase.length)}"
         shares = OF_PHASE[2:] if phase.name == LOWER else OF_PHASE  # beside the radius dimensioned
         half = 0.6 * lay_out(text, scene.style.text).width / radius
-        middles = [start + share * sweep for share in shares]
+        middles = [begin + share * sweep for share in shares]
         clear = (a for a in middles if not past or abs(swept(1.0 + 0j, past * polar(1.0, -a))) > half)
         canvas.add(_along(text, radius, next(clear, middles[0]), abs(sweep), scene.style.text))
 

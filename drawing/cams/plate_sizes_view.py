@@ -6,14 +6,15 @@ from itertools import pairwise
 
 from ...plans.cams.construction import PLATE_SIZES
 from ...plans.cams.dense import over_acceleration, touch_of_plate
+from ..diagram import small
 from ..dimensions import angle, linear
 from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import unit
 from ..text import lay_out
 from ..view import Canvas, View
-from .diagrams_view import SAME, small
-from .scene import COARSE, CamScene, given
+from .diagrams_view import SAME
+from .scene import CamScene, given
 from .sizes_view import on_lines
 from .text import transfer
 
@@ -28,7 +29,7 @@ def plate_sizes_view(scene: CamScene) -> View:
     solved, words = scene.solved, scene.words
     plate = solved.plate
     assert plate is not None
-    canvas = FIGURE.canvas(scene, COARSE)
+    canvas = FIGURE.canvas(scene)
     canvas.part("points")
     outline = _curve(canvas, scene)
     left, right = (end(p.real for p in outline) for end in (min, max))

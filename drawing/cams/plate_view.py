@@ -23,7 +23,7 @@ from .inversion import (
     undercut_notes,
 )
 from .roller_view import NUMBERS, PHASES
-from .scene import COARSE, CamScene
+from .scene import CamScene
 
 SAME = 1e-4  # part of the greatest velocity within which that of the fall is the same
 ANALOGUE = "|s′|"  # letter of the velocity analogue where there is little room
@@ -34,12 +34,12 @@ THICK = 0.5  # thickness of the plate, in heights of letters
 
 def plate_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the follower is lowest."""
-    solved, canvas = scene.solved, FIGURE.canvas(scene, COARSE)
+    solved, canvas = scene.solved, FIGURE.canvas(scene)
     plate = solved.plate
     assert plate is not None
     r_0, stroke, R = map(scene.drawn, (plate.sizes.r_0, solved.motion.h, plate.sizes.R_plate))
     label = scene.style.label
-    outer = abs(complex(r_0 + stroke, R))
+    outer = max(abs(end) for i in solved.layout.division.lines for end in _plate(scene, i, R))
     rod = Rod(0.0, r_0 + THICK * label, outer + (PHASES + 1.2) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
     canvas.part("shaft")
@@ -53,7 +53,7 @@ def plate_view(scene: CamScene) -> View:
     corners(canvas, scene, plate.profile.undercuts)
     canvas.part("circles")
     numbers(canvas, scene, 0.0, reach)
-    phases(canvas, scene, 0.0, outer + PHASES * label)
+    phases(canvas, scene, 1j, outer + PHASES * label)
     canvas.part("follower")
     _follower(canvas, scene, rod, R)
     left = _sizes(canvas, scene, rod, R)
@@ -75,10 +75,16 @@ def _positions(canvas: Canvas, scene: CamScene, R: float, reach: float) -> None:
         canvas.add(Line(0j, up * reach, Pen.THIN, role="position", name=str(i)))
         canvas.part("profile")
         if i:
-            canvas.add(Line(at + 1j * up * R, at - 1j * up * R, Pen.THIN, role="plate", name=str(i)))
+            canvas.add(Line(*_plate(scene, i, R), Pen.THIN, role="plate", name=str(i)))
         for role, place, part in (("node", at, "centres"), ("contact", contact, "profile")):
             canvas.part(part)
             canvas.add(Group((Circle(place, scene.style.node, Pen.THIN, fill="white"),), role, str(i)))
+
+
+def _plate(scene: CamScene, i: int, R: float) -> tuple[complex, complex]:
+    """Return the ends of the plate in a position."""
+    at, up = scene.mm(f"{PLATE_PROFILE}.B{i}"), up_at(float(scene.solved.angles[i]), scene.solved.cam.sense)
+    return at + 1j * up * R, at - 1j * up * R
 
 
 def _follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:

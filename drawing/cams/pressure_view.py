@@ -7,19 +7,18 @@ from collections.abc import Sequence
 from ...plans.cams.dense import courses, permitted, theta
 from ...plans.cams.motion import RISE
 from ...scales.scale import Scale, steps
+from ..areas import beside
 from ..diagram import Axis, Field, axes, divisions, numbers
 from ..figure import Figure, stages
+from ..printed import DEGREES
 from ..shapes import Circle, Group, Line, Pen, Polyline, Text
-from ..symbols import HALF_TURN
 from ..text import Box, box
 from ..view import Canvas, View
-from .diagrams_view import broken
-from .scene import COARSE, CamScene
+from .scene import CamScene
 
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)  # of the line of a limit at which its text may stand
 AROUND = 0.8  # mm around that text
 Place = tuple[float, float]
-DEGREE = HALF_TURN / 180.0
 WIDE = {5.0: 160.0, 3.5: 120.0}  # mm of the axis of angles beyond which it is half as long as on the diagrams
 TALL = {5.0: 60.0, 3.5: 45.0}  # mm of the axis of pressure angles, by the height of letters
 
@@ -27,7 +26,7 @@ TALL = {5.0: 60.0, 3.5: 45.0}  # mm of the axis of pressure angles, by the heigh
 def pressure_view(scene: CamScene) -> View:
     """Draw theta over phi with the limits dashed over their phases."""
     solved, words = scene.solved, scene.words
-    canvas, limits = FIGURE.canvas(scene, COARSE), permitted(solved)
+    canvas, limits = FIGURE.canvas(scene), permitted(solved)
     curves = courses(solved)
     every = [y for points in curves for _, y in points] + [limit for _, limit in limits] + [0.0]
     field = _field(scene, min(every), max(every))
@@ -47,12 +46,12 @@ def pressure_view(scene: CamScene) -> View:
 def _field(scene: CamScene, low: float, high: float) -> Field:
     words = scene.words
     tall = TALL[scene.style.label]
-    mu = steps((high - low) / DEGREE / tall)[0] * DEGREE
+    mu = steps((high - low) * DEGREES / tall)[0] / DEGREES
     last = float(scene.solved.angles[-1])
     half = scene.across.drawn(last) > WIDE[scene.style.label]
     scale = Scale("mu_phi", scene.across.measured(2.0 if half else 1.0), "rad")
     across = Axis(words.symbol("phi"), scale, 0.0, last, {})
-    marks = {x * DEGREE: f"{words.short(x)}°" for x in divisions(high / DEGREE, low / DEGREE, mu / DEGREE, 9.0)}
+    marks = {x / DEGREES: f"{words.short(x)}°" for x in divisions(high * DEGREES, low * DEGREES, mu * DEGREES, 9.0)}
     return Field(0j, across, Axis(words.symbol("theta"), Scale("mu_theta", mu, "rad"), low, high, marks))
 
 
@@ -85,7 +84,7 @@ def _sections(canvas: Canvas, scene: CamScene, field: Field, boxes: Sequence[Box
     canvas.add(*numbers(lines, field.at(0.0, field.y.low).imag - 2.3 - height, height))
     for i, (phi, value) in enumerate(zip(solved.angles.tolist(), values.tolist(), strict=True)):
         foot = field.at(phi, field.y.low) - 1.5j
-        for a, b in broken(field.at(phi, field.y.high), foot, boxes):
+        for a, b in beside(field.at(phi, field.y.high), foot, boxes):
             canvas.add(Line(a, b, Pen.THIN, role="section", name=str(i)))
         canvas.add(Group((Circle(field.at(phi, value), scene.style.node, Pen.THIN, fill="white"),), "node", str(i)))
 

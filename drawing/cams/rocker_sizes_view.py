@@ -16,14 +16,14 @@ from ...plans.cams.dense import (
 )
 from ...plans.cams.followers import RockerCam
 from ..areas import hatched
+from ..diagram import small
 from ..dimensions import angle, linear, turning
 from ..figure import Figure, Stage
 from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
-from ..symbols import HALF_TURN, down_to, fixed_pivot, nearer, unit
+from ..symbols import HALF_TURN, at_level, fixed_pivot, nearer, unit
 from ..text import Box
 from ..view import Canvas, View
-from .diagrams_view import small
-from .scene import COARSE, CamScene, given
+from .scene import CamScene, given
 from .sizes_view import SHOWN, on_lines
 
 AROUND = 24.0  # mm of the permitted places shown about the chosen one
@@ -33,7 +33,7 @@ LIMIT = 3.0  # length of a limit at the end of an analogue, in heights of letter
 
 def rocker_sizes_view(scene: CamScene) -> View:
     """Draw the rocker about its pivot, and the centre of the cam that is built."""
-    canvas, words, cam = FIGURE.canvas(scene, COARSE), scene.words, scene.solved.rocker
+    canvas, words, cam = FIGURE.canvas(scene), scene.words, scene.solved.rocker
     assert cam is not None
     centre = scene.mm(f"{ROCKER_SIZES}.C")
     _rocker(canvas, scene, cam)
@@ -44,7 +44,7 @@ def rocker_sizes_view(scene: CamScene) -> View:
         _bound(canvas, scene, bound, frame)
     _permitted(canvas, scene, centre)
     _nodes(canvas, scene)
-    _sizes(canvas, scene, cam, centre)
+    _sizes(canvas, scene, centre)
     canvas.part("pressure")
     _ray(canvas, scene, centre)
     scale = f"{scene.words.drawn_at(scene.mu_l)};  {scene.factor(scene.scale(ROCKER_SIZES))}"
@@ -97,7 +97,7 @@ def _bound(canvas: Canvas, scene: CamScene, bound: Bound, frame: Box) -> None:
     assert cam is not None
     end = scene.drawn(bound.end)
     canvas.add(Group((Circle(end, scene.style.node, Pen.THIN, fill="black"),), "touch", limit.name))
-    canvas.add(Line(end, down_to(end, along, frame[1]), Pen.THIN, role="bound", name=limit.name))
+    canvas.add(Line(end, at_level(end, along, frame[1]), Pen.THIN, role="bound", name=limit.name))
     if is_back(limit.name) and limit.name not in cam.sizes.on:
         return
     text, radius = scene.words.symbol(f"gamma_{phase_of(limit.name)}"), 5.0 * scene.style.label
@@ -138,7 +138,7 @@ def _nodes(canvas: Canvas, scene: CamScene) -> None:
         canvas.label(text, at, prefer=at - middle, clear=0.8, height=height)
 
 
-def _sizes(canvas: Canvas, scene: CamScene, cam: RockerCam, centre: complex) -> None:
+def _sizes(canvas: Canvas, scene: CamScene, centre: complex) -> None:
     """Mark the chosen centre; dimension r_0, l_OC, the rocker and its swing; show the sense of the cam."""
     words, style = scene.words, scene.style
     low, high = scene.mm(f"{ROCKER_SIZES}.B0"), scene.mm(f"{ROCKER_SIZES}.B{scene.solved.layout.division.top}")

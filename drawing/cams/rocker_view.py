@@ -25,7 +25,7 @@ from .inversion import (
     undercut_notes,
 )
 from .roller_view import NUMBERS, PHASES
-from .scene import COARSE, CamScene, is_sharp
+from .scene import CamScene, is_sharp
 from .sizes_view import SHOWN
 
 ASIDE = 0.45  # rad between the rays of two radii
@@ -34,7 +34,7 @@ OVER = 4.0  # mm of the roller's arcs beyond its extreme places
 
 def rocker_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the rocker is lowest."""
-    solved, canvas = scene.solved, FIGURE.canvas(scene, COARSE)
+    solved, canvas = scene.solved, FIGURE.canvas(scene)
     cam = solved.rocker
     assert cam is not None
     r_0, label = scene.drawn(cam.sizes.r_0), scene.style.label
@@ -51,7 +51,7 @@ def rocker_view(scene: CamScene) -> View:
     canvas.part("pivots")
     _numbers(canvas, scene, outer + NUMBERS * label)
     reach = outer + (PHASES + 1.0) * label
-    phases(canvas, scene, polar(reach, swept(1.0 + 0j, pivot)).real, reach)
+    phases(canvas, scene, pivot, reach)
     canvas.part("sharpest")
     sharpest(canvas, scene)
     line = pressed(solved, SHOWN)

@@ -28,7 +28,7 @@ from .inversion import (
     sharpest,
     undercut_notes,
 )
-from .scene import COARSE, CamScene, is_aside, is_sharp
+from .scene import CamScene, is_aside, is_sharp
 from .sizes_view import SHOWN
 
 OUT = 1.5  # heights of letters from the roller to the dimension of the stroke
@@ -37,12 +37,12 @@ NUMBERS, PHASES = 1.7, 2.8  # heights of letters from the outermost roller to th
 
 def roller_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the follower is lowest."""
-    solved, canvas = scene.solved, FIGURE.canvas(scene, COARSE)
+    solved, canvas = scene.solved, FIGURE.canvas(scene)
     roller = solved.roller
     assert roller is not None
     e, s_0, stroke = map(scene.drawn, (roller.sizes.e, roller.sizes.s_0, solved.motion.h))
     R, r_0 = scene.drawn(roller.profile.R), scene.drawn(roller.sizes.r_0)
-    outer = abs(complex(e, s_0 + stroke)) + R
+    outer = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in solved.layout.division.lines) + R
     label = scene.style.label
     rod = Rod(e, s_0, outer + (PHASES + 1.2) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
@@ -50,7 +50,7 @@ def roller_view(scene: CamScene) -> View:
     centre(canvas, scene, r_0, rod.top + 12.0, offset=abs(e))
     canvas.part("circles")
     canvas.add(circle(r_0, "r_0"))
-    if abs(e) > 0.05:
+    if is_aside(scene):
         canvas.add(circle(abs(e), "e"))
     _positions(canvas, scene, e, reach - 0.9 * label)
     curves(canvas, scene, roller.profile)
@@ -58,7 +58,8 @@ def roller_view(scene: CamScene) -> View:
     numbers(canvas, scene, e, reach)
     contact = _contact(scene, pressed(solved, SHOWN))
     canvas.part("circles")
-    phases(canvas, scene, e, outer + PHASES * label, past_normal(contact, scene.style))
+    arcs = outer + PHASES * label
+    phases(canvas, scene, on_circle(e, arcs, 1j), arcs, past_normal(contact, scene.style))
     canvas.part("sharpest")
     sharpest(canvas, scene)
     normal(canvas, scene, contact)

@@ -22,7 +22,6 @@ from ..words import Words
 Size = TypeVar("Size", float, complex)
 MU_DIGITS = 5  # of a scale factor that follows from a drawing: enough for 0.01 mm
 CENTRAL = 0.05  # mm, of a circle of the offset that is not drawn
-COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
 INDEXED = re.compile(r"([^_]+)(?:_\{?(.*?)\}?)?")  # a symbol: its letter, its index
 CHORD = "chord"  # the mark in the index of what is read from chords: above it, it would meet the squares of derivatives
 

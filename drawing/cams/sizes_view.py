@@ -10,13 +10,13 @@ from ...plans.cams.followers import RollerCam
 from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.sizes import HalfPlane, wedge
 from ..areas import hatched
+from ..diagram import small
 from ..dimensions import angle, linear, turning
 from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline
-from ..symbols import HALF_TURN, arc_between, down_to, swept, unit
+from ..symbols import HALF_TURN, arc_between, at_level, swept, unit
 from ..view import Canvas, View
-from .diagrams_view import small
-from .scene import COARSE, CamScene, given
+from .scene import CamScene, given
 from .text import transfer
 
 PAST = 8.0  # mm by which an axis runs past the curve
@@ -33,7 +33,7 @@ def sizes_view(scene: CamScene) -> View:
     solved, words = scene.solved, scene.words
     roller = solved.roller
     assert roller is not None
-    canvas = FIGURE.canvas(scene, COARSE)
+    canvas = FIGURE.canvas(scene)
     centre = scene.mm(f"{SIZES}.C")
     canvas.part("points")
     outline = _curve(canvas, scene)
@@ -83,12 +83,12 @@ def _limit(canvas: Canvas, scene: CamScene, plane: HalfPlane, low: float) -> Non
     touch = scene.drawn(touch_of(solved, plane), SIZES)
     up = plane.normal.conjugate() * 1j  # along the line, upwards: a mirror image turns e + i s_0 down
     up = up if up.imag > 0.0 else -up
-    foot = down_to(touch, up, low)
+    foot = at_level(touch, up, low)
     canvas.add(Line(touch + up * LINE, foot, Pen.THIN, role="limit", name=plane.name))
     canvas.add(Group((Circle(touch, scene.style.node, Pen.THIN, fill="black"),), "touch", plane.name))
     if is_back(plane.name) and scene.solved.roller and plane.name not in scene.solved.roller.sizes.on:
         return
-    axis = down_to(touch, up, 0.0)
+    axis = at_level(touch, up, 0.0)
     across = -1.0 + 0j if up.real >= 0.0 else 1.0 + 0j  # below the axis, on the side of the ordinates
     gamma = abs(swept(across, -up))
     name, text = f"gamma_{plane.name}", f"{words.symbol(f'gamma_{phase_of(plane.name)}')} = {scene.degrees(gamma)}"

@@ -234,7 +234,7 @@ def _roller(scene: CamScene, texts: Texts) -> Iterator[str]:
     for rule in rules_of(solved):
         key = f"cam.conclusion.{rule.name}_{'kept' if rule.ok else 'broken'}"
         yield texts[key].format(**_rule(scene, rule))
-    yield from _undercuts(scene, undercut_notes(scene, cam.profile.undercuts, rocks=solved.rocker is not None))
+    yield from _undercuts(undercut_notes(scene, cam.profile.undercuts, rocks=solved.rocker is not None))
 
 
 def _rule(scene: CamScene, rule: Rule) -> dict[str, str]:
@@ -259,10 +259,10 @@ def _plate(scene: CamScene, texts: Texts) -> Iterator[str]:
     yield texts["cam.conclusion.plate"].format(**{name: scene.stated(name, size) for name, size in said.items()})
     if 0.0 <= least < math.inf:
         yield texts["cam.conclusion.convex"].format(rho=f"{scene.length(least)} {scene.words.unit('mm')}")
-    yield from _undercuts(scene, undercut_notes(scene, plate.profile.undercuts))
+    yield from _undercuts(undercut_notes(scene, plate.profile.undercuts))
 
 
-def _undercuts(scene: CamScene, notes: tuple[str, ...]) -> Iterator[str]:
+def _undercuts(notes: tuple[str, ...]) -> Iterator[str]:
     """Join what the sheet says of an undercut profile to a sentence."""
     if notes:
         warning, *places = notes

@@ -24,7 +24,7 @@ STAGE = {"P": "pole", "N1": "line_of_action", "N2": "line_of_action", "A1": "act
 def action_view(overall: GearScene) -> View:
     """Draw N1N2 along the abscissa, N1 on the left."""
     scene = replace(overall, mu_l=overall.rolled)
-    canvas = FIGURE.canvas(scene)
+    canvas = FIGURE.canvas(scene, coarse=0.0)
     canvas.part(ANSWERS)
     _zones(canvas, scene)
     _line(canvas, scene)

@@ -51,7 +51,7 @@ def circles(canvas: Canvas, wheel: Wheel, span: Span, to_end: bool) -> None:
         canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
 
 
-def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float, others: Sequence[complex]) -> None:
+def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, end: float, others: Sequence[complex]) -> None:
     """Write the diameters where the circles end on the free side, under one another, each on a leader.
 
     They stand beyond the `others`, points of teeth and circles, that come as high as they are. Beside the middle of the
@@ -59,7 +59,7 @@ def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, angle: float, othe
     """
     height, side = scene.style.text, -wheel.up.imag  # in which the wheel is from the pole: +1 above, -1 below
     out = wheel.side * side  # to the right, or to the left
-    ends = {f"d_{name}{wheel.number}": wheel.on(wheel.radius(name), angle) for name in CIRCLES}
+    ends = {f"d_{name}{wheel.number}": wheel.on(wheel.radius(name), end) for name in CIRCLES}
     stage_of = {f"d_{name}{wheel.number}": STAGE.get(name, "circles") for name in CIRCLES}
     names = sorted(ends, key=lambda name: side * ends[name].imag)
     apart = _apart([side * ends[name].imag for name in names], PITCH * height)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+from ...plans.gears.construction import MESHING
 from ...plans.gears.wheels import Wheel
 from ..figure import ANSWERS, Figure, stages
 from ..page import extent
@@ -15,7 +16,7 @@ from ..view import Canvas, View
 from . import circles
 from .circles import node
 from .ladders import TOOTH
-from .scene import MESHING, GearScene
+from .scene import GearScene
 
 BESIDE = 10.0  # mm from the circles to the dimension of the distance of the centres
 Pair = tuple[Wheel, Wheel]
@@ -26,7 +27,7 @@ ENDS = ("start", "end")  # of the engagement
 
 def meshing_view(scene: GearScene) -> View:
     """Draw the pair about its centres while a pair of teeth touches at the pole."""
-    canvas, pair = FIGURE.canvas(scene), scene.wheels()
+    canvas, pair = FIGURE.canvas(scene, coarse=0.0), scene.wheels()
     left, right = _circles(canvas, scene, pair, to_end=True)
     circles.centres(canvas, scene, pair, extent(canvas.shapes)[0] - BESIDE)
     circles.tangent(canvas, left, right)
@@ -47,7 +48,7 @@ def meshing_view(scene: GearScene) -> View:
 def near_view(overall: GearScene) -> View:
     """Draw the middle of the meshing apart, larger."""
     scene = replace(overall, mu_l=overall.near, close=True)
-    canvas, pair = NEAR.canvas(scene), scene.wheels()
+    canvas, pair = NEAR.canvas(scene, coarse=0.0), scene.wheels()
     circles.tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
     circles.middle(canvas, pair)
     circles.active_line(canvas, scene)

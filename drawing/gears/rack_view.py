@@ -10,12 +10,11 @@ from ..page import extent
 from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, right_angle, unit
 from ..view import Canvas, View
-from .circles import PENS
+from .circles import PENS, WIDEST
 from .scene import GearScene
 
 PAST = 6.0  # mm of a line beyond what it goes to
 SPACES = 1.2  # pitches of the wheel to both sides
-WIDEST = 0.9 * HALF_TURN  # half the angle of circles at most
 OUT = unit(-1.0 - 1.0j)  # in which the radius of a corner of the rack is drawn
 
 

@@ -22,7 +22,7 @@ LINE = "line-of-action"
 def rolling_view(overall: GearScene) -> View:
     """Draw how the flanks that touch at the pole are constructed."""
     scene = replace(overall, mu_l=overall.rolled)
-    canvas, pair, along = FIGURE.canvas(scene), scene.wheels(), overall.meshing.along
+    canvas, pair, along = FIGURE.canvas(scene, coarse=0.0), scene.wheels(), overall.meshing.along
     for wheel in pair:
         _circles(canvas, scene, wheel)
         _involute(canvas, scene, wheel)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ...plans.gears.checks import SAME
+from ...plans.gears.construction import MESHING
 from ...plans.gears.geometry import POINTS
 from ...plans.gears.meshing import Meshing
 from ...plans.gears.wheels import Wheel, wheels
@@ -19,7 +20,6 @@ from ..words import Words
 if TYPE_CHECKING:
     from ...plans.gears.solve import SolvedGear
 
-MESHING = "meshing"
 TALL = 7.0  # heights of letters that a tooth must have for what is measured on it
 OF_POINTS = {"y_1": "y_{1}", "y_2": "y_{2}", "theta_12": "θ_{12}", "theta_21": "θ_{21}"}
 # rho_1 of a place, its distance from N1: by the name of a quantity
@@ -121,7 +121,7 @@ def lettered(words: Words) -> Words:
     return words.lettered(table)
 
 
-def along(values: Mapping[str, Any]) -> dict[str, float]:
+def places(values: Mapping[str, Any]) -> dict[str, float]:
     """Return the named places in their order on the line of action: their distances from N1, m.
 
     A1 and A2 lie between N1 and N2 in a pair without interference.

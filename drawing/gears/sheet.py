@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product
 
-from ...plans.gears.construction import SLIDING, THETA
+from ...plans.gears.construction import MESHING, SLIDING, THETA
 from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
 from ...plans.gears.solve import SolvedGear
 from ...scales.errors import InputError
@@ -27,7 +27,7 @@ from ..view import View
 from ..words import Words
 from ..zones import BLOCK, TURNED, zoned
 from .ladders import first_scales, mu_ladder, near_ladder, parts_of, rolled_ladder
-from .scene import MESHING, GearScene, lettered
+from .scene import GearScene, lettered
 
 Found = tuple["Rungs", list[View], list[Placement]]
 Way = Callable[[list[View], Format, Norm], list[Placement] | None]

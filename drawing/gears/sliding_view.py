@@ -20,7 +20,7 @@ from ..text import lay_out
 from ..view import Canvas, View
 from ..words import Words, indexed
 from .ladders import CURVES, ENDS, cut_of, rho_mu, theta_mu
-from .scene import GearScene, along
+from .scene import GearScene, places
 
 REDUCTIONS = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02, 0.01)  # of the ordinates of velocities
 TALLEST = {5.0: 130.0, 3.5: 75.0}  # mm of the highest ordinate, by the height of letters
@@ -46,7 +46,7 @@ class Ordinates:
 
 def sliding_view(scene: GearScene) -> View:
     """Draw both diagrams over N1N2, with the points of the table as section lines through both."""
-    canvas, words = FIGURE.canvas(scene), scene.words
+    canvas, words = FIGURE.canvas(scene, coarse=0.0), scene.words
     ordinates = _ordinates(scene)
     above = Field(0j, _across(scene), Axis(words.symbol("V_k"), Scale("", 1.0, "mm"), 0.0, ordinates.highest, {}))
     below = theta_field(scene, above, BETWEEN * scene.style.label)
@@ -78,8 +78,8 @@ def _ordinates(scene: GearScene) -> Ordinates:
 
 def _across(scene: GearScene) -> Axis:
     """Return the axis along N1N2, longer where interference puts an end of the active line beyond it."""
-    places = along(scene.solved.sizes)
-    ends = min(places.values()), max(places.values())
+    lengths = places(scene.solved.sizes).values()
+    ends = min(lengths), max(lengths)
     return Axis(scene.words.symbol("rho_1"), rho_scale(scene), *ends, {})
 
 
@@ -102,7 +102,7 @@ def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordi
         canvas.add(Line(top, complex(top.real, foot), Pen.THIN, role="section", name=str(i)))
         lines.append(top.real)
     canvas.add(*numbers(lines, foot - 0.8 - height, height, first=1))
-    for name, rho in along(scene.solved.sizes).items():
+    for name, rho in places(scene.solved.sizes).items():
         at = above.at(rho, 0.0)
         canvas.part("active_line" if name in ("A1", "A2") else "axes")
         canvas.add(Group((Circle(at, scene.style.node, Pen.MAIN, fill="white"),), "point", name))

@@ -7,11 +7,11 @@ from collections.abc import Iterator, Mapping
 
 from ...plans.check import AT_LEAST, AT_MOST, Check
 from ...plans.gears.checks import rule_of
-from ...plans.gears.construction import THETA
+from ...plans.gears.construction import MESHING, THETA
 from ...plans.gears.gear import WHEELS
 from ...scales.scale import Scale
 from ..notes.blocks import Story
-from .scene import MESHING, GearScene
+from .scene import GearScene
 from .sliding_view import theta_said
 from .tables import number_of
 

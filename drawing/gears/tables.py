@@ -15,7 +15,7 @@ from ..printed import DEGREES
 from ..table import table
 from ..view import View
 from ..words import indexed
-from .scene import GearScene, along, marks
+from .scene import GearScene, marks, places
 
 MM, DEGREE, NUMBER, WHOLE = "mm", "°", "", "whole"
 DECIMALS = {MM: 3, DEGREE: 3, NUMBER: 4}  # of what is calculated
@@ -76,10 +76,10 @@ def points_table(scene: GearScene) -> View:
     N1 and N2: where A1 or A2 lies beyond, no point has its letter.
     """
     words, line = scene.words, scene.size("l_N1N2")
-    on_line = [name for name, rho_1 in along(scene.solved.sizes).items() if 0.0 <= rho_1 <= line]
-    places = {name: point for name, point in marks(scene.solved.sizes).items() if name in on_line}
+    on_line = [name for name, rho_1 in places(scene.solved.sizes).items() if 0.0 <= rho_1 <= line]
+    named_points = {name: point for name, point in marks(scene.solved.sizes).items() if name in on_line}
     mm = words.unit("mm")
-    letters = {point: indexed(name) for name, point in places.items()}
+    letters = {point: indexed(name) for name, point in named_points.items()}
     y_1, y_2 = words.symbol("y_1"), words.symbol("y_2")
     head = [words["gear.point"], None, *(f"{y}, {mm}" for y in (y_1, y_2, f"{y_1} − {y_2}")), words.symbol("theta_12")]
     head += [f"{y_2} − {y_1}, {mm}", words.symbol("theta_21")]

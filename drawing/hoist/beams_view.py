@@ -9,7 +9,7 @@ from ..figure import Figure, stages
 from ..shapes import Group, Line, Pen, Polyline
 from ..symbols import revolute
 from ..view import Canvas, View
-from .scene import COARSE, HoistScene
+from .scene import HoistScene
 
 APART = 14.0  # mm between the beams
 SAME = 0.5  # mm
@@ -17,7 +17,7 @@ SAME = 0.5  # mm
 
 def beams_view(scene: HoistScene) -> View:
     """Draw the bent beams under their axes."""
-    canvas, words, low = BEAMS.canvas(scene, COARSE), scene.words, 0.0
+    canvas, words, low = BEAMS.canvas(scene), scene.words, 0.0
     for i in scene.solved.layout.bent:
         low = _beam(canvas, scene, i, low) - APART
     heading = (words["heading.hoist_beams"], scene.factors("mu_w", "mu_x"))

@@ -8,7 +8,7 @@ from ..figure import Figure, Stage, stages
 from ..shapes import Arc, Group, Head, Line, Pen
 from ..symbols import arc_between
 from ..view import Canvas, View
-from .scene import COARSE, HoistScene
+from .scene import HoistScene
 
 PAST = 14.0  # mm by which the axis runs past the circle
 SAME = 1e-6  # part of the radius
@@ -17,7 +17,7 @@ ANGLE = 0.3  # part of the radius at which the angle is dimensioned
 
 def circle_view(scene: HoistScene) -> View:
     """Draw the circle with its start, its diameter and the angle run through."""
-    canvas, words = CIRCLE_FIGURE.canvas(scene, COARSE), scene.words
+    canvas, words = CIRCLE_FIGURE.canvas(scene), scene.words
     centre = scene.mm(f"{CIRCLE}.C")  # the origin of the view
     start, right, left = (scene.mm(f"{CIRCLE}.{mark}") - centre for mark in ("1", "max", "min"))
     radius = right.real
@@ -42,7 +42,7 @@ def circle_view(scene: HoistScene) -> View:
         canvas.part("ends" if name in reached else "start")
         canvas.add(scene.node(at, name, filled=True))
         canvas.label(scene.stated(name), at, prefer=(at or -1j) - 0.6j, clear=1.2, height=scene.style.text)
-    notes = (scene.stated("R"), *([words["hoist.slack"]] if scene.size("P_m") < scene.size("R") else []))
+    notes = (scene.stated("R"), *([words["hoist.slack"]] if scene.solved.layout.slack else []))
     return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")), notes)
 
 

@@ -9,7 +9,7 @@ from ...plans.hoist.checks import STRENGTH
 from ..shapes import Group, Head, Pen, Polyline, Text
 from ..text import lay_out
 from ..view import Canvas, View
-from .scene import COARSE, HoistScene
+from .scene import HoistScene
 
 STEP = 5.4  # heights of letters from block to block
 TALL = 2.0  # heights of letters of a block
@@ -27,7 +27,7 @@ KINDS = {
 
 def flow_view(scene: HoistScene) -> View:
     """Draw the flow chart."""
-    canvas, words, h = Canvas(scene.style, coarse=COARSE), scene.words, scene.style.text
+    canvas, words, h = Canvas(scene.style), scene.words, scene.style.text
     found, ok = scene.solved.forces.found, scene.solved.forces.ok[STRENGTH]
     s = words.symbol
     texts = {

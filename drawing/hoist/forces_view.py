@@ -11,7 +11,7 @@ from ..figure import Figure, Stage, stages
 from ..shapes import Line, Pen, Text
 from ..view import Canvas, View
 from .roots_view import ruled
-from .scene import COARSE, HoistScene
+from .scene import HoistScene
 
 TALLEST = 1.05
 BROKEN = complex("nan+nanj")  # where a curve is interrupted
@@ -21,7 +21,7 @@ ROW = 1.7  # heights of letters from time to time above the diagram
 
 def forces_view(scene: HoistScene) -> View:
     """Draw the forces over time."""
-    canvas, words = FORCES_FIGURE.canvas(scene, COARSE), scene.words
+    canvas, words = FORCES_FIGURE.canvas(scene), scene.words
     field = _field(scene)
     canvas.part("axes")
     ruled(canvas, field)
@@ -88,9 +88,9 @@ def _levels(canvas: Canvas, scene: HoistScene, field: Field) -> None:
 def _times(canvas: Canvas, scene: HoistScene, field: Field) -> None:
     """Draw upright lines at the lift-off, the maxima before it, and the greatest force after it."""
     marked = {"t_1": scene.size("t_1"), "t_P12_max": scene.size("t_1") + scene.size("T_1")}
-    found = scene.solved.quantities
-    maxima = [found[name] for name in (f"t_2_{n}" for n in range(1, len(found))) if name in found]
-    marked |= {quantity.name: float(quantity.value or 0.0) for quantity in maxima[::2]}
+    roots, shown = scene.solved.layout.roots, scene.solved.quantities
+    times = enumerate(roots.times, 1) if roots else ()
+    marked |= {name: t for n, t in times if n % 2 and (name := f"t_2_{n}") in shown}  # the maxima
     height, rows = scene.style.text, 0
     top = field.at(0.0, field.y.high).imag
     for name, t in sorted(marked.items(), key=lambda mark: -mark[1]):  # the later, the lower: no text meets a line

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 from ...plans.hoist.construction import Roots
 from ...plans.hoist.dense import POINTS, equation
 from ...plans.hoist.root_plans import EXTREMES, LIFT_OFF
+from ..areas import clipped
 from ..diagram import Axis, Field, divisions, drawn_through
 from ..figure import Figure, stages
 from ..shapes import Group, Head, Line, Pen, Polyline, Shape, Text
 from ..view import Canvas, View
-from .scene import COARSE, HoistScene
+from .scene import HoistScene
 
 MANY, BESIDE_CROSSING = 48, 4  # section lines
 BELOW = 1.08  # times the least ordinate, the foot of the diagram
@@ -22,12 +23,11 @@ BESIDE = 24.0  # mm from a diagram to what is magnified of it
 TICK = 1.4  # mm
 PAST = 6.0  # mm by which an axis runs past its end
 TIMES, HALF = 10.0, 16.0  # how many times as large the crossing is, and half the side of its square, mm
-PIECES = 81  # of a chord that is magnified
 
 
 def lift_off_view(scene: HoistScene) -> View:
     """Draw the crossing of parabola and sinusoid."""
-    canvas, words, roots, h = LIFT_OFF_FIGURE.canvas(scene, COARSE), scene.words, _roots(scene), scene.style.text
+    canvas, words, roots, h = LIFT_OFF_FIGURE.canvas(scene), scene.words, _roots(scene), scene.style.text
     curves = {name: scene.places(equation(scene.solved, letter)) for name, letter in CURVES.items()}
     heights = [place.imag for places in curves.values() for place in places]
     field = _field(scene, f"y, {words.unit('m')}", "mu_y", heights)
@@ -51,7 +51,7 @@ def lift_off_view(scene: HoistScene) -> View:
 
 def extremes_view(scene: HoistScene) -> View:
     """Draw the crossings of sinusoid and straight line."""
-    canvas, words, roots, h = EXTREMES_FIGURE.canvas(scene, COARSE), scene.words, _roots(scene), scene.style.text
+    canvas, words, roots, h = EXTREMES_FIGURE.canvas(scene), scene.words, _roots(scene), scene.style.text
     wave = scene.places(equation(scene.solved, "W"))
     left, right = (scene.mm(f"{EXTREMES}.L{i}") for i in range(2))
     heights = [place.imag for place in wave]
@@ -148,25 +148,19 @@ def _crossing(canvas: Canvas, scene: HoistScene, plan: str, mark: str, name: str
 def _magnified(canvas: Canvas, scene: HoistScene, corner: complex) -> None:
     """Draw the crossing with its chords, larger, in a square whose lower left corner is given."""
     centre, middle, h = scene.mm(f"{LIFT_OFF}.X"), corner + complex(HALF, HALF), scene.style.text
+    box = corner.real, corner.imag, corner.real + 2.0 * HALF, corner.imag + 2.0 * HALF
     curves: list[Shape] = []
     chords: list[Shape] = []
     for letter in CURVES.values():
-        places = scene.places(equation(scene.solved, letter, centre.real, HALF / TIMES))
-        curves += (Polyline((p, q), Pen.MAIN) for p, q in _clipped(places, centre, middle))
-        a, b = (scene.mm(f"{LIFT_OFF}.{letter}{_roots(scene).lift_off + n}") for n in (0, 1))
-        chord = [a + (b - a) * n / PIECES for n in range(-PIECES, 2 * PIECES)]
-        chords += (Line(p, q, Pen.THIN) for p, q in _clipped(chord, centre, middle))
+        dense = scene.places(equation(scene.solved, letter, centre.real, HALF / TIMES))
+        places = [middle + TIMES * (place - centre) for place in dense]
+        curves += (Polyline(part, Pen.MAIN) for ends in pairwise(places) if (part := clipped(*ends, box)))
+        nodes = (scene.mm(f"{LIFT_OFF}.{letter}{_roots(scene).lift_off + n}") for n in (0, 1))
+        a, b = (middle + TIMES * (node - centre) for node in nodes)
+        chord = clipped(a - (b - a), b + (b - a), box)
+        chords += [Line(*chord, Pen.THIN)] if chord else []
     square = tuple(middle + HALF * complex(x, y) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
     frame = Group((Polyline(square, Pen.THIN, closed=True),), "frame", "magnified")
     canvas.add(Group((*curves, *chords), "magnified", "X"), frame, scene.node(middle, "magnified"))
     at = middle + 1j * (HALF + 0.6 * h)
     canvas.add(Text(at, f"{scene.words.short(TIMES)}:1", h, "middle", role="magnified"))
-
-
-def _clipped(places: list[complex], centre: complex, middle: complex) -> Iterator[tuple[complex, complex]]:
-    """Go through the pieces of a broken line, magnified about `centre`, that lie in the square about `middle`."""
-    large = [middle + TIMES * (place - centre) for place in places]
-    inside = [max(abs((p - middle).real), abs((p - middle).imag)) <= HALF + 1e-9 for p in large]
-    for piece, both in zip(pairwise(large), pairwise(inside), strict=True):
-        if all(both):
-            yield piece

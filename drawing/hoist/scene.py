@@ -19,7 +19,6 @@ from ..style import Style
 from ..words import Words
 from .ladders import scale_of
 
-COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
 DIGITS = 4
 
 

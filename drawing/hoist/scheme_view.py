@@ -12,7 +12,7 @@ from ..shapes import Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import fixed_pivot, hatching
 from ..text import lay_out
 from ..view import Canvas, View
-from .scene import COARSE, HoistScene
+from .scene import HoistScene
 
 LOAD = 0.45  # of the rope's length, the height of the load at most
 BOX = 12.0  # mm, the load's height at most
@@ -26,7 +26,7 @@ BEAMS = {"0": "support", "2": "bridge"}  # stages
 
 def scheme_view(scene: HoistScene) -> View:
     """Draw the scheme with its dimensions."""
-    canvas, words, style = SCHEME_FIGURE.canvas(scene, COARSE), scene.words, scene.style
+    canvas, words, style = SCHEME_FIGURE.canvas(scene), scene.words, scene.style
     at = {mark: scene.mm(f"{SCHEME}.{mark}") for mark in ("O1", "O2", "A0", "A2", "B1", "B2")}
     rope = abs(at["A2"] - at["A0"])
     canvas.part("support")
@@ -90,7 +90,7 @@ SCHEME_FIGURE = Figure("scheme", scheme_view, ("mu_l",), stages("blank", "suppor
 
 def model_view(scene: HoistScene) -> View:
     """Draw the model with its axis, springs, forces."""
-    canvas, words = MODEL.canvas(scene, COARSE), scene.words
+    canvas, words = MODEL.canvas(scene), scene.words
     canvas.part("model")
     half, tall = MASS
     bottom = 1j * SPRING

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from ....scales.scale import Scale
+from ...areas import clipped
 from ...page import extent
 from ...shapes import Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
 from ...style import Style
@@ -213,20 +214,6 @@ def _enlarged(canvas: Canvas, scene: Scene, vector: Vector, times: float, bounds
         canvas.add(Group(tuple(parts), "cut", vector.quantity))
     if name:
         canvas.label(name, cut, clear=0.9, strict=True)
-
-
-def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:
-    """Return the part of the line from `a` to `b` inside of a box (Liang and Barsky), None when there is none."""
-    x0, y0, x1, y1 = box
-    low, high, way = 0.0, 1.0, b - a
-    for start, step, least, most in ((a.real, way.real, x0, x1), (a.imag, way.imag, y0, y1)):
-        if abs(step) < 1e-12:
-            if not least <= start <= most:
-                return None
-            continue
-        first, last = sorted(((least - start) / step, (most - start) / step))
-        low, high = max(low, first), min(high, last)
-    return (a + way * low, a + way * high) if low <= high else None
 
 
 def _together(
