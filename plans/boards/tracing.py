@@ -119,8 +119,10 @@ class TracingBoard(ManyChecks, ExactBoard):
             return [(CODES[status], where) for status, where in marks], result
 
         key = check, *(self.trace.place(operand) for operand in operands)
-        restless = any(one is False for one in calm)
         noted = [one for one in calm if isinstance(one, Calm)]
+        restless = not all(calm)  # what is noted counts as calm here
+        if not noted and not restless:
+            return operands[0]
         return self.trace.rare(key, operands[0], () if restless else noted, look)
 
     def _lines_sine(self, sine: Any) -> Any:

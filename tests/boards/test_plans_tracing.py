@@ -15,6 +15,7 @@ from kulman.plans.boards.exact import run
 from kulman.plans.boards.printers import ARRAYS as FUNCTIONS
 from kulman.plans.boards.printers import Chunked, Plain, compiled, in_order, plain_names
 from kulman.plans.boards.trace import Real, Trace, Vector
+from kulman.plans.boards.tracing import TracingBoard
 from kulman.plans.laws import LAWS, cross, dot
 
 ARRAYS = {name: np.array(values) for name, values in {"x": [3.0, -2.0, 0.5], "y": [7.0, 0.25, -8.0]}.items()}
@@ -22,14 +23,20 @@ ARRAYS = {name: np.array(values) for name, values in {"x": [3.0, -2.0, 0.5], "y"
 
 def worked_out(value: Real) -> Any:
     """Return the numbers that a number of a trace stands for, printed for chunks of two."""
-    result = np.empty(3)
-    chunked = Chunked(value.trace, ARRAYS, [(value.place, value.negative)])
-    _, shared = compiled(chunked.once(), "once", plain_names())({})
-    chunk = compiled(chunked.chunk(), "chunk", FUNCTIONS)
-    for part in (slice(0, 2), slice(2, 3)):
-        buffers = np.empty((chunked.buffers, part.stop - part.start))
-        chunk(np.zeros(3, np.int8), [ARRAYS[name][part] for name in chunked.names], shared, buffers, [result[part]])
-    return result
+    parts = [{name: array[part] for name, array in ARRAYS.items()} for part in (slice(0, 2), slice(2, 3))]
+    return np.concatenate([in_chunk(value, arrays)[0] for arrays in parts])
+
+
+def in_chunk(value: Real, arrays: dict[str, Any]) -> tuple[Any, Any]:
+    """Return the numbers that a number of a trace stands for, printed for one chunk, and the codes of the statuses."""
+    chunked = Chunked(value.trace, arrays, [(value.place, value.negative)])
+    code, shared = compiled(chunked.once(), "once", plain_names())({})
+    size = len(next(iter(arrays.values())))
+    constant = dict(zip(chunked.shared, shared, strict=True)).get(value.place, 0.0)
+    result, codes = np.full(size, -constant if value.negative else constant), np.full(size, code, np.int8)
+    given, buffers = [arrays[name] for name in chunked.names], np.empty((chunked.buffers, size))
+    compiled(chunked.chunk(), "chunk", FUNCTIONS)(codes, given, shared, buffers, [result])
+    return result, codes
 
 
 def one_by_one(value: Real) -> list[Any]:
@@ -58,7 +65,7 @@ FORMULAS = {
 
 
 @pytest.mark.parametrize("formula", FORMULAS.values(), ids=FORMULAS)
-def test_numbers_of_a_tape_are_those_of_the_formula(trace: Trace, formula: Any) -> None:
+def test_numbers_of_a_trace_are_those_of_the_formula(trace: Trace, formula: Any) -> None:
     traced = formula(trace.given("x"), trace.given("y"))
 
     numbers = [formula(float(x), float(y)) for x, y in zip(ARRAYS["x"], ARRAYS["y"], strict=True)]
@@ -87,7 +94,7 @@ def test_normal_of_a_direction_is_the_turned_direction(trace: Trace) -> None:
         pytest.param(lambda x, y: (dot(Vector(x, y), Vector(y, x)), cross(Vector(x, y), Vector(x, -y))), id="normals"),
     ],
 )
-def test_what_is_on_the_tape_is_not_noted_again(trace: Trace, again: Any) -> None:
+def test_what_is_on_the_trace_is_not_noted_again(trace: Trace, again: Any) -> None:
     first, second = again(trace.given("x"), trace.given("y"))
 
     assert first.place == second.place
@@ -105,7 +112,7 @@ def test_what_is_on_the_tape_is_not_noted_again(trace: Trace, again: Any) -> Non
         pytest.param(lambda x: Vector(x, x) * 2j, id="product with a complex number"),
     ],
 )
-def test_number_of_a_tape_cannot_be_looked_at(trace: Trace, look: Any) -> None:
+def test_number_of_a_trace_cannot_be_looked_at(trace: Trace, look: Any) -> None:
     with pytest.raises(TypeError):
         look(trace.given("x"))
 
@@ -163,3 +170,37 @@ def test_array_board_step_by_step_gives_the_numbers_of_the_batch() -> None:
 
     different = [name for name in mechanisms.program.names if not np.array_equal(board.values[name], mechanisms[name])]
     assert [name for name in different if np.ndim(board.values[name])] == []
+
+
+CHECKS = {  # by the number of operands, which are what they like: not those of a triangle
+    **dict.fromkeys(("_near", "_upright", "_lines_sine", "_apart", "_divisor"), 1),
+    **dict.fromkeys(("_clear", "_bears"), 2),
+    **{"_reaches": 4, "_holds": 4},
+}
+SIZES = (0.0, 1e-20, 1e-9, 1e-3, 1.0, 1e4)  # below every bound, between two, above all
+
+
+@pytest.mark.parametrize("check", CHECKS)
+def test_check_of_numbers_some_of_which_are_constants_is_that_of_arrays(check: str) -> None:
+    luck = np.random.default_rng(12)
+    for values in luck.choice(SIZES, (150, CHECKS[check])):
+        values[0] *= luck.choice((-1.0, 1.0))  # the others are sizes
+        varying = {0} if luck.random() < 0.3 else {*np.flatnonzero(luck.random(values.size) < 0.5)}
+        varying = varying or {*range(values.size)}
+        board, many = TracingBoard({}, map(str, range(values.size))), ArrayBoard({}, 1)
+        arrays = {str(place): values[[place]] for place in varying}
+
+        with np.errstate(invalid="ignore", divide="ignore"):
+            traced = getattr(board, check)(*(board.values[str(i)] if i in varying else v for i, v in enumerate(values)))
+            expected = getattr(many, check)(*(arrays.get(str(i), v) for i, v in enumerate(values)))
+            found, codes = in_chunk(board.trace.real(traced), arrays)
+
+        assert np.array_equal(found, np.ravel(expected), equal_nan=True), (values, varying)
+        assert codes == many.codes, (values, varying)
+
+
+def test_constant_that_is_calm_is_not_looked_at_beside_what_varies() -> None:
+    board = TracingBoard({}, ["moment"])
+
+    assert board._bears(2.0, board.values["moment"]) == 2.0
+    assert "rare" not in {entry.operation for entry in board.trace.entries}
