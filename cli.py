@@ -14,7 +14,7 @@ from . import __version__
 from .scales.choices import HANDS, SIZES
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import VARIABLE, speaking, system_language
-from .scales.numbers import quote
+from .scales.numbers import SHOWN, quote
 from .variants.commands.console import flush, hand_over, lost_output, note_of, print_json, refuse, warn
 from .variants.commands.options import (
     BLOCK,
@@ -121,7 +121,7 @@ def _check(file: str, as_json: bool) -> int:
         for remark in remarks:
             click.echo(words["check-remark"].format(text=remark.text(language)))
     if faults:
-        return refuse(InputError("check-bad", file=file, n=len(faults)))
+        return refuse(InputError("check-bad", file=quote(file, SHOWN), n=len(faults)))
     if not as_json:
         click.echo(words["check-remarks" if remarks else "check-ok"].format(file=file, n=len(remarks)))
     return 0

@@ -13,7 +13,7 @@ from functools import lru_cache
 from math import cos, inf, sin
 from typing import TypeAlias
 
-from ..scales.errors import InputError
+from ..scales.errors import InputError, Written
 from .font import SIZE, font
 from .shapes import Text
 
@@ -90,7 +90,7 @@ class _Reader:
         self.rules: list[Box] = []
 
     def refuse(self) -> InputError:
-        return InputError("markup-broken", text=self.markup, position=self.at + 1)
+        return InputError("markup-broken", text=Written(self.markup), position=self.at + 1)
 
     def line(self, x: float, y: float, height: float, base: float, nested: bool) -> _Span:
         """Lay out up to the end, or up to the brace that closes a group."""

@@ -8,6 +8,7 @@ from math import ceil
 from typing import BinaryIO
 
 from ..scales.errors import InputError
+from ..scales.numbers import quote
 from .page import Page
 from .pdf import POINT, draw_page, draw_shapes, new_canvas
 from .pdf_layers import DocumentLayers
@@ -38,7 +39,7 @@ def tiles(page: Page, paper: str = "A4") -> list[Tile]:
         `paper` is not a paper for tiles.
     """
     if paper not in PAPERS:
-        raise InputError("tile-unknown", text=paper, known=", ".join(PAPERS))
+        raise InputError("tile-unknown", text=quote(paper), known=", ".join(PAPERS))
     wide, high = (side - 2 * MARGIN for side in PAPERS[paper])
     columns, rows = _count(page.width, wide), _count(page.height, high)
     found = []

@@ -14,7 +14,7 @@ from typing import BinaryIO, TypeAlias
 
 from ..scales.arguments import of_kind
 from ..scales.errors import InputError
-from ..scales.numbers import quote
+from ..scales.numbers import SHOWN, quote
 from .page import Page
 
 Writer: TypeAlias = Callable[[Sequence[Page], BinaryIO], None]
@@ -42,7 +42,6 @@ def _png(pages: Sequence[Page], stream: BinaryIO) -> None:
 WRITERS: dict[str, Writer] = {".svg": _svg, ".pdf": _pdf, ".png": _png}
 SUFFIXES = tuple(WRITERS)
 ONE_PAGE = {".svg", ".png"}  # several pages become x-1.svg, x-2.svg, ...
-SHOWN = 200  # characters of a path in a message
 PART = ".part"  # ends the names of files that are not whole yet
 PAUSES = (0.05, 0.1, 0.2, 0.4) if os.name == "nt" else ()  # seconds between attempts
 _LEFT = re.compile(r"\.(.+)\.\d+\.part")

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from .errors import InputError
-from .numbers import split_number
+from .numbers import quote, split_number
 from .scale import SEGMENTS, rounded, steps
 from .units import parse, unit
 
@@ -119,7 +119,7 @@ def chooser(symbol: str, text: str, firm: bool = False) -> Chooser:
     """
     kind = symbol.split("_")[1] if "_" in symbol else ""
     if kind not in UNITS:
-        raise InputError("scale-symbol", text=symbol)
+        raise InputError("scale-symbol", text=quote(symbol))
     name, equals, rest = text.partition("=")
     if equals:
         millimetres = _positive(parse(rest, unit("mm"), unit("mm")) * 1e3, text)
@@ -153,7 +153,7 @@ def segment_symbol(segment: str) -> str:
     """
     kind = next((kind for kind, letters in SEGMENT_OF.items() if letters.fullmatch(segment)), None)
     if kind is None:
-        raise InputError("scale-segment", text=segment)
+        raise InputError("scale-segment", text=quote(segment))
     return f"mu_{kind}"
 
 
@@ -162,11 +162,11 @@ def _shown_by(symbol: str, segment: str) -> str:
     kind = symbol.split("_")[1]
     letters = SEGMENT_OF[kind].fullmatch(segment) if kind in SEGMENT_OF else None
     if letters is None:
-        raise InputError("scale-segment", text=segment)
+        raise InputError("scale-segment", text=quote(segment))
     return f"{kind}_{''.join(letters.groups()).upper()}"
 
 
 def _positive(mu: float, text: str) -> float:
     if not 1e-30 < mu < 1e30:
-        raise InputError("scale-not-positive", text=text)
+        raise InputError("scale-not-positive", text=quote(text))
     return mu

@@ -8,8 +8,13 @@ from typing import Any
 from .packaged import packaged
 
 LANGUAGES = ("uk", "ru", "en")
-WRITTEN = frozenset(("text", "file", "like", "known", "expected", "reason", "place", "task", "variant", "command"))
 _DECIMAL = re.compile(r"(?<![\w.=/])(\d+)\.(\d+(?:e[-+]?\d+)?)(?![\w.])")  # no part of a name, a path, a date
+
+
+class Written(str):
+    """What the user has written or may type: a message leaves it as it is."""
+
+    __slots__ = ()
 
 
 def messages(language: str) -> dict[str, str]:
@@ -25,7 +30,8 @@ class KulmanError(Exception):
     key : str
         Key of the template in `scales/messages/*.toml`.
     **data
-        What the template names: `file`, `row`, `column`, `name`, `expected`, ...
+        What the template names: `file`, `row`, `column`, `name`, `expected`, ... Numbers in texts have the decimal
+        sign of the language, but for what is `Written`.
     """
 
     status = 2
@@ -41,7 +47,7 @@ class KulmanError(Exception):
 
     def text(self, language: str = "en") -> str:
         """Return the message as one line in `language`."""
-        data = self.data if language == "en" else {name: _comma(name, value) for name, value in self.data.items()}
+        data = self.data if language == "en" else {name: _comma(value) for name, value in self.data.items()}
         line = messages(language)[self.key].format(**data)
         return " ".join(line.split())
 
@@ -50,9 +56,9 @@ class KulmanError(Exception):
         return self.text()
 
 
-def _comma(name: str, value: object) -> object:
-    """Return a value of a message with decimal commas, unless it is what the user has written or may type."""
-    if name in WRITTEN or not isinstance(value, (str, float)):
+def _comma(value: object) -> object:
+    """Return a value of a message with decimal commas."""
+    if isinstance(value, Written) or not isinstance(value, (str, float)):
         return value
     return _DECIMAL.sub(r"\1,\2", str(value))
 

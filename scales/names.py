@@ -8,7 +8,7 @@ import unicodedata
 from collections.abc import Iterable
 from typing import Any
 
-from .errors import InputError
+from .errors import InputError, Written
 from .numbers import quote
 
 _CYRILLIC, _LATIN = "АВЕІКМНОРСТУХЅЈаеіоруксхѕј", "ABEIKMHOPCTYXSJaeiopykcxsj"
@@ -29,12 +29,13 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Input
         The names there are.
     """
     names, text = list(known), str(asked)
+    data = {name: Written(value) if isinstance(value, str) else value for name, value in data.items()}
     if text != latin(text) in names:
         return cyrillic(text)
     if like := _meant(text, names):
-        return InputError(f"{key}-like", text=quote(text), like=like[0], **data)
+        return InputError(f"{key}-like", text=quote(text), like=Written(like[0]), **data)
     shown = textwrap.shorten(", ".join(names), LONGEST, placeholder=" …")
-    return InputError(key, text=quote(text), known=shown or "—", **data)
+    return InputError(key, text=quote(text), known=Written(shown or "—"), **data)
 
 
 def _meant(text: str, names: list[str]) -> list[str]:

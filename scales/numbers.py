@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from .errors import InputError
+from .errors import InputError, Written
 
 # Ordinary, no-break, figure, thin and narrow no-break space: all of them come out of word processors.
 SPACES = " \u00a0\u2007\u2009\u202f"
@@ -14,13 +14,14 @@ _NUMBER = re.compile(
     rf"[+\-\u2212\u2013]?(?:(?:{_GROUPED}|[0-9]+)(?:[.,][0-9]*)?|[.,][0-9]+)(?:[eE][+\-\u2212]?[0-9]+)?"
 )
 _UNDER = re.compile(r"\s*/\s*([1-9][0-9]*)(?![0-9.,])")  # what makes a fraction of a whole number
+SHOWN = 200  # characters of a path, a reason or a list in a message
 _PLAIN = str.maketrans({"\u2212": "-", "\u2013": "-", ",": ".", **dict.fromkeys(SPACES)})
 
 
-def quote(text: object, longest: int = 40) -> str:
+def quote(text: object, longest: int = 40) -> Written:
     """Return `text` fit for one line of a message: at most `longest` characters, none of them a control character."""
     line = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in str(text)[: longest + 1])
-    return line if len(line) <= longest else line[: longest - 1] + "…"
+    return Written(line if len(line) <= longest else line[: longest - 1] + "…")
 
 
 def split_number(text: str) -> tuple[float, str]:

@@ -11,12 +11,11 @@ from pickle import PickleError
 from typing import Any, TypeVar
 
 from ..scales.errors import InputError
-from ..scales.numbers import quote
+from ..scales.numbers import SHOWN, quote
 from .crew import TOGETHER, Done, Piece, Work
 
 Item = TypeVar("Item")
 Made = TypeVar("Made")
-SHOWN = 200  # characters of an error in a message
 PATIENCE = "10s"  # how long the scheduler is waited for
 ROUND, ROUNDS = "10s", 6  # after so many rounds in which nobody does anything it is said, or begun again
 FETCHED = "30s"  # how long what is made may be on its way

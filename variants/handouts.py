@@ -18,6 +18,7 @@ from ..drawing.pens import Norm
 from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.names import unknown
+from ..scales.numbers import quote
 from .case import Case, Settings, solve_case
 from .sheets import Sheet, drawing_of, sheet_of, stamp_of
 from .task import Task
@@ -135,5 +136,5 @@ def begun_of_case(
 
     begun = done(steps)
     stepless = steps > 0 and begun == done(0) == done(ALL)  # the first ones may set a plan up, as on the blank
-    idle = (InputError("handout-stepless", task=case.task.id, steps=steps),) if stepless else ()
+    idle = (InputError("handout-stepless", task=quote(case.task.id), steps=steps),) if stepless else ()
     return replace(drawn, pages=tuple(map(marked, begun)), warnings=(*drawn.warnings, *idle))

@@ -18,6 +18,7 @@ from ..drawing.text import escape
 from ..drawing.writers import WRITERS, Files, save_all
 from ..scales.errors import InputError
 from ..scales.names import unknown
+from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import packaged
 from .case import Case, Settings, solve_case
 from .sheet_id import sheet_id
@@ -60,7 +61,7 @@ class Note:
         if suffix not in DOCUMENTS:
             return self._picture(path)
         if self.figure is not None:
-            raise InputError("note-figure-alone", file=str(path), figure=self.figure)
+            raise InputError("note-figure-alone", file=quote(path, SHOWN), figure=quote(self.figure))
         if suffix in ALONE:
             return [(path, ALONE[suffix](self.document))]
         names = [f"{path.stem}-{name}.svg" for name in self.figures]
@@ -73,7 +74,7 @@ class Note:
 
     def _picture(self, path: Path) -> Files:
         if self.figure is None:
-            raise InputError("note-figure-missing", file=str(path), known=", ".join(self.figures))
+            raise InputError("note-figure-missing", file=quote(path, SHOWN), known=", ".join(self.figures))
         return [(path, self._drawn(self.figures[self.figure], path.suffix.lower()))]
 
     def _drawn(self, figure: Figure, suffix: str) -> bytes:

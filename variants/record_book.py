@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.names import latin, unknown
-from ..scales.numbers import quote
+from ..scales.numbers import SHOWN, quote
 from .spreadsheets.headers import about_kind
 from .task import Task
 
@@ -17,7 +17,6 @@ SCHEME, VARIANT, NOTHING = "scheme", "variant", "-"
 MEANINGS = (VARIANT, SCHEME, NOTHING)
 _MEANT = {"task": SCHEME, "variant": VARIANT}  # by what a column of such a name holds
 MOST = 9  # digits that have a meaning
-SHOWN = 200  # characters of a list in a message
 _SHORTENED = re.compile(r"\d[.,]\d*E\+?\d+", re.IGNORECASE)  # 1,23E+11: what a spreadsheet leaves of a long number
 _FLOAT = re.compile(r"(\d+)[.,]0")  # 417.0: what a table of numbers makes of 417
 

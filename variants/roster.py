@@ -11,10 +11,10 @@ from pathlib import Path
 
 from ..scales.errors import InputError
 from ..scales.names import unknown
-from ..scales.numbers import quote
+from ..scales.numbers import SHOWN, quote
 from .record_book import Digits, Schemes, variant_of_book
 from .spreadsheets.cells_in import read_grid
-from .spreadsheets.grid import SHOWN, Grid
+from .spreadsheets.grid import Grid
 from .spreadsheets.headers import LOOKED_AT, about_kind, quantity_part, split_unit, symbol
 from .task import LocatedError, Task
 

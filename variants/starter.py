@@ -7,13 +7,12 @@ import re
 from pathlib import Path
 
 from ..scales.errors import InputError
-from ..scales.numbers import quote
+from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import home
 from .kinds import KINDS
 
 SUFFIX = ".toml"
 _OWN = re.compile(r'^id = "([^"]+)"', re.MULTILINE)  # what a template calls itself
-_SHOWN = 200
 
 
 def template(language: str, kind: str = KINDS[0]) -> str:
@@ -37,16 +36,16 @@ def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0]) -> 
         A name of another kind, a file that is there already, or a place where none can be written.
     """
     path = Path(file)
-    shown = quote(path, _SHOWN)
+    shown = quote(path, SHOWN)
     if "\0" in str(path) or not path.name:
         raise InputError("output-name", file=shown)
     if not path.suffix:
         path = path.with_suffix(SUFFIX)
-        shown = quote(path, _SHOWN)
+        shown = quote(path, SHOWN)
     if path.suffix != SUFFIX:
         raise InputError("output-suffix", file=shown, known=SUFFIX)
     if not path.parent.is_dir():
-        raise InputError("output-folder-missing", file=shown, folder=quote(path.parent, _SHOWN))
+        raise InputError("output-folder-missing", file=shown, folder=quote(path.parent, SHOWN))
     called = f'"{path}"' if " " in str(path) else str(path)
     text = template(language, kind)
     own = _OWN.findall(text)[0]

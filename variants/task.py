@@ -175,7 +175,7 @@ class Task:
             The task is of another kind.
         """
         if not isinstance(self.subject, Mechanism):
-            raise InputError("kind-without", task=self.id, text="mechanism")
+            raise InputError("kind-without", task=quote(self.id), text="mechanism")
         return self.subject
 
     @property
@@ -229,7 +229,7 @@ class Task:
         from .kinds import kind_of  # which know tasks
 
         if name in kind_of(self.kind).names:
-            return InputError("given-absent", text=name, task=self.id, known=", ".join(self.givens))
+            return InputError("given-absent", text=name, task=quote(self.id), known=", ".join(self.givens))
         return unknown("given-unknown", name, self.givens, task=self.id)
 
     def values(

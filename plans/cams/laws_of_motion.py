@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scales.errors import InputError
+from ...scales.numbers import quote
 from .cam import LAWS, PIECES, Curve
 
 STEPS = 80  # halvings of an interval after which nothing is left of it in double precision
@@ -264,7 +265,7 @@ def law_of_motion(name: str, u: float = 0.5) -> LawOfMotion:
     if name == UNIFORM:
         return LawOfMotion((Smooth(0.0, 1.0, 0.0, (0.0, 1.0)),))
     if name not in LOBES:
-        raise InputError("choice-unknown", text=name, known=", ".join(LAWS))
+        raise InputError("choice-unknown", text=quote(name), known=", ".join(LAWS))
     if not 0.0 < u < 1.0:
         raise InputError("law-u", text=f"{u:.6g}")
     lobe = integrated(integrated(LOBES[name]))

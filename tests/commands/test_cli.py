@@ -312,6 +312,26 @@ def test_the_language_of_messages_stands_anywhere(
 
 
 @pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["solve", "madi-gear", "--set", "alpha=5.5 deg"], "5,5"),
+        (["solve", TASK, "-v", "1.5"], "«1.5»"),
+        (["solve", TASK, "--scale", "mu_V=-0.5"], "-0.5"),
+        (["sheet", TASK, "-o", "for 7.5 points/x.svg"], "for 7.5 points"),
+        (["new", "for 7.5 points/x.toml"], "for 7.5 points"),
+    ],
+)
+def test_numbers_of_messages_have_commas_but_those_that_are_quoted(
+    words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for language in ("uk", "ru"):
+        _, _, err = run(["--lang", language, *words], capsys)
+
+        assert said in err
+        assert said.translate(str.maketrans(".,", ",.")) not in err
+
+
+@pytest.mark.parametrize(
     ("language", "status", "said"), [("uk", 2, "не має варіанта"), ("xx", 2, "KULMAN_LANG: 'xx' is unknown")]
 )
 def test_the_language_stands_in_the_environment(

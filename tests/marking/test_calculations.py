@@ -107,6 +107,17 @@ def test_a_calculation_in_a_cell_gives_its_result_and_is_told_of_where_it_is_wro
 
 
 @pytest.mark.parametrize(
+    "shown", ["«1.35/0.130» дорівнює 10.38462, а не 10.8", "«1,35/0,130» дорівнює 10,38462, а не 10,8"]
+)
+def test_numbers_of_a_calculation_are_shown_as_the_student_writes_them(shown: str, tmp_path: Path) -> None:
+    written = shown[1:11], shown[-4:]
+
+    found = one(tmp_path, f"{HEAD}omega_2;;;{' = '.join(written)} 1/с;;\n")
+
+    assert [problem.text("uk").partition("omega_2: ")[2] for problem in found.problems] == [shown]
+
+
+@pytest.mark.parametrize(
     ("task", "told"),
     [
         ("nau-slider-crank", ["makes 0, not", "makes 55,1487", "makes 41.56061", "makes 67,09136"]),

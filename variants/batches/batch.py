@@ -11,9 +11,9 @@ from ...drawing.formats import format_named
 from ...drawing.pens import Norm
 from ...drawing.words import Words
 from ...drawing.writers import folder_for, save_all, slug
-from ...scales.errors import InputError
+from ...scales.errors import InputError, Written
 from ...scales.names import unknown
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 from ..arguments import by_name, plans_wanted
 from ..case import Settings
 from ..crew import Advance, shared_out
@@ -23,7 +23,7 @@ from ..record_book import SCHEME, VARIANT, Digits, Schemes
 from ..roster import read_roster
 from ..sheets import said_of
 from ..spreadsheets.cells_out import csv_table, table_bytes
-from ..spreadsheets.grid import SHOWN, SUFFIXES
+from ..spreadsheets.grid import SUFFIXES
 from ..task import Task
 from .outcome import Batch
 from .student import FORMS, NOTE, Making, Student
@@ -110,7 +110,7 @@ def batch(
 def _unread(roster: str, heads: Sequence[str]) -> Iterator[InputError]:
     """Warn of columns that say nothing here: what was meant by them has been left out."""
     if heads:
-        columns = ", ".join(quote(head, SHOWN) for head in heads)
+        columns = Written(", ".join(quote(head, SHOWN) for head in heads))
         yield InputError("roster-unread", file=quote(os.path.basename(roster), SHOWN), columns=columns)
 
 

@@ -18,7 +18,7 @@ from ...drawing.pens import Norm
 from ...drawing.writers import WRITERS, page_files, slug
 from ...plans.quantities import measured
 from ...scales.errors import InputError, KulmanError
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 from ...scales.units import format_unit
 from ..case import Case, solve_case
 from ..handouts import begun_of_case, drawing_for_print
@@ -27,7 +27,6 @@ from ..notes import body_of, title_page
 from ..roster import Entry
 from ..sheet_id import sheet_id
 from ..sheets import Sheet, drawing_of, sheet_of, stamp_of
-from ..spreadsheets.grid import SHOWN
 from ..task import Task
 
 NOTE, HANDOUT = "note", "handout"

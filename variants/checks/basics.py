@@ -59,7 +59,7 @@ class Checker:
 
     def twice(self, path: Path, name: object, first: Path) -> None:
         """Note that `name` stands at `path` again, after it stood at `first`."""
-        self.fault(path, InputError("id-twice", name=name, line=self.places[first][0]))
+        self.fault(path, InputError("id-twice", name=quote(name), line=self.places[first][0]))
 
     def wrong_type(self, path: Path, expected: str) -> None:
         """Note that the value at `path` is not of the `expected` kind, a key of a message."""

@@ -14,13 +14,12 @@ import click
 
 from ...scales.errors import InputError, KulmanError, messages
 from ...scales.language import system_language
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 
 if TYPE_CHECKING:
     from ..task import Task
 
 CLOSED = 1
-SHOWN = 200  # characters of a reason in a message
 
 
 def refuse(error: KulmanError) -> int:

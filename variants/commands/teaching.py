@@ -10,7 +10,7 @@ import click
 from ...scales.choices import HANDS, SIZES
 from ...scales.errors import InputError, messages
 from ...scales.language import system_language
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 from .console import hand_over, print_json, progress, refuse, say_written, warn
 from .options import (
     BLOCK,
@@ -73,7 +73,7 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
 
     flat = [file for file in files if file.suffix.lower() == ".png"]
     if flat and options["hidden_key"]:  # a picture has no layers
-        raise InputError("handout-apart", first="--hidden-key", second=f"-o {quote(flat[0])}")
+        raise InputError("handout-apart", first="--hidden-key", second=quote(f"-o {flat[0]}", SHOWN))
     said = {name: options.pop(name) for name in (*BLOCK, "student")}
     block = {name: text for name, text in said.items() if text is not None}
     drawn = variants.handout(task, set=settings, block=block, **{**options, "lang": options["lang"] or "uk"})
@@ -206,7 +206,7 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))
     for problem in bad:
         click.echo(problem, err=True)
-    return refuse(InputError("batch-problems", n=len(bad), file=str(Path(folder) / MANIFEST))) if bad else 0
+    return refuse(InputError("batch-problems", n=len(bad), file=quote(Path(folder) / MANIFEST, SHOWN))) if bad else 0
 
 
 @click.command(

@@ -12,6 +12,7 @@ from ...scales.choose import Choosers
 from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.names import unknown
+from ...scales.numbers import quote
 from ...scales.scale import Scale
 from ...scales.units import unit
 from ..checks.cam import NUMBERS, WORDS, impossible, read_cam
@@ -82,7 +83,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
         known = ", ".join(SYMBOLS)
         for name, text in head.get("scales", {}).items():
             if name in SYMBOLS and "=" in text:
-                checker.fault(("scales", name), InputError("scale-no-segments", text=text, known=known))
+                checker.fault(("scales", name), InputError("scale-no-segments", text=quote(text), known=known))
             elif name not in SYMBOLS and _follows(name):
                 checker.fault(("scales", name), InputError("scale-follows", symbol=name, known=known))
             elif name not in SYMBOLS:

@@ -13,6 +13,7 @@ from ...scales.choose import Choosers
 from ...scales.display import AS_INSIDE, Display
 from ...scales.errors import InputError
 from ...scales.names import unknown
+from ...scales.numbers import quote
 from ...scales.scale import Scale
 from ..task import Given, Instead, Task
 
@@ -143,7 +144,7 @@ class Kind(ABC, Generic[Subject, Answer]):
         InputError
             What is solved has none.
         """
-        raise InputError("kind-without", task=case.task.id, text="condition")
+        raise InputError("kind-without", task=quote(case.task.id), text="condition")
 
     def warnings(self, solved: Answer) -> tuple[InputError, ...]:
         """Return what a user should know of what has been solved."""
@@ -169,7 +170,7 @@ class Kind(ABC, Generic[Subject, Answer]):
         InputError
             There are none.
         """
-        raise InputError("kind-without", task=task.id, text="chart")
+        raise InputError("kind-without", task=quote(task.id), text="chart")
 
     def sweep(self, case: Case, words: Words, asked: SweepRequest) -> Swept:
         """Look at a case over its whole cycle.
@@ -179,7 +180,7 @@ class Kind(ABC, Generic[Subject, Answer]):
         InputError
             It has none.
         """
-        raise InputError("kind-without", task=case.task.id, text="sweep")
+        raise InputError("kind-without", task=quote(case.task.id), text="sweep")
 
     def listed(self, solved: Answer, plans: tuple[str, ...]) -> tuple[str, ...]:
         """Return the names of the quantities and scale factors that a list for some plans shows, in its order."""

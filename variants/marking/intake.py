@@ -9,9 +9,9 @@ from importlib.resources import files
 from pathlib import Path
 
 from ...scales.errors import InputError, KulmanError
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 from ..roster import Who
-from ..spreadsheets.grid import SHOWN, SUFFIXES
+from ..spreadsheets.grid import SUFFIXES
 from .answers import Answers, Asked
 from .reading import read_answers
 
@@ -54,7 +54,7 @@ def _printed(task: str) -> str:
         It prints none.
     """
     if not (file := _file_of(task)).is_file():
-        raise InputError("answers-none-printed", task=task)
+        raise InputError("answers-none-printed", task=quote(task))
     return str(file)
 
 

@@ -9,7 +9,7 @@ from ...plans.marking.answers import Answer
 from ...plans.marking.verdicts import CLEAR, Line, Marking, Verdict, bounded, mark
 from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 from ..case import Settings
 from ..record_book import variant_of_book
 from ..roster import Entry
@@ -135,7 +135,7 @@ class Desk:
             notes.append(InputError("marked-stranger", text=quote(answers.who.student or answers.source)))
         other = answers.about.get("task", "")
         if other and other != task.id:
-            notes.append(InputError("marked-task", text=quote(other), task=task.id))
+            notes.append(InputError("marked-task", text=quote(other), task=quote(task.id)))
         book = answers.who.book or (entry.who.book if entry else "")
         found = entry.variant if entry else ""
         if not found and entry and book:
@@ -146,9 +146,9 @@ class Desk:
         found = found or variant_of_id(task, answers.about.get("sheet", "")) or ""
         if not found:
             found = next(iter(task.variants))
-            notes += [InputError("marked-no-variant", variant=found)] if len(task.variants) > 1 else []
+            notes += [InputError("marked-no-variant", variant=quote(found))] if len(task.variants) > 1 else []
         if said and said != found:
-            notes.append(InputError("marked-variant", text=quote(said), variant=found))
+            notes.append(InputError("marked-variant", text=quote(said), variant=quote(found)))
         return found, notes
 
     def _sheet(self, answers: Answers, key: Keyed) -> list[KulmanError]:
@@ -156,10 +156,10 @@ class Desk:
         written = answers.about.get("sheet", "")
         if not written or same_id(written, key.sheet):
             return []
-        other = variant_of_id(self.check.request.task, written)
+        other, own = variant_of_id(self.check.request.task, written), quote(key.solution.variant)
         if other is not None:
-            return [InputError("marked-sheet-variant", text=quote(written), variant=other, own=key.solution.variant)]
-        return [InputError("marked-sheet", text=quote(written), variant=key.solution.variant)]
+            return [InputError("marked-sheet-variant", text=quote(written), variant=quote(other), own=own)]
+        return [InputError("marked-sheet", text=quote(written), variant=own)]
 
     def _counted(self, key: Keyed, marking: Marking, answers: Answers) -> tuple[Line, ...]:
         """Return the lines that count: those of the rubric, else those of the class's columns, else all."""
@@ -179,7 +179,7 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
     for line in answers.lines.values():
         question = key.key.questions.get(line.name)
         if question is None:
-            notes.append(InputError("marked-undefined", place=line.place, text=line.name))
+            notes.append(InputError("marked-undefined", place=quote(line.place, SHOWN), text=line.name))
             continue
         symbol = key.solution.solved.scale_of_plan.get(question.plan, "")
         written = line.mu or answers.scales.get(symbol)

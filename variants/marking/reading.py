@@ -7,12 +7,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ...plans.marking.answers import FREE
-from ...scales.errors import InputError
+from ...scales.errors import InputError, Written
 from ...scales.names import latin, unknown
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 from ..roster import Who
 from ..spreadsheets.cells_in import read_grid
-from ..spreadsheets.grid import SHOWN, Grid
+from ..spreadsheets.grid import Grid
 from ..spreadsheets.headers import LOOKED_AT, about_kind, column_kind, quantity_part, split_unit, tidy
 from ..task import LocatedError
 from . import cells
@@ -72,7 +72,7 @@ class _Sheet:
             text = cells.checked(self.grid, row, column)
             found = slip_in(text)
             if found is not None:
-                makes = f"{found.makes:.7g}".replace(".", "," if "," in text else ".")
+                makes = Written(f"{found.makes:.7g}".replace(".", "," if "," in text else "."))
                 error = InputError("answer-calculation", text=found.text, makes=makes, written=found.written)
                 self.refuse(row, column, name, error)
             return cells.signed(result_of(text))
@@ -193,7 +193,7 @@ class _Sheet:
         if (line.mm, line.value, line.direction, line.sense) == (None,) * 4:
             return
         if line.name in self.lines:
-            self.refuse(row, column, line.name, InputError("answer-again", place=self.lines[line.name].place))
+            self.refuse(row, column, line.name, InputError("answer-again", place=Written(self.lines[line.name].place)))
             return
         self.lines[line.name] = line
 

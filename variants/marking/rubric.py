@@ -16,8 +16,7 @@ from ...plans.marking.verdicts import Line, Verdict
 from ...plans.quantities import unit_of
 from ...scales.errors import InputError
 from ...scales.names import unknown
-from ...scales.numbers import quote
-from ..spreadsheets.grid import SHOWN
+from ...scales.numbers import SHOWN, quote
 from ..task import LocatedError
 from .answers import Asked
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...scales.errors import InputError
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 from .csv_read import grid_of_csv
-from .grid import LARGEST, SHOWN, SUFFIXES, Grid
+from .grid import LARGEST, SUFFIXES, Grid
 from .xlsx_read import grid_of_xlsx
 
 

@@ -9,7 +9,7 @@ from collections import Counter
 from itertools import islice
 
 from ...scales.errors import InputError
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 from . import grid
 from .headers import LOOKED_AT, recognised
 
@@ -28,7 +28,7 @@ def grid_of_csv(file: str, data: bytes) -> grid.Grid:
         A file that is no text, or that no separator cuts into cells.
     """
     if data.startswith(_ZIP):
-        raise InputError("answers-is-xlsx", file=quote(file, grid.SHOWN))
+        raise InputError("answers-is-xlsx", file=quote(file, SHOWN))
     text = _decoded(file, data)
     if len(text) > grid.MOST_LETTERS:
         raise grid.too_many_texts(file)
@@ -60,7 +60,7 @@ def _decoded(file: str, data: bytes) -> str:
             continue
         if "\0" not in text:
             return text
-    raise InputError("answers-encoding", file=quote(file, grid.SHOWN))
+    raise InputError("answers-encoding", file=quote(file, SHOWN))
 
 
 def _rows(file: str, text: str, separator: str) -> list[tuple[str, ...]]:
@@ -78,7 +78,7 @@ def _rows(file: str, text: str, separator: str) -> list[tuple[str, ...]]:
                 raise grid.too_long(file, len(rows), long)
             rows.append(tuple(map(_cell, row)))
     except csv.Error:
-        raise InputError("answers-quotes", file=quote(file, grid.SHOWN), row=len(rows) + 1) from None
+        raise InputError("answers-quotes", file=quote(file, SHOWN), row=len(rows) + 1) from None
     return rows
 
 

@@ -9,16 +9,15 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import TypeAlias
 
-from ...scales.errors import InputError
+from ...scales.errors import InputError, Written
 from ...scales.names import seen
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 
 LARGEST = 20_000_000  # bytes of a file, and of what is unpacked from it: a class of 1000 needs 12
 LONGEST, MOST_LETTERS = 32_767, 8_000_000  # characters of a cell, as programs have it, and of all: a class needs 5
 MOST_MERGED = 100_000  # rows of ranges of merged cells that are looked at
 MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 20_000, 1_000, 270_000
 SUFFIXES = (".csv", ".xlsx")
-SHOWN = 200  # characters of a path in a message
 
 Merged: TypeAlias = Mapping[int, Sequence[tuple[int, int, int]]]
 
@@ -121,4 +120,4 @@ def too_many_texts(file: str) -> InputError:
 
 def too_long(file: str, row: int, column: int) -> InputError:
     """Return the error for a cell with a text that belongs in no table."""
-    return InputError("answers-long", place=Grid(file, ()).place(row, column), n=LONGEST)
+    return InputError("answers-long", place=Written(Grid(file, ()).place(row, column)), n=LONGEST)

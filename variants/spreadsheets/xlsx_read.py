@@ -23,7 +23,7 @@ from xml.parsers import expat
 from xml.sax.saxutils import escape, quoteattr
 
 from ...scales.errors import InputError
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
 from . import grid
 
 MOST_PARTS = 2_000
@@ -58,7 +58,7 @@ def grid_of_xlsx(file: str, data: bytes) -> grid.Grid:
     InputError
         No XLSX file, one with a password, or one that holds more than is allowed.
     """
-    shown = quote(file, grid.SHOWN)
+    shown = quote(file, SHOWN)
     if data.count(b"PK\x01\x02") > MOST_PARTS:
         raise _bomb(file)
     try:
@@ -79,7 +79,7 @@ def grid_of_xlsx(file: str, data: bytes) -> grid.Grid:
 
 
 def _bomb(file: str) -> InputError:
-    return InputError("answers-bomb", file=quote(file, grid.SHOWN), n=grid.LARGEST // 1_000_000, ratio=RATIO)
+    return InputError("answers-bomb", file=quote(file, SHOWN), n=grid.LARGEST // 1_000_000, ratio=RATIO)
 
 
 class _Parts:
@@ -408,7 +408,7 @@ def _read(file: str, packed: io.BytesIO) -> Iterator[tuple[Any, ...]]:
             sheet.reset_dimensions()
             yield from sheet.iter_rows(values_only=True)
     except Exception as problem:  # whatever it does not like of a number or a kind of cell
-        raise InputError("answers-not-xlsx", file=quote(file, grid.SHOWN)) from problem
+        raise InputError("answers-not-xlsx", file=quote(file, SHOWN)) from problem
 
 
 def _shown(value: Any) -> str:

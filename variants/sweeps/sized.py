@@ -18,6 +18,7 @@ from ...drawing.words import Words
 from ...drawing.writers import Files, save_all
 from ...plans.columned import Columned, Ends
 from ...scales.errors import InputError, PositionError
+from ...scales.numbers import quote
 from ...scales.units import format_unit, unit
 from ..case import Case
 from ..spreadsheets.csv_write import csv_bytes, csv_text
@@ -84,7 +85,7 @@ class SizedSweep(OfCase):
 
         for path in map(Path, paths):
             if path.suffix.lower() not in SUFFIXES:
-                raise InputError(self.not_drawn, task=self.task.id, file=path.name)
+                raise InputError(self.not_drawn, task=quote(self.task.id), file=quote(path.name))
         return save_all(paths, SUFFIXES, files)
 
     def __repr__(self) -> str:
@@ -103,7 +104,7 @@ def refuse_unused(case: Case, asked: SweepRequest) -> None:
     unused = {"--points": asked.points, "--from": asked.start, "--to": asked.end, "--chords": asked.chords}
     for option, value in unused.items():
         if value is not None:
-            raise InputError("kind-without", task=case.task.id, text=option)
+            raise InputError("kind-without", task=quote(case.task.id), text=option)
 
 
 def columns_json(found: Iterable[Columned]) -> dict[str, Any]:
