@@ -13,7 +13,7 @@ import click
 from . import __version__
 from .scales.choices import HANDS, SIZES
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
-from .scales.language import VARIABLE, speaking, system_language
+from .scales.language import VARIABLE, of_environment, speaking, system_language
 from .scales.numbers import SHOWN, quote
 from .variants.commands.console import flush, hand_over, lost_output, note_of, print_json, refuse, warn
 from .variants.commands.options import (
@@ -72,7 +72,7 @@ def _run(words: Sequence[str]) -> int:
 @click.pass_context
 def commands(ctx: click.Context, lang: str | None) -> None:
     """Solve and draw problems of the theory of mechanisms and machines, to scale."""
-    said = lang or os.environ.get(VARIABLE)
+    said = lang or of_environment()
     if said and said not in LANGUAGES:
         raise InputError("cli-choice", option=VARIABLE, text=quote(said), known=", ".join(LANGUAGES))
     ctx.default_map = {name: {"lang": said} for name in commands.commands} if said else None

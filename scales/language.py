@@ -22,15 +22,23 @@ def speaking(words: Sequence[str]) -> Iterator[None]:
     >>> with speaking(["solve", "--lang=ru"]): system_language()
     'ru'
     """
-    said = [os.environ.get(VARIABLE, "")]
-    said += [word for before, word in pairwise(words) if before == "--lang"]
+    said = [word for before, word in pairwise(words) if before == "--lang"]
     said += [word.partition("=")[2] for word in words if word.startswith("--lang=")]
-    known = [word.strip().lower() for word in said if word.strip().lower() in LANGUAGES]
+    known = [word for word in (of_environment(), *map(_plain, said)) if word in LANGUAGES]
     token = _spoken.set(known[-1] if known else None)
     try:
         yield
     finally:
         _spoken.reset(token)
+
+
+def of_environment() -> str:
+    """Return what `KULMAN_LANG` says, in small letters; nothing where it is not set."""
+    return _plain(os.environ.get(VARIABLE, ""))
+
+
+def _plain(word: str) -> str:
+    return word.strip().lower()
 
 
 def system_language() -> str:

@@ -24,7 +24,7 @@ from kulman.variants import load_task
 from kulman.variants.shelf import bundled
 
 EPS = 2.0**-52
-LINKAGES = [name for name in bundled() if name not in ("karpenko-hoist", "madi-cam", "madi-gear")]
+LINKAGES = bundled("mechanism")
 COUNTS = [pytest.param(6, id="few"), pytest.param(360, id="cycle", marks=pytest.mark.soak)]
 CALL = "JSON.stringify(solve({}).flat().map(String))"
 

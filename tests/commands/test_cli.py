@@ -332,7 +332,8 @@ def test_numbers_of_messages_have_commas_but_those_that_are_quoted(
 
 
 @pytest.mark.parametrize(
-    ("language", "status", "said"), [("uk", 2, "не має варіанта"), ("xx", 2, "KULMAN_LANG: 'xx' is unknown")]
+    ("language", "status", "said"),
+    [("uk", 2, "не має варіанта"), (" UK", 2, "не має варіанта"), ("xx", 2, "KULMAN_LANG: 'xx' is unknown")],
 )
 def test_the_language_stands_in_the_environment(
     language: str, status: int, said: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch

@@ -30,14 +30,12 @@ from pathlib import Path
 import numpy as np
 
 KEPT = Path(__file__).with_name("digests.txt")
-LANGUAGES = ("uk", "ru", "en")
 MACHINE = "machine"  # stands in the place of a case
 PACKAGES = ("click", "matplotlib", "numpy", "openpyxl", "reportlab")
 DIGITS = 16  # of a digest
 EVERY = {"few": 24, "many": 7}  # every how-manieth case a short and a longer run compare
 WRONG = 1.25  # how many times too large the student's answers of every fifth line are
-KINDS = {"karpenko-hoist": "hoist", "madi-cam": "cam", "madi-gear": "gear"}
-CHARTS = {"linkage": ("stability", "depth"), "cam": ("sections", "stability"), "gear": ("scale",)}
+CHARTS = {"mechanism": ("stability", "depth"), "cam": ("sections", "stability"), "gear": ("scale",)}
 CHARTS["hoist"] = ("roots", "depth", "stability")
 
 
@@ -56,13 +54,15 @@ class Case:
 
 def cases() -> Iterator[Case]:
     """Go through all cases, always in the same order."""
+    from kulman.scales.errors import LANGUAGES
     from kulman.variants import load_task
     from kulman.variants.shelf import bundled
 
     yield from (Case(("list", "--lang", language)) for language in LANGUAGES)
     yield Case(("list", "--json"))
     for task in bundled():
-        kind, variants = KINDS.get(task, "linkage"), list(load_task(task).variants)
+        loaded = load_task(task)
+        kind, variants = loaded.kind, list(loaded.variants)
         for variant in variants:
             yield Case(("solve", task, "-v", variant, "--json"))
             yield Case(("sheet", task, "-v", variant, "--lang", "uk", "-o", "sheet.svg"))
@@ -90,9 +90,10 @@ def cases() -> Iterator[Case]:
 def digest(case: Case, kept: Path | None = None) -> str:
     """Run a case and hash what comes of it; write that into the folder `kept`, too, where one is given."""
     from kulman import cli
+    from kulman.scales.language import VARIABLE
 
     out, err = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8", newline="") for _ in range(2))
-    before = sys.stdout, sys.stderr, os.environ.get("LC_ALL")
+    streams, shell = (sys.stdout, sys.stderr), {name: os.environ.pop(name, None) for name in ("LC_ALL", VARIABLE)}
     status: object = 0
     with tempfile.TemporaryDirectory() as folder, chdir(folder):
         if case.marks:
@@ -103,8 +104,9 @@ def digest(case: Case, kept: Path | None = None) -> str:
         except SystemExit as stopped:
             status = stopped.code
         finally:
-            sys.stdout, sys.stderr = before[:2]
-            os.environ.pop("LC_ALL") if before[2] is None else os.environ.update(LC_ALL=before[2])
+            sys.stdout, sys.stderr = streams
+            del os.environ["LC_ALL"]
+            os.environ.update({name: value for name, value in shell.items() if value is not None})
         found = hashlib.sha256(f"{status}\n".encode())
         for stream in (out, err):
             stream.flush()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import pytest
 
 from kulman.tests.corpus.corpus import MACHINE, Case, cases, digest, kept, machine, some
@@ -14,6 +16,15 @@ def test_cases_are_many_and_each_is_one_of_its_own() -> None:
 
     assert len(names) == len({*names}) > 1400
     assert 50 < len(some("few")) < len(some("many")) < 250
+
+
+def test_digest_does_not_hang_on_the_language_of_the_shell(monkeypatch: pytest.MonkeyPatch) -> None:
+    case = Case(("list", "--check", "no.toml"))
+    usual = digest(case)
+    monkeypatch.setenv("KULMAN_LANG", "ru")
+
+    assert digest(case) == usual
+    assert os.environ["KULMAN_LANG"] == "ru"
 
 
 def test_same_command_has_the_same_digest_and_another_one_another() -> None:

@@ -124,7 +124,7 @@ def _about_task(command: Command) -> Command:
 
 def of_language(command: Command) -> Command:
     """Add the language, which `main` has already taken for messages."""
-    return click.option("--lang", type=Word(*LANGUAGES), help="Language of the results and of messages.")(command)
+    return click.option("--lang", type=Word(*LANGUAGES), help="Of results and messages; else `KULMAN_LANG`.")(command)
 
 
 def example(*lines: str) -> str:
