@@ -184,7 +184,7 @@ def arm(force: str, about: str = "") -> Name:
     """Return the arm of a force about a point: `h_2` of the inertia of link 2, `h_21` of R_21, `h_F_3` of F_3."""
     acting = role(force)
     of, part = (acting.of, acting.part) if acting.kind == "R" else (acting, "")
-    of = str(*acting.links) if acting.part == INERTIA else of
+    of = str(acting.links[0]) if acting.part == INERTIA else of
     return Name("_".join(filter(None, ("h", of, part, about))), "h", of, about, part, acting.links)
 
 

@@ -60,6 +60,11 @@ class Drawing:
         return {"hand": dict(as_data(self.expected[name]))} if name in self.expected else {}
 
 
+def is_own(text: str) -> bool:
+    """Whether a text is to say a hand of one's own: three errors, and no name."""
+    return re.search(r"\d", text) is not None
+
+
 def hand_of(text: str | Hand) -> tuple[str, Hand, Tolerance]:
     """Return the name, the errors and the tolerance of a hand: a preset, or three errors of one's own.
 
@@ -75,7 +80,7 @@ def hand_of(text: str | Hand) -> tuple[str, Hand, Tolerance]:
         No such preset, not three errors, or one below zero.
     """
     of_kind("hand", text, (str, Hand), "str | Hand")
-    if isinstance(text, str) and not re.search(r"\d", text):
+    if isinstance(text, str) and not is_own(text):
         found = preset(text.strip())
         return text.strip(), found.hand, found.tolerance
     hand = _own(text) if isinstance(text, str) else text

@@ -35,6 +35,7 @@ Found = tuple["Rungs", list[View], list[Placement]]
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
 REDUCTIONS = (1.0, 0.8, 0.5, 0.4, 0.25, 0.2, 0.1)  # of the lengths that the task has on the diagrams
 CamFigure = Figure[CamScene]
+Contents = SheetContents[SolvedCam]
 NARROW = 0.65  # part of the width of lines that those on the sizes of a cam may have
 LAYOUT = row(
     column(TURNED, "diagrams", "equations_plate"),
@@ -167,11 +168,6 @@ def _drawn(fitting: Fitting, sheet: Format, found: Found) -> Drawn:
     rungs, views, places = found
     scales, norm = fitting.scales(sheet, rungs), fitting.contents.norm
     return compose(views, places, scales, sheet, norm, fitting.reduction(rungs))
-
-
-@dataclass(frozen=True, slots=True)
-class Contents(SheetContents[SolvedCam]):
-    """What the sheet of a cam shows."""
 
 
 @dataclass(frozen=True, slots=True)

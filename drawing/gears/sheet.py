@@ -37,6 +37,7 @@ LEAST = 0.25  # part of the area that what stands beside the meshing keeps at th
 FULL = 0.75  # part of a format that views may cover
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}
 GearFigure = Figure[GearScene]
+Contents = SheetContents[SolvedGear]
 # everything on one page, for sheets without the worked formulas
 LAYOUT = row(
     column(TURNED, "meshing"),
@@ -151,11 +152,6 @@ def _on_the_first_page(layout: Nest, views: list[View], sheet: Format, norm: Nor
         return None
     places = iter(own), (replace(place, page=place.page + 1) for place in others)
     return [next(places[view.name not in names_there]) for view in views]
-
-
-@dataclass(frozen=True, slots=True)
-class Contents(SheetContents[SolvedGear]):
-    """What the sheet of a gear pair shows."""
 
 
 @dataclass(frozen=True, slots=True)

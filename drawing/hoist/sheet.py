@@ -24,11 +24,7 @@ from .scene import HoistScene, lettered
 TEXT_WIDTH = 120.0
 PARTS = 1.0, 0.8, 0.63, 0.5, 0.4  # of the usual size of diagrams
 HoistFigure = Figure[HoistScene]
-
-
-@dataclass(frozen=True, slots=True)
-class Contents(SheetContents[SolvedHoist]):
-    """What the sheet of a hoist shows."""
+Contents = SheetContents[SolvedHoist]
 
 
 @dataclass(frozen=True, slots=True)

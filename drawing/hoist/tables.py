@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ...plans.check import Check
 from ...plans.hoist.checks import STRENGTH, strength
 from ...plans.hoist.model import DRAWN, section_of
 from ...plans.hoist.paper import SCALED
 from ...plans.hoist.solve import unit_of
 from ..givens import Given, givens_view
+from ..handouts.begun import NOTHING, Shown
 from ..printed import Input, calculation
 from ..table import table
 from ..view import View
@@ -53,6 +56,11 @@ def checks_table(scene: HoistScene) -> View:
     head = [words[f"table.{name}"] for name in ("check", "condition", "value", "verdict")]
     rows = [_check_row(scene, check) for check in scene.solved.forces.checks]
     return table("checks", words["heading.hoist_checks"], [head, *rows], scene.style)
+
+
+def begun() -> dict[str, Shown]:
+    """Return what handouts show of the tables: the two columns in which the checks are asked."""
+    return {"checks": replace(NOTHING, rows=frozenset(), columns=2)}
 
 
 def _check_row(scene: HoistScene, check: Check) -> list[str]:

@@ -24,7 +24,7 @@ from .parts import AssurGroup, Bodies, Body, Span
 
 VELOCITY, ACCELERATION = "V_at", "a_at"  # kinds of plans
 TOTAL = "total"  # the whole as compound motion gives it
-PARTS = {"V": ("e", "r"), "a": ("rn", "en", "et", "k", "rt")}  # of a vector, in the order in which they are hung
+COMPOUND = {"V": ("e", "r"), "a": ("rn", "en", "et", "k", "rt")}  # parts of a vector in the order of their polygon
 
 
 class Closing(NamedTuple):
@@ -176,7 +176,7 @@ def _accelerations(board: Board, c: Coupler) -> None:
         board.calc(a("k"), "coriolis", c.omega_e, vector("V", letter, part="r"))
         last, tip = pole(plan), mark(plan, letter)
         board.pole(last)
-        for part in PARTS["a"][:-1]:
+        for part in COMPOUND["a"][:-1]:
             board.chain(mark(plan, part), last, a(part))
             last = mark(plan, part)
         if point == c.span.end and c.closing is not None:
@@ -223,9 +223,9 @@ def disagreement(found: Iterable[Coupler], values: Mapping[str, Any]) -> float |
     """Return the largest difference of both routes, in parts of the longest vector of either; None without any."""
     worst = None
     for c, point, letter in ((coupler, *pair) for coupler in found for pair in coupler.letters.items()):
-        for kind, parts in PARTS.items():
-            vectors = (f"{kind}_{c.hinge}", *(f"{kind}_{letter}_{part}" for part in parts))
+        for kind, parts in COMPOUND.items():
+            vectors = (vector(kind, c.hinge), *(vector(kind, letter, part=part) for part in parts))
             longest = max(abs(complex(values[name])) for name in vectors)
-            gap = abs(complex(values[vector(kind, letter, part=TOTAL).size]) - complex(values[f"{kind}_{point}"]))
+            gap = abs(complex(values[vector(kind, letter, part=TOTAL).size]) - complex(values[vector(kind, point)]))
             worst = max(worst or 0.0, gap / (longest or 1.0))
     return worst

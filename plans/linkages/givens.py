@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ..board import Program
+from ..names import magnitude
 from .bare import without_loads
 from .chain import constructed
 from .loads import in_order
@@ -37,7 +38,7 @@ def board_givens(
         values = {**values, **followed(mechanism, values)}
     for diagram in mechanism.diagrams:
         in_order(diagram, values)
-    sizes = {f"|{name}|": values[name] for name in mechanism.sizes}
+    sizes: dict[str, Any] = {magnitude(name): values[name] for name in mechanism.sizes}
     if program is None or END not in program.needs or END in values:
         return {**values, **sizes}
     _, motion = constructed(without_loads(mechanism), ("velocity",))

@@ -172,8 +172,13 @@ def _turning(vector: complex, normal: complex, length: float) -> float:
 
 
 @lru_cache(maxsize=64)
-def settled(steps: Program | tuple[Step, ...]) -> Mapping[str, int]:
-    """Return for each quantity how many steps must be done until it is known what follows for it."""
+def settled(program: Program) -> Mapping[str, int]:
+    """Return what `settled_in` does for a whole program; kept, for many answers are held against the same one."""
+    return settled_in(program)
+
+
+def settled_in(steps: Iterable[Step]) -> Mapping[str, int]:
+    """Return for each quantity how many of the steps must be done until it is known what follows for it."""
     found: dict[str, int] = {}
     for place, step in enumerate(steps, start=1):
         if step.verb in LAID and role(step.operands[2]).hidden:

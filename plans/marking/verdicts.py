@@ -21,7 +21,7 @@ from .answers import Answer, Said, known, measured, nearest, readings, values_of
 from .comparing import NEVER, SIZE, Miss, miss, ratio
 from .key import Key, Question, behind, hanging_on
 from .lines import Line, Marking, Verdict
-from .student import StudentBoard, Take, settled
+from .student import StudentBoard, Take, settled, settled_in
 
 __all__ = ["CLEAR", "Line", "Marking", "Verdict", "behind", "bounded", "first_wrong", "judge", "mark"]
 
@@ -268,7 +268,7 @@ class Marker:
             Has judged the same answers, and all is taken over from it but for the names that `steps` make `anew`.
         """
         paper = self.key.paper
-        self.settled = settled(paper.program if steps is None else steps)
+        self.settled = settled(paper.program) if steps is None else settled_in(steps)
         take: Take = lambda name, value: (self.taken.get(name), True)  # noqa: E731
         self.drawn = StudentBoard(paper.program, paper.givens, take, steps=steps)
         self.board = StudentBoard(paper.program, self.key.values, self._judge, made=True, steps=steps)
@@ -417,9 +417,9 @@ class Marker:
             return _Held(Verdict.RIGHT, ways[0], Miss(NEVER, SIZE), value, NEVER)
         if not right or self.allowance.calculation(name) is not None:
             self.drawn.go_on(self.settled[name])
-        allowed, angle = self.allowance.of(name, value, right), self.key.angles.get(name, math.pi)
-        held = [_Held(Verdict.RIGHT, way, miss(way, value, allowed, angle), value, allowed) for way in ways]
-        return held[0] if len(held) == 1 else min(held, key=_off)
+        allowed = self.allowance.of(name, value, right)
+        held = (_Held(Verdict.RIGHT, way, self._missed(way, name, value, allowed), value, allowed) for way in ways)
+        return min(held, key=_off)
 
     def _missed(self, way: Said, name: str, value: Any, allowed: float) -> Miss:
         if value is None or value != value:

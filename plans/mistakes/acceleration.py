@@ -35,7 +35,7 @@ from .velocity import (
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
-ORIGIN = pole(ACCELERATION)
+START = pole(ACCELERATION)
 
 
 @mistake("M37")
@@ -58,7 +58,7 @@ def normals(scene: Scene) -> Iterator[tuple[Step, str]]:
             continue
         if role(role(step.name).of).links:
             yield step, "slotted"
-        elif step.operands[0] == ORIGIN and partner is not None:
+        elif step.operands[0] == START and partner is not None:
             yield step, "rocker"
         else:
             yield step, "link"
@@ -289,7 +289,7 @@ def coriolis_without_rotation(scene: Scene) -> Iterator[Change]:
             tip = role(step.name).of
             own = next((u for u in step.operands[1::2] if role(u).kind == "n" and not role(u).across_guide), None)
             rate = next((s.name for s, _ in rates(scene, "velocity") if s.operands[1] == own), None)
-            still = role(step.operands[place]).kind == "u" and step.operands[place - 1] == ORIGIN
+            still = role(step.operands[place]).kind == "u" and step.operands[place - 1] == START
             if still and rate is not None and f"V_{tip}" in scene.steps:
                 for omega in dict.fromkeys((rate, "omega_1" if "omega_1" in scene.steps else rate)):
                     yield _with_coriolis(step, place, omega, f"V_{tip}")

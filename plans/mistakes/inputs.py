@@ -163,12 +163,7 @@ def other_assembly(scene: Scene) -> Iterator[Change]:
 def offset_lost(scene: Scene) -> Iterator[Change]:
     """The offset of a guide is forgotten, or laid off on the wrong side."""
     for step in scene.made_by("lay", "back", plan=POSITION):
-        if (
-            step.plan == POSITION
-            and role(step.operands[1]).kind == "n"
-            and role(step.operands[1]).across_guide
-            and scene.values[step.operands[2]]
-        ):
+        if step.plan == POSITION and role(step.operands[1]).across_guide and scene.values[step.operands[2]]:
             yield instead(step, "none", operands=operand(step, 2, "zero"))
             yield instead(step, "side", verb="back" if step.verb == "lay" else "lay")
     for step in scene.made_by("tangent"):

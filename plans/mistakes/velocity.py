@@ -8,6 +8,7 @@ from dataclasses import replace
 from ..board import Step
 from ..laws import define, dot
 from ..linkages.mechanism import positive
+from ..linkages.parts import normal_of
 from ..names import POINT, POLE, role
 from .inputs import lengths
 from .rules import Change, Chapter, Scene, aside, constant, instead, length_of, mirrored, operand, opposed, with_sign
@@ -94,8 +95,9 @@ def lines_from_swapped_points(scene: Scene) -> Iterator[Change]:
 def across_guide(scene: Scene) -> Iterator[Change]:
     """The line of the guide is drawn normal to it."""
     for step, place, direction in lines(scene, VELOCITY):
-        if role(direction).kind == "u" and f"n_{direction}" in scene.steps:
-            yield instead(step, direction, operands=operand(step, place, f"n_{direction}"))
+        normal = normal_of(direction)
+        if role(direction).kind == "u" and normal in scene.steps:
+            yield instead(step, direction, operands=operand(step, place, normal))
 
 
 def absolute_reading(scene: Scene, relative: Step) -> Step | None:

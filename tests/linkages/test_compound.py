@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from kulman.plans.boards.batch import batch
 from kulman.plans.linkages.chain import construct, hinged
-from kulman.plans.linkages.compound import PARTS, Coupler
+from kulman.plans.linkages.compound import COMPOUND, Coupler
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Driver, Link, Mechanism, Prismatic, Revolute
 from kulman.plans.linkages.solved import disagreement, solve_linkage
@@ -72,7 +72,7 @@ def run(mechanism: Mechanism, values: dict[str, NDArray[np.float64]]) -> dict[st
 
 def largest(results: dict[str, Array], kind: str, letter: str) -> NDArray[np.float64]:
     """Return the longest vector of the figure of a point."""
-    return np.max([abs(results[f"{kind}_{letter}_{part}"]) for part in PARTS[kind]], axis=0)
+    return np.max([abs(results[f"{kind}_{letter}_{part}"]) for part in COMPOUND[kind]], axis=0)
 
 
 def cases(*trains: str) -> list[object]:
@@ -92,7 +92,7 @@ def test_compound_motion_agrees_with_the_plans(train: str, count: int) -> None:
 
     assert tuple(sorted(c.number for c in found)) == COUPLERS[train]
     letters = [(point, letter) for c in found for point, letter in c.letters.items()]
-    for kind in PARTS:
+    for kind in COMPOUND:
         size = np.max([largest(results, kind, letter) for _, letter in letters], axis=0)
         for point, letter in letters:
             gap = abs(results[f"_{kind}_{letter}_total"] - results[f"{kind}_{point}"])

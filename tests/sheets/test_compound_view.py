@@ -9,7 +9,7 @@ import pytest
 
 from kulman import sheet, solve
 from kulman.plans.linkages.chain import hinged
-from kulman.plans.linkages.compound import PARTS, Coupler
+from kulman.plans.linkages.compound import COMPOUND, Coupler
 from kulman.scales.errors import InputError
 from kulman.tests.support.overlaps import overlaps, thin_faults
 from kulman.tests.support.readback import Sheet, Stroke, Vec, View, angle, parallel, read
@@ -67,7 +67,7 @@ def test_every_vector_measures_what_it_says(task: str) -> None:
 def test_parts_hang_on_one_another_from_the_point_to_the_total(task: str) -> None:
     for figure, c, point, kind in figures(task):
         letter = c.letters[point]
-        parts = [large(figure, f"{kind}_{letter}_{part}") for part in PARTS[kind]]
+        parts = [large(figure, f"{kind}_{letter}_{part}") for part in COMPOUND[kind]]
         total = large(figure, f"{kind}_{point}")
         place = total.tail
 

@@ -15,6 +15,7 @@ from ...scales.errors import InputError
 from ...scales.numbers import quote
 from ...scales.units import format_unit, unit
 from ..case import Case
+from ..hands import is_own
 from ..spreadsheets.csv_write import Cell, csv_bytes, csv_text
 from ..sweeps.columns import driver_name
 
@@ -33,7 +34,7 @@ class Scene:
 
     def __post_init__(self) -> None:
         """Refuse a hand that nobody knows, and one of the user's own."""
-        if any(sign.isdigit() for sign in self.hand):
+        if is_own(self.hand):
             raise InputError("hand-chart", text=quote(self.hand), known=", ".join(PRESETS))
         preset(self.hand)
 

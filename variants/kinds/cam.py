@@ -257,9 +257,9 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
         """Show of the table of the motion the section lines, and their angles from the first step on."""
-        from ...drawing.handouts.begun import Shown
+        from ...drawing.cams.text import begun
 
-        return {"motion": Shown(frozenset(), frozenset(), notes=False, columns=2 if steps else 1)}
+        return begun(steps)
 
     def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
         """Tell the drawing stage by stage, with the lengths that it has on the sheet."""

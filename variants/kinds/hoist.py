@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from ..sweeps.asked import SweepRequest
     from ..sweeps.hoist import HoistSweep
 
-CONDITIONS = 2  # columns of the table of checks that say what is asked
 UNASKED = ("s_min", "t_P12_max")
 RULES = {  # what is told of a check that fails
     "rope_phase_1": "hoist-rule-rope-phase-1",
@@ -177,9 +176,9 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
     def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
         """Show what the table of checks asks; drawings have stages."""
-        from ...drawing.handouts.begun import Shown
+        from ...drawing.hoist.tables import begun
 
-        return {"checks": Shown(frozenset(), frozenset(), notes=False, rows=frozenset(), columns=CONDITIONS)}
+        return begun()
 
     def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
         """Tell formulas with their numbers, and the drawings step by step."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ....plans.board import POSITION
-from ....plans.linkages.compound import ACCELERATION, PARTS, VELOCITY, Closing, Coupler
+from ....plans.linkages.compound import ACCELERATION, COMPOUND, VELOCITY, Closing, Coupler
 from ....plans.linkages.mechanism import ZERO
 from ....plans.names import Name, role, spelled, vector
 from ...printed import Input, calculation, ruler_decimals, segment_decimals
@@ -140,7 +140,7 @@ def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Line:
     def bar(name: str) -> str:
         return scene.words.symbol(name, bar=True)
 
-    *parts, last = (bar(f"{kind}_{letter}_{part}") for part in PARTS[kind])
+    *parts, last = (bar(vector(kind, letter, part=part)) for part in COMPOUND[kind])
     whole = bar(f"{kind}_{point}")
     if closing is None:
         return _equation(whole, [*map(known, parts), known(last)], [])
