@@ -15,7 +15,7 @@ from .words import Words
 Subject = TypeVar("Subject", bound=Solved)
 
 
-@dataclass(frozen=True)  # with slots its aliases cannot be called
+@dataclass(frozen=True, slots=True)
 class SheetContents(Generic[Subject]):
     """What a sheet shows: a solved subject, the plans wanted, choosers of scales, givens, words, norm.
 

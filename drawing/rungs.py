@@ -1,79 +1,180 @@
-"""Down the ladders of scale factors: the first rungs at which every view has room on a page of its own."""
+"""A sheet of a cam, a gear pair or a hoist: down the ladders of scale factors until every view has room."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, TypeVar
 
 from ..plans.names import role
 from ..scales.choices import SIZES
 from ..scales.errors import InputError
-from .compose import arrange
+from ..scales.scale import Scale
+from .compose import Drawn, arrange, arrange_closely, compose
+from .contents import SheetContents, Subject
+from .extents import from_format
 from .figure import Figure, Scene
 from .formats import Format, room
 from .packing import Placement
-from .pens import Norm
 from .view import View
+from .words import Words
 
-Rungs = TypeVar("Rungs")
-Wanted = TypeVar("Wanted", contravariant=True)  # rungs again, as a protocol takes them
-
-
-class Drawer(Protocol[Wanted]):
-    """Who draws the views of a sheet for any format, at any rungs of its ladders."""
-
-    @property
-    def ladders(self) -> Mapping[str, tuple[float, ...]]:
-        """Return the ladders by name; the rungs have a field of each name."""
-
-    def views(self, sheet: Format, rungs: Wanted) -> Sequence[tuple[View, Figure[Any]]]:
-        """Return the views of a sheet, each with its figure."""
+Rungs = TypeVar("Rungs")  # a dataclass with a field for each ladder
+Found = tuple[Rungs, list[View], list[Placement]]
+TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}  # mm of lines of text, by the letters of a format
 
 
-class Kept(Generic[Scene]):
-    """Views that have been drawn: one is drawn again only where a ladder that it depends on has another rung."""
+class Fitting(ABC, Generic[Subject, Scene, Rungs]):
+    """Draws what a sheet shows for any format: a figure again only where a ladder it depends on has another rung.
 
-    def __init__(self) -> None:
-        self._drawn: dict[tuple[Hashable, ...], View] = {}
+    Parameters
+    ----------
+    contents : SheetContents
+        What the sheet shows.
+    words : Words
+        The words of the contents with the letters of the subject.
+    ladders : mapping of str to tuple of float
+        How small things may be drawn, by name; the wanted size first.
+    wanted : Rungs
+        The first rungs, a field for each ladder.
+    """
 
-    def view(self, scene: Scene, sheet: Format, rungs: object, figure: Figure[Scene], *of: Hashable) -> View:
-        """Return the view of a figure; `of` says what else it depends on."""
-        key = sheet.name, figure.name, *of, *(getattr(rungs, ladder) for ladder in figure.ladders)
+    first_scales: Callable[..., tuple[Format, Mapping[str, Scale]]]  # of what is solved, by choosers, for plans
+
+    def __init__(
+        self,
+        contents: SheetContents[Subject],
+        words: Words,
+        ladders: Mapping[str, tuple[float, ...]],
+        wanted: Rungs,
+    ) -> None:
+        self.contents, self.words, self.ladders, self.wanted = contents, words, ladders, wanted
+        self._drawn: dict[tuple[object, ...], View] = {}
+
+    @abstractmethod
+    def scene(self, sheet: Format, rungs: Rungs) -> Scene:
+        """Return the scene of a sheet on a format."""
+
+    @abstractmethod
+    def figures(self, scene: Scene, width: float) -> Iterable[Figure[Scene]]:
+        """Go through the figures of a sheet in the order of the work; lines of text are at most `width` mm long."""
+
+    @abstractmethod
+    def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
+        """Return the scale factors of the plans as they are drawn."""
+
+    @abstractmethod
+    def on_a_page(self, sheet: Format, last: bool) -> Found[Rungs] | None:
+        """Place everything on one page; on the `last` format what may give way is smaller where that helps."""
+
+    def part(self, rungs: Rungs) -> float:
+        """Return what a millimetre of the task's diagrams is on the sheet."""
+        return 1.0
+
+    def enlarged(self, sheet: Format, rungs: Rungs, first: bool) -> Rungs:
+        """Return rungs at which what has become too small for nothing is larger again."""
+        return rungs
+
+    def sized(self, sheet: Format, rungs: Rungs) -> list[tuple[View, Figure[Scene]]]:
+        """Return the views of a sheet in the order of the work, each with its figure."""
+        scene = self.scene(sheet, rungs)
+        width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
+        return [(self._view(scene, sheet, rungs, figure), figure) for figure in self.figures(scene, width)]
+
+    def _view(self, scene: Scene, sheet: Format, rungs: Rungs, figure: Figure[Scene]) -> View:
+        key = sheet.name, figure.name, *(getattr(rungs, ladder) for ladder in figure.ladders)
         if key not in self._drawn:
             self._drawn[key] = figure.draw(scene)
         return self._drawn[key]
 
+    def views(self, sheet: Format, rungs: Rungs) -> list[View]:
+        """Return the views of a sheet in the order of the work."""
+        return [view for view, _ in self.sized(sheet, rungs)]
 
-def fitted(drawer: Drawer[Rungs], sheet: Format, norm: Norm, rungs: Rungs, first: bool = False) -> Rungs:
-    """Return the first rungs, from these on, at which every view has room on a page of its own.
+    def draw(self, sheet: Format | None = None) -> Drawn:
+        """Draw on `sheet`, or on the smallest format of which one page holds everything, from the usual one on.
 
-    `first` tells that it may be the first page, with the larger title block.
+        Raises
+        ------
+        InputError
+            When a view has no room on a page of the format.
+        """
+        contents = self.contents
+        usual = sheet or self.first_scales(contents.solved, contents.choosers, contents.plans)[0]
+        formats = [usual] if sheet else from_format(usual)
+        for candidate in formats:
+            found = self.on_a_page(candidate, candidate is formats[-1])
+            if found is not None:
+                break
+        rungs, views, places = found or self.on_pages(candidate)
+        return compose(views, places, self.scales(candidate, rungs), candidate, contents.norm, self.part(rungs))
 
-    Raises
-    ------
-    InputError
-        When a view has none at the last rung.
-    """
-    wide, high = room(sheet, norm, first)
-    while True:
-        views = drawer.views(sheet, rungs)
-        tight = {f.ladders: v.size for v, f in views if v.size[0] > wide or v.size[1] > high}
-        if not tight:
-            return rungs
-        for ladders, size in tight.items():
-            name = next((ladder for ladder in ladders if has_next(drawer, rungs, ladder)), None)
-            if name is None:
-                raise too_fine(drawer, sheet, ladders) or too_small(sheet, size)
-            rungs = lower(rungs, name)
+    def on_pages(self, sheet: Format) -> Found[Rungs]:
+        """Take several pages in reading order, or fewer on which views stand closely.
+
+        Raises
+        ------
+        InputError
+            When a view has no room on any page.
+        """
+        norm = self.contents.norm
+        for first in (False, True):  # where nothing stands on the first page as it is, all becomes small enough for it
+            rungs = self.enlarged(sheet, self.fitted(sheet, self.wanted, first), first)
+            views = self.views(sheet, rungs)
+            sizes = [view.size for view in views]
+            ways = [way for way in (arrange(sizes, sheet, norm, None), arrange_closely(sizes, sheet, norm)) if way]
+            if ways:
+                return rungs, views, min(ways, key=pages)
+        raise InputError("sheet-too-small", format=sheet.name)
+
+    def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> Rungs:
+        """Return the first rungs, from these on, at which every view has room on a page of its own.
+
+        `first` tells that it may be the first page, with the larger title block.
+
+        Raises
+        ------
+        InputError
+            When a view has none at the last rung.
+        """
+        wide, high = room(sheet, self.contents.norm, first)
+        while True:
+            tight = {f.ladders: v.size for v, f in self.sized(sheet, rungs) if v.size[0] > wide or v.size[1] > high}
+            if not tight:
+                return rungs
+            for ladders, size in tight.items():
+                name = next((ladder for ladder in ladders if self.has_next(rungs, ladder)), None)
+                if name is None:
+                    raise self._too_fine(sheet, ladders) or too_small(sheet, size)
+                rungs = self.lower(rungs, name)
+
+    def _too_fine(self, sheet: Format, ladders: tuple[str, ...]) -> InputError | None:
+        """Return that a drawing has no room because a user has fixed its scale factor, m/mm; None if nobody has."""
+        fixed = next((name for name in ladders if role(name).kind == "mu" and len(self.ladders[name]) == 1), None)
+        if fixed is None:
+            return None
+        return InputError("plan-too-fine", symbol=fixed, mu=f"{self.ladders[fixed][0]:g}", format=sheet.name)
+
+    def has_next(self, rungs: Rungs, ladder: str) -> bool:
+        """Whether a ladder has a further rung."""
+        return bool(getattr(rungs, ladder) + 1 < len(self.ladders[ladder]))
+
+    def lower(self, rungs: Rungs, ladder: str) -> Rungs:
+        """Return the rungs with the next one of a ladder, where it has one."""
+        own: Any = rungs  # a dataclass
+        lowered: Rungs = replace(own, **{ladder: getattr(rungs, ladder) + self.has_next(rungs, ladder)})
+        return lowered
 
 
-def too_fine(drawer: Drawer[Rungs], sheet: Format, ladders: tuple[str, ...]) -> InputError | None:
-    """Return that a drawing has no room because a user has fixed its scale factor, m/mm; None if nobody has."""
-    fixed = next((name for name in ladders if role(name).kind == "mu" and len(drawer.ladders[name]) == 1), None)
-    if fixed is None:
-        return None
-    return InputError("plan-too-fine", symbol=fixed, mu=f"{drawer.ladders[fixed][0]:g}", format=sheet.name)
+def pages(places: Sequence[Placement]) -> int:
+    """Return how many pages are taken."""
+    return max(place.page for place in places)
+
+
+def may_fit(views: Sequence[View], sheet: Format) -> bool:
+    """Whether views have less area than a format."""
+    return sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height
 
 
 def too_small(sheet: Format, size: tuple[float, float]) -> InputError:
@@ -81,29 +182,3 @@ def too_small(sheet: Format, size: tuple[float, float]) -> InputError:
     if sheet.name != SIZES[-1]:
         return InputError("sheet-too-small", format=sheet.name)
     return InputError("sheet-too-large", wide=f"{size[0]:.0f}", high=f"{size[1]:.0f}")
-
-
-def has_next(drawer: Drawer[Rungs], rungs: Rungs, ladder: str) -> bool:
-    """Whether a ladder has a further rung."""
-    return bool(getattr(rungs, ladder) + 1 < len(drawer.ladders[ladder]))
-
-
-def lower(rungs: Rungs, ladder: str) -> Rungs:
-    """Return the rungs with the next one of a ladder."""
-    own: Any = rungs  # a dataclass
-    lowered: Rungs = replace(own, **{ladder: getattr(rungs, ladder) + 1})
-    return lowered
-
-
-def on_pages(views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement]:
-    """Place views on as many pages as they need.
-
-    Raises
-    ------
-    InputError
-        When one has no room on a page.
-    """
-    places = arrange([view.size for view in views], sheet, norm, None)
-    if places is None:
-        raise InputError("sheet-too-small", format=sheet.name)
-    return places

@@ -12,7 +12,8 @@ from typing import Any
 import pytest
 
 from kulman import note
-from kulman.drawing.cams.sheet import Contents, Fitting, Rungs, figures
+from kulman.drawing.cams.sheet import CamFitting, Rungs
+from kulman.drawing.contents import SheetContents
 from kulman.drawing.figure import Figure, families, family
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts.begun import begun_pages
@@ -59,9 +60,10 @@ def solved(task: str, variant: str, settings: Settings) -> Case:
 
 def tables(case: Case) -> dict[str, tuple[Figure[Any], Any]]:
     """Return the figures that are drawn in stages, each with its scene, by name."""
-    contents = Contents(cam(case), case.plans, case.choosers, case.givens, case.words("en"))
-    scene = Fitting(contents).scene(FORMATS["A1"], Rungs())
-    return {figure.name: (figure, scene) for figure in figures(contents, 200.0) if figure.stages}
+    contents = SheetContents(cam(case), case.plans, case.choosers, case.givens, case.words("en"))
+    fitting = CamFitting(contents)
+    scene = fitting.scene(FORMATS["A1"], Rungs())
+    return {figure.name: (figure, scene) for figure in fitting.figures(scene, 200.0) if figure.stages}
 
 
 def stages(case: Case) -> dict[str, tuple[str, ...]]:

@@ -238,11 +238,12 @@ class Cams(Kind[Cam, "SolvedCam"]):
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a cam."""
-        from ...drawing.cams.sheet import Contents, draw
+        from ...drawing.cams.sheet import CamFitting
+        from ...drawing.contents import SheetContents
 
         note = case.task.note_in(words.language)
-        contents = Contents(cam(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
-        return draw(contents, paper)
+        contents = SheetContents(cam(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
+        return CamFitting(contents).draw(paper)
 
     def fitted(self, solved: SolvedCam, drawn: Drawn) -> tuple[SolvedCam, tuple[InputError, ...]]:
         """Return the cam with diagrams as small as the format has room for, and with what lengths these are drawn."""

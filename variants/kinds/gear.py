@@ -159,11 +159,12 @@ class Gears(Kind[GearPair, "SolvedGear"]):
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a pair."""
-        from ...drawing.gears.sheet import Contents, draw
+        from ...drawing.contents import SheetContents
+        from ...drawing.gears.sheet import GearFitting
 
         note = case.task.note_in(words.language)
-        contents = Contents(gear(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
-        return draw(contents, paper)
+        contents = SheetContents(gear(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
+        return GearFitting(contents).draw(paper)
 
     def asks(self, solved: SolvedGear, question: Question) -> bool:
         """Ask not for what is given, nor for ordinates that are nothing or PW by construction."""

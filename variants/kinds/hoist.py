@@ -196,11 +196,12 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a hoist."""
-        from ...drawing.hoist.sheet import Contents, draw
+        from ...drawing.contents import SheetContents
+        from ...drawing.hoist.sheet import HoistFitting
 
         note = case.task.note_in(words.language)
-        contents = Contents(hoist(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
-        return draw(contents, paper)
+        contents = SheetContents(hoist(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
+        return HoistFitting(contents).draw(paper)
 
 
 KIND = Hoists()
