@@ -190,4 +190,6 @@ def test_cases_end_in_a_process_that_has_written_a_note_before(tmp_path: Path) -
     run(Case(["note", "nau-slider-crank", "-o", str(tmp_path / "note.pdf")]))
 
     assert (tmp_path / "note.pdf").exists()
-    assert not list(faults(range(124, 125), "classes"))  # notes of a class
+    batch = FAMILIES["classes"](124)
+    assert batch.arguments[0] == "batch" and batch.arguments[-2:] == ["--as", "note"]
+    assert not list(faults(range(124, 125), "classes"))

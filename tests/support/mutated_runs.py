@@ -155,7 +155,7 @@ def faults(
     A plain fork of a process that has written a note waits for ever: the threads of typst are not in the copy.
     """
     context = multiprocessing.get_context(method)
-    context.set_forkserver_preload(["kulman.tests.support.mutated_runs"])
+    context.set_forkserver_preload(["kulman.cli", mutated_classes.__name__, ranges.__name__])  # not this: it may be run
     size = CHUNK if family == "solved" else CHUNK // 5
     for start in range(numbers.start, numbers.stop, size):
         with ProcessPoolExecutor(1, mp_context=context) as pool:
@@ -178,7 +178,6 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="the number of the first")
     parser.add_argument("--case", type=int, help="this one alone, here")
     parser.add_argument("--family", choices=FAMILIES, default="solved", help="those that calculate, or others")
-    parser.add_argument("--drawn", dest="family", action="store_const", const="drawn", help="those that draw")
     said = parser.parse_args()
     if said.case is not None:
         return _alone(said.case, said.family)
