@@ -191,5 +191,5 @@ def test_cases_end_in_a_process_that_has_written_a_note_before(tmp_path: Path) -
 
     assert (tmp_path / "note.pdf").exists()
     batch = FAMILIES["classes"](124)
-    assert batch.arguments[0] == "batch" and batch.arguments[-2:] == ["--as", "note"]
+    assert (batch.arguments[0], *batch.arguments[-2:]) == ("batch", "--as", "note")
     assert not list(faults(range(124, 125), "classes"))
