@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import ACCELERATION, TOTAL, VELOCITY, Coupler
+from ...plans.linkages.guides import guide_letters
 from ...plans.names import mark, role, spelled, vector
 from ..shapes import Vector, shifted
-from .letters import guide_letters
-from .marks import vectors_of
+from .reading import vectors_of
 from .scene import Scene
 
 VELOCITIES, ACCELERATIONS = "compound_velocity", "compound_a_"  # names of the views

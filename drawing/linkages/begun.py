@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ...plans.board import POSITION, Step
+from ...plans.linkages.guides import guide_letters
 from ...plans.linkages.mechanism import Driver
-from ...plans.names import role
 from ..handouts.begun import Shown
 from .figures.inset import NUMERALS
 from .figures.scheme import angle_said
-from .letters import guide_letters
 from .reading import read
 from .scene import Scene
 from .steps import drawn_views, told_of
@@ -54,14 +53,14 @@ def _add_mark(scene: Scene, step: Step, names: set[str], letters: set[str]) -> N
     if step.verb == "read":
         same = [other.name for other in scene.solved.program.on(step.plan) if _same(other, step)]
         names |= set(same)
-        letters |= {words.symbol(role(name).shown, bar=True) for name in same}
+        letters |= {scene.letter(name) for name in same}
         return
     if step.verb != "tangent":
         letters.add(words.mark(step.name))
     edges = (e for e in read(scene.solved.program).on(step.plan) if e.tip == step.name and _laid(step, e.tail))
     for edge in edges:
         names.add(edge.name)
-        letters.add(words.symbol(role(edge.name).shown, bar=True))
+        letters.add(scene.letter(edge.name))
 
 
 def _same(other: Step, step: Step) -> bool:

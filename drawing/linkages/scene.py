@@ -19,7 +19,7 @@ from ..shapes import Vector
 from ..style import Style
 from ..words import Words
 
-if TYPE_CHECKING:  # runs are found with numpy, which a solution does without
+if TYPE_CHECKING:
     from ...plans.linkages.cycles.slider_runs import Runs
 
 DRIVER = "driver"  # the figure of the driver apart, among the plans that have scale factors
@@ -81,6 +81,10 @@ class Scene:
         plan = self.solved.shown_on.get(name, "")
         own = plan == POSITION and DRIVER in self.scales and name in arms_of_driver(self.solved)
         return DRIVER if own else plan
+
+    def letter(self, vector: str) -> str:
+        """Return the letter of a vector, with its bar."""
+        return self.words.symbol(role(vector).shown, bar=True)
 
     def heading(self, key: str, *plans: str, **fill: str) -> tuple[str, ...]:
         """Return the heading lines of a view: its name and the scale factors of `plans`."""

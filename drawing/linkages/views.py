@@ -14,15 +14,12 @@ from ...plans.linkages.structure import Group
 from ...plans.names import role, scale_factor
 from ..table import note_block
 from ..view import View
-from .calculations.forces import LOADS, WHOLE, force_parts, forces_block
+from .calculations.forces import LOADS, WHOLE, force_parts, forces_block, lever_block
 from .calculations.kinematics import KinematicsPart, kinematics_block, kinematics_parts
-from .calculations.lever import lever_block
-from .calculations.structure import structure_block
-from .calculations.tables import Part, givens_table, results_parts, results_table
-from .figures.driver import driver_view
-from .figures.group import group_view, link_view
+from .calculations.tables import Part, givens_table, results_parts, results_table, structure_block
+from .figures.diagrams import load_diagram
+from .figures.group import driver_view, group_view, link_view
 from .figures.lever import lever_view
-from .figures.load_diagram import load_diagram
 from .figures.plan import plan_view
 from .figures.scheme import scheme
 from .layout.ladders import links_apart
@@ -95,8 +92,7 @@ def _cycle(solved: SolvedLinkage, cycle: Cycle | None) -> Iterator[Figure]:
     if cycle is not None:
         # a sheet of one position does not pay for the import
         from .figures.diagrams import diagrams_view
-        from .figures.field import coupler, field_view
-        from .figures.positions import main_output, positions_view
+        from .figures.positions import coupler, field_view, main_output, positions_view
 
         yield Figure(lambda scene: positions_view(scene, cycle), "mu_l")
         if main_output(cycle) is not None:

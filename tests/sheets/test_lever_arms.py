@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from kulman.drawing.linkages.figures.lever_arms import LeverArm, staggered
+from kulman.drawing.linkages.figures.lever import LeverArm, staggered
 from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.style import STYLES
 from kulman.drawing.view import Canvas

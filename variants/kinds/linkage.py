@@ -224,7 +224,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def lettered(self, words: Words, solved: SolvedLinkage) -> Words:
         """Return the words with the letters of guides, ends and couples."""
-        from ...drawing.linkages.letters import lettered
+        from ...drawing.linkages.reading import lettered
 
         return lettered(words, solved)
 

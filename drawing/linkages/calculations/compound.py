@@ -12,8 +12,7 @@ from ...printed import Input, calculation, ruler_decimals, segment_decimals
 from ...table import text_block
 from ...view import View
 from ..scene import Scene
-from .equations import Factor, Product, by_direction, factor, known, sensed, worked
-from .vector_equations import line_note, line_of
+from .equations import Factor, Product, by_direction, factor, known, line_note, line_of, sensed, worked
 
 Line = tuple[str, ...]
 UNITS = {"V": "m/s", "a": "m/s^2", "omega": "rad/s", "epsilon": "rad/s^2"}

@@ -3,24 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import replace
 
 from ....plans.board import Step
+from ....plans.linkages.mechanism import ZERO, Driver, Revolute
 from ....plans.linkages.solved import SolvedLinkage
+from ....plans.linkages.structure import Group
 from ....plans.names import FORCES, role
 from ....scales.display import AS_INSIDE
 from ...formulas import Symbol
+from ...printed import POINT, value_text
 from ...table import text_block
 from ...view import View
 from ..reading import read
 from ..scene import Scene
 from .equations import (
+    Factor,
     Lines,
     Product,
+    closed,
+    ends_of,
     factor,
     moments_in_letters,
     noted,
+    paper,
+    segment,
     sensed,
     size_by_law,
     size_of,
@@ -28,8 +36,6 @@ from .equations import (
     turned,
     worked,
 )
-from .moments import about, group_of, link_of, links_in, on_arm, terms
-from .vector_equations import closed, ends_of
 
 WHOLE, LOADS = "", "loads"
 
@@ -239,3 +245,144 @@ def _arm(scene: Scene, step: Step) -> Lines:
         return [(f"{words.symbol(reaction)} = 0:", words["said.couple"].format(moment=words.symbol(moment)))]
     product = Product((factor(scene, moment), factor(scene, reaction, -1)))
     return [worked(words, words.symbol(step.name), [product], "m")]
+
+
+def terms(scene: Scene, names: Iterable[str]) -> list[Product]:
+    """Return the moments that are not zero, each with its sign, counter-clockwise positive."""
+    found = []
+    for name in names:
+        value = 0.0 if name == ZERO else scene.solved.values[name]
+        factors = _factors(scene, name) if value != 0.0 else ()
+        # a force whose line passes through the point has no moment but rounding
+        if factors and min(factor.value for factor in factors if not factor.exact) >= POINT:
+            found.append(Product(factors, math.copysign(1.0, value)))
+    return found
+
+
+def _factors(scene: Scene, name: str) -> tuple[Factor, ...]:
+    """Return what makes a moment: a force and its arm, a couple's power, or a couple that is known."""
+    reading = read(scene.solved.program)
+    step = reading.step(name)
+    if step is not None and step.verb == "moment":
+        arm = next(s for s in reading.users(name) if s.verb == "arm")
+        return factor(scene, step.operands[0]), *on_arm(scene, arm.name)
+    if step is not None and step.law == "couple_on_lever":
+        scale = paper(scene.words, scene.scales["lever"])
+        over = Factor(scale.symbol, scale.value, scale.exact, -scale.power)
+        return factor(scene, step.operands[0]), factor(scene, step.operands[1]), over
+    return (factor(scene, name),)
+
+
+def on_arm(scene: Scene, arm: str) -> tuple[Factor, ...]:
+    """Return an arm in mm, and the scale factor unless the plan's own cancels, as on the lever."""
+    plan = scene.figure_of(arm)
+    own = segment(scene, scene.words.symbol(arm), plan, size_of(scene, arm))
+    return (own,) if plan == "lever" else (own, paper(scene.words, scene.scales[plan]))
+
+
+def about(scene: Scene, step: Step) -> str:
+    """Return the point about which the moments of a calculation are taken."""
+    reading = read(scene.solved.program)
+    moments = (made for name in step.operands if (made := reading.step(name)) is not None and made.verb == "moment")
+    point = next((moment.operands[2] for moment in moments), "")
+    return point or _joint(scene, link_of(scene, step.name))
+
+
+def _joint(scene: Scene, number: int) -> str:
+    """Return the joint about which a link without loads would turn: its pin in the group, or the group's only one."""
+    group, driver = group_of(scene, number), scene.solved.mechanism.driver
+    if group is None:
+        return driver.pivot if isinstance(driver, Driver) else driver.point
+    pins = [pair for pair in (*group.inner, *group.outer) if isinstance(pair, Revolute)]
+    return next((pair.point for pair in pins if number in pair.links), pins[0].point)
+
+
+def group_of(scene: Scene, number: int) -> Group | None:
+    """Return the group of a link; None for the driver."""
+    return next((group for group in scene.solved.structure.groups if number in group.links), None)
+
+
+def link_of(scene: Scene, name: str) -> int:
+    """Return the link on which a reaction or the moment of one acts: 2 of `R_12_t`, 3 of `_M_3`; else the driver."""
+    numbers = role(name).links if role(name).kind in ("R", "M") else ()
+    moving = {link.number for link in scene.solved.mechanism.links}
+    return numbers[-1] if moving.intersection(numbers[-1:]) else scene.solved.structure.driver
+
+
+def links_in(scene: Scene, number: int, point: str) -> str:
+    """Return the links whose moments a sum about a point has: the link's own, or those of the whole group.
+
+    About a point that is not the link's the inner reactions of the group would have moments, too.
+    """
+    group = group_of(scene, number)
+    if group is None or point in scene.solved.mechanism.link(number).points or len(group.links) < 2:
+        return str(number)
+    return ", ".join(map(str, sorted(group.links)))
+
+
+def lever_block(scene: Scene, width: float, with_inertia: bool) -> View:
+    """Return the moment equation of Zhukovsky's lever and the comparison of what balances the driver."""
+    lines = [*(load_lines(scene) if with_inertia else []), *lever_lines(scene)]
+    return text_block("equations_lever", scene.words["heading.equations_lever"], lines, scene.style, width)
+
+
+def lever_lines(scene: Scene) -> Lines:
+    """Return the lines of the lever in order of construction."""
+    scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
+    lines: Lines = []
+    for step in scene.solved.program:
+        if step.law in TOLD and (step.law != "moment_equation" or role(step.operands[0]).kind == "V"):
+            lines += TOLD[step.law](scene, step)
+    return lines
+
+
+def _couple(scene: Scene, step: Step) -> Lines:
+    """A couple as two forces on the ends of its link."""
+    words = scene.words
+    pair = [s.name for s in scene.solved.program if role(s.name).whole == step.name != s.name]
+    if not scene.defined(step.name):
+        return []
+    symbols = " = ".join(dict.fromkeys(words.symbol(name) for name in pair))
+    return [size_by_law(scene, symbols, step, "N")]
+
+
+def _sum(scene: Scene, step: Step) -> Lines:
+    """Sum of moments about the pole, each force times its arm in mm, solved for the balancing force."""
+    words = scene.words
+    speed, *moments = step.operands
+    found = terms(scene, moments)
+    laid = next(s for s in read(scene.solved.program).users(speed) if s.verb in ("lay", "back"))
+    reach = segment(scene, words.mark(laid.operands[0]) + words.mark(laid.name), "lever", size_of(scene, speed))
+    # the balancing force along the line of its point's velocity has the moment -F * V, with the signs of both
+    turn = math.copysign(1.0, scene.solved.values[step.name] * scene.solved.values[speed])
+    symbol = words.symbol(step.name)
+    own = Symbol.of(symbol) * reach.letter * -turn
+    lines: Lines = [(f"ΣM_{{{words.mark('lever.p')}}} = 0:", *moments_in_letters(own, found), "= 0")]
+    if found:
+        lines.append(worked(words, symbol, turned(found, turn), "N", Product((reach,))))
+    return lines
+
+
+def _moment(scene: Scene, step: Step) -> Lines:
+    """The balancing force as a moment on the crank."""
+    return [size_by_law(scene, scene.words.symbol(step.name), step, "N*m")]
+
+
+def _difference(scene: Scene, step: Step) -> Lines:
+    """The difference of two values in per cent, of their printed values."""
+    words, values = scene.words, scene.solved.values
+    lever, plan = (abs(values[name]) for name in step.operands)
+    if lever == 0.0:
+        return []
+    a, b = value_text(words, lever), value_text(words, plan)
+    first, second = (words.symbol(name) for name in step.operands)
+    head = f"{words.symbol(step.name)} = ({first} − {second})/{first}·100 % ="
+    return [(head, f"({a} − {b})/{a}·100 % =", f"{words.number(values[step.name], 2)} %")]
+
+
+TOLD: dict[str, Callable[[Scene, Step], Lines]] = {
+    "couple": _couple,
+    "moment_equation": _sum,
+    "crank_moment": _moment,
+    "difference": _difference,
+}

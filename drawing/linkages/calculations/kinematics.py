@@ -15,7 +15,7 @@ from ....plans.quantities import unit_of
 from ...printed import Input, calculation
 from ...table import text_block
 from ...view import View
-from ..figures.similarity import on_link
+from ..figures.plan import on_link
 from ..reading import Reading, read
 from ..scene import Scene
 from .equations import (
@@ -23,6 +23,9 @@ from .equations import (
     Product,
     distance,
     factor,
+    line_note,
+    line_through,
+    meeting,
     noted,
     rate_of,
     segment,
@@ -30,9 +33,9 @@ from .equations import (
     size_by_law,
     size_of,
     stated,
+    summed,
     worked,
 )
-from .vector_equations import line_note, line_through, meeting, summed
 
 PLANS = ("velocity", "acceleration")
 STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from ....plans.board import Step
-from ....plans.names import FORCES, role
+from ....plans.board import POSITION, Program, Step
+from ....plans.boards.exact import ILL, SMALL
+from ....plans.names import FORCES, POLE, role
+from ....plans.references import intersections, pins_together, point_of
 from ...shapes import Line, Pen
 from ...view import Canvas, View
-from ..marks import letter_marks, symbol, vectors_of
+from ..reading import read, vectors_of
 from ..scene import Scene, plan_heading
-from .flat import said_flat
-from .force_plan import ForcePlan, construction_line, in_inset
-from .inset import with_insets
-from .similarity import draw_sides
+from ..skeleton import NEAR, Stroke
+from .inset import ForcePlan, construction_line, in_inset, letter_marks, with_insets
 
 SHORT = 2.0  # mm below which a vector cannot be drawn as an arrow
+Triangle = tuple[str, str, str]
+LARGE = 1e4  # above it a number is written with a power of ten
 
 
 def plan_view(scene: Scene, plan: str) -> View:
@@ -67,7 +71,7 @@ def _vectors(
         # the first of two vectors on one line has its letter above it or to the right
         side = (-across if (across / (0.3 + 1j)).real > 0 else across) if ends in named else 0j
         named[ends] = None
-        text = " = ".join(symbol(scene, name) for name in names)
+        text = " = ".join(scene.letter(name) for name in names)
         ends_of = f"{text} = {scene.words.mark(tail)}{scene.words.mark(tip)}"
         canvas.label(text, (vector.tail, vector.tip), prefer=side, clear=0.9, strict=True, spare=ends_of)
 
@@ -85,13 +89,105 @@ def _said(scene: Scene, plan: str, vectors: list[tuple[str, str, str]]) -> list[
     for quantity, tail, tip in dict.fromkeys(vectors):
         length = abs(scene.mm(tip) - scene.mm(tail))
         if length < 1e-6:
-            lines.append(scene.words["said.zero"].format(vector=symbol(scene, quantity)))
+            lines.append(scene.words["said.zero"].format(vector=scene.letter(quantity)))
         elif length < SHORT:
             lines.append(
-                scene.words["said.short"].format(vector=symbol(scene, quantity), mm=scene.words.number(length, 2))
+                scene.words["said.short"].format(vector=scene.letter(quantity), mm=scene.words.number(length, 2))
             )
     return lines
 
 
 def _rounded(point: complex) -> complex:
     return complex(round(point.real, 3), round(point.imag, 3))
+
+
+def triangles(program: Program, plan: str) -> Iterator[Triangle]:
+    """Go through the marks of each triangle of a plan that is similar to one of a link."""
+    for step in program.on(plan):
+        if step.verb == "similar":
+            yield (step.operands[0], step.operands[1], step.name)
+
+
+def on_link(program: Program, triangle: Triangle) -> Triangle:
+    """Return the points of the link to whose triangle that of a plan is similar.
+
+    At the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism.
+    """
+    start, end, mark = triangle
+    point = role(mark).of
+    own = read(program).made[point].operands
+    first, second = (own[i] if role(m).kind == POLE else role(m).of for i, m in enumerate((start, end)))
+    return first, second, point
+
+
+def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke]) -> None:
+    """Draw thin the sides of the triangles on a plan that no line of `drawn` shows, and a'b' where a point divides it.
+
+    On the plan of the mechanism the triangles are those of its links.
+    """
+    program, lines = scene.solved.program, list(drawn)
+    if plan == POSITION:
+        figures: list[tuple[str, ...]] = [on_link(program, found) for found in triangles(program, "velocity")]
+    else:
+        figures = [*triangles(program, plan)]
+        figures += [step.operands[:2] for step in program.on(plan) if step.verb == "divide"]
+    for marks in figures:
+        for i, first in enumerate(marks[1:], 1):
+            for second in marks[:i]:
+                side = scene.mm(second), scene.mm(first)
+                if abs(side[1] - side[0]) > NEAR and not any(_covers(line, side) for line in lines):
+                    canvas.add(Line(*side, Pen.THIN, role="similarity", name=f"{second} {first}"))
+                    lines.append(side)
+
+
+def _covers(line: Stroke, side: Stroke) -> bool:
+    """Whether a drawn line runs along the whole of a side."""
+    start, way = line[0], line[1] - line[0]
+    if abs(way) < NEAR:
+        return False
+    feet = [(end - start) / way for end in side]
+    spare = NEAR / abs(way)
+    return all(abs(foot.imag) < spare and -spare < foot.real < 1.0 + spare for foot in feet)
+
+
+def said_flat(scene: Scene, plan: str) -> Iterator[str]:
+    """Say of each point of a plan whose lines meet flatly; in an ill-conditioned position of the worst one, with K."""
+    solved, words = scene.solved, scene.words
+    for mark, sine in solved.sines.items():
+        if role(mark).plan == plan and ILL <= sine < SMALL and plan != POSITION:
+            yield words["said.ill"].format(**_meeting(scene, mark, sine))
+    if solved.status != "ill-conditioned":
+        return
+    here = {mark: sine for mark, sine in intersections(solved.program, solved.sines).items() if role(mark).plan == plan}
+    mark, sine = min(here.items(), key=lambda item: item[1], default=("", 1.0))
+    if 0.0 < sine < ILL:
+        from ....plans.linkages.accuracy.conditions import worst_condition  # needs numpy, and few positions need it
+
+        quantity, condition = worst_condition(solved, plan)
+        said = _meeting(scene, mark, sine)
+        kind = solved.quantities[quantity].kind
+        symbol = words.mark(quantity) if kind == "point" else words.symbol(quantity)
+        said |= {"quantity": symbol, "condition": _large(scene, condition)}
+        pins = pins_together(solved.program, solved.values, mark)
+        if pins is None:
+            yield words["said.ill_position"].format(**said)
+        else:
+            yield words["said.ill_pins"].format(first=words.mark(pins[0]), second=words.mark(pins[1]))
+        yield words["said.ill_growth"].format(**said)
+
+
+def _meeting(scene: Scene, mark: str, sine: float) -> dict[str, str]:
+    """Return which point lines find, at which angle they meet, and by how much errors grow."""
+    return {
+        "point": scene.words.mark(point_of(scene.solved.program, mark)),
+        "angle": scene.words.short(math.degrees(math.asin(sine)), 3),
+        "loss": _large(scene, 1.0 / sine),
+    }
+
+
+def _large(scene: Scene, value: float) -> str:
+    """Return a number with three digits, a large one as `2,5·10^{6}`."""
+    if value < LARGE:
+        return scene.words.short(float(f"{value:.3g}"))
+    mantissa, _, power = f"{value:.1e}".partition("e")
+    return f"{scene.words.decimal(mantissa)}·10^{{{int(power)}}}"

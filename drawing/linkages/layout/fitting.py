@@ -18,7 +18,7 @@ from ...extents import Extents, Rungs
 from ...formats import FORMATS, Format, printable, room
 from ...style import STYLES
 from ...view import View
-from ..letters import lettered
+from ..reading import lettered
 from ..scene import Scene
 from ..views import Figure, figures, noted
 from .ladders import MARKS, by_plan, extents_of, mus_of

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator
 from ....plans.board import Step
 from ....plans.names import COUPLE, role
 from ..calculations.equations import size_of
-from ..figures.lever import BALANCE, arms_on_lever, driven, hung_on_lever, images, letter_of, lines_of_lever
-from ..figures.lever_arms import LeverArm
+from ..figures.lever import BALANCE, LeverArm, arms_on_lever, driven, hung_on_lever, images, letter_of, lines_of_lever
 from .marks import TOLD
 from .teller import Teller, Told
 

@@ -14,8 +14,7 @@ from ... import notes
 from ...formulas import Symbol
 from ...printed import HUNDREDTHS, POINT, Input, calculation
 from ..at_point import At, figures_of
-from ..calculations.equations import Product, factor, is_given, paper, size_of
-from ..calculations.vector_equations import ends_of, line_of
+from ..calculations.equations import Product, ends_of, factor, is_given, line_of, paper, size_of
 from ..reading import Reading, read
 from ..scene import Scene
 
@@ -62,7 +61,7 @@ class Teller:
 
     def vector(self, name: str) -> str:
         """Return the letter of a vector, with its bar."""
-        return self.scene.words.symbol(role(name).shown, bar=True)
+        return self.scene.letter(name)
 
     def distance(self, start: str, end: str) -> str:
         """Return the length of a segment on its plan, with its unit."""
