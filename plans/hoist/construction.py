@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -96,7 +97,14 @@ def roots_of(found: Mapping[str, float]) -> Roots:
 
 def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
     """Record the construction: all numbers, and the drawings of the plans wanted."""
-    board, wanted = RecordingBoard(), frozenset(plans)
+    timeless = layout.roots and replace(layout.roots, begin=0.0, section=0.0, times=())
+    return _constructed(replace(layout, roots=timeless), frozenset(plans))
+
+
+@lru_cache(maxsize=16)
+def _constructed(layout: Layout, wanted: frozenset[str]) -> Program:
+    """Record it once: hoists that differ in numbers alone have the same steps."""
+    board = RecordingBoard()
     for part in ONE_SIDED if layout.moved else TWO_SIDED:
         part(board)
     axes(board)
