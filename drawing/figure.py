@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Generic, TypeVar
@@ -86,13 +86,9 @@ class Figure(Generic[Scene]):
 
 
 @lru_cache(maxsize=8)
-def families(program: Program) -> Mapping[tuple[str, str], int]:
-    """Return where in a program the first step of each family stands, by its verb and by none."""
-    firsts: dict[tuple[str, str], int] = {}
-    for k, step in enumerate(program):
-        for verb in ("", step.verb):
-            firsts.setdefault((family(step.name), verb), k)
-    return firsts
+def families(program: Program) -> frozenset[tuple[str, str]]:
+    """Return the families of the steps of a program, each with the verbs of its steps and with none."""
+    return frozenset((family(step.name), verb) for step in program for verb in ("", step.verb))
 
 
 def family(name: str) -> str:

@@ -1,13 +1,14 @@
-"""What belongs to a follower that moves up along a line, and to the cam's shaft: rod, spring, guides, key, support."""
+"""Parts of machines: springs, the guided rod of a follower that moves up along a line, a cam's shaft on its support."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .shapes import Circle, Group, Line, Pen, Polyline, Shape
 from .style import Style
-from .symbols import guide, hatching
+from .symbols import guide, hatching, unit
 
 COILS = 5
 GUIDE = 0.75  # length of a guide in sliders
@@ -51,9 +52,8 @@ class Rod:
         return link, self._spring(), *self._guides()
 
     def _spring(self) -> Group:
-        low, high, wide = self.collar, self.guide[0], 1.9 * self.half
-        step = (high - low) / (2 * COILS)
-        points = [complex(self.x + wide * (-1.0 if k % 2 else 1.0), low + step * k) for k in range(2 * COILS + 1)]
+        low, step = complex(self.x, self.collar), 1j * ((self.guide[0] - self.collar) / (2 * COILS))
+        points = coils([low + step * k for k in range(2 * COILS + 1)], 1.9 * self.half)
         return Group((Polyline(tuple(points), Pen.THIN),), "spring", "spring")
 
     def _guides(self) -> tuple[Shape, ...]:
@@ -65,6 +65,12 @@ class Rod:
             found.append(guide(((complex(x, low), complex(x, high)),), complex(-side, 0.0), "guide", self.style))
             found.append(Line(*foot, Pen.MAIN))
         return tuple(found)
+
+
+def coils(places: Sequence[complex], half: float) -> list[complex]:
+    """Return the bends of a spring, `half` beside places on its axis in turn on both sides, the first on the right."""
+    across = -1j * half * unit(places[-1] - places[0])
+    return [place - across if k % 2 else place + across for k, place in enumerate(places)]
 
 
 def shaft_radius(cam: float, style: Style, offset: float = 0.0) -> float:

@@ -24,7 +24,7 @@ def coarser(shape: Shape, within: float) -> Shape:
             return shape
 
 
-def thinned(points: tuple[complex, ...], within: float) -> tuple[complex, ...]:
+def thinned(points: Sequence[complex], within: float) -> tuple[complex, ...]:
     """Return as few of these points as keep the line through them within so many mm (Douglas and Peucker)."""
     line, kept = np.array(points), np.zeros(len(points), dtype=bool)
     kept[[0, -1]] = True
@@ -41,18 +41,6 @@ def thinned(points: tuple[complex, ...], within: float) -> tuple[complex, ...]:
             open_parts += [(a, a + 1 + k), (a + 1 + k, b)]
     result: tuple[complex, ...] = tuple(line[kept].tolist())
     return result
-
-
-def chords(points: Sequence[complex], within: float) -> list[complex]:
-    """Return points of a curve from chord to chord, each of which passes closely by those between, by `within` mm."""
-    kept, last = [points[0]], 0
-    for k in range(2, len(points)):
-        chord = points[k] - points[last]
-        away = max((abs((chord.conjugate() * (p - points[last])).imag) for p in points[last + 1 : k]), default=0.0)
-        if away > within * abs(chord):
-            last = k - 1
-            kept.append(points[last])
-    return [*kept, points[-1]]
 
 
 def freest(curves: Sequence[Sequence[complex]], step: float, each: float) -> Iterator[tuple[int, complex, complex]]:

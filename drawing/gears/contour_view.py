@@ -8,7 +8,7 @@ from ...plans.gears.blocking import BLOCKING, CURVES, OF_CURVE, RATIOS, Plane, p
 from ...scales.scale import Scale, steps
 from ..diagram import Axis, Field, divisions
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
-from ..thinning import chords, freest
+from ..thinning import freest, thinned
 from ..view import Canvas, View
 from .scene import GearScene
 
@@ -21,6 +21,7 @@ EACH = 0.7  # of the longer side of the window: a curve has a number for each su
 LEAST = 0.2  # of the longer side: shorter curves in a corner of the window, which bound nothing, are left out
 IN_A_LINE = 3  # entries of the legend
 STEP = 2.0  # mm between places that are looked at
+Runs = list[tuple[complex, ...]]  # of a curve that passes through the window several times
 
 
 def contour_view(scene: GearScene) -> View:
@@ -36,9 +37,9 @@ def contour_view(scene: GearScene) -> View:
         curves[name] = [run for run in curves[name] if abs(run[-1] - run[0]) >= least]
     for name, runs in curves.items():
         pen = Pen.THIN if name in BLOCKING else Pen.DASHED
-        canvas.add(Group(tuple(Polyline(tuple(run), pen) for run in runs), "limit", name))
+        canvas.add(Group(tuple(Polyline(run, pen) for run in runs), "limit", name))
     for name, side in sides:
-        canvas.add(Group((Polyline(tuple(_thinned(field, side)), Pen.MAIN),), "contour", name))
+        canvas.add(Group((Polyline(_thinned(field, side), Pen.MAIN),), "contour", name))
     _chosen(canvas, scene, field)
     _numbers(canvas, scene, curves)
     mu = f"{words.symbol('mu_x')} = {words.short(field.x.scale.mu)} {words.unit('mm')}^{{−1}}"
@@ -96,9 +97,9 @@ def _frame(canvas: Canvas, scene: GearScene, field: Field) -> None:
     canvas.bounds = (corners[0].real, corners[0].imag, corners[2].real, corners[2].imag)
 
 
-def _thinned(field: Field, run: Iterable[complex]) -> list[complex]:
+def _thinned(field: Field, run: Iterable[complex]) -> tuple[complex, ...]:
     """Return places of a curve on the paper, those left out that a chord passes closely."""
-    return chords([field.at(place.real, place.imag) for place in run], FINE)
+    return thinned([field.at(place.real, place.imag) for place in run], FINE)
 
 
 def _chosen(canvas: Canvas, scene: GearScene, field: Field) -> None:
@@ -110,7 +111,7 @@ def _chosen(canvas: Canvas, scene: GearScene, field: Field) -> None:
     canvas.add(Group((Circle(at, 1.5 * scene.style.node, Pen.MAIN, fill="black"),), "point", "chosen"))
 
 
-def _numbers(canvas: Canvas, scene: GearScene, curves: Mapping[str, list[list[complex]]]) -> None:
+def _numbers(canvas: Canvas, scene: GearScene, curves: Mapping[str, Runs]) -> None:
     """Number the curves that pass through the window, long ones in several places, where they are far from others."""
     dense = [(name, run) for name, runs in curves.items() for run in runs]
     numbers = {name: str(n) for n, name in enumerate(seen(curves), start=1)}
@@ -119,7 +120,7 @@ def _numbers(canvas: Canvas, scene: GearScene, curves: Mapping[str, list[list[co
         canvas.label(numbers[dense[n][0]], ends, clear=0.8, height=scene.style.text)
 
 
-def seen(curves: Mapping[str, list[list[complex]]]) -> list[str]:
+def seen(curves: Mapping[str, Runs]) -> list[str]:
     """Return the names of the curves that pass through the window."""
     return [name for name, runs in curves.items() if runs]
 

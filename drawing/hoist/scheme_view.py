@@ -7,9 +7,10 @@ from dataclasses import replace
 from ...plans.hoist.beam_plans import SCHEME
 from ..dimensions import linear
 from ..figure import Figure, stages
+from ..hardware import COILS, coils
 from ..layers import Layer
 from ..shapes import Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
-from ..symbols import fixed_pivot, hatching
+from ..symbols import fixed_pivot, hatching, unit
 from ..text import lay_out
 from ..view import Canvas, View
 from .scene import HoistScene
@@ -17,7 +18,7 @@ from .scene import HoistScene
 LOAD = 0.45  # of the rope's length, the height of the load at most
 BOX = 12.0  # mm, the load's height at most
 DRUM = 3.0  # mm, radius
-SPRING, COILS, HALF = 26.0, 5, 4.0  # mm: length of a spring, its coils, half its width
+SPRING, HALF = 26.0, 4.0  # mm: length of a spring, half its width
 MASS = 11.0, 13.0  # mm: half the width and the height of the mass
 LEG = 4.0  # mm, straight ends of a spring
 FORCE = 13.0  # mm, an arrow
@@ -123,13 +124,10 @@ def _arrow(canvas: Canvas, tail: complex, tip: complex, letter: str) -> None:
 
 def spring(a: complex, b: complex, name: str) -> Group:
     """Return a spring from `a` to `b`."""
-    along = (b - a) / abs(b - a)
-    inner = abs(b - a) - 2.0 * LEG
-    places = [a, a + along * LEG]
-    for k in range(2 * COILS):
-        side = HALF if k % 2 == 0 else -HALF
-        places.append(a + along * (LEG + inner * (k + 0.5) / (2 * COILS)) + 1j * along * side)
-    return Group((Polyline((*places, b - along * LEG, b), Pen.THIN),), "spring", name)
+    leg = LEG * unit(b - a)
+    step = (b - a - 2.0 * leg) / (2 * COILS)
+    bends = coils([a + leg + step * (k + 0.5) for k in range(2 * COILS)], -HALF)
+    return Group((Polyline((a, a + leg, *bends, b - leg, b), Pen.THIN),), "spring", name)
 
 
 MODEL = Figure("model", model_view, stages=stages("blank", "model"), key="hoist.model")

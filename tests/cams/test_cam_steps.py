@@ -14,7 +14,7 @@ import pytest
 from kulman import note
 from kulman.drawing.cams.sheet import CamFitting, Rungs
 from kulman.drawing.contents import SheetContents
-from kulman.drawing.figure import Figure, families, family
+from kulman.drawing.figure import Figure, family
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts.begun import begun_pages
 from kulman.drawing.notes.blocks import Sentences, Steps, Story
@@ -139,7 +139,10 @@ def test_stages_follow_the_construction() -> None:
 
 @pytest.mark.parametrize("case", CASES)
 def test_stages_stand_in_the_order_of_the_construction(case: tuple[str, str, Settings]) -> None:
-    firsts = families(solved(*case).solved.program)
+    firsts: dict[tuple[str, str], int] = {}
+    for k, step in enumerate(solved(*case).solved.program):
+        for verb in ("", step.verb):
+            firsts.setdefault((family(step.name), verb), k)
     for name, (figure, scene) in tables(solved(*case)).items():
         own = [stage for stage in figure.stages if stage.marks and stage.name in figure.keys(scene)]
         places = [firsts[stage.marks, stage.verb] for stage in own[1:]]  # the first is there before any step
