@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..scales.kept import Kept
 from .board import Program, Step
 from .boards.arrays import ArrayBoard
 from .boards.exact import STATUSES, ExactBoard, Status
@@ -15,7 +16,6 @@ from .boards.exact import STATUSES, ExactBoard, Status
 Array = NDArray[np.float64]
 Result = TypeVar("Result")
 More = Callable[[Array], Mapping[str, Array]]
-KEPT = 8
 
 
 class Along:
@@ -92,14 +92,5 @@ def _as_long_as(at: Array, value: Any) -> NDArray[Any]:
 
 def remembering(function: Callable[[Array], Result]) -> Callable[[Array], Result]:
     """Return `function` with a memory of its last results: one search often asks for the places of the one before."""
-    kept: dict[bytes, Result] = {}
-
-    def remembered(at: Array) -> Result:
-        key = at.tobytes()
-        if key not in kept:
-            if len(kept) >= KEPT:
-                del kept[next(iter(kept))]
-            kept[key] = function(at)
-        return kept[key]
-
-    return remembered
+    kept = Kept[Result](8)
+    return lambda at: kept.get(at.tobytes(), lambda: function(at))

@@ -219,11 +219,20 @@ def _most(value: Any) -> Any:
     return np.maximum.reduce(value, axis=None)
 
 
-# how arrays must lie to a bound to be left alone; never where a number is none
-CALM: dict[str, Callable[[Any, Any], bool]] = {
-    "above": lambda value, bound: _least(value) > bound,
-    "at least": lambda value, bound: _least(value) >= bound,
-    "at most": lambda value, bound: _most(value) <= bound,
-    "beyond": lambda value, bound: _least(value) >= bound or _most(value) <= -bound,
-    "within": lambda value, bound: _least(value) > -bound and _most(value) < bound,
+# how numbers, by the least and the most of them, must lie to a bound to be left alone; never where a number is none
+ORDERS = {
+    "above": "{least} > {bound}",
+    "at least": "{least} >= {bound}",
+    "at most": "{most} <= {bound}",
+    "beyond": "({least} >= {bound} or {most} <= -{bound})",
+    "within": "({least} > -{bound} and {most} < {bound})",
 }
+
+
+def _order(said: str) -> Callable[[Any, Any], bool]:
+    lies = said.format(least="least(value)", most="most(value)", bound="bound")
+    order: Callable[[Any, Any], bool] = eval(f"lambda value, bound: {lies}", {"least": _least, "most": _most})
+    return order
+
+
+CALM = {name: _order(said) for name, said in ORDERS.items()}

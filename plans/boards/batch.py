@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ...scales.errors import InputError
+from ...scales.kept import Kept
 from ..board import Program
 from .arrays import CODES, ArrayBoard
 from .exact import run
@@ -23,7 +24,6 @@ from .tracing import TracingBoard
 CHUNK = 8192
 FEW = 2000  # positions up to which preparing a batch takes longer than running them on arrays
 PADDING = 72  # numbers between two buffers, lest all of them begin at the same place of a memory page
-KEPT = 16
 HEAP = {-3: 32 << 20, -1: 256 << 20}  # glibc's M_MMAP_THRESHOLD, the largest that it takes, and M_TRIM_THRESHOLD
 PLAIN = frozenset((0.0, 1.0, -1.0))  # numbers that make a program shorter: they are written down as what they are
 
@@ -135,7 +135,7 @@ class _Work:
             from numba import njit
         except ImportError:
             raise InputError("fast-extra") from None
-        names = {**plain_names(), "arctan2": np.arctan2, "fmod": np.fmod}
+        names = {**plain_names(), "fmod": np.fmod}
         names |= {name: np.array(names[name]) for name in ("cosines", "sines")}
         try:
             function = compiled(self.chunked.loop(), "loop", names)
@@ -145,7 +145,7 @@ class _Work:
         return looped
 
 
-_KEPT: dict[Any, _Work] = {}
+_KEPT = Kept[_Work](16)
 
 
 def _written(
@@ -158,12 +158,7 @@ def _written(
     """Write a program down, once for all data of which the same names are arrays."""
     plain = {name: value for name, value in scalars.items() if value in PLAIN}
     key = program, tuple(plain.items()), frozenset(scalars), frozenset(arrays), wanted, boards[0]
-    work = _KEPT.get(key)
-    if work is None:
-        if len(_KEPT) >= KEPT:
-            del _KEPT[next(iter(_KEPT))]
-        work = _KEPT[key] = _write(program, plain, {**scalars, **arrays}, wanted, boards)
-    return work
+    return _KEPT.get(key, lambda: _write(program, plain, {**scalars, **arrays}, wanted, boards))
 
 
 def _write(

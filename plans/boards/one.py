@@ -8,15 +8,15 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from ...scales.kept import Kept
 from ..board import Program
-from .arrays import CODES
+from .arrays import CODES, ORDERS
 from .exact import STATUSES, Status
-from .printers import ORDERS, PYTHON, Plain, compiled, in_order, number, plain_names
+from .printers import PYTHON, Plain, compiled, in_order, number, plain_names
 from .protractor import MARKS, ROUND, graduation
 from .trace import Real, Vector
 from .tracing import TracingBoard
 
-KEPT = 64
 JAVASCRIPT = {
     **PYTHON,
     "absolute": "Math.abs({0})",
@@ -32,16 +32,20 @@ JAVASCRIPT = {
     "arctan2": "Math.atan2({0}, {1})",
     "mark": f"({{0}} === {{0}} ? (({{0}} - {ROUND!r}) % {MARKS} + {MARKS}) % {MARKS} : {MARKS})",
 }
-_KEPT: dict[Any, Callable[..., Any]] = {}
+_KEPT = Kept[Callable[..., Any]](64)
 
 
 @dataclass(frozen=True)
 class Script(Plain):
-    """The same as source of JavaScript: a function of the givens that returns an array, the code first."""
+    """The program of a trace for one position, as source of JavaScript.
+
+    The function it defines takes the givens as an object by name and returns an array, the code of the status first.
+    """
 
     operations = JAVASCRIPT
-    orders = {order: said.replace(" or ", " || ") for order, said in ORDERS.items()}  # noqa: RUF012
-    orders["within"] = "(-{1} < {0} && {0} < {1})"
+    orders = {  # noqa: RUF012
+        order: said.replace(" or ", " || ").replace(" and ", " && ") for order, said in ORDERS.items()
+    }
     new, again = "let {0} = {1};", "{0} = {1};"
     unless, worse, end = "if (!({0})) {{", "if ({0} && code < {1}) code = {1};", ("}",)
     both, never = " && ", "false"
@@ -90,17 +94,14 @@ def values_of(
         The program has steps that are more than arithmetic.
     """
     key = program, tuple([name for name, value in givens.items() if value == 0.0]), len(givens), wanted
-    function = _KEPT.get(key)
-    if function is None:
-        if len(_KEPT) >= KEPT:
-            del _KEPT[next(iter(_KEPT))]
-        function = _KEPT[key] = _write(program, givens, wanted)
-    code, values = function(givens)
+    code, values = _KEPT.get(key, lambda: _write(program, givens, wanted))(givens)
     return values, STATUSES[code]
 
 
 def script_of(program: Program, givens: Mapping[str, float], wanted: Sequence[str]) -> str:
     """Return a program as source of JavaScript, the function `solve(given)`, which calls what `script_names` defines.
+
+    It is what a page that moves will calculate with; nothing of the package itself asks for it.
 
     It takes an object of numbers in SI by name and returns an array: the index of the status in `STATUSES`, then each
     of the `wanted` names, vectors as arrays of two numbers; equal to Python to the last bit, but for the last one of an

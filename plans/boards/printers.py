@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from .arrays import cosine_of, mark_of, sine_of
+from .arrays import ORDERS, cosine_of, mark_of, sine_of
 from .protractor import MARKS, ROUND, graduation
 from .trace import Calm, Entry, Rare, Trace
 
@@ -49,22 +49,7 @@ PYTHON = {
     "cosine": "cosines[{0}]",
     "sine": "sines[{0}]",
 }
-ORDERS = {
-    "above": "{0} > {1}",
-    "at least": "{0} >= {1}",
-    "at most": "{0} <= {1}",
-    "beyond": "({0} >= {1} or {0} <= -{1})",
-    "within": "-{1} < {0} < {1}",
-}
-
-ORDERS_OF_ARRAYS = {
-    "above": "least({0}) > {1}",
-    "at least": "least({0}) >= {1}",
-    "at most": "most({0}) <= {1}",
-    "beyond": "(least({0}) >= {1} or most({0}) <= -{1})",
-    "within": "least({0}) > -{1} and most({0}) < {1}",
-}
-
+_TWICE = {name for name, said in PYTHON.items() if said.count("{0}") > 1}
 # what the source of `Chunked` calls
 ARRAYS: dict[str, Any] = {
     **{
@@ -178,7 +163,8 @@ class Plain:
         bound = number(calm.bound)
         if calm.of is not None:
             bound = f"({bound} * {self.value(calm.of)})" + (" ** 2" if calm.squared else "")
-        return self.orders[calm.order].format(self.value(calm.place), bound)
+        value = self.value(calm.place)
+        return self.orders[calm.order].format(least=value, most=value, bound=bound)
 
     @cached_property
     def _named(self) -> frozenset[int]:
@@ -192,7 +178,7 @@ class Plain:
                 named |= {place, *entry.operands, *entry.data.block}
             elif entry.operation == "given" or uses[place] > 1:
                 named.add(place)
-            elif entry.operation in ("sqrt", "mark", "fmod") and not self._is_square(entry.operands[0]):
+            elif entry.operation in _TWICE and not self._is_square(entry.operands[0]):
                 named.add(entry.operands[0])
             depth[place] = 1 + max((depth.get(o, 0) for o in entry.operands if o not in named), default=0)
             if depth[place] > DEEPEST:
@@ -230,13 +216,9 @@ def plain_names() -> dict[str, Any]:
         "sin": math.sin,
         "fmod": math.fmod,
         "isfinite": math.isfinite,
-        "arctan2": _arctan2,
+        "arctan2": np.arctan2,  # the C library's may differ in the last bit
     }
     return {**functions, "cosines": [*cosines, math.nan], "sines": [*sines, math.nan], "nan": math.nan, "inf": math.inf}
-
-
-def _arctan2(y: float, x: float) -> Any:
-    return np.arctan2(y, x)  # the C library's may differ in the last bit
 
 
 def number(value: float) -> str:
@@ -446,7 +428,7 @@ class Chunked:
             bound = f"({bound} * {f'most({of})' if calm.of in self.varying else of})" + (
                 " ** 2" if calm.squared else ""
             )
-        value = self._value(calm.place)
-        if calm.place not in self.varying:
-            return ORDERS[calm.order].format(value, bound)
-        return ORDERS_OF_ARRAYS[calm.order].format(value, bound)
+        least = most = self._value(calm.place)
+        if calm.place in self.varying:
+            least, most = f"least({least})", f"most({most})"
+        return ORDERS[calm.order].format(least=least, most=most, bound=bound)

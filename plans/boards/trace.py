@@ -150,7 +150,7 @@ class Real:
 
     @property
     def imag(self) -> float:
-        """Nothing."""
+        """Zero, as with real numbers of Python."""
         return 0.0
 
     def __bool__(self) -> bool:

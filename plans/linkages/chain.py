@@ -8,6 +8,7 @@ from importlib import import_module
 from types import ModuleType
 
 from ...scales.errors import InputError
+from ...scales.kept import Kept
 from ..board import Program, RecordingBoard, with_needs
 from ..names import by_lever, spelled, vector
 from . import compound
@@ -31,8 +32,7 @@ NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, wit
 PLANS = tuple(NEEDS)
 USUAL = tuple(plan for plan in PLANS if plan not in ("compound", "cycle"))  # without a word on which are wanted
 Attached = list[tuple[ModuleType, AssurGroup]]
-KEPT = 16  # constructions
-_CONSTRUCTED: dict[tuple[str, tuple[str, ...]], tuple[Structure, Program]] = {}
+_CONSTRUCTED = Kept[tuple[Structure, Program]](16)
 # modules with the constructions of each kind, which a mechanism without such a group does without
 CONSTRUCTIONS = {
     "RRR": "dyads.rrr",
@@ -87,12 +87,8 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Struc
 
 def constructed(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Structure, Program]:
     """Return what `construct` finds; kept, for a class has one mechanism with many values."""
-    asked = repr(mechanism), tuple(plans)
-    found = _CONSTRUCTED.pop(asked, None) or construct(mechanism, asked[1])
-    _CONSTRUCTED[asked] = found  # the one asked for last stands last
-    if len(_CONSTRUCTED) > KEPT:
-        del _CONSTRUCTED[next(iter(_CONSTRUCTED))]
-    return found
+    wanted = tuple(plans)
+    return _CONSTRUCTED.get((repr(mechanism), wanted), lambda: construct(mechanism, wanted))
 
 
 def _statics(board: RecordingBoard, mechanism: Mechanism, plans: set[str], dyads: Attached, bodies: Bodies) -> None:

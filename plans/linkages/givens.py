@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from operator import attrgetter
 from typing import Any
 
+from ...scales.kept import Kept
 from ..board import Program
 from ..names import magnitude
 from .bare import without_loads
@@ -14,8 +16,7 @@ from .mechanism import Mechanism
 from .triads.parts import start_names
 from .working_stroke import BEGIN, END
 
-KEPT = 64  # strokes
-_STROKES: dict[tuple[str, str], tuple[float, float]] = {}
+_STROKES = Kept[tuple[float, float]](64)
 
 
 def board_givens(
@@ -50,12 +51,7 @@ def _stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> tuple[float
     from .cycles.strokes import stroke_of  # which needs numpy, and givens of its own for the sweep
 
     asked = repr(mechanism), repr(sorted(values.items()))
-    if asked not in _STROKES:
-        travel = stroke_of(mechanism, values)
-        if len(_STROKES) == KEPT:
-            del _STROKES[next(iter(_STROKES))]
-        _STROKES[asked] = travel.low, travel.high
-    return _STROKES[asked]
+    return _STROKES.get(asked, lambda: attrgetter("low", "high")(stroke_of(mechanism, values)))
 
 
 def _stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterable[str]) -> dict[str, Any]:

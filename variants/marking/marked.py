@@ -9,6 +9,7 @@ from ...plans.marking.answers import Answer
 from ...plans.marking.verdicts import CLEAR, Line, Marking, Verdict, bounded, mark
 from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError
+from ...scales.kept import Kept
 from ...scales.numbers import SHOWN, quote
 from ..case import Settings
 from ..record_book import variant_of_book
@@ -66,7 +67,7 @@ class Desk:
 
     def __init__(self, check: Check) -> None:
         self.check = check
-        self._keys: dict[tuple[object, ...], Keyed] = {}
+        self._keys = Kept[Keyed](KEPT)
 
     def keyed(self, variant: str, settings: Settings, own: bool = True) -> Keyed:
         """Return the key of a variant; the last few are kept.
@@ -76,11 +77,7 @@ class Desk:
         """
         request = self.check.request if own else replace(self.check.request, format=None)
         name = (variant, request.format, *sorted(settings.items()))
-        if name not in self._keys:
-            if len(self._keys) >= KEPT:
-                self._keys.pop(next(iter(self._keys)))
-            self._keys[name] = keyed(request, variant, settings, self.check.rubric)
-        return self._keys[name]
+        return self._keys.get(name, lambda: keyed(request, variant, settings, self.check.rubric))
 
     def mark(self, answers: Answers) -> Marked:
         """Mark the answers of one student.
