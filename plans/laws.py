@@ -73,6 +73,13 @@ def inclination(direction: Any) -> Any:
     return np.arctan2(direction.imag, direction.real)
 
 
+def _other_leg(hypotenuse: Any, leg: Any) -> Any:
+    import numpy as np
+
+    # the leg may be said to be longer
+    return as_number(np.sqrt(np.maximum((hypotenuse - leg) * (hypotenuse + leg), 0.0)))
+
+
 def _sum(first: Any = 0.0, *rest: Any) -> Any:
     for value in rest:
         first = first + value
@@ -206,6 +213,8 @@ LAWS: dict[str, Law] = {
     "couple": lambda moment, length: moment / length,
     "along": lambda size, direction: size * direction,
     "opposite": lambda vector: vector * -1.0,
+    # of a right triangle: s_0^2 = r_0^2 - e^2 of a cam, half the chord of a circle
+    "other_leg": _other_leg,
     # sum of moments = 0, solved for a force on the arm l
     "moment_equation": lambda length, *moments: _sum(*moments) / length,
     # the same for a force at its end, along the normal to it

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from ...plans.cams.cam import PLATE
 from ...plans.cams.construction import OUTWARDS, PLATE_SIZES, ROCKER_SIZES, SIZES
-from ...plans.cams.dense import permitted, pressed, rolls, theta, transmission
+from ...plans.cams.dense import analogue, permitted, pressed, rolls, theta, transmission, turning
 from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.rules import Rule, rules_of
 from ..notes.blocks import Sentences, Story
@@ -136,7 +136,7 @@ def _of_roller(scene: CamScene, texts: Mapping[str, str]) -> Said:
     found |= {"ratio_s": ratio(scene, "mu_s", "mu_s_ds"), "ratio_ds": ratio(scene, "mu_ds", "mu_s_ds")}
     found["mu_s_ds"] = scene.factor(scene.scale(SIZES))
     line = pressed(scene.solved, SHOWN)
-    ds = abs(float(solved.motion.at(float(solved.angles[line]))[1]))
+    ds = abs(analogue(solved, line).real)
     found["OP"] = f"OP_{{{line}}} = |{words.symbol('ds')}| = {scene.length(ds)} {words.unit('mm')}"
     return found
 
@@ -166,7 +166,7 @@ def _of_rocker(scene: CamScene) -> Said:
     found |= {"l_rocker_paper": on_paper(scene, cam.sizes.l / scene.mu_l), "l_OC_letter": words.symbol("l_OC")}
     angles = {"psi": cam.rocker.motion.h, "psi_0": float(solved.values["psi_0"])}
     found |= {name: f"{words.symbol(name)} = {scene.degrees(angle)}" for name, angle in angles.items()}
-    dpsi = abs(float(cam.rocker.motion.at(float(solved.angles[pressed(scene.solved, SHOWN)]))[1]))
+    dpsi = abs(turning(solved, pressed(solved, SHOWN)))
     return found | {"ratio": words.short(float(f"{dpsi:.4g}"))}
 
 

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 from ...plans.check import Check
 from ...plans.hoist.checks import STRENGTH, strength
-from ...plans.hoist.model import DRAWN, section_of
+from ...plans.hoist.hoist import DRAWN
+from ...plans.hoist.model import section_of
 from ...plans.hoist.paper import SCALED
 from ...plans.hoist.solve import unit_of
 from ..givens import Given, givens_view

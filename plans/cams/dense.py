@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -36,11 +37,15 @@ def pieces(solved: SolvedCam, phase: Phase) -> list[tuple[Array, Array, Array, A
     found = []
     for low, high in pairwise(phase.corners):
         phi = np.linspace(low, high, max(2, int(np.ceil((high - low) / FINE))) + 1)
-        here: list[Any] = [np.array(v) for v in solved.motion.at(phi)]
-        for value, last in zip(here, solved.motion.at(phi[-1:], -1), strict=True):
-            value[-1] = last[0]
-        found.append((phi, *here))
+        found.append((phi, *_from_before(solved.motion.at, phi)))
     return found
+
+
+def _from_before(function: Callable[[Array, int], Any], phi: Array) -> Array:
+    """Return the values of a function of places and a side, at the last place the limit from before it."""
+    values = np.array(function(phi, 1))
+    values[..., -1:] = function(phi[-1:], -1)
+    return values
 
 
 def diagram(solved: SolvedCam, order: int, phases: tuple[Phase, ...]) -> list[list[tuple[float, float]]]:
@@ -129,8 +134,7 @@ def courses(solved: SolvedCam) -> list[list[tuple[float, float]]]:
     found = []
     for phase in solved.motion.phases[:3]:
         for phi, *_ in pieces(solved, phase):
-            values = np.array(theta(solved, phi))
-            values[-1] = theta(solved, phi[-1:], -1)[0]
+            values = _from_before(partial(theta, solved), phi)
             found.append(list(zip(phi.tolist(), values.tolist(), strict=True)))
     return found
 
@@ -172,8 +176,7 @@ def analogues(solved: SolvedCam, phase: Phase) -> list[complex]:
     cam = rocker_of(solved)
     found: list[complex] = []
     for phi, *_ in pieces(solved, phase):
-        rows = [cam.rocker.motion.at(phi, 1), cam.rocker.motion.at(phi[-1:], -1)]
-        psi, dpsi = (np.append(rows[0][k][:-1], rows[1][k]) for k in (0, 1))
+        psi, dpsi, _ = _from_before(cam.rocker.motion.at, phi)
         found += (cam.sizes.l * np.exp(1j * psi) * (1.0 - cam.rocker.sense * dpsi)).tolist()
     return found
 
@@ -234,9 +237,14 @@ def half_planes(solved: SolvedCam) -> Iterator[Side]:
                     yield -n, c - n.real * cam.sizes.l
 
 
+def turning(solved: SolvedCam, line: int) -> float:
+    """Return how fast a rocker turns on a section line beside the cam, dpsi/dphi, with the sense of the cam."""
+    return float(rocker_of(solved).rocker.motion.at(float(solved.angles[line]))[1]) * solved.cam.sense
+
+
 def pole_share(solved: SolvedCam, line: int) -> float:
     """Return which part of the way from the centre to the pivot the instant centre of cam and rocker is at."""
-    dpsi = float(rocker_of(solved).rocker.motion.at(float(solved.angles[line]))[1]) * solved.cam.sense
+    dpsi = turning(solved, line)
     return dpsi / (dpsi - 1.0)  # the roller's velocity is that of the cam there
 
 
@@ -291,7 +299,8 @@ class Sharpest:
 
 def sharpest(solved: SolvedCam) -> Sharpest | None:
     """Return the place of the least radius of curvature of the pitch curve, where it is convex anywhere."""
-    profile, found, lower = rolling(solved)[0], rolling(solved)[0].sharpest, solved.motion.lower
+    profile, lower = rolling(solved)[0], solved.motion.lower
+    found = profile.sharpest
     if not 0.0 < found.value < math.inf:
         return None
     phi = found.phi

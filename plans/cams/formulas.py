@@ -56,11 +56,6 @@ def _sharpest(stroke: Any, e: Any, s_0: Any, *parts: Any) -> Any:
     return as_number(np.min(radii, axis=0))
 
 
-def _other_leg(hypotenuse: Any, leg: Any) -> Any:
-    # the leg may be said to be longer
-    return as_number(np.sqrt(np.maximum((hypotenuse - leg) * (hypotenuse + leg), 0.0)))
-
-
 def _thirds(parts: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
     third = len(parts) // 3
     return parts[:third], parts[third : 2 * third], parts[2 * third :]
@@ -103,8 +98,6 @@ define(
     # the abscissa of the S-ds/dphi diagram points to where the instant centre lies
     turned_with=lambda analogue, sense: analogue * sense,
     negative=lambda value: -value,
-    # s_0^2 = r_0^2 - e^2, the radius of the upper dwell
-    other_leg=_other_leg,
     # the angle between the sides a and b
     angle_of_triangle=(
         _angle_of_triangle,

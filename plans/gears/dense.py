@@ -18,7 +18,7 @@ PLACES = 240  # of a curve
 SLIDING = {1: "sliding_of_pinion", 2: "sliding_of_wheel"}
 CORNER = 12  # points of a corner of the rack
 NEIGHBOURS = (-1, 0, 1)  # teeth of the rack, in pitches from the one in the middle
-TURN = cmath.rect(1.0, 0.5 * math.pi)  # from the real axis to the direction from the centre to the pole
+TO_POLE = cmath.rect(1.0, 0.5 * math.pi)  # from the real axis to the direction from the centre to the pole
 
 
 def sliding_curve(solved: SolvedGear, i: int, low: float) -> Curve:
@@ -95,15 +95,12 @@ class Rack:
     @property
     def edge(self) -> complex:
         """B, where the straight edge of the rack ends on that line."""
-        depth = (self._sizes("h_l") - self._sizes("h_a") - self._sizes("x_1")) * self._sizes("m") * self.k
-        return self.down * (depth / math.sin(self.tooth.alpha))
+        return self.touch - self.down * (self._sizes("rho_l1") * self.k)
 
     @property
     def corner(self) -> complex:
         """The centre of the corner of the last tooth on the left, on its right side."""
-        m, tooth = self._sizes("m"), self.tooth
-        depth = (self._sizes("h_a") + self._sizes("c") - self._sizes("x_1")) * m
-        return complex(-math.pi * m - tooth.e_f, tooth.rho_f - depth) * self.k
+        return complex(-math.pi * self._sizes("m") - self.tooth.e_f, -self.tooth.h_0) * self.k
 
     def outline(self) -> list[complex]:
         """Return the outline of the rack: flanks from its spaces to the round corners of its tips."""
@@ -118,7 +115,7 @@ class Rack:
 
     def teeth(self) -> tuple[complex, ...]:
         """Return the outline of the two teeth beside the space."""
-        turned = TURN * cmath.rect(self.k, -0.5 * self.pitch)
+        turned = TO_POLE * cmath.rect(self.k, -0.5 * self.pitch)
         points: NDArray[np.complex128] = self.centre + self.tooth.teeth(2) * turned
         return tuple(points.tolist())
 

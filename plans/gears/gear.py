@@ -41,8 +41,8 @@ MODULES = (
 )
 # what is not given: the basic rack of GOST 13755-81, a drawn length, a scale factor
 STANDARD = {"alpha": math.radians(20.0), "h_a": 1.0, "h_l": 2.0, "c": 0.25, "PW": 40e-3, "mu_theta": 50.0}
-# beginnings of the names of calculated quantities that are no lengths
-ANGLES = ("alpha", "tau", "nu", "phi")  # kinds of quantities
+# calculated quantities that are no lengths: angles and plain numbers by their kinds, others by their names
+ANGLES = ("alpha", "tau", "nu", "phi")
 PLAIN = ("x", "inv", "epsilon", "theta")
 NUMBERS = ("u", "y", "delta_y", *(f"z_W{i}" for i in WHEELS))
 

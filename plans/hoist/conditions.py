@@ -14,6 +14,7 @@ from ..hands.hand import Tolerance
 from ..marking.key import rounded
 from ..references import worst_behind
 from ..solved import PAPER_MM
+from . import root_plans
 from .hoist import VALUES
 from .solve import SolvedHoist, solve_hoist
 
@@ -39,10 +40,10 @@ def tolerances_of(solved: SolvedHoist, tolerance: Tolerance) -> dict[str, float]
 
 def _times(solved: SolvedHoist, tolerance: Tolerance) -> Iterator[tuple[str, float]]:
     for name, quantity in solved.quantities.items():
-        drawn = solved.quantities.get(f"{name}_drawn")
+        drawn = solved.quantities.get(root_plans.drawn(name))
         if drawn is None or quantity.value is None or drawn.value is None or not math.isfinite(drawn.value):
             continue
         mu = float(solved.values["mu_t1"]) * PAPER_MM
         of_segment = tolerance.of_segment(abs(drawn.value) / mu) * mu
         yield name, max(abs(drawn.value - quantity.value) + of_segment, rounded(quantity.value, tolerance))
-        yield f"{name}_drawn", max(of_segment, rounded(quantity.value, tolerance))
+        yield root_plans.drawn(name), max(of_segment, rounded(quantity.value, tolerance))

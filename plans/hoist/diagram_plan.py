@@ -114,7 +114,7 @@ def diameter(board: Board, slack: bool) -> None:
     board.lay(f"{CIRCLE}.max", f"{CIRCLE}.C", HORIZONTAL, "R")
     board.back(f"{CIRCLE}.min", f"{CIRCLE}.C", HORIZONTAL, "R")
     if slack:
-        board.calc("_slack_high", "half_chord", "R", "P_m")
+        board.calc("_slack_high", "other_leg", "R", "P_m")
         board.calc("_slack_low", "opposite", "_slack_high")
         for side in ("high", "low"):
             board.place(f"{CIRCLE}.{side}", "zero", f"_slack_{side}")

@@ -20,18 +20,18 @@ from ..contest import Clock, Entry, timed
 from ..hands.hand import Hand
 from ..hands.shaky import Paper, draw
 from ..hands.spread import kept
-from ..names import role
 from .construction import Roots, construct
 from .diagram_plan import FORCES
 from .hoist import CIRCLE_PART, FORCES_PART, ROOTS_PART
 from .paper import board_givens
 from .rivals import COURSE, DRAWN, HAND, LIFT_OFF, PEAK
+from .root_plans import drawn
 from .solve import SolvedHoist
 
 Array = NDArray[np.float64]
 SECTIONS = (10, 20, 40, 80, 160)  # before the lift-off
 DRAWINGS, SEED = 400, 1
-T_1, TOP = "t_1_drawn", "F_max"
+T_1, TOP = drawn("t_1"), "F_max"
 ENDS = {"R": "F_12", "P": "P_12"}  # forces by the letters of the marks at their ends
 
 
@@ -75,10 +75,10 @@ def by_hand(solved: SolvedHoist, mus: Mapping[str, float], hand: Hand) -> Iterat
         errors = np.broadcast_to(np.abs(values[name] - right), DRAWINGS) * (1.0 / right)
         most, middle = float(kept(errors, 0.0)), float(np.median(errors))
         yield Entry(HAND, setting, kind, most, middle, name, t_1, None, 1, 0.0)
-    marks = [mark for mark in exact if role(mark).plan == FORCES and role(mark).of[0] in ENDS]
+    ends = {f"{FORCES}.{letter}{i}": force for letter, force in ENDS.items() for i in range(len(exact))}
+    marks = [mark for mark in exact if mark in ends]
     worth = givens["mu_F"] * (1.0 / found["F_max"])
     lines = np.array([float(kept(worth * np.abs(values[m].imag - exact[m].imag), 0.0)) for m in marks])
     at = marks[int(lines.argmax())]
     time = float(exact[at].real) * givens["mu_t"]
-    name = ENDS[role(at).of[0]]
-    yield Entry(HAND, setting, COURSE, float(lines.max()), float(np.median(lines)), name, time, None, 1, 0.0)
+    yield Entry(HAND, setting, COURSE, float(lines.max()), float(np.median(lines)), ends[at], time, None, 1, 0.0)

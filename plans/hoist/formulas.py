@@ -91,7 +91,6 @@ define(
     support_share=lambda C_12, C_01: C_12 / (C_01 + C_12),
     static_force=lambda m, g: m * g,
     taut_speed=lambda V_0, a, slack: np.sqrt(V_0 * V_0 + 2.0 * a * slack),
-    half_chord=lambda radius, distance: np.sqrt((radius - distance) * (radius + distance)),
     ratio=lambda part, whole: part / whole,
     product=lambda first, second: first * second,
     # (11) y - osc = m g / C

@@ -26,7 +26,7 @@ from ..calculated import calculated
 from ..laws import define
 from ..names import is_shown, role
 from . import formulas as formulas
-from .hoist import VALUES
+from .hoist import DRAWN, VALUES
 from .roots import lag_rate
 
 BEAMS = (0, 2)  # the support beam and the bridge beam
@@ -278,7 +278,6 @@ def _rest(program: Program, values: Mapping[str, float], t_1: float) -> float:
         return float(following / k - mpf(t_1))
 
 
-DRAWN = "drawn"
 PARTS = {
     "reduced": (reduced,),
     "resting": (lifting_off, extremes),
