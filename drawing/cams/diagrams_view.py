@@ -14,7 +14,7 @@ from ..areas import beside
 from ..diagram import AT_POLE, Axis, Field, Pole, axes, mark_pole, numbers, small
 from ..dimensions import linear
 from ..figure import Figure, Stage
-from ..shapes import Circle, Group, Line, Pen, Polyline, Text
+from ..shapes import Group, Line, Pen, Polyline, Text
 from ..text import Box, box, lay_out
 from ..view import Canvas, View
 from .scene import CamScene
@@ -149,7 +149,7 @@ def _means(scene: CamScene, plan: str) -> list[tuple[int, complex]]:
 
 
 def _mark(scene: CamScene, at: complex, role: str, name: str) -> Group:
-    return Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), role, name)
+    return scene.node(at, name, role)
 
 
 def _amplitudes(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:

@@ -222,7 +222,7 @@ def sharpest(canvas: Canvas, scene: CamScene) -> None:
     size = 0.8 * scene.style.arrow / 2
     cross = (Line(core - size * d, core + size * d, Pen.THIN) for d in (1 + 0j, 1j))
     canvas.add(Group(tuple(cross), "point", "curvature"))
-    canvas.add(Group((Circle(place, scene.style.node, Pen.MAIN, fill="black"),), "sharpest", "rho_min"))
+    canvas.add(scene.node(place, "rho_min", "sharpest", filled=True, pen=Pen.MAIN))
     anchor = (core, place) if found.arc else core  # about the cam's centre stands enough
     canvas.label(scene.words.symbol("rho_min"), anchor, prefer=-normal, clear=0.8, height=scene.style.text)
 
@@ -245,7 +245,7 @@ def normal(canvas: Canvas, scene: CamScene, contact: Contact) -> None:
     canvas.add(Line(0j, contact.pole, Pen.THIN, role="transverse", name=f"P{i}"))
     for mark, place, part in (("K", contact.touch, "profile"), ("P", contact.pole, "normal")):
         canvas.part(part)
-        canvas.add(Group((Circle(place, style.node, Pen.MAIN, fill="white"),), "point", f"{mark}{i}"))
+        canvas.add(scene.node(place, f"{mark}{i}", "point", pen=Pen.MAIN))
         canvas.label(f"{mark}_{{{i}}}", place, prefer=place * 1j, clear=0.8, height=style.text)
     across = up * -1j if swept(out, up) > 0.0 else up * 1j
     for name, a, b, far in (("theta", out, up, reach), ("gamma", out, across, 0.5 * reach)):

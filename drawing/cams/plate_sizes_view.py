@@ -68,7 +68,7 @@ def _tangent(canvas: Canvas, scene: CamScene, foot: complex) -> None:
     """Draw the tangent at 45 degrees from past the place where it touches to its foot on the axis, with its angle."""
     touch = scene.drawn(touch_of_plate(scene.solved), PLATE_SIZES)
     canvas.add(Line(touch + ALONG * LINE, foot - ALONG * LINE, Pen.THIN, role="limit", name="convex"))
-    canvas.add(Group((Circle(touch, scene.style.node, Pen.THIN, fill="black"),), "touch", "convex"))
+    canvas.add(scene.node(touch, "convex", "touch", filled=True))
     angle(canvas, foot, (1j, ALONG), 3.0 * scene.style.label, "tangent", "45°")
 
 
@@ -84,7 +84,7 @@ def _nodes(canvas: Canvas, scene: CamScene) -> None:
             key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
             if str(i) not in shared.setdefault(key, []):
                 shared[key].append(str(i))
-                canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"{i}_{end}"))
+                canvas.add(scene.node(at, f"{i}_{end}"))
     for at, numbers in shared.items():
         canvas.label(", ".join(numbers), at, prefer=1j, clear=0.8, height=small(scene.style.text))
 

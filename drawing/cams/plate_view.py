@@ -7,7 +7,7 @@ from ...plans.cams.dense import up_at
 from ..dimensions import linear
 from ..figure import Figure, Stage
 from ..hardware import Rod
-from ..shapes import Circle, Group, Line, Pen, Polyline, Text
+from ..shapes import Group, Line, Pen, Polyline, Text
 from ..text import Box, box, lay_out
 from ..view import Canvas, View
 from .inversion import (
@@ -78,7 +78,7 @@ def _positions(canvas: Canvas, scene: CamScene, R: float, reach: float) -> None:
             canvas.add(Line(*_plate(scene, i, R), Pen.THIN, role="plate", name=str(i)))
         for role, place, part in (("node", at, "centres"), ("contact", contact, "profile")):
             canvas.part(part)
-            canvas.add(Group((Circle(place, scene.style.node, Pen.THIN, fill="white"),), role, str(i)))
+            canvas.add(scene.node(place, str(i), role))
 
 
 def _plate(scene: CamScene, i: int, R: float) -> tuple[complex, complex]:

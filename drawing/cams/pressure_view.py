@@ -11,7 +11,7 @@ from ..areas import beside
 from ..diagram import Axis, Field, axes, divisions, numbers
 from ..figure import Figure, stages
 from ..printed import DEGREES
-from ..shapes import Circle, Group, Line, Pen, Polyline, Text
+from ..shapes import Group, Line, Pen, Polyline, Text
 from ..text import Box, box
 from ..view import Canvas, View
 from .scene import CamScene
@@ -86,7 +86,7 @@ def _sections(canvas: Canvas, scene: CamScene, field: Field, boxes: Sequence[Box
         foot = field.at(phi, field.y.low) - 1.5j
         for a, b in beside(field.at(phi, field.y.high), foot, boxes):
             canvas.add(Line(a, b, Pen.THIN, role="section", name=str(i)))
-        canvas.add(Group((Circle(field.at(phi, value), scene.style.node, Pen.THIN, fill="white"),), "node", str(i)))
+        canvas.add(scene.node(field.at(phi, value), str(i)))
 
 
 FIGURE = Figure("pressure", pressure_view, ("reduction",), stages("axes", "curve", "limits"), "cam.pressure")

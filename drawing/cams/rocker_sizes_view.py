@@ -96,7 +96,7 @@ def _bound(canvas: Canvas, scene: CamScene, bound: Bound, frame: Box) -> None:
     cam, limit, arm, along = scene.solved.rocker, bound.limit, bound.arm, bound.along
     assert cam is not None
     end = scene.drawn(bound.end)
-    canvas.add(Group((Circle(end, scene.style.node, Pen.THIN, fill="black"),), "touch", limit.name))
+    canvas.add(scene.node(end, limit.name, "touch", filled=True))
     canvas.add(Line(end, at_level(end, along, frame[1]), Pen.THIN, role="bound", name=limit.name))
     if is_back(limit.name) and limit.name not in cam.sizes.on:
         return
@@ -121,11 +121,11 @@ def _nodes(canvas: Canvas, scene: CamScene) -> None:
     canvas.part("positions")
     for i in scene.solved.layout.division.lines:
         at = scene.mm(f"{ROCKER_SIZES}.B{i}")
-        canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"B{i}"))
+        canvas.add(scene.node(at, f"B{i}"))
     canvas.part("analogues")
     for i, phase in on_lines(scene):
         at = scene.drawn(analogue_end(scene.solved, i, phase))
-        canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"{i}_{phase}"))
+        canvas.add(scene.node(at, f"{i}_{phase}"))
         key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
         shared.setdefault(key, []).append(str(i))
     middle, named = sum(shared) / len(shared), str(pressed(scene.solved, SHOWN))

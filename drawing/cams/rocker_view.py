@@ -70,7 +70,7 @@ def rocker_view(scene: CamScene) -> View:
 
 def _positions(canvas: Canvas, scene: CamScene) -> None:
     """Draw the pivot, the roller's arc about it, and the roller in each position."""
-    solved, node = scene.solved, scene.style.node
+    solved = scene.solved
     cam = solved.rocker
     assert cam is not None
     l, R, swing = scene.drawn(cam.sizes.l), scene.drawn(cam.profile.R), cam.rocker.motion.h
@@ -84,9 +84,9 @@ def _positions(canvas: Canvas, scene: CamScene) -> None:
             canvas.part("profile")
             canvas.add(Group((Circle(at, R, Pen.THIN),), "roller", str(i)))
             canvas.part("pivots")
-            canvas.add(Group((Circle(pivot, node, Pen.THIN, fill="white"),), "node", f"A{i}"))
+            canvas.add(scene.node(pivot, f"A{i}"))
         canvas.part("pitch")
-        canvas.add(Group((Circle(at, node, Pen.THIN, fill="white"),), "node", f"B{i}"))
+        canvas.add(scene.node(at, f"B{i}"))
 
 
 def _numbers(canvas: Canvas, scene: CamScene, radius: float) -> None:

@@ -89,7 +89,7 @@ def _positions(canvas: Canvas, scene: CamScene, e: float, reach: float) -> None:
             canvas.part("profile")
             canvas.add(Group((Circle(at, R, Pen.THIN),), "roller", str(i)))
         canvas.part("pitch")
-        canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", str(i)))
+        canvas.add(scene.node(at, str(i)))
 
 
 def _contact(scene: CamScene, i: int) -> Contact:

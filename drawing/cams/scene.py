@@ -14,9 +14,7 @@ from ...plans.cams.solve import SCALES, SolvedCam
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
 from ...scales.scale import Scale
-from ..givens import Given
-from ..printed import DEGREES, decimals_for
-from ..style import Style
+from ..contents import SubjectScene
 from ..words import Words
 
 Size = TypeVar("Size", float, complex)
@@ -27,17 +25,13 @@ CHORD = "chord"  # the mark in the index of what is read from chords: above it, 
 
 
 @dataclass(frozen=True, slots=True)
-class CamScene:
+class CamScene(SubjectScene[SolvedCam]):
     """A solved cam on a certain format, in certain words.
 
     `solved` has the diagrams as large as they are drawn, `reduction` times as large as the task's lengths on paper;
     `mus` are the scale factors that are chosen, m/mm.
     """
 
-    solved: SolvedCam
-    words: Words
-    style: Style
-    givens: Mapping[str, Given]
     mus: Mapping[str, float]
     reduction: float = 1.0
 
@@ -99,14 +93,6 @@ class CamScene:
         if given is not None and given.unit == "mm" and not isinstance(given.value, str):
             return f"{self.words.symbol(name)} = {self.words.short(given.value)} {self.words.unit('mm')}"
         return f"{self.words.symbol(name)} = {self.length(value)} {self.words.unit('mm')}"
-
-    def degrees(self, angle: float) -> str:
-        """Return an angle as a dimension has it: to a hundredth of a degree, without zeros at the end."""
-        return f"{self.words.short(round(float(angle) * DEGREES, 2))}°"
-
-    def value(self, value: float) -> str:
-        """Return a value with the usual digits."""
-        return self.words.number(value, decimals_for(value))
 
 
 def given(*names: str) -> Callable[[CamScene], str]:

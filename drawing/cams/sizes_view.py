@@ -85,7 +85,7 @@ def _limit(canvas: Canvas, scene: CamScene, plane: HalfPlane, low: float) -> Non
     up = up if up.imag > 0.0 else -up
     foot = at_level(touch, up, low)
     canvas.add(Line(touch + up * LINE, foot, Pen.THIN, role="limit", name=plane.name))
-    canvas.add(Group((Circle(touch, scene.style.node, Pen.THIN, fill="black"),), "touch", plane.name))
+    canvas.add(scene.node(touch, plane.name, "touch", filled=True))
     if is_back(plane.name) and scene.solved.roller and plane.name not in scene.solved.roller.sizes.on:
         return
     axis = at_level(touch, up, 0.0)
@@ -108,7 +108,7 @@ def _nodes(canvas: Canvas, scene: CamScene) -> None:
     out: dict[complex, complex] = {}
     for i, phase in on_lines(scene):
         at = scene.mm(f"{SIZES}.{i}_{phase}")
-        canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="white"),), "node", f"{i}_{phase}"))
+        canvas.add(scene.node(at, f"{i}_{phase}"))
         key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
         shared.setdefault(key, []).append(str(i))
         out[key] = out.get(key, 0j) + outwards(scene.solved, i, phase)

@@ -8,7 +8,7 @@ from ...plans.gears.course import zones
 from ..dimensions import linear
 from ..figure import ANSWERS, Figure, stages
 from ..printed import DEGREES, Input, calculation
-from ..shapes import Circle, Group, Line, Pen, Polyline, Text
+from ..shapes import Group, Line, Pen, Polyline, Text
 from ..text import lay_out
 from ..view import Canvas, View
 from ..words import indexed
@@ -95,7 +95,7 @@ def _line(canvas: Canvas, scene: GearScene) -> None:
             ends[f"H{i}"] = x
     for name, x in ends.items():
         canvas.part(STAGE.get(name, "pitches"))
-        canvas.add(Group((Circle(complex(x, 0.0), style.node, Pen.THIN, fill="white"),), "point", name))
+        canvas.add(scene.node(complex(x, 0.0), name, "point"))
         canvas.label(indexed(name), complex(x, 0.0), prefer=-1j, clear=style.node + 0.8)
 
 

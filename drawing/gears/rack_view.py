@@ -7,7 +7,7 @@ from dataclasses import replace
 from ...plans.gears.dense import Rack
 from ..dimensions import angle, linear
 from ..page import extent
-from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
+from ..shapes import Arc, Group, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, right_angle, unit
 from ..view import Canvas, View
 from .circles import PENS, WIDEST
@@ -73,7 +73,7 @@ def _line_of_action(canvas: Canvas, scene: GearScene, rack: Rack) -> None:
     canvas.add(right_angle(touch, inward, -rack.down, 0.6 * style.label))
     places = (("N", touch, inward), ("B", rack.edge, rack.down), ("P", 0j, -1 + 1j))
     for name, at, prefer in places:
-        canvas.add(Group((Circle(at, style.node, Pen.THIN, fill="white"),), "point", name))
+        canvas.add(scene.node(at, name, "point"))
         canvas.label(name, at, prefer=prefer, clear=style.node + 0.6)
     rays = -1.0 + 0j, -rack.down
     angle(canvas, 0j, rays, 0.8 * abs(far), "alpha", scene.angle("alpha"), prefer=-1 + 0j)

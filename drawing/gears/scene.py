@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...plans.gears.checks import SAME
 from ...plans.gears.construction import MESHING
 from ...plans.gears.geometry import POINTS
 from ...plans.gears.meshing import Meshing
+from ...plans.gears.solve import SolvedGear
 from ...plans.gears.wheels import Wheel, wheels
 from ...scales.scale import Scale
-from ..givens import Given
-from ..printed import DEGREES, decimals_for
-from ..style import Style
+from ..contents import SubjectScene
 from ..words import Words
-
-if TYPE_CHECKING:
-    from ...plans.gears.solve import SolvedGear
 
 TALL = 7.0  # heights of letters that a tooth must have for what is measured on it
 OF_POINTS = {"y_1": "y_{1}", "y_2": "y_{2}", "theta_12": "θ_{12}", "theta_21": "θ_{21}"}
@@ -28,7 +24,7 @@ NUMBERS = ("03", "06", "08")  # points of the table at the three places, in the 
 
 
 @dataclass(frozen=True, slots=True)
-class GearScene:
+class GearScene(SubjectScene[SolvedGear]):
     """A solved pair on a certain format, in certain words.
 
     `mu_l` is the scale factor of the meshing with both centres, `near` that of its middle, which has a view of its own
@@ -36,10 +32,6 @@ class GearScene:
     m/mm. `part` is how much of their usual size the diagrams of sliding have; `close` is the scene of that middle.
     """
 
-    solved: SolvedGear
-    words: Words
-    style: Style
-    givens: Mapping[str, Given]
     mu_l: float
     near: float
     rolled: float
@@ -100,17 +92,9 @@ class GearScene:
         """Return a length in mm."""
         return self.words.number(value * 1e3, decimals)
 
-    def degrees(self, angle: float) -> str:
-        """Return an angle as a dimension has it: to a hundredth of a degree, without zeros at the end."""
-        return f"{self.words.short(round(angle * DEGREES, 2))}°"
-
     def angle(self, name: str) -> str:
         """Return an angle with its letter: alpha_w = 26.65°."""
         return f"{self.words.symbol(name)} = {self.degrees(self.size(name))}"
-
-    def value(self, value: float) -> str:
-        """Return a number with the usual digits."""
-        return self.words.number(value, decimals_for(value))
 
 
 def lettered(words: Words) -> Words:

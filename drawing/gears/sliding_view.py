@@ -14,7 +14,7 @@ from ..areas import strokes
 from ..diagram import Axis, Field, axes, curve, divisions, numbers
 from ..dimensions import linear
 from ..figure import ANSWERS, Figure, stages
-from ..shapes import Circle, Group, Line, Pen, Text
+from ..shapes import Group, Line, Pen, Text
 from ..symbols import unit
 from ..text import lay_out
 from ..view import Canvas, View
@@ -105,7 +105,7 @@ def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordi
     for name, rho in places(scene.solved.sizes).items():
         at = above.at(rho, 0.0)
         canvas.part("active_line" if name in ("A1", "A2") else "axes")
-        canvas.add(Group((Circle(at, scene.style.node, Pen.MAIN, fill="white"),), "point", name))
+        canvas.add(scene.node(at, name, "point", pen=Pen.MAIN))
         canvas.label(indexed(name), at, prefer=-0.6 - 1j if name == "N1" else 0.6 - 1j, clear=1.0, priority=1)
 
 
@@ -118,7 +118,7 @@ def _velocities(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordin
         canvas.part("velocities")
         canvas.add(Group((Line(tips[0], tips[-1], Pen.MAIN),), "curve", f"V_k{i}"))
         for point, tip in zip(POINTS, tips, strict=True):
-            canvas.add(Group((Circle(tip, style.node, Pen.THIN, fill="white"),), "ordinate", f"y_{i}_{point}"))
+            canvas.add(scene.node(tip, f"y_{i}_{point}", "ordinate"))
         far = [tip for tip in tips if (tip - w).real * SIDES[i] > -1e-6]
         canvas.label(words.symbol(f"V_k{i}"), widest(far, w), prefer=1j, clear=1.0)
         point, tip = (POINTS[-1], tips[-1]) if i == 1 else (POINTS[0], tips[0])
@@ -140,7 +140,7 @@ def _pole(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) 
     fits = w.imag - 2.0 * scene.style.arrow > lay_out(text, scene.style.text).width
     linear(canvas, (complex(w.real, 0.0), w), 0j, text if fits else "", "PW")
     canvas.part("pole")
-    canvas.add(Group((Circle(w, scene.style.node, Pen.MAIN, fill="white"),), "point", "W"))
+    canvas.add(scene.node(w, "W", "point", pen=Pen.MAIN))
     canvas.label("W", w, prefer=1j, clear=1.2, priority=1)
     return [] if fits else [f"{text} {words.unit('mm')}"]
 
@@ -175,11 +175,7 @@ def theta_diagram(canvas: Canvas, scene: GearScene, field: Field) -> None:
         curve(canvas, field, sliding_curve(scene.solved, i, field.y.low), name)
         points = ((p, place(scene, p), scene.size(f"{name}_{p}")) for p in POINTS)
         canvas.add(
-            *(
-                Group((Circle(field.at(rho, value), scene.style.node, Pen.THIN, fill="white"),), "node", f"{name}_{p}")
-                for p, rho, value in points
-                if value >= field.y.low
-            )
+            *(scene.node(field.at(rho, value), f"{name}_{p}") for p, rho, value in points if value >= field.y.low)
         )
         _active(canvas, scene, field, i)
         canvas.label(scene.words.symbol(name), _free(scene, field, i), prefer=1j, clear=1.0)
@@ -220,7 +216,7 @@ def _extremes(canvas: Canvas, scene: GearScene, field: Field) -> None:
         if high != low:
             canvas.add(Line(low, high, Pen.MAIN, role="end", name=end))
         for (name, value), at in zip(seen.items(), tips, strict=False):
-            canvas.add(Group((Circle(at, scene.style.node, Pen.THIN, fill="black"),), "extreme", f"{name}_{end}"))
+            canvas.add(scene.node(at, f"{name}_{end}", "extreme", filled=True))
             shown.append((at, f"{words.symbol(f'{name}_{end}')} = {words.number(value, 2)}"))
     levels = spread([at.imag for at, _ in shown], field.origin.imag, APART * height)
     for (at, text), level in zip(shown, levels, strict=True):

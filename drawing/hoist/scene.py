@@ -12,24 +12,15 @@ from ...plans.hoist.solve import ON_PAPER, SCALES, SolvedHoist
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
 from ...scales.scale import Scale
-from ..givens import Given
-from ..printed import decimals_for
-from ..shapes import Circle, Group, Pen
-from ..style import Style
+from ..contents import SubjectScene
 from ..words import Words
 from .ladders import scale_of
 
-DIGITS = 4
-
 
 @dataclass(frozen=True, slots=True)
-class HoistScene:
+class HoistScene(SubjectScene[SolvedHoist]):
     """A solved hoist on a certain format, in certain words; `mus` are the chosen scale factors, SI per mm."""
 
-    solved: SolvedHoist
-    words: Words
-    style: Style
-    givens: Mapping[str, Given]
     mus: Mapping[str, float]
 
     def size(self, name: str) -> float:
@@ -50,10 +41,6 @@ class HoistScene:
         places: list[complex] = (curve * (1.0 / PAPER_MM)).tolist()
         return places
 
-    def value(self, value: float) -> str:
-        """Return a value with the usual digits."""
-        return self.words.number(value, decimals_for(value, DIGITS))
-
     def stated(self, name: str, value: float | None = None, unit: str = "N") -> str:
         """Return a quantity with its symbol and unit."""
         number = self.value(self.size(name) if value is None else value)
@@ -62,10 +49,6 @@ class HoistScene:
     def factors(self, *symbols: str) -> str:
         """Return scale factors in one line."""
         return ";  ".join(self.words.scale(self.scale(symbol)) for symbol in symbols)
-
-    def node(self, at: complex, name: str, filled: bool = False) -> Group:
-        """Return the mark of a point of a diagram."""
-        return Group((Circle(at, self.style.node, Pen.THIN, fill="black" if filled else "white"),), "node", name)
 
 
 def lettered(words: Words, roots: int = 0) -> Words:
