@@ -15,7 +15,7 @@ from ..plans.hands.expectations import DRAWINGS, SEED, Expectation, as_data, exp
 from ..plans.hands.hand import PRESETS, Hand, Tolerance, preset
 from ..plans.hands.shaky import Paper
 from ..plans.hands.spread import Spread
-from ..plans.linkages.guides import guide_letters
+from ..plans.linkages.legs import guide_letters
 from ..plans.names import role
 from ..plans.quantities import Quantity
 from ..scales.arguments import of_kind

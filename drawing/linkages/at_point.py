@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import ACCELERATION, TOTAL, VELOCITY, Coupler
-from ...plans.linkages.guides import guide_letters
+from ...plans.linkages.legs import guide_letters
 from ...plans.names import mark, role, spelled, vector
 from ..shapes import Vector, shifted
 from .reading import vectors_of

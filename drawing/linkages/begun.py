@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ...plans.board import POSITION, Step
-from ...plans.linkages.guides import guide_letters
+from ...plans.linkages.legs import guide_letters
 from ...plans.linkages.mechanism import Driver
 from ..handouts.begun import Shown
 from .figures.inset import NUMERALS

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from functools import cache
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from importlib import import_module
-from types import ModuleType
 
 from ...scales.errors import InputError
 from ...scales.kept import Kept
-from ..board import Program, RecordingBoard, with_needs
-from ..names import by_lever, spelled, vector
+from ..board import Board, Program, RecordingBoard, Step, with_needs
+from ..names import Name, by_lever, couple, lever_arm, moment, role, spelled, vector
 from . import compound
-from .lever import Joined, lever, points_of
+from .driver import driver_of
+from .legs import AssurGroup
 from .loads import hung, lay_loads
-from .mechanism import FRAME, ZERO, Driver, Mechanism, SlidingDriver
-from .parts import AssurGroup, Bodies, Forces, Span
-from .structure import Structure, analyse
+from .mechanism import FRAME, ZERO, Mechanism
+from .parts import Bodies, Ends, Forces, Span
+from .structure import TRIAD, Structure, analyse
 from .working_stroke import Moving, needs_stroke
 
 NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, with those they are built on
@@ -31,28 +31,13 @@ NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, wit
 }
 PLANS = tuple(NEEDS)
 USUAL = tuple(plan for plan in PLANS if plan not in ("compound", "cycle"))  # without a word on which are wanted
-Attached = list[tuple[ModuleType, AssurGroup]]
 _CONSTRUCTED = Kept[tuple[Structure, Program]](16)
-# modules with the constructions of each kind, which a mechanism without such a group does without
+# modules that name the parts of a group of each kind, which a mechanism without such a group does without
 CONSTRUCTIONS = {
-    "RRR": "dyads.rrr",
-    "RRP": "dyads.rrp",
-    "RPR": "dyads.rpr",
-    "PRP": "dyads.prp",
-    "RPP": "dyads.rpp",
-    "III": "triads.triad",
+    **dict.fromkeys(("RRR", "RRP", "PRP"), "dyads.pinned"),
+    **dict.fromkeys(("RPR", "RPP"), "dyads.sliding"),
+    TRIAD: "triads.triad",
 }
-DRIVERS: dict[type, str] = {Driver: "driver", SlidingDriver: "sliding_driver"}
-
-
-def driver_of(mechanism: Mechanism) -> ModuleType:
-    """Return the constructions of the mechanism's driver."""
-    return _module(DRIVERS[type(mechanism.driver)])
-
-
-@cache
-def _module(name: str) -> ModuleType:
-    return import_module(f".{name}", __package__)
 
 
 def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Structure, Program]:
@@ -68,17 +53,18 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Struc
     for opposite, length in mechanism.opposites.items():
         board.calc(opposite, "opposite", length)
     plans = with_needs(plans, NEEDS)
-    dyads, bodies = _named(mechanism, structure)
+    groups, bodies = _named(mechanism, structure)
     for plan in ("position", "velocity", "acceleration"):
         if plan in plans:
-            getattr(driver_of(mechanism), plan)(board, mechanism)
+            getattr(driver_of(mechanism), plan)(board)
             if plan == "position":
-                _place_frame(board, mechanism)
-            for module, dyad in dyads:
-                getattr(module, plan)(board, dyad)
+                for point, place in mechanism.frame_points.items():
+                    board.place(point, *place)
+            for group in groups:
+                getattr(group, plan)(board)
     if "compound" in plans:
-        compound.compound(board, compound.couplers(mechanism, (dyad for _, dyad in dyads), bodies))
-    _statics(board, mechanism, set(plans), dyads, bodies)
+        compound.compound(board, compound.couplers(mechanism, groups, bodies))
+    _statics(board, mechanism, set(plans), groups, bodies)
     program = Program(board.steps)
     for name in sorted(mechanism.givens.intersection(program.names)):
         raise InputError("name-twice", name=name)
@@ -91,38 +77,33 @@ def constructed(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Str
     return _CONSTRUCTED.get((repr(mechanism), wanted), lambda: construct(mechanism, wanted))
 
 
-def _statics(board: RecordingBoard, mechanism: Mechanism, plans: set[str], dyads: Attached, bodies: Bodies) -> None:
+def _statics(
+    board: RecordingBoard, mechanism: Mechanism, plans: set[str], groups: Sequence[AssurGroup], bodies: Bodies
+) -> None:
     """Lay down the loads; plans of forces, the lever, and their difference, as far as they are wanted."""
     if not plans & {"forces", "lever"}:
         return
-    module = driver_of(mechanism)
-    spans = {span.link.number: span for span in _spans(mechanism, dyads)}
+    driver = driver_of(mechanism)
+    spans = {span.number: span for part in (driver, *groups) for span in part.spans}
     resisting = any(couple.sense is None for couple in mechanism.couples) or needs_stroke(mechanism)
-    turning = module.turning_rate(board, mechanism) if resisting else ZERO
+    turning = driver.turning_rate(board) if resisting else ZERO
     lay_loads(board, Moving(mechanism, bodies, spans, vector("V", mechanism.driver.point).size, turning))
     if "forces" in plans:
-        _forces(board, mechanism, dyads, bodies)
+        _forces(board, mechanism, groups, bodies)
     if "lever" in plans:
         _lever(board, mechanism, spans, bodies)
     if {"forces", "lever"} <= plans:
-        name = module.balance(mechanism)
-        board.calc(spelled("delta", name), "difference", by_lever(name), name)
-
-
-def _spans(mechanism: Mechanism, dyads: Attached) -> tuple[Span, ...]:
-    """Return all links with two joints, the driver first."""
-    return (*driver_of(mechanism).spans(mechanism), *(span for _, dyad in dyads for span in dyad.spans))
+        board.calc(spelled("delta", driver.balance), "difference", by_lever(driver.balance), driver.balance)
 
 
 def hinged(mechanism: Mechanism, structure: Structure) -> tuple[compound.Coupler, ...]:
     """Return the couplers whose motion the plan `compound` splits."""
-    dyads, bodies = _named(mechanism, structure)
-    return compound.couplers(mechanism, (dyad for _, dyad in dyads), bodies)
+    return compound.couplers(mechanism, *_named(mechanism, structure))
 
 
 def named_groups(mechanism: Mechanism) -> tuple[AssurGroup, ...]:
     """Return the groups with the names that their constructions use, in order of attachment."""
-    return tuple(group for _, group in _named(mechanism, analyse(mechanism))[0])
+    return _named(mechanism, analyse(mechanism))[0]
 
 
 def moving_bodies(mechanism: Mechanism, structure: Structure) -> Bodies:
@@ -142,65 +123,112 @@ def require_couplers(mechanism: Mechanism, structure: Structure) -> None:
         raise InputError("no-coupler")
 
 
-def _named(mechanism: Mechanism, structure: Structure) -> tuple[Attached, Bodies]:
+def _named(mechanism: Mechanism, structure: Structure) -> tuple[tuple[AssurGroup, ...], Bodies]:
     """Name the parts of all groups, each for those attached to it."""
     for group in structure.groups:
         if group.kind not in CONSTRUCTIONS:
             raise InputError("no-construction", kind=group.kind, links=", ".join(map(str, group.links)))
-    first = driver_of(mechanism)
-    for span in first.spans(mechanism):
-        _has_length(span)
-    bodies = {mechanism.driver.link: first.body(mechanism)}
-    dyads = []
+    driver = driver_of(mechanism)
+    _have_lengths(driver.spans)
+    bodies = {mechanism.driver.link: driver.body}
+    groups: list[AssurGroup] = []
     for group in structure.groups:
-        module = _module(CONSTRUCTIONS[group.kind])
-        dyad: AssurGroup = module.dyad(mechanism, group, bodies)
-        for span in dyad.spans:
-            _has_length(span)
-        bodies |= {body.link.number: body for body in dyad.bodies}
-        dyads.append((module, dyad))
-    return dyads, bodies
+        module = import_module(f".{CONSTRUCTIONS[group.kind]}", __package__)
+        groups.append(module.named(mechanism, group, bodies))
+        _have_lengths(groups[-1].spans)
+        bodies |= {body.link.number: body for body in groups[-1].bodies}
+    return tuple(groups), bodies
 
 
-def _has_length(span: Span) -> None:
+def _have_lengths(spans: Iterable[Span]) -> None:
     """Refuse a link whose joints coincide by form."""
-    points = span.link.points
-    if points[span.start] == points[span.end]:
-        raise InputError("joints-coincide", link=span.link.number, first=span.start, second=span.end)
+    for span in spans:
+        if span.link.points[span.start] == span.link.points[span.end]:
+            raise InputError("joints-coincide", link=span.number, first=span.start, second=span.end)
 
 
-def _place_frame(board: RecordingBoard, mechanism: Mechanism) -> None:
-    """Mark the pivots on the frame."""
-    for point, place in mechanism.frame_points.items():
-        board.place(point, *place)
-
-
-def _forces(board: RecordingBoard, mechanism: Mechanism, dyads: Attached, bodies: Bodies) -> None:
+def _forces(board: RecordingBoard, mechanism: Mechanism, groups: Sequence[AssurGroup], bodies: Bodies) -> None:
     """Solve the groups from the last to the first, pass each reaction on to the link it acts on, balance the driver."""
     forces, couples = hung(mechanism, bodies)
     reactions: Forces = {link: [] for link in forces}
-    for module, dyad in reversed(dyads):
-        for link in (body.link.number for body in dyad.bodies):
+    for group in reversed(groups):
+        for link in (body.link.number for body in group.bodies):
             forces[link] += reactions[link]
-        module.forces(board, dyad, forces, couples)
-        for passed in dyad.passed():
+        group.forces(board, forces, couples)
+        for passed in group.passed():
             if passed.link != FRAME:
                 reactions[passed.link].append((passed.force, passed.point))
                 couples[passed.link] += [passed.couple] if passed.couple else []
     first = mechanism.driver.link
     forces[first] = reactions[first] + forces[first]
-    driver_of(mechanism).forces(board, mechanism, forces, couples)
+    driver_of(mechanism).forces(board, forces, couples)
 
 
 def _lever(board: RecordingBoard, mechanism: Mechanism, spans: Mapping[int, Span], bodies: Bodies) -> None:
     """Hang all forces on the lever, and the couples: as pairs of forces where two points are known, else as powers."""
     forces, couples = hung(mechanism, bodies)
     rates = {omega: span for number, span in spans.items() if (omega := bodies[number].omega)}
-    pairs: list[tuple[str, Joined]] = [(couple, span) for number, span in spans.items() for couple in couples[number]]
+    pairs: list[tuple[str, Span | Ends]] = [
+        (couple, span) for number, span in spans.items() for couple in couples[number]
+    ]
     turning = []
     for number, omega in ((n, bodies[n].omega) for n in couples if n not in spans):
         points = points_of(omega, board.steps, rates) if omega else None
         pairs += [(couple, points) for couple in couples[number] if points]
         turning += [(couple, omega) for couple in couples[number] if omega and not points]
     moments = lever(board, mechanism, [force for link in forces.values() for force in link], pairs, turning)
-    driver_of(mechanism).on_lever(board, mechanism, moments)
+    driver_of(mechanism).on_lever(board, moments)
+
+
+def lever(
+    board: Board,
+    mechanism: Mechanism,
+    forces: list[tuple[str, str]],
+    couples: list[tuple[str, Span | Ends]],
+    turning: list[tuple[str, str]],
+) -> list[Name]:
+    """Hang `forces` (name, point) and `couples` (moment, points A, B) on the turned plan; return their moments.
+
+    A couple hangs as two equal opposite forces M / l_AB at B and A, normal to AB. Those in `turning` (moment, omega) on
+    links of which no two points are known enter with their power.
+    """
+    driver, still = mechanism.driver, mechanism.frame_points
+    forces = [(force, at) for force, at in forces if at not in still]
+    board.pole("lever.p")
+    points = [driver.point, *(at for _, at in forces), *(p for _, span in couples for p in (span.start, span.end))]
+    for point in dict.fromkeys(point for point in points if point not in still):
+        board.normal(f"lever.{point}", f"velocity.{point}")
+    moments: list[Name] = []
+    for force, at in forces:
+        moments.append(moment(force, "p"))
+        board.moment(moments[-1], lever_arm(force), force, f"lever.{at}", "lever.p")
+    for turns, span in couples:
+        A, B = span.start, span.end
+        half = partial(couple, turns)
+        board.calc(half(), "couple", turns, span.length)
+        board.calc(half(B), "along", half(), span.n)
+        board.calc(half(A), "opposite", half(B))
+        for point in (p for p in (B, A) if p not in still):
+            moments.append(moment(half(point), "p"))
+            board.moment(moments[-1], lever_arm(turns, point), half(point), f"lever.{point}", "lever.p")
+    for turns, omega in turning:
+        moments.append(Name(f"_{turns}_p", "M", role(turns).of, "p"))
+        board.calc(moments[-1], "couple_on_lever", turns, omega)
+    return moments
+
+
+def points_of(omega: str, steps: Iterable[Step], spans: Mapping[str, Span]) -> Span | Ends | None:
+    """Return two points with images on the plan that turn with the angular velocity `omega`, if any are known.
+
+    They are the joints of a link that turns so, `spans` by angular velocity, or those from whose relative velocity it
+    was read: a sliding block turns with its guide, and the guide by the velocity of its point under the block's pin.
+    """
+    made = {step.name: step for step in steps}
+    while omega not in spans and omega in made and made[omega].law == "same_turning":
+        omega = made[omega].operands[0]
+    if omega in spans or omega not in made or made[omega].law != "turning":
+        return spans.get(omega)
+    vector, normal, length = made[omega].operands
+    start, end = made[made[normal].operands[0]].operands[:2]
+    point = role(made[vector].operands[1]).of  # the pin itself, or the point of the link under it
+    return Ends(start, point if end in (point, role(point).of) else end, normal, length)

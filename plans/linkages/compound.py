@@ -18,9 +18,10 @@ from typing import Any, NamedTuple
 
 from ..board import Board, Program
 from ..names import Name, between, mark, pole, rate, role, scale_factor, spelled, vector
-from .dyads import rrp, rrr
+from .dyads.pinned import RRP, RRR
+from .legs import AssurGroup
 from .mechanism import FRAME, ZERO, Mechanism, Revolute
-from .parts import AssurGroup, Bodies, Body, Span
+from .parts import Bodies, Body, Span
 
 VELOCITY, ACCELERATION = "V_at", "a_at"  # kinds of plans
 TOTAL = "total"  # the whole as compound motion gives it
@@ -46,7 +47,7 @@ class Coupler:
     @property
     def number(self) -> int:
         """Number of the link."""
-        return self.span.link.number
+        return self.span.number
 
     @property
     def hinge(self) -> str:
@@ -84,7 +85,7 @@ def couplers(mechanism: Mechanism, groups: Iterable[AssurGroup], bodies: Bodies)
             if carrier is None:
                 continue
             points = (span.end, *span.others)
-            letters = {p: mechanism.letter_on(p, span.link.number) if p in taken else p for p in points}
+            letters = {p: mechanism.letter_on(p, span.number) if p in taken else p for p in points}
             taken.update(points)
             found.append(Coupler(span, carrier, letters, _closing(mechanism, group, span)))
     return tuple(found)
@@ -95,18 +96,18 @@ def _carrier(mechanism: Mechanism, span: Span, bodies: Bodies) -> Body | None:
     pinned = {n for p in mechanism.pairs if isinstance(p, Revolute) and FRAME in p.links for n in p.links}
     for number, body in bodies.items():
         turns = number in pinned and body.pin in mechanism.frame_points and body.omega
-        if turns and number != span.link.number and span.start in body.link.points and span.start != body.pin:
+        if turns and number != span.number and span.start in body.link.points and span.start != body.pin:
             return body
     return None
 
 
 def _closing(mechanism: Mechanism, group: AssurGroup, span: Span) -> Closing | None:
     match group:
-        case rrr.Dyad(spans=(first, second)):
+        case RRR(legs=(first, second)):
             other = second if span == first else first
             if other.start in mechanism.frame_points:
-                return Closing(other.n, vector("a", *group.about(other), "n"))
-        case rrp.Dyad(slide=slide) if slide.known is None:
+                return Closing(other.n, vector("a", *other.about(group.B), "n"))
+        case RRP(legs=(_, slide)) if slide.known is None:
             return Closing(slide.u, None)
     return None
 

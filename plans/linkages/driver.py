@@ -1,133 +1,203 @@
-"""The driver: a crank about a fixed pivot. Position, velocity, acceleration, force plan and what balances it."""
+"""The drivers: a crank about a fixed pivot, a slider on the frame. Their plans, and what balances them.
+
+What keeps a driver moving follows from the moments of its forces, and a second time from the lever.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
+from ...scales.errors import InputError
 from ..board import Board
-from ..names import NORMAL, Name, by_lever, mark, rate, spelled, vector
+from ..names import NORMAL, Name, by_lever, mark, spelled, vector
 from ..quantities import F_BAL, M_BAL
-from .mechanism import FORCE, FRAME, MOMENT, Driver, Mechanism
-from .parts import Body, Couples, Forces, Span, hang, measure_link, moments_about, move_link, place_link
+from .legs import Slide, slide_of
+from .mechanism import FRAME, MOMENT, ZERO, Driver, Mechanism, Prismatic, SlidingDriver
+from .parts import Body, Couples, Forces, Span, hang, measure_link, moments_about, move_link, move_points, place_link
 
 
-def position(board: Board, mechanism: Mechanism) -> None:
-    """Mark the pivot, lay off the crank at its angle."""
-    driver, crank = crank_of(mechanism), span(mechanism)
-    board.place(driver.pivot, *pivot_place(mechanism))
-    board.turn(crank.e, driver.angle)
-    measure_link(board, crank)
-    board.lay(driver.point, driver.pivot, crank.e, crank.length)
-    place_link(board, crank, turned=True)
+def driver_of(mechanism: Mechanism) -> Crank | SlidingBlock:
+    """Return the constructions of the mechanism's driver.
 
-
-def velocity(board: Board, mechanism: Mechanism) -> None:
-    """v_A = omega_1 * l_OA is normal to the crank in the sense of omega_1."""
-    driver, crank = crank_of(mechanism), span(mechanism)
-    board.calc(crank.omega, "signed", driver.speed, driver.sense)
-    board.calc(vector("V", driver.point).size, "circular_speed", crank.omega, crank.length)
-    board.pole("velocity.p")
-    board.lay(f"velocity.{driver.point}", "velocity.p", crank.n, vector("V", driver.point).size)
-    board.read(vector("V", driver.point), "velocity.p", f"velocity.{driver.point}")
-    move_link(board, mechanism, crank, "velocity")
-
-
-def acceleration(board: Board, mechanism: Mechanism) -> None:
-    """a_A = omega_1^2 * l_OA points from A to O, and epsilon_1 * l_OA across unless the crank turns steadily."""
-    driver, crank = crank_of(mechanism), span(mechanism)
-    tip = mark("acceleration", driver.point)
-    normal = mark("acceleration", driver.point, NORMAL) if driver.acceleration else tip
-    board.calc(vector("a", driver.point).size, "centripetal", crank.omega, crank.length)
-    board.pole("acceleration.p")
-    board.back(normal, "acceleration.p", crank.e, vector("a", driver.point).size)
-    if driver.acceleration:
-        board.calc(crank.epsilon, "signed", driver.acceleration, driver.sense)
-        board.calc(vector("a", driver.point, part="t").size, "circular_acceleration", crank.epsilon, crank.length)
-        board.lay(tip, normal, crank.n, vector("a", driver.point, part="t").size)
-        board.read(vector("a", driver.point, part="n"), "acceleration.p", normal)
-        board.read(vector("a", driver.point, part="t"), normal, tip)
-    board.read(vector("a", driver.point), "acceleration.p", tip)
-    move_link(board, mechanism, crank, "acceleration")
-
-
-def forces(board: Board, mechanism: Mechanism, loads: Forces, couples: Couples) -> None:
-    """Balance the crank: what balances it follows from the moments about its pivot, R_01 closes its force plan.
-
-    `loads` are (force, point) by link, on the crank: reactions of the groups attached to it, inertia force and loads.
+    Raises
+    ------
+    InputError
+        When a sliding driver has no pair with the frame, or the frame is said to be its slider.
     """
-    {MOMENT: _by_moment, FORCE: _by_force}[crank_of(mechanism).balance](board, mechanism, loads, couples)
-
-
-def _by_moment(board: Board, mechanism: Mechanism, loads: Forces, couples: Couples) -> None:
-    """R_01 closes the plan of the loads; M_bal is a moment beside them."""
-    driver = crank_of(mechanism)
-    plan, hung = spelled("forces", driver.link), loads[driver.link]
-    board.pole(f"{plan}.0")
-    board.read(mechanism.pair("R", FRAME, driver.link), hang(board, plan, [force for force, _ in hung]), f"{plan}.0")
-    moments = moments_about(board, hung, driver.pivot, always=True)
-    board.calc(M_BAL, "closing_moment", *moments, *couples[driver.link])
-
-
-def _by_force(board: Board, mechanism: Mechanism, loads: Forces, couples: Couples) -> None:
-    """F_bal at the crank pin, along the normal to the crank, stands in the plan before R_01 closes it."""
-    driver, crank = crank_of(mechanism), span(mechanism)
-    plan, hung = spelled("forces", driver.link), loads[driver.link]
-    moments = moments_about(board, hung, driver.pivot, always=True)
-    board.calc(F_BAL, "closing_force", crank.length, *moments, *couples[driver.link])
-    board.calc(F_BAL.size, "along", F_BAL, crank.n)
-    board.pole(f"{plan}.0")
-    board.read(
-        mechanism.pair("R", FRAME, driver.link),
-        hang(board, plan, [*(force for force, _ in hung), F_BAL.size]),
-        f"{plan}.0",
-    )
-
-
-def on_lever(board: Board, mechanism: Mechanism, moments: list[Name]) -> None:
-    """Solve the moments of the lever for a force at the crank pin, along the normal to the crank.
-
-    On the turned plan it has the moment -F * pa about the pole.
-    """
-    driver, crank = crank_of(mechanism), span(mechanism)
-    force = F_BAL if driver.balance == MOMENT else by_lever(F_BAL)
-    board.calc(force, "moment_equation", vector("V", driver.point).size, *moments)
-    board.calc(force.size, "along", force, crank.n)
-    if driver.balance == MOMENT:
-        board.calc(by_lever(M_BAL), "crank_moment", force, crank.length)
-
-
-def balance(mechanism: Mechanism) -> Name:
-    """Return the name of what balances the driver: of the lever it has `_lever` behind it."""
-    return M_BAL if crank_of(mechanism).balance == MOMENT else F_BAL
-
-
-def turning_rate(board: Board, mechanism: Mechanism) -> str:
-    """Return the name of the angular velocity beside which another one is rounding."""
-    return rate("omega", mechanism.driver.link)
-
-
-def crank_of(mechanism: Mechanism) -> Driver:
-    """Return the driver as the crank that it is."""
     driver = mechanism.driver
-    assert isinstance(driver, Driver)
-    return driver
+    if isinstance(driver, Driver):
+        return Crank(mechanism, driver, Span(mechanism.link(driver.link), driver.pivot, driver.point))
+    for pair in mechanism.pairs:
+        if isinstance(pair, Prismatic) and {*pair.links} == {FRAME, driver.link}:
+            return SlidingBlock(mechanism, driver, slide_of(mechanism, pair, driver.link, driver.point, {}))
+    raise InputError("driver-guide", link=driver.link)
 
 
-def span(mechanism: Mechanism) -> Span:
-    """Return the crank between its pivot and its pin."""
-    driver = crank_of(mechanism)
-    return Span(mechanism.link(driver.link), driver.pivot, driver.point)
+@dataclass(frozen=True, slots=True)
+class Crank:
+    """The crank OA between its pivot and its pin."""
+
+    mechanism: Mechanism
+    driver: Driver
+    span: Span
+
+    @property
+    def spans(self) -> tuple[Span, ...]:
+        """Its links with two joints."""
+        return (self.span,)
+
+    @property
+    def body(self) -> Body:
+        """Return the crank for the links attached to it."""
+        return self.span.body if self.driver.acceleration else replace(self.span.body, epsilon=None)
+
+    @property
+    def balance(self) -> Name:
+        """Name of what balances it: of the lever it has `_lever` behind it."""
+        return M_BAL if self.driver.balance == MOMENT else F_BAL
+
+    def turning_rate(self, board: Board) -> str:
+        """Return the name of the angular velocity beside which another one is rounding."""
+        return self.span.omega
+
+    def position(self, board: Board) -> None:
+        """Mark the pivot, lay off the crank at its angle."""
+        driver, crank = self.driver, self.span
+        board.place(driver.pivot, *self.mechanism.frame_points[driver.pivot])
+        board.turn(crank.e, driver.angle)
+        measure_link(board, crank)
+        board.lay(driver.point, driver.pivot, crank.e, crank.length)
+        place_link(board, crank, turned=True)
+
+    def velocity(self, board: Board) -> None:
+        """v_A = omega_1 * l_OA is normal to the crank in the sense of omega_1."""
+        crank, v = self.span, vector("V", self.driver.point)
+        board.calc(crank.omega, "signed", self.driver.speed, self.driver.sense)
+        board.calc(v.size, "circular_speed", crank.omega, crank.length)
+        board.pole("velocity.p")
+        board.lay(mark("velocity", crank.end), "velocity.p", crank.n, v.size)
+        board.read(v, "velocity.p", mark("velocity", crank.end))
+        move_link(board, self.mechanism, crank, "velocity")
+
+    def acceleration(self, board: Board) -> None:
+        """a_A = omega_1^2 * l_OA points from A to O, and epsilon_1 * l_OA across unless the crank turns steadily."""
+        driver, crank, a = self.driver, self.span, vector("a", self.driver.point)
+        tip = mark("acceleration", crank.end)
+        normal = mark("acceleration", crank.end, NORMAL) if driver.acceleration else tip
+        board.calc(a.size, "centripetal", crank.omega, crank.length)
+        board.pole("acceleration.p")
+        board.back(normal, "acceleration.p", crank.e, a.size)
+        if driver.acceleration:
+            across = vector("a", driver.point, part="t")
+            board.calc(crank.epsilon, "signed", driver.acceleration, driver.sense)
+            board.calc(across.size, "circular_acceleration", crank.epsilon, crank.length)
+            board.lay(tip, normal, crank.n, across.size)
+            board.read(vector("a", driver.point, part="n"), "acceleration.p", normal)
+            board.read(across, normal, tip)
+        board.read(a, "acceleration.p", tip)
+        move_link(board, self.mechanism, crank, "acceleration")
+
+    def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
+        """Balance the crank by the moments about its pivot; R_01 closes the plan of its loads.
+
+        `loads` are (force, point) by link, on the crank: reactions of the groups attached to it, inertia force and
+        loads. M_bal is a moment beside them; F_bal, at the crank pin along the normal to the crank, stands in the plan.
+        """
+        link, crank = self.driver.link, self.span
+        plan, hung = spelled("forces", link), [force for force, _ in loads[link]]
+        if self.balance == F_BAL:
+            moments = moments_about(board, loads[link], crank.start, always=True)
+            board.calc(F_BAL, "closing_force", crank.length, *moments, *couples[link])
+            board.calc(F_BAL.size, "along", F_BAL, crank.n)
+            hung.append(F_BAL.size)
+        board.pole(f"{plan}.0")
+        board.read(self.mechanism.pair("R", FRAME, link), hang(board, plan, hung), f"{plan}.0")
+        if self.balance == M_BAL:
+            moments = moments_about(board, loads[link], crank.start, always=True)
+            board.calc(M_BAL, "closing_moment", *moments, *couples[link])
+
+    def on_lever(self, board: Board, moments: list[Name]) -> None:
+        """Solve the moments of the lever for a force at the crank pin, along the normal to the crank.
+
+        On the turned plan it has the moment -F * pa about the pole.
+        """
+        force = F_BAL if self.balance == M_BAL else by_lever(F_BAL)
+        board.calc(force, "moment_equation", vector("V", self.driver.point).size, *moments)
+        board.calc(force.size, "along", force, self.span.n)
+        if self.balance == M_BAL:
+            board.calc(by_lever(M_BAL), "crank_moment", force, self.span.length)
 
 
-def spans(mechanism: Mechanism) -> tuple[Span, ...]:
-    """Return the driver's links with two joints."""
-    return (span(mechanism),)
+@dataclass(frozen=True, slots=True)
+class SlidingBlock:
+    """A slider on the frame: P is the point that runs in the guide, u the guide's direction."""
 
+    mechanism: Mechanism
+    driver: SlidingDriver
+    slide: Slide
 
-def body(mechanism: Mechanism) -> Body:
-    """Return the crank for the links attached to it."""
-    crank = span(mechanism)
-    return crank.body(crank.omega, crank.epsilon if crank_of(mechanism).acceleration else None)
+    @property
+    def spans(self) -> tuple[Span, ...]:
+        """It has no two joints."""
+        return ()
 
+    @property
+    def body(self) -> Body:
+        """Return the slider for the links attached to it."""
+        return self.slide.body
 
-def pivot_place(mechanism: Mechanism) -> tuple[str, str]:
-    """Return the names of the pivot's coordinates on the frame."""
-    return mechanism.frame_points[crank_of(mechanism).pivot]
+    @property
+    def balance(self) -> Name:
+        """Name of what balances it."""
+        return F_BAL
+
+    def turning_rate(self, board: Board) -> str:
+        """Return the name of an angular velocity beside which another one is rounding: v_P over all lengths."""
+        places = (xy for link in self.mechanism.links for place in link.points.values() for xy in place)
+        board.calc("_reach", "reach", *dict.fromkeys(xy for xy in places if xy != ZERO))
+        board.calc("_omega", "rate_over", vector("V", self.driver.point).size, "_reach")
+        return "_omega"
+
+    def position(self, board: Board) -> None:
+        """Lay off the travel along the guide."""
+        start, _, u = self.slide.path(board)
+        board.lay(self.driver.point, start, u, self.driver.travel)
+        self.slide.place(board)
+
+    def velocity(self, board: Board) -> None:
+        """v_P is given along the guide; the slider does not turn, and all its points move alike."""
+        self._move(board, "velocity", vector("V", self.driver.point), self.driver.speed)
+
+    def acceleration(self, board: Board) -> None:
+        """a_P is given along the guide, zero unless the slider speeds up."""
+        self._move(board, "acceleration", vector("a", self.driver.point), self.driver.acceleration or ZERO)
+
+    def _move(self, board: Board, plan: str, moves: Name, given: str) -> None:
+        board.calc(moves.size, "given", given)
+        board.pole(f"{plan}.p")
+        board.lay(mark(plan, self.driver.point), f"{plan}.p", self.slide.u, moves.size)
+        board.read(moves, f"{plan}.p", mark(plan, self.driver.point))
+        move_points(board, self.mechanism, self.slide.body, plan, (self.driver.point,))
+
+    def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
+        """Balance the slider: through the ends of its loads the guide and the normal to it, F_bal along u, R_01 across.
+
+        Moments about P give the arm of the guide's reaction.
+        """
+        link, u = self.driver.link, self.slide.u
+        plan, hung = spelled("forces", link), [force for force, _ in loads[link]]
+        reaction, couple, arm = (self.mechanism.pair(kind, FRAME, link) for kind in ("R", "M", "h"))
+        board.pole(f"{plan}.0")
+        last, closing = hang(board, plan, hung), f"{plan}.{len(hung) + 1}"
+        board.meet(closing, last, u, f"{plan}.0", self.slide.line)
+        board.read(F_BAL.size, last, closing)
+        board.read(reaction, closing, f"{plan}.0")
+        board.calc(F_BAL, "component", u, F_BAL.size)
+        moments = moments_about(board, loads[link], self.driver.point)
+        board.calc(couple, "closing_moment", ZERO, *moments, *couples[link])
+        board.step("arm", arm, couple, reaction)
+
+    def on_lever(self, board: Board, moments: list[Name]) -> None:
+        """Solve the moments of the lever for a force at P along the guide: on the turned plan its moment is -F * pp."""
+        board.calc(by_lever(F_BAL), "moment_equation", vector("V", self.driver.point).size, *moments)
+        board.calc(by_lever(F_BAL).size, "along", by_lever(F_BAL), self.slide.u)

@@ -12,8 +12,7 @@ from ..names import magnitude
 from .bare import without_loads
 from .chain import constructed
 from .loads import in_order
-from .mechanism import Mechanism
-from .triads.parts import start_names
+from .mechanism import Mechanism, start_names
 from .working_stroke import BEGIN, END
 
 _STROKES = Kept[tuple[float, float]](64)

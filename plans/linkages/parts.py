@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Protocol
 
 from ..board import Board
 from ..names import NORMAL, Name, arm, between, mark, moment, rate, role, spelled, vector
@@ -49,31 +48,6 @@ class Passed:
     couple: str | None = None
 
 
-def passed_on(mechanism: Mechanism, own: int, other: int, point: str, slides: bool = False) -> Passed:
-    """Return the reaction of link `own` on the link before, `other`; that of a pair that `slides` with its moment."""
-    couple = mechanism.pair("M", own, other) if slides else None
-    return Passed(mechanism.pair("R", own, other), other, point, couple)
-
-
-class AssurGroup(Protocol):
-    """What the chain asks of a group of any kind."""
-
-    @property
-    def name(self) -> str:
-        """The group's links as a word."""
-
-    @property
-    def spans(self) -> tuple[Span, ...]:
-        """Its links with two joints."""
-
-    @property
-    def bodies(self) -> tuple[Body, ...]:
-        """Its links for those attached to them."""
-
-    def passed(self) -> tuple[Passed, ...]:
-        """Reactions on the links before."""
-
-
 @dataclass(frozen=True, slots=True)
 class Span:
     """A link between two of its joints, `start` and `end`."""
@@ -81,6 +55,11 @@ class Span:
     link: Link
     start: str
     end: str
+
+    @property
+    def number(self) -> int:
+        """Number of the link."""
+        return self.link.number
 
     @property
     def straight(self) -> bool:
@@ -117,22 +96,23 @@ class Span:
     @property
     def omega(self) -> Name:
         """Name of its angular velocity."""
-        return rate("omega", self.link.number)
+        return rate("omega", self.number)
 
     @property
     def epsilon(self) -> Name:
         """Name of its angular acceleration."""
-        return rate("epsilon", self.link.number)
+        return rate("epsilon", self.number)
 
     @property
     def others(self) -> tuple[str, ...]:
         """The points beside the joints."""
         return tuple(point for point in self.link.points if point not in (self.start, self.end))
 
-    def body(self, omega: str, epsilon: str | None) -> Body:
+    @property
+    def body(self) -> Body:
         """Return the link for those attached to it."""
-        local = f"_g_{self.link.number}" if self.measured else None
-        return Body(self.link, self.start, self.e, local, omega, epsilon)
+        local = f"_g_{self.number}" if self.measured else None
+        return Body(self.link, self.start, self.e, local, self.omega, self.epsilon)
 
 
 @dataclass(frozen=True, slots=True)
@@ -284,19 +264,6 @@ def _parts(body: Body, plan: str, letter: str) -> Iterator[tuple[str, str, Name,
     yield "transport_normal", str(body.omega), vector("a", letter, body.pin, "n"), normal
     if body.epsilon is not None:
         yield "transport_tangential", body.epsilon, vector("a", letter, body.pin, "t"), tip
-
-
-def turn_with(board: Board, body: Body, other: Body, plan: str) -> None:
-    """Note that a link turns like the one on which it slides."""
-    rates = (body.omega, other.omega) if plan == "velocity" else (body.epsilon, other.epsilon)
-    if rates[0] and rates[1]:
-        board.calc(rates[0], "same_turning", rates[1])
-
-
-def turning(number: int, like: Body | None) -> tuple[str | None, str | None]:
-    """Return the names of omega and epsilon of a link that slides on another, None where they are zero by form."""
-    omega = rate("omega", number) if like and like.omega else None
-    return omega, rate("epsilon", number) if like and like.epsilon else None
 
 
 def moments_about(

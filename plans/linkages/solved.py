@@ -17,7 +17,7 @@ from . import compound
 from .chain import USUAL, constructed, hinged
 from .dyads.moment_centres import with_moment_centres
 from .givens import board_givens
-from .guides import guide_letters
+from .legs import guide_letters
 from .mechanism import FRAME, ZERO, Mechanism, Prismatic, SlidingDriver
 from .structure import TRIAD, Structure
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from ....plans.board import POSITION, Step
 from ....plans.laws import form_of
-from ....plans.linkages.guides import guide_letters
+from ....plans.linkages.legs import guide_letters
 from ....plans.linkages.parts import SYMBOLS
 from ....plans.names import CORIOLIS, NORMAL, POLE, role, vector
 from ....plans.quantities import unit_of

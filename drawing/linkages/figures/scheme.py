@@ -7,7 +7,7 @@ from cmath import phase, rect
 from collections.abc import Iterable, Sequence
 
 from ....plans.board import POSITION, Step
-from ....plans.linkages.guides import guide_letters
+from ....plans.linkages.legs import guide_letters
 from ....plans.linkages.mechanism import FRAME, ZERO, Driver, Prismatic, SlidingDriver
 from ....plans.names import role
 from ...shapes import Arc, Arrow, Circle, Group, Line, Pen

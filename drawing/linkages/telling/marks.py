@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 
 from ....plans.board import POSITION, Step
-from ....plans.linkages.guides import guide_letters
+from ....plans.linkages.legs import guide_letters
 from ....plans.names import ORIGIN, role
 from ..calculations.equations import size_of
 from ..calculations.kinematics import triangles

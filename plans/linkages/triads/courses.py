@@ -17,9 +17,8 @@ from ...boards.exact import run
 from ...boards.template import ASTRAY, CLOSED, FOLDED
 from ...names import role
 from ..chain import construct
-from ..mechanism import Driver, Mechanism
+from ..mechanism import Driver, Mechanism, start_names
 from ..parts import local_mark
-from .parts import start_names
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]

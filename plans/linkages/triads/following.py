@@ -22,10 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...laws import TURN
-from ..mechanism import Driver, Mechanism
+from ..mechanism import Driver, Mechanism, start_names
 from ..structure import TRIAD, analyse
 from .courses import Course, Poses, State
-from .parts import start_names
 
 Array = NDArray[np.float64]
 

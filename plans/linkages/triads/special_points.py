@@ -19,10 +19,10 @@ from ...boards.batch import batch
 from ...boards.exact import ILL, SMALL, run
 from ..bare import without_loads
 from ..chain import construct, named_groups
+from ..legs import Leg
 from ..mechanism import Mechanism
 from .following import followed
-from .legs import Leg
-from .parts import Triad
+from .triad import Triad
 
 Array = NDArray[Any]
 Legs = tuple[int, int]
@@ -76,9 +76,9 @@ def _sines(
     triads = [group for group in named_groups(free) if isinstance(group, Triad)]
     board, named = RecordingBoard(), {}
     for triad in triads:
-        start = mechanism.start(triad.number)
+        start = mechanism.start(triad.central.number)
         if start is not None and start.legs is None:
-            named[triad.number] = dict(_pairs(board, triad))
+            named[triad.central.number] = dict(_pairs(board, triad))
     if not named:
         return {}
     _, position = construct(free, ("position",))
@@ -105,18 +105,17 @@ def _run(program: Program, values: Mapping[str, Any], wanted: list[str]) -> Mapp
 def _pairs(board: RecordingBoard, triad: Triad) -> Iterable[tuple[Legs, tuple[str, str]]]:
     """Record the sines of every two legs: of their lines, and of the third line with the way to the special point."""
     board.pole("_nowhere")
-    legs = sorted(triad.legs, key=lambda leg: leg.number)
-    for first, second in combinations(legs, 2):
-        third = next(leg for leg in legs if leg not in (first, second))
+    for first, second in combinations(triad.by_number, 2):
+        third = next(leg for leg in triad.legs if leg not in (first, second))
         yield (first.number, second.number), _sines_of(board, first, second, third)
 
 
 def _sines_of(board: RecordingBoard, first: Leg, second: Leg, third: Leg) -> tuple[str, str]:
     key = f"{first.number}_{second.number}"
-    board.meet(f"_X_{key}", first.end, first.line, second.end, second.line)
-    board.distance(f"_l_{key}", f"_X_{key}", third.joint)
+    board.meet(f"_X_{key}", first.start, first.line, second.start, second.line)
+    board.distance(f"_l_{key}", f"_X_{key}", third.end)
     board.calc(f"_sine_{key}", "across_axis", first.line, "_nowhere", second.line)
     # the normals to both meet like the lines themselves
-    board.calc(f"_across_{key}", "across_axis", third.line, f"_X_{key}", third.joint)
+    board.calc(f"_across_{key}", "across_axis", third.line, f"_X_{key}", third.end)
     board.calc(f"_sine_D_{key}", "part_of", f"_across_{key}", f"_l_{key}")
     return f"_sine_{key}", f"_sine_D_{key}"

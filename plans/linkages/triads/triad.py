@@ -6,6 +6,9 @@ end of both legs: so its velocity and acceleration come first, then those of D, 
 two legs will do. Determinant of all its problems: that of the lines of the three legs, zero when they meet in one point
 or are parallel.
 
+The normal parts of the reactions on the first two legs go through X, too. So the moments of all loads of the group
+about X give the normal part on the third; then a chain of forces has two unknown ends.
+
 The special point has the letter X with the number of the central link, X3, for S3 is a centre of mass.
 
 Source: Artobolevsky, Theory of mechanisms and machines (groups of class III, special points of Assur).
@@ -14,22 +17,32 @@ Source: Artobolevsky, Theory of mechanisms and machines (groups of class III, sp
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from ....scales.errors import InputError
 from ...board import Board
-from ...names import NORMAL, between, mark, vector
-from ..guides import slide_of
-from ..mechanism import Mechanism, Prismatic, Revolute
-from ..parts import Bodies, Span, local_mark, measure_link, move_link, place_link
+from ...names import NORMAL, POINT, Name, arm, between, mark, moment, spelled, vector
+from ..legs import AssurGroup, Hinged, Leg, Slide, legs_of
+from ..mechanism import ZERO, Mechanism, Revolute, start_names
+from ..parts import (
+    SYMBOLS,
+    Bodies,
+    Body,
+    Couples,
+    Forces,
+    Span,
+    answer,
+    hang,
+    local_mark,
+    measure_link,
+    moments_about,
+    move_link,
+    place_link,
+)
 from ..structure import Group
-from .forces import forces
-from .legs import Hinged, Leg, Sliding
-from .parts import Central, Triad, start_names
-
-__all__ = ["acceleration", "dyad", "forces", "position", "velocity"]
 
 
-def dyad(mechanism: Mechanism, group: Group, bodies: Bodies) -> Triad:
+def named(mechanism: Mechanism, group: Group, bodies: Bodies) -> AssurGroup:
     """Name the parts of a triad.
 
     Raises
@@ -44,120 +57,246 @@ def dyad(mechanism: Mechanism, group: Group, bodies: Bodies) -> Triad:
     start = mechanism.start(central.number)
     if start is None:
         raise InputError("start-missing", links=_listed(group.links), link=central.number)
-    legs = [_leg(mechanism, group, i, bodies) for i in range(3)]
+    legs = legs_of(mechanism, group, bodies)
     first = legs[:2] if start.legs is None else [leg for number in start.legs for leg in legs if leg.number == number]
     if len({leg.number for leg in first}) != 2:
         raise InputError("start-legs", link=central.number, known=_listed(group.legs))
     third = next(leg for leg in legs if leg not in first)
-    B, C = [leg.joint for leg in legs if leg != third]
-    between = Central(central, B, C, third.joint)
-    return Triad(mechanism, group.name, group.links, between, (first[0], first[1], third))
+    B, C = [leg.end for leg in legs if leg != third]
+    return Triad(mechanism, group.name, (first[0], first[1], third), Central(central, B, C, third.end))
 
 
 def _listed(numbers: tuple[int, ...]) -> str:
     return ", ".join(map(str, numbers))
 
 
-def _leg(mechanism: Mechanism, group: Group, i: int, bodies: Bodies) -> Leg:
-    number, joint, outer = group.legs[i], group.inner[i].point, group.outer[i]
-    if isinstance(outer, Prismatic):
-        return Sliding(mechanism, slide_of(mechanism, outer, number, joint, bodies))
-    return Hinged(mechanism, Span(mechanism.link(number), outer.point, joint), group.before[i])
+@dataclass(frozen=True, slots=True)
+class Central(Span):
+    """The central link between two of its joints; its `third` is found before the points of its figure."""
+
+    third: str
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        """The points beside the joints."""
+        return tuple(point for point in self.link.points if point not in (self.start, self.end, self.third))
 
 
-def position(board: Board, t: Triad) -> None:
-    """B, C and D are where a template of the central link lies on the arcs, or the lines, of the three legs."""
-    where: list[str] = [*start_names(t.number)]
-    legs = sorted(t.legs, key=lambda leg: leg.number)
-    for leg in legs:
-        where += [local_mark(board, t.link, leg.joint), *leg.path(board)]
-    for joint in t.joints:
-        board.template(joint, local_mark(board, t.link, joint), *where)
-    measure_link(board, t.central)
-    place_link(board, t.central)
-    for leg in legs:
-        leg.place(board)
+@dataclass(frozen=True, slots=True)
+class Triad(AssurGroup):
+    """The names that the constructions of one triad use, and the constructions.
 
-
-def velocity(board: Board, t: Triad) -> None:
-    """Through a and e the normals to AB and EC: x. Through x the normal to XD, through f that to FD: d."""
-    first, second, third = t.legs
-    for leg in t.legs:
-        leg.begin_velocity(board)
-    _place_special_point(board, t)
-    x, d = mark("velocity", t.X), mark("velocity", t.D)
-    board.meet(x, first.start("velocity"), first.across, second.start("velocity"), second.across)
-    for leg in (first, second):
-        board.read(vector("V", *leg.about(t.X)), leg.start("velocity"), x)
-    board.read(vector("V", t.X), "velocity.p", x)
-    board.meet(d, x, between("n", t.X, t.D), third.start("velocity"), third.across)
-    board.read(vector("V", t.D, t.X), x, d)
-    board.read(vector("V", t.D), "velocity.p", d)
-    board.calc(t.central.omega, "turning", vector("V", t.D, t.X), between("n", t.X, t.D), between("l", t.X, t.D))
-    _by_similarity(board, t, "velocity", "V")
-    for leg in t.legs:
-        leg.finish_velocity(board)
-
-
-def _place_special_point(board: Board, t: Triad) -> None:
-    """Mark where the lines of two legs meet, and how the joints of the central link lie to it and to D."""
-    first, second, _ = t.legs
-    board.meet(t.X, first.end, first.line, second.end, second.line)
-    board.measure(between("l", t.X, t.D), t.X, t.D)
-    board.direction(between("e", t.X, t.D), t.X, t.D, between("l", t.X, t.D))
-    board.normal(between("n", t.X, t.D), between("e", t.X, t.D))
-    for joint, along, across in _figure(t):
-        board.calc(along, "part_along", t.X, t.D, joint)
-        board.calc(across, "part_across", t.X, t.D, joint)
-
-
-def _figure(t: Triad) -> Iterator[tuple[str, str, str]]:
-    """Go through the other two joints: letter, and names of their parts along and across XD."""
-    for leg in t.legs[:2]:
-        yield leg.joint, f"_along_{leg.joint}_{t.XD}", f"_across_{leg.joint}_{t.XD}"
-
-
-def _by_similarity(board: Board, t: Triad, plan: str, symbol: str) -> None:
-    """Mark the other joints of the central link, then its other points."""
-    for joint, along, across in _figure(t):
-        board.similar(f"{plan}.{joint}", f"{plan}.{t.X}", f"{plan}.{t.D}", along, across)
-        board.read(vector(symbol, joint), f"{plan}.p", f"{plan}.{joint}")
-    move_link(board, t.mechanism, t.central, plan)
-
-
-def acceleration(board: Board, t: Triad) -> None:
-    """From a' the normal parts of B about A and of X about B, from e' likewise; the normals to AB and EC give x'.
-
-    From x' the normal part of D about X, from f' that of D about F; the normals to XD and FD give d'.
+    `legs` are in the order of construction: the lines of the first two meet in the special point, then the third.
     """
-    first, second, third = t.legs
-    ends = [leg.begin_acceleration(board) for leg in t.legs]
-    hung = [_towards_joint(board, t, leg, end) for leg, end in zip((first, second), ends, strict=False)]
-    x, d, n = mark("acceleration", t.X), mark("acceleration", t.D), mark("acceleration", t.D, NORMAL, t.X)
-    board.meet(x, hung[0], first.across, hung[1], second.across)
-    board.read(vector("a", t.X), "acceleration.p", x)
-    part = vector("a", t.D, t.X, "n")
-    board.calc(part.size, "normal_part", vector("V", t.D, t.X), between("l", t.X, t.D))
-    board.back(n, x, between("e", t.X, t.D), part.size)
-    board.read(part, x, n)
-    board.meet(d, n, between("n", t.X, t.D), ends[2], third.across)
-    board.read(vector("a", t.D, t.X, "t"), n, d)
-    board.read(vector("a", t.D, t.X), x, d)
-    board.read(vector("a", t.D), "acceleration.p", d)
-    board.calc(t.central.epsilon, "turning", vector("a", t.D, t.X, "t"), between("n", t.X, t.D), between("l", t.X, t.D))
-    _by_similarity(board, t, "acceleration", "a")
-    for leg, end in zip(t.legs, ends, strict=True):
-        leg.finish_acceleration(board, end)
+
+    legs: tuple[Leg, Leg, Leg]
+    central: Central
+
+    @property
+    def by_number(self) -> list[Leg]:
+        """The legs in the order of their numbers."""
+        return sorted(self.legs, key=lambda leg: leg.number)
+
+    @property
+    def X(self) -> Name:
+        """Letter of Assur's special point."""
+        letter = f"X{self.central.number}"
+        return Name(letter, POINT, letter, links=(self.central.number,))
+
+    @property
+    def XD(self) -> tuple[Name, Name, Name]:
+        """Names of the distance from the special point to the third leg's joint, of the direction, of its normal."""
+        X, D = self.X, self.legs[2].end
+        return between("l", X, D), between("e", X, D), between("n", X, D)
+
+    @property
+    def spans(self) -> tuple[Span, ...]:
+        """Its links with two joints."""
+        return self.central, *(span for leg in self.legs for span in leg.spans)
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """The links for those attached to them."""
+        return self.central.body, *(leg.body for leg in self.legs)
+
+    def position(self, board: Board) -> None:
+        """B, C and D are where a template of the central link lies on the arcs, or the lines, of the three legs."""
+        link = self.central.link
+        where: list[str] = [*start_names(link.number)]
+        for leg in self.by_number:
+            where += [local_mark(board, link, leg.end), *leg.path(board)]
+        for leg in self.by_number:
+            board.template(leg.end, local_mark(board, link, leg.end), *where)
+        measure_link(board, self.central)
+        place_link(board, self.central)
+        for leg in self.by_number:
+            leg.place(board)
+
+    def velocity(self, board: Board) -> None:
+        """Through a and e the normals to AB and EC: x. Through x the normal to XD, through f that to FD: d."""
+        first, second, third = self.legs
+        starts = [leg.begin(board, "velocity") for leg in self.legs]
+        self._place_special_point(board)
+        X, D, (length, _, n) = self.X, third.end, self.XD
+        x, d = mark("velocity", X), mark("velocity", D)
+        board.meet(x, starts[0], first.across, starts[1], second.across)
+        for leg, start in zip((first, second), starts, strict=False):
+            board.read(vector("V", *leg.about(X)), start, x)
+        board.read(vector("V", X), "velocity.p", x)
+        board.meet(d, x, n, starts[2], third.across)
+        board.read(vector("V", D, X), x, d)
+        board.read(vector("V", D), "velocity.p", d)
+        board.calc(self.central.omega, "turning", vector("V", D, X), n, length)
+        self._finish(board, "velocity", starts)
+
+    def _place_special_point(self, board: Board) -> None:
+        """Mark where the lines of two legs meet, and how the joints of the central link lie to it and to D."""
+        (first, second, third), (length, e, n) = self.legs, self.XD
+        board.meet(self.X, first.start, first.line, second.start, second.line)
+        board.measure(length, self.X, third.end)
+        board.direction(e, self.X, third.end, length)
+        board.normal(n, e)
+        for joint, along, across in self._figure():
+            board.calc(along, "part_along", self.X, third.end, joint)
+            board.calc(across, "part_across", self.X, third.end, joint)
+
+    def _figure(self) -> Iterator[tuple[str, str, str]]:
+        """Go through the other two joints: letter, and names of their parts along and across XD."""
+        for leg in self.legs[:2]:
+            which = f"{leg.end}_{self.X}{self.legs[2].end}"
+            yield leg.end, f"_along_{which}", f"_across_{which}"
+
+    def _finish(self, board: Board, plan: str, ends: list[str]) -> None:
+        """Mark the other points of the central link by similarity, then read the motion of the legs."""
+        for joint, along, across in self._figure():
+            board.similar(f"{plan}.{joint}", f"{plan}.{self.X}", f"{plan}.{self.legs[2].end}", along, across)
+            board.read(vector(SYMBOLS[plan], joint), f"{plan}.p", f"{plan}.{joint}")
+        move_link(board, self.mechanism, self.central, plan)
+        for leg, end in zip(self.legs, ends, strict=True):
+            leg.read(board, plan, end)
+            leg.move(board, plan)
+            leg.turn(board, plan)
+
+    def acceleration(self, board: Board) -> None:
+        """From a' the normal parts of B about A and of X about B, from e' likewise; the normals to AB and EC give x'.
+
+        From x' the normal part of D about X, from f' that of D about F; the normals to XD and FD give d'.
+        """
+        (first, second, third), X, (length, e, n) = self.legs, self.X, self.XD
+        D = third.end
+        ends = [leg.begin(board, "acceleration") for leg in self.legs]
+        hung = [self._towards_joint(board, leg, end) for leg, end in zip((first, second), ends, strict=False)]
+        x, d, tip = mark("acceleration", X), mark("acceleration", D), mark("acceleration", D, NORMAL, X)
+        board.meet(x, hung[0], first.across, hung[1], second.across)
+        board.read(vector("a", X), "acceleration.p", x)
+        part = vector("a", D, X, "n")
+        board.calc(part.size, "normal_part", vector("V", D, X), length)
+        board.back(tip, x, e, part.size)
+        board.read(part, x, tip)
+        board.meet(d, tip, n, ends[2], third.across)
+        board.read(vector("a", D, X, "t"), tip, d)
+        board.read(vector("a", D, X), x, d)
+        board.read(vector("a", D), "acceleration.p", d)
+        board.calc(self.central.epsilon, "turning", vector("a", D, X, "t"), n, length)
+        self._finish(board, "acceleration", ends)
+
+    def _towards_joint(self, board: Board, leg: Leg, end: str) -> str:
+        """Hang on `end` the normal part of X about the joint of a leg: along the leg's line, as that of the joint.
+
+        It follows from omega of the central link, so that X may stand in the joint itself.
+        """
+        part, tip = vector("a", self.X, leg.end, "n"), mark("acceleration", self.X, NORMAL, leg.end)
+        radius = f"_r_{self.X}{leg.end}"
+        board.read(radius, leg.end, self.X)
+        board.calc(part, "transport_normal", self.central.omega, radius)
+        board.chain(tip, end, part)
+        return tip
+
+    def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
+        """Force plan of the group: first leg, central link, third leg, second leg; parallels to AB and EC close it.
+
+        Tangential parts follow from each leg alone, a normal part from moments about X. Inner reactions are chords of
+        the plan.
+        """
+        moments: list[str] = []
+        for leg in self.legs:
+            moments += self._alone(board, leg, loads[leg.number], couples[leg.number])
+        number = self.central.number
+        moments += moments_about(board, loads[number], self.X)
+        self._third_normal(board, [*moments, *couples[number]])
+        self._draw(board, loads)
+        for leg in self.legs:
+            if isinstance(leg, Slide):
+                board.step("arm", _pair(leg, "h"), _pair(leg, "M"), _pair(leg, "R"))
+            answer(board, self.mechanism, "R", (leg.before, leg.number), (number, leg.number))
+
+    def _alone(self, board: Board, leg: Leg, loads: list[tuple[str, str]], couples: list[str]) -> list[str]:
+        """Find the tangential part of an outer reaction, or the couple of a guide, from moments about the inner joint.
+
+        Returns the moments of all that is known on the leg about X.
+        """
+        own = moments_about(board, loads, leg.end)
+        about = moments_about(board, loads, self.X, self.X)
+        if isinstance(leg, Slide):
+            board.calc(_pair(leg, "M"), "closing_moment", ZERO, *own, *couples)
+            answer(board, self.mechanism, "M", (leg.before, leg.number))
+            return [*about, *couples, _pair(leg, "M")]
+        part = _pair(leg, "R", "t")
+        # R^t stands on the arm of the leg and turns about the joint against the sense in which it points
+        board.calc(part.size, "moment_equation", leg.length, *own, *couples)
+        board.calc(part, "along", part.size, leg.across)
+        board.moment(moment(part, self.X), arm(part), part, leg.start, self.X)
+        return [*about, *couples, moment(part, self.X)]
+
+    def _third_normal(self, board: Board, moments: list[str]) -> None:
+        """Find the normal part on the third leg: its moment about X balances that of all the rest."""
+        third = self.legs[2]
+        part, aside = _normal(third), Name(f"_arm_{_pair(third, 'R').of}")
+        # a force along the line has the moment minus its size times the distance of the line to the left of X
+        board.calc(aside, "across_axis", third.line, self.X, third.start)
+        board.calc(part.size, "moment_equation", aside, *moments)
+        board.calc(part, "along", part.size, third.line)
+        board.moment(moment(part, self.X), arm(part, self.X), part, third.start, self.X)
+
+    def _draw(self, board: Board, loads: Forces) -> None:
+        """Hang all that is known in a chain, close it, read the reactions."""
+        first, second, third = self.legs
+        plan, number = spelled("forces", self.name), self.central.number
+        own = [[force for force, _ in loads[link]] for link in (first.number, number, third.number, second.number)]
+        parts: list[list[str]] = [
+            [*_tangential(first), *own[0]],
+            own[1],
+            own[2],
+            [*_tangential(third), _normal(third)],
+            own[3],
+            [*_tangential(second)],
+        ]
+        board.pole(f"{plan}.0")
+        ends, count = [], 0
+        for hung in parts:
+            ends.append(hang(board, plan, hung, count))
+            count += len(hung)
+        parted, left, loaded, right, chained, last = ends
+        closing = f"{plan}.{count + 1}"
+        board.meet(closing, last, second.line, f"{plan}.0", first.line)
+        board.read(_normal(first), closing, f"{plan}.0")
+        board.read(_normal(second), last, closing)
+        for leg, tail, tip in ((first, closing, f"{plan}.1"), (second, chained, closing), (third, loaded, right)):
+            if isinstance(leg, Hinged):
+                board.read(_pair(leg, "R"), tail, tip)
+        for leg, tail, tip in ((first, parted, closing), (second, closing, right), (third, right, left)):
+            board.read(self.mechanism.pair("R", number, leg.number), tail, tip)
 
 
-def _towards_joint(board: Board, t: Triad, leg: Leg, end: str) -> str:
-    """Hang on `end` the normal part of X about the joint of a leg: it lies along the leg's line, as that of the joint.
+def _pair(leg: Leg, kind: str, part: str = "") -> Name:
+    """Return the reaction on a leg of the link before, its moment or arm."""
+    return leg.mechanism.pair(kind, leg.before, leg.number, part)
 
-    It follows from omega of the central link, so that X may stand in the joint itself.
-    """
-    part, tip = vector("a", t.X, leg.joint, "n"), mark("acceleration", t.X, NORMAL, leg.joint)
-    arm = f"_r_{t.X}{leg.joint}"
-    board.read(arm, leg.joint, t.X)
-    board.calc(part, "transport_normal", t.central.omega, arm)
-    board.chain(tip, end, part)
-    return tip
+
+def _normal(leg: Leg) -> Name:
+    """Name of the part of an outer reaction along the leg's line: all of it on a slider."""
+    return _pair(leg, "R", "" if isinstance(leg, Slide) else "n")
+
+
+def _tangential(leg: Leg) -> list[Name]:
+    return [_pair(leg, "R", "t")] if isinstance(leg, Hinged) else []
