@@ -79,11 +79,16 @@ def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:
 
 
 def beside(a: complex, b: complex, boxes: Sequence[Box]) -> Iterator[tuple[complex, complex]]:
-    """Go through the pieces of a line from `a` to `b` that lie outside of all boxes."""
-    start, gaps = a, filter(None, (clipped(a, b, box) for box in boxes))
+    """Go through the pieces of a line from `a` to `b` that lie outside of all boxes, or on their sides."""
+    inside = ((clipped(a, b, box), box) for box in boxes)
+    start, gaps = a, (ends for ends, box in inside if ends and _within_sides(0.5 * (ends[0] + ends[1]), box))
     for first, last in sorted(gaps, key=lambda gap: abs(gap[0] - a)):
         if abs(first - a) > abs(start - a):
             yield start, first
         start = max(start, last, key=lambda place: abs(place - a))
     if abs(b - a) > abs(start - a):
         yield start, b
+
+
+def _within_sides(place: complex, box: Box) -> bool:
+    return box[0] < place.real < box[2] and box[1] < place.imag < box[3]

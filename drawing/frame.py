@@ -8,11 +8,10 @@ from math import pi
 
 from .cells import fitted
 from .formats import Format, block_box, drawing_area, turned_box
-from .isoblock import centring_marks, iso_block
 from .pens import Norm
 from .shapes import Group, Line, Pen, Polyline, Shape, Text, shifted
 from .text import Box
-from .titleblock import Stamp, form_1, form_2a, words
+from .titleblock import Stamp, form_1, form_2a, iso_block, words
 
 T, t = Pen.MAIN, Pen.THIN
 UNDER = 3.7  # mm from the frame down to the words under it
@@ -31,10 +30,25 @@ def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm = "gost", first: bool =
     x0, y0, _, _ = block_box(sheet, norm, first)
     identity = (_identity(sheet, stamp),) if stamp.identity else ()
     if norm == "iso":
-        return edge, frame, centring_marks(sheet), _at_corner(iso_block(stamp), "iso-7200", x0, y0), *identity
+        return edge, frame, _centring_marks(sheet), _at_corner(iso_block(stamp), "iso-7200", x0, y0), *identity
     parts, name = (form_1(stamp), "form-1") if first else (form_2a(stamp), "form-2a")
     around = [_below(sheet, stamp), _turned(sheet, stamp)] if first else [_below(sheet, stamp)]
     return edge, frame, _at_corner(parts, name, x0, y0), *around, *identity
+
+
+def _centring_marks(sheet: Format) -> Group:
+    """Return the four marks of ISO 5457 in the middles of the sides, from 5 mm outside the frame to 5 mm inside it."""
+    x0, y0, x1, y1 = drawing_area(sheet, "iso")
+    across, up = sheet.width / 2, sheet.height / 2
+    left, _, right, _ = block_box(sheet, "iso")
+    inward = 0 if left < across < right else 5  # a mark through the title block would cross its words
+    ends = (
+        (complex(x0 - 5, up), complex(x0 + 5, up)),
+        (complex(x1 + 5, up), complex(x1 - 5, up)),
+        (complex(across, y0 - 5), complex(across, y0 + inward)),
+        (complex(across, y1 + 5), complex(across, y1 - 5)),
+    )
+    return Group(tuple(Line(a, b, T) for a, b in ends), "margin", "centring")
 
 
 def _rectangle(box: Box, pen: Pen, role: str) -> Polyline:

@@ -1,4 +1,4 @@
-"""Title blocks after GOST 2.104: forms 1 and 2a, and what any title block says."""
+"""Title blocks after GOST 2.104, forms 1 and 2a, and after ISO 7200, and what any title block says."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from ..scales.packaged import packaged
 from .cells import fitted
 from .people import named
 from .shapes import Line, Pen, Shape, Text
+from .text import Box
 
 T, t = Pen.MAIN, Pen.THIN
 CAPTION = (2.5,)
@@ -63,6 +64,29 @@ FORM_2A: tuple[tuple[float, float, float, float, Pen], ...] = (
     (0, 5, 65, 5, T),
     (175, 8, 185, 8, T),
     *((x, 0, x, 15, T) for x in (0, 7, 17, 40, 55, 65, 175)),
+)
+# 180 x 36 mm in three rows of 12
+ISO_7200: tuple[tuple[float, float, float, float, Pen], ...] = (
+    (0, 36, 180, 36, T),
+    (0, 0, 0, 36, T),
+    (0, 24, 140, 24, t),
+    (0, 12, 180, 12, t),
+    (80, 0, 80, 36, t),
+    (100, 0, 100, 12, t),
+    (140, 0, 140, 36, t),
+    (160, 0, 160, 12, t),
+)
+ISO_CELLS: tuple[tuple[str, Box], ...] = (
+    ("title", (0.0, 24.0, 80.0, 36.0)),
+    ("document_type", (0.0, 12.0, 80.0, 24.0)),
+    ("identification", (0.0, 0.0, 80.0, 12.0)),
+    ("creator", (80.0, 24.0, 140.0, 36.0)),
+    ("approver", (80.0, 12.0, 140.0, 24.0)),
+    ("owner", (140.0, 12.0, 180.0, 36.0)),
+    ("language", (80.0, 0.0, 100.0, 12.0)),
+    ("issued", (100.0, 0.0, 140.0, 12.0)),
+    ("revision", (140.0, 0.0, 160.0, 12.0)),
+    ("sheet", (160.0, 0.0, 180.0, 12.0)),
 )
 CHANGES = (("change", 0, 7), ("row_sheet", 7, 17), ("document_no", 17, 40), ("signature", 40, 55), ("date", 55, 65))
 ROLES = (("drawn", 25), ("checked", 20), ("technical", 15), ("norms", 5), ("approved", 0))
@@ -126,3 +150,25 @@ def form_2a(stamp: Stamp) -> list[Shape]:
     filled += fitted(caption["row_sheet"], (175.0, 8.0, 185.0, 15.0), CAPTION, name="sheet_caption")
     filled += fitted(str(stamp.sheet), (175.0, 0.0, 185.0, 8.0), (3.5, 2.5), name="sheet")
     return [*ruled(FORM_2A), *filled]
+
+
+def iso_block(stamp: Stamp) -> list[Shape]:
+    """Return the block of ISO 7200, filled in; a caption stands in the top left of each cell."""
+    caption = words(stamp.language)
+    values = {
+        "title": stamp.title,
+        "document_type": stamp.document_type,
+        "identification": stamp.designation,
+        "creator": " ".join(part for part in (stamp.student, stamp.group) if part),
+        "approver": stamp.teacher,
+        "owner": stamp.organisation,
+        "language": stamp.language,
+        "issued": stamp.date,
+        "sheet": f"{stamp.sheet}/{stamp.sheets}",
+    }
+    parts = ruled(ISO_7200)
+    for key, (x0, y0, x1, y1) in ISO_CELLS:
+        parts += fitted(caption[f"iso_{key}"], (x0, y1 - 4.6, x1, y1), (2.5,), "left", f"{key}_caption")
+        value = (x0, y0, x1, y1 - 3.95)
+        parts += fitted(values.get(key, ""), value, (3.5, 2.5), "left", key)
+    return parts

@@ -9,12 +9,12 @@ from itertools import pairwise
 from math import pi
 from typing import assert_never
 
-from .clearings import first_clear
 from .labels import Labels, Obstacles, Request, place
 from .layers import NOTE
 from .page import extent
 from .pens import HEAD_HALF_WIDTH
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
+from .spots import first_clear
 from .style import Style
 from .text import Box, lay_out
 from .thinning import coarser

@@ -9,10 +9,7 @@ from dataclasses import replace
 from ..drawing.compose import Drawn
 from ..drawing.formats import format_named, printable
 from ..drawing.handouts.begun import begun_pages
-from ..drawing.handouts.grid import gridded
-from ..drawing.handouts.hidden_key import keyed
-from ..drawing.handouts.over import over_page
-from ..drawing.handouts.print_marks import marked
+from ..drawing.handouts.pages import gridded, keyed, marked, over_page
 from ..drawing.page import Page
 from ..drawing.pens import Norm
 from ..scales.arguments import of_kind

@@ -15,11 +15,10 @@ from ..contents import SheetContents
 from ..figure import Figure
 from ..formats import Format, room
 from ..givens import givens_view
-from ..nesting import column, row
+from ..nesting import BLOCK, TURNED, column, row, zoned
 from ..rungs import Fitting, Found, may_fit
 from ..style import STYLES
 from ..view import View
-from ..zones import BLOCK, TURNED, zoned
 from .ladders import SYMBOLS, first_scales, ladder, size_of
 from .scene import CamScene, lettered
 

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 import shapely
 
-from kulman.drawing.clearings import first_clear
 from kulman.drawing.shapes import Circle, Line, Pen, Text
-from kulman.drawing.spots import Obstacles
+from kulman.drawing.spots import Obstacles, first_clear
 from kulman.drawing.style import STYLES
 from kulman.drawing.view import Canvas
 
