@@ -24,6 +24,18 @@ NUMBERS = ("03", "06", "08")  # points of the table at the three places, in the 
 
 
 @dataclass(frozen=True, slots=True)
+class Ordinates:
+    """Ordinates of velocities on the paper: `reduction` times those of the table, whose `highest` is so many mm."""
+
+    reduction: float
+    highest: float
+
+    def mm(self, value: float) -> float:
+        """Return an ordinate of the table, m, as it is drawn."""
+        return value * 1e3 * self.reduction
+
+
+@dataclass(frozen=True, slots=True)
 class GearScene(SubjectScene[SolvedGear]):
     """A solved pair on a certain format, in certain words.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 
 from ...plans.gears.dense import active_area, sliding_curve
@@ -20,7 +20,7 @@ from ..text import lay_out
 from ..view import Canvas, View
 from ..words import Words, indexed
 from .ladders import CURVES, ENDS, cut_of, rho_mu, theta_mu
-from .scene import GearScene, places
+from .scene import GearScene, Ordinates, places
 
 REDUCTIONS = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02, 0.01)  # of the ordinates of velocities
 TALLEST = {5.0: 130.0, 3.5: 75.0}  # mm of the highest ordinate, by the height of letters
@@ -30,18 +30,6 @@ PAST = 1.6  # heights of letters by which axes run past their ends
 APART = 1.6  # heights of letters between lines of text
 ALONG = {1: unit(1.0 + 1.0j), 2: unit(-1.0 + 1.0j)}  # of the strokes under each curve
 HATCH = 2.5  # mm between strokes
-
-
-@dataclass(frozen=True, slots=True)
-class Ordinates:
-    """Ordinates of velocities on the paper: `reduction` times those of the table, whose `highest` is so many mm."""
-
-    reduction: float
-    highest: float
-
-    def mm(self, value: float) -> float:
-        """Return an ordinate of the table, m, as it is drawn."""
-        return value * 1e3 * self.reduction
 
 
 def sliding_view(scene: GearScene) -> View:

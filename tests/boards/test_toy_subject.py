@@ -1,4 +1,4 @@
-"""A toy subject drives the first half of the package as it is meant to be used, and counts what it touches."""
+"""A toy subject: all boards run its construction, its laws print themselves, and it needs few modules."""
 
 from __future__ import annotations
 

@@ -20,6 +20,7 @@ from kulman.drawing.handouts.begun import begun_pages
 from kulman.drawing.notes.blocks import Sentences, Steps, Story
 from kulman.drawing.page import Page
 from kulman.drawing.shapes import Group, Shape, Text
+from kulman.drawing.view import View
 from kulman.plans.cams.cam import LAWS, PLANS
 from kulman.plans.cams.rules import rules_of
 from kulman.plans.cams.solve import SolvedCam
@@ -93,8 +94,8 @@ def said(case: Case, story: Story) -> str:
 
 def sentences(case: Case, story: Story) -> dict[str, list[str]]:
     """Return what is told of every view."""
-    keys = {name: [*figure.keys(scene).values()] for name, (figure, scene) in tables(case).items()}
-    return {name: [story.texts[key].format(**story.said) for key in own[1:]] for name, own in keys.items()}
+    views = (View(name, (), (0.0, 0.0, 0.0, 0.0), stages=f.keys(scene)) for name, (f, scene) in tables(case).items())
+    return {view.name: [*story.steps_of(view)] for view in views}
 
 
 @pytest.mark.parametrize("case", DRAWN)

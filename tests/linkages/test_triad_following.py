@@ -21,6 +21,7 @@ from kulman.plans.linkages.triads.special_points import with_special_points
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.mechanisms import one_of
 from kulman.tests.support.presses import ORIGIN, PRESS, RAM, RAM_VALUES, VALUES, press, two_presses
+from kulman.tests.support.printed_numbers import decimal
 from kulman.tests.support.triads import random_triads
 
 TURN = 2.0 * math.pi
@@ -176,7 +177,7 @@ def test_position_beyond_a_dead_one_cannot_be_reached(beyond: float) -> None:
     assert float(error.data["high"]) == pytest.approx(math.degrees(DEAD), abs=1e-4)
     assert found.quantities["V_B"].value is None
     assert found.quantities["V_A"].value == pytest.approx(1.0)
-    assert all("115.15" in error.text(language).replace(",", ".") for language in LANGUAGES)
+    assert all(decimal("115.15", language) in error.text(language) for language in LANGUAGES)
     assert over(BENT, [DEAD + beyond], **PARALLELOGRAM)[1] == ["no-assembly"]
 
 

@@ -13,6 +13,7 @@ from kulman.plans.linkages.accuracy.conditions import conditions_of, worst_condi
 from kulman.plans.quantities import POINTS
 from kulman.plans.references import plans_of
 from kulman.scales.errors import LANGUAGES
+from kulman.tests.support.printed_numbers import decimal
 
 PLANS = ("structure", "position", "velocity")
 POSITIONS = {
@@ -72,8 +73,7 @@ def test_warnings_name_the_point_the_angle_and_the_condition(task: str) -> None:
     assert float(warning.data["condition"]) == pytest.approx(worst, rel=0.05)
     assert solution.solved.worst_sine()[1] == pytest.approx(1.0 / float(warning.data["loss"]), rel=0.05)
     for language in LANGUAGES:
-        sign = "." if language == "en" else ","
-        assert str(warning.data["angle"]).replace(".", sign) in warning.text(language)
+        assert decimal(str(warning.data["angle"]), language) in warning.text(language)
 
 
 def test_an_angle_that_is_only_small_is_warned_of_without_a_condition() -> None:

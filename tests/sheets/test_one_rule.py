@@ -12,6 +12,7 @@ from kulman.drawing.extents import Extent, Extents, Ladder, _grown
 from kulman.drawing.shapes import Group, Shape, Vector
 from kulman.plans.hands.hand import preset
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.printed_numbers import decimal
 from kulman.variants.marking.keyed import Request, keyed
 from kulman.variants.marking.rubric import Rubric
 from kulman.variants.reader import load_task
@@ -112,7 +113,7 @@ def test_a_sheet_with_other_scale_factors_names_them_and_solve_shows_its_numbers
         assert set(re.findall(r"mu_\w+", line)) == changed
         for symbol in changed:
             change = f"{symbol} {mus(usual)[symbol]:g} -> {mus(small)[symbol]:g}"
-            assert (change if language == "en" else change.replace(".", ",")) in line
+            assert decimal(change, language) in line
 
 
 def test_solve_names_format_and_scale_factors(capsys: pytest.CaptureFixture[str]) -> None:

@@ -9,7 +9,7 @@ from kulman.scales.errors import InputError
 from kulman.tests.sheets.test_sheet_letters import page_faults, pen_faults, word_faults
 from kulman.tests.sheets.test_sheet_points import symbol_of
 from kulman.tests.support.overlaps import overlaps
-from kulman.tests.support.printed_numbers import equation_faults, table_faults
+from kulman.tests.support.printed_numbers import decimal, equation_faults, table_faults
 from kulman.tests.support.readback import Sheet
 from kulman.tests.support.sheet_cases import TASK, Case, drawn
 from kulman.tests.support.sheet_points import mechanism_faults
@@ -111,5 +111,5 @@ def test_too_fine_a_scale_factor_is_refused_with_what_fits(lang: str) -> None:
     assert "A4" in text
     assert "\n" not in text
     fits = refused.value.data["fits"]
-    assert str(fits).replace(".", "." if lang == "en" else ",") in text
+    assert decimal(str(fits), lang) in text
     assert sheet(TASK, "3", format="A4", scales={"mu_V": float(str(fits))}, lang=lang).pages

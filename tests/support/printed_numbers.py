@@ -24,6 +24,11 @@ def numbers_of(text: str, lang: str) -> list[float]:
     return [float(number.replace("−", "-").replace(sign, ".")) for number in found]
 
 
+def decimal(text: str, lang: str) -> str:
+    """Return a number that has a point as a language writes it."""
+    return text if lang == "en" else text.replace(".", ",")
+
+
 def value(text: str) -> float:
     return float(text.replace("−", "-").replace(",", "."))
 

@@ -1,7 +1,7 @@
 """A toy subject: a screw jack of three bodies, the base with its nut (0), the screw (1), the cap with the load (2).
 
-It is a subject as the first half of the package wants them: a construction of steps on names that carry their roles,
-with laws of its own. What it imports is all that a subject needs so far.
+A subject is a construction of steps on names that carry their roles, with laws of its own. What this one imports is
+all that a construction needs.
 
 Source: any book on machine elements: M = F d/2 tan(lambda + rho) lifts the load, the screw rises by p in a turn.
 """
