@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -25,8 +26,7 @@ from ...plans.linkages.accuracy.comparison import (
     SINGLE,
 )
 from ..words import Words
-from .lettering import Label, put
-from .paper import BLACK, GREY, SMALL, TEXT, box, page
+from .paper import BLACK, GREY, SMALL, TEXT, Label, box, page, put
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,6 +54,11 @@ class Look:
     line: Any
     prefer: tuple[float, float]
     words: str
+
+    @property
+    def face(self) -> dict[str, Any]:
+        """How matplotlib draws the marker."""
+        return {"ms": 4.2, "mfc": BLACK if self.filled else "white", "mec": BLACK, "mew": 0.9}
 
 
 LOOKS: Mapping[str, Look] = {
@@ -121,30 +126,16 @@ def field(figure: Figure, place: tuple[float, float], contest: Contest, kind: st
     axes = box(figure, *place, *SIZE)
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_title(words[f"chart.kind.{kind}"], loc="left", pad=4.0 + BAND * 72.0 / 25.4)
-    axes.grid(True)
-    axes.set_axisbelow(True)
+    axes.set_title(words[f"chart.kind.{kind}"], fontsize=TEXT + 1.5, pad=4.0 + BAND * 72.0 / 25.4)
     for method, look in LOOKS.items():
         xs, ys = _coordinates(drawable(contest.of(kind), method))
-        axes.plot(
-            xs,
-            ys,
-            linestyle=look.line or "none",
-            color=GREY,
-            marker=look.marker,
-            markersize=4.2,
-            markerfacecolor=BLACK if look.filled else "white",
-            markeredgecolor=BLACK,
-            markeredgewidth=0.9,
-            zorder=3,
-            label=method,
-        )
+        axes.plot(xs, ys, ls=look.line or "none", color=GREY, marker=look.marker, zorder=3, label=method, **look.face)
     xs, ys = _coordinates(e for e in contest.front(kind) if e.error and e.seconds and e.error < LARGEST)
     axes.plot(xs, ys, "o", ms=9.5, mfc="none", mec=BLACK, mew=0.7, zorder=2)
     if xs:
         axes.step(xs, ys, where="post", color=BLACK, lw=0.5, zorder=1)
-    axes.set_xlabel(words[ERRORS.get(kind, "chart.error")], labelpad=1.0)
-    axes.set_ylabel(words[TIMES.get(kind, "chart.time")], labelpad=1.0)
+    axes.set_xlabel(words[ERRORS.get(kind, "chart.error")])
+    axes.set_ylabel(words[TIMES.get(kind, "chart.time")])
     return axes
 
 
@@ -238,8 +229,6 @@ def _hands(axes: Axes, place: tuple[float, float], entries: Sequence[Entry], wor
     band.set_xlim(axes.get_xlim())
     band.minorticks_off()
     band.tick_params(bottom=False, labelbottom=False)
-    band.grid(True)
-    band.set_axisbelow(True)
     first = (BAND - PAPER * (len(entries) - 1)) / 2.0
     for row, entry in enumerate(entries):
         low, high, y = entry.typical or 0.0, entry.error or 0.0, first + PAPER * row
@@ -259,8 +248,7 @@ def _key(axes: Axes, words: Words, hand: str, contest: Contest, places: str) -> 
     for look, key in rows:
         text = "differences-slide" if key == DIFFERENCES and places != "rad" else key
         axes.plot([0.0, 5.0, 10.0], [y] * 3, linestyle=look.line or "none", color=GREY, lw=1.0)
-        face = BLACK if look.filled else "white"
-        axes.plot(5.0, y, look.marker, ms=4.2, mfc=face, mec=BLACK, mew=0.9)
+        axes.plot(5.0, y, look.marker, **look.face)
         axes.text(13.0, y, words[f"chart.key.{text}"], va="center", fontsize=TEXT)
         y += 6.5 if len(rows) <= WIDELY else 4.9
     axes.plot([0.0, 5.0, 10.0], [y] * 3, color=BLACK, lw=0.5)
@@ -269,10 +257,5 @@ def _key(axes: Axes, words: Words, hand: str, contest: Contest, places: str) -> 
     if HAND in present:
         y += 8.0
         axes.plot([1.0, 9.0], [y] * 2, marker="|", ms=6.0, color=BLACK, lw=2.2)
-        _wrapped(axes, 13.0, y, words["chart.key.hand"].format(hand=words[f"hand.{hand}"]))
-
-
-def _wrapped(axes: Axes, x: float, y: float, text: str) -> None:
-    import textwrap
-
-    axes.text(x, y, "\n".join(textwrap.wrap(text, 64)), va="center", fontsize=TEXT, linespacing=1.3)
+        text = textwrap.fill(words["chart.key.hand"].format(hand=words[f"hand.{hand}"]), 64)
+        axes.text(13.0, y, text, va="center", fontsize=TEXT, linespacing=1.3)

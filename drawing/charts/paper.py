@@ -1,13 +1,21 @@
-"""The paper of charts: A4 pages of matplotlib in black on white; the same input gives the same bytes."""
+"""The paper of charts: A4 pages of matplotlib in black on white, and labels beside points that touch nothing.
+
+The same input gives the same bytes.
+"""
 
 from __future__ import annotations
 
+import math
 import re
 import textwrap
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,7 +36,12 @@ STYLE: Mapping[str, Any] = {
     "mathtext.default": "regular",
     "axes.linewidth": 0.6,
     "axes.labelsize": TEXT,
-    "axes.titlesize": TEXT + 1.5,
+    "axes.labelpad": 1.0,
+    "axes.titlesize": TEXT + 0.5,
+    "axes.titlelocation": "left",
+    "axes.titlepad": 5.0,
+    "axes.grid": True,
+    "axes.axisbelow": True,
     "axes.unicode_minus": True,
     "xtick.labelsize": SMALL + 0.5,
     "ytick.labelsize": SMALL + 0.5,
@@ -48,6 +61,22 @@ METADATA: Mapping[str, dict[str, Any]] = {
 }
 DPI = 150
 SUFFIXES = tuple(METADATA)
+HOLLOW: Mapping[str, Any] = {"mfc": "white", "mew": 0.8}  # markers
+LOOK: Mapping[str, Any] = {"color": BLACK, "lw": 0.9, **HOLLOW}  # of a curve with such markers
+LIMIT: Mapping[str, Any] = {"color": BLACK, "lw": 0.9, "ls": (0, (6, 2))}  # of the line at a tolerance
+RING: Mapping[str, Any] = {"ms": 9.0, "mfc": "none", "mec": BLACK, "mew": 0.8, "zorder": 4}
+HANDS: Mapping[str, tuple[Any, str]] = {  # line and marker of the curve of each
+    "cad": ((0, (1, 1.2)), "D"),
+    "careful": ((0, (6, 1.5, 1, 1.5)), "s"),
+    "normal": ("-", "o"),
+    "lenient": ((0, (5, 2)), "^"),
+}
+
+Box = tuple[float, float, float, float]
+POINT = 4.0  # pixels around a point that stay free
+REACHES = (7.0, 11.0, 16.0, 23.0, 31.0)  # pixels from a point to its label
+LONG = 16.0  # from here on a thin line leads to the label
+DIRECTIONS = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1))
 
 
 @contextmanager
@@ -80,6 +109,18 @@ def page(title: str, note: str, draw: Callable[[Figure], None], height: float = 
 def box(figure: Figure, left: float, bottom: float, width: float, height: float, tall: float = HEIGHT) -> Axes:
     """Return axes in a box of a page `tall` mm tall, mm."""
     return figure.add_axes((left / WIDTH, bottom / tall, width / WIDTH, height / tall))
+
+
+def logarithmic(axes: Axes, counts: Sequence[float], words: Words) -> None:
+    """Give axes logarithmic scales, with these numbers along the abscissa."""
+    from matplotlib.ticker import NullLocator
+
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_xticks(counts, [words.short(n) for n in counts])
+    axes.yaxis.set_minor_locator(NullLocator())
+    decimals(axes.yaxis, words)
 
 
 def saved(figures: Sequence[Figure], suffix: str) -> list[bytes]:
@@ -118,3 +159,109 @@ def decimals(axis: Axis, words: Words) -> None:
     from matplotlib.ticker import FuncFormatter
 
     axis.set_major_formatter(FuncFormatter(lambda value, _: words.short(float(f"{value:.10g}"))))
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A text beside a point; `prefer` is the side where it would stand best, `must` says that it cannot be left out."""
+
+    x: float
+    y: float
+    text: str
+    prefer: tuple[float, float] = (1, 0)
+    must: bool = False
+    size: float = SMALL
+
+
+def put(axes: Axes, labels: Iterable[Label], points: Sequence[tuple[float, float]], taken: Iterable[Box] = ()) -> None:
+    """Put labels beside their points, those that must stand first; what finds no room is left out.
+
+    Parameters
+    ----------
+    points : sequence of (x, y)
+        All points that stay free, in the data's coordinates.
+    taken : iterable of box
+        Other boxes that do, x0, y0, x1, y1 in pixels.
+    """
+    renderer: Any = axes.figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    frame = axes.get_window_extent(renderer)
+    spots = axes.transData.transform(np.asarray(points)) if points else np.zeros((0, 2))
+    busy: list[Box] = [(x - POINT, y - POINT, x + POINT, y + POINT) for x, y in spots.tolist()]
+    busy += list(taken)
+    for label in sorted(labels, key=lambda label: not label.must):
+        x, y = axes.transData.transform((label.x, label.y))
+        text = axes.text(0.0, 0.0, label.text, fontsize=label.size, transform=None, ha="center", va="center", zorder=5)
+        extent = text.get_window_extent(renderer)
+        found = _free(x, y, extent.width, extent.height, label.prefer, busy, (frame.x0, frame.y0, frame.x1, frame.y1))
+        if found is None:
+            if not label.must:
+                text.remove()
+                continue
+            found = (x, y + 2.0 * POINT, 0.0)
+        at_x, at_y, reach = found
+        text.remove()
+        _write(axes, label, (x, y), (at_x, at_y), reach)
+        half_w, half_h = extent.width / 2.0, extent.height / 2.0
+        busy.append((at_x - half_w, at_y - half_h, at_x + half_w, at_y + half_h))
+
+
+def _free(
+    x: float, y: float, width: float, height: float, prefer: tuple[float, float], busy: list[Box], frame: Box
+) -> tuple[float, float, float] | None:
+    """Return the middle of the nearest free box for a text, and how far it is from its point; None without any."""
+    size = math.hypot(*prefer) or 1.0
+    ranked = sorted(DIRECTIONS, key=lambda d: -(d[0] * prefer[0] + d[1] * prefer[1]) / (math.hypot(*d) * size))
+    for reach in REACHES:
+        for dx, dy in ranked:
+            at_x, at_y = x + dx * (reach + width / 2.0), y + dy * (reach + height / 2.0)
+            if dx and dy:
+                at_x, at_y = x + dx * (0.7 * reach + width / 2.0), y + dy * (0.7 * reach + height / 2.0)
+            own = at_x - width / 2.0, at_y - height / 2.0, at_x + width / 2.0, at_y + height / 2.0
+            inside = own[0] > frame[0] and own[1] > frame[1] and own[2] < frame[2] and own[3] < frame[3]
+            touching = (b[0] < own[2] and own[0] < b[2] and b[1] < own[3] and own[1] < b[3] for b in busy)
+            if inside and not any(touching):
+                return at_x, at_y, reach
+    return None
+
+
+def _write(axes: Axes, label: Label, at: tuple[float, float], middle: tuple[float, float], reach: float) -> None:
+    """Write a label, in points from its own point so that it stays there on every output."""
+    per_pixel = 72.0 / axes.figure.dpi
+    away = (middle[0] - at[0]) * per_pixel, (middle[1] - at[1]) * per_pixel
+    arrow = {"arrowstyle": "-", "linewidth": 0.3, "color": "0.4", "shrinkA": 0.0, "shrinkB": 2.0}
+    axes.annotate(
+        label.text,
+        (label.x, label.y),
+        away,
+        textcoords="offset points",
+        fontsize=label.size,
+        ha="center",
+        va="center",
+        zorder=5,
+        arrowprops=arrow if reach >= LONG else None,
+    )
+
+
+def curves_of_hands(
+    axes: Axes,
+    x: NDArray[Any],
+    errors: Mapping[str, NDArray[Any]],
+    ringed: Mapping[str, tuple[float, float] | None],
+    words: Words,
+    beside: float = 1.0,
+) -> tuple[list[Label], list[tuple[float, float]]]:
+    """Draw what every hand keeps of a quantity, per cent, one place of each in a ring.
+
+    Returns
+    -------
+    labels, points
+        For `put`; the labels stand at `beside` times the last abscissa.
+    """
+    labels, points = [], []
+    for hand, (line, marker) in HANDS.items():
+        axes.plot(x, errors[hand], ls=line, marker=marker, ms=3.6, zorder=3, **LOOK)
+        if (place := ringed[hand]) is not None:
+            axes.plot(*place, "o", **RING)
+        points += list(zip(x.tolist(), errors[hand].tolist(), strict=True))
+        labels.append(Label(beside * float(x[-1]), float(errors[hand][-1]), words[f"hand.{hand}"], must=True))
+    return labels, points

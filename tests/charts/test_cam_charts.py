@@ -20,7 +20,6 @@ from kulman.plans.cams.sectioned import S_MAX
 from kulman.plans.contest import Effort
 from kulman.plans.hands.hand import PRESETS
 from kulman.variants.charts import cam as charts
-from kulman.variants.charts import cam_stability, sections
 from kulman.variants.charts.charts import Charts, chart
 
 TASK = "madi-cam"
@@ -44,8 +43,8 @@ def quickened(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(races, "BY_HAND", (12,))
     patch.setattr(races, "AT_ONCE", ())
     patch.setattr(charts, "cam_accuracy_chart", partial(charts.cam_accuracy_chart, effort=Effort((1, 10), 20)))
-    patch.setattr(cam_stability, "robustness", partial(robustness, sections=(12,)))
-    patch.setattr(sections, "convergence", partial(convergence, sections=FEW, drawn=(6, 18)))
+    patch.setattr(charts, "robustness", partial(robustness, sections=(12,)))
+    patch.setattr(charts, "convergence", partial(convergence, sections=FEW, drawn=(6, 18)))
 
 
 def run(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> tuple[int, str, str]:

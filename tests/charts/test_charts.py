@@ -18,8 +18,7 @@ from matplotlib.figure import Figure
 
 from kulman import KulmanError, cli
 from kulman.docs import refresh
-from kulman.drawing.charts.depth import equal
-from kulman.drawing.charts.stability import _log, _lost, _widen
+from kulman.drawing.charts.linkage import _log, _lost, _widen, equal
 from kulman.drawing.words import Words
 from kulman.plans import contest as contests
 from kulman.plans.contest import Effort
@@ -197,6 +196,15 @@ def test_a_csv_is_read_back(language: str, tmp_path: Path) -> None:
     column = head.index("K_V_B")
     assert len(rows) == 12
     assert [float(row[column].replace(",", ".")) for row in rows] == expected.tolist()
+
+
+def test_json_names_every_special_place_once(all_three: Charts) -> None:
+    found = all_three["stability"].found.spots  # type: ignore[attr-defined]
+
+    spots = all_three["stability"].to_json()["spots"]
+
+    assert len(found) > 1
+    assert [(spot["kind"], spot["link"]) for spot in spots] == [(spot.kind, spot.link) for spot in found]
 
 
 def test_all_rows_of_accuracy_are_in_the_csv(all_three: Charts, tmp_path: Path) -> None:

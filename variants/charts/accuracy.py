@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import os
 import platform
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ... import __version__
+from ...drawing.charts.accuracy import accuracy_page
 from ...drawing.words import Words
 from ...plans.contest import Contest, Entry
 from ..spreadsheets.csv_write import Cell
 from ..tables import aligned
-from .data import Scene, as_csv, finite, place_column, place_si, place_value, short, wrapped
+from .data import Chart, finite, place_column, place_si, place_value, short, wrapped
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -24,14 +26,13 @@ TIMES = ("seconds [s]", "at_once", "failed", "front")
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class AccuracyChart:
+class AccuracyChart(Chart):
     """Speed against accuracy: `contest` holds an entry for every method, setting and kind of quantities.
 
     `places` is the SI unit of the places of entries; `compared` is the key of what errors and times are.
     """
 
     heading: ClassVar[str] = "chart.accuracy"
-    scene: Scene
     places: str
     contest: Contest
     compared: str = "chart.compared"
@@ -60,16 +61,12 @@ class AccuracyChart:
         batch = words.number(self.contest.effort.at_once, 0)
         return words[self.compared].format(positions=len(self.contest.places), batch=batch), machine(words)
 
-    def csv(self, words: Words) -> bytes:
-        """Return all entries."""
-        fronts = {id(entry) for kind in self.contest.kinds for entry in self.contest.front(kind.name)}
-        rows = [self._row(entry, id(entry) in fronts) for entry in self.contest.entries]
-        return as_csv((*HEAD, place_column(self.places), *TIMES), rows, words)
-
-    def _row(self, e: Entry, front: bool) -> list[Cell]:
-        at = place_value(self.places, e.place)
-        head: list[Cell] = [e.method, e.setting, e.kind, e.error, e.typical, e.name, at]
-        return [*head, e.seconds, e.at_once, e.failed, int(front)]
+    def _rows(self) -> Iterator[tuple[Cell, ...]]:
+        yield (*HEAD, place_column(self.places), *TIMES)
+        for entry in self.contest.entries:
+            item = self._item(entry)
+            item |= {"at": place_value(self.places, entry.place), "front": int(item["front"])}
+            yield tuple(item.values())
 
     def to_json(self) -> dict[str, Any]:
         """Return all entries as data."""
@@ -81,6 +78,7 @@ class AccuracyChart:
         }
 
     def _item(self, entry: Entry) -> dict[str, Any]:
+        """Return an entry as data, in the order of the columns of the CSV."""
         return {
             "method": entry.method,
             "setting": entry.setting,
@@ -95,12 +93,8 @@ class AccuracyChart:
             "front": any(entry is one for one in self.contest.front(entry.kind)),
         }
 
-    def figure(self, words: Words) -> Figure:
-        """Draw the picture."""
-        from ...drawing.charts.accuracy import accuracy_page
-
-        title, note = self.scene.title(self.heading), "\n".join(self.notes(words))
-        return accuracy_page(self.contest, words, title, note, self.scene.hand, self.places)
+    def _page(self, words: Words, title: str) -> Figure:
+        return accuracy_page(self.contest, words, title, "\n".join(self.notes(words)), self.scene.hand, self.places)
 
 
 def machine(words: Words) -> str:

@@ -3,43 +3,191 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from ...drawing.charts.cam import sections_page, stability_page
+from ...drawing.words import Words
+from ...plans.cams.closing import WAYS
+from ...plans.cams.convergence import DRAWINGS, ROUNDING, Convergence, compared, convergence
 from ...plans.cams.rivals import rivals
-from ...plans.cams.solve import SolvedCam
+from ...plans.cams.robustness import Robustness, robustness
+from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.contest import FULL, Effort
-from ...plans.hands.hand import preset
+from ..spreadsheets.csv_write import Cell
+from ..tables import aligned
 from .accuracy import AccuracyChart
-from .cam_stability import cam_stability_chart
-from .data import Scene
-from .gallery import Chart, ChartRequest
-from .sections import sections_chart
+from .data import (
+    HANDS,
+    PERCENT,
+    Chart,
+    ChartRequest,
+    Gallery,
+    Scene,
+    check_known,
+    error_rows,
+    finite,
+    per_cent,
+    short,
+    wrapped,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+NOBODY = "exact"  # draws chords without errors
+EVERY = 5  # of the places of a line beside a jump stands in the table
+ORDINATES = ("speed_top", "speed_last", "stroke_last")
 
 
-class CamCharts:
-    """Makes the charts of one cam."""
+def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
+    """Make one of the charts of a cam.
 
-    charts: ClassVar[tuple[str, ...]] = ("sections", "accuracy", "stability")
-    used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {"quantities": ("sections",), "hand": ("accuracy",)}
+    Raises
+    ------
+    InputError
+        An unknown quantity, or diagrams that have no errors.
+    """
+    solved = SolvedCam.of(scene.case.solved)
+    if name == "accuracy":
+        return cam_accuracy_chart(scene, solved)
+    if name == "stability":
+        return CamStabilityChart(scene, robustness(solved, HANDS))
+    check_known(asked.quantities, compared(solved))
+    return SectionsChart(scene, convergence(solved, HANDS, asked.quantities))
 
-    def make(self, name: str, scene: Scene, asked: ChartRequest) -> Chart:
-        """Make one of the charts.
 
-        Raises
-        ------
-        InputError
-            An unknown quantity, or diagrams that have no errors.
-        """
-        solved = SolvedCam.of(scene.case.solved)
-        if name == "accuracy":
-            return cam_accuracy_chart(scene, solved)
-        if name == "stability":
-            return cam_stability_chart(scene, solved)
-        return sections_chart(scene, solved, asked.quantities)
+CHARTS = Gallery(("sections", "accuracy", "stability"), {"quantities": ("sections",), "hand": ("accuracy",)}, make)
 
 
 def cam_accuracy_chart(scene: Scene, solved: SolvedCam, effort: Effort = FULL) -> AccuracyChart:
     """Let all ways to the motion of a cam compete."""
-    found = rivals(solved, time.process_time, preset(scene.hand).hand, effort)
+    found = rivals(solved, time.process_time, HANDS[scene.hand], effort)
     return AccuracyChart(scene, "rad", found, "chart.cam_compared")
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class SectionsChart(Chart):
+    """Errors of the diagrams by chords against the number of sections, with and without errors of drawing."""
+
+    heading: ClassVar[str] = "chart.sections"
+    found: Convergence
+
+    def table(self, words: Words) -> str:
+        """Return errors without those of drawing and their orders, then what each hand keeps, and its best number."""
+        found, names = self.found, self.found.quantities
+        heads = [words["chart.sections_n"], *(f"{name}, %" for name in names)]
+        rows, by_hand = [[words["chart.jumps"], *heads]], [[words["chart.hand"], *heads]]
+        for where, counts in found.sections.items():
+            orders = (found.order(where, name) for name in names)
+            last = [words["chart.order"], *("–" if order is None else words.number(order, 2) for order in orders)]
+            errors = [found.errors[where, name] for name in names]
+            rows += error_rows(words[f"chart.{where}"], [*map(str, counts)], errors, last, words)
+        for hand in HANDS:
+            last = [words["chart.best"], *(str(found.best(hand, name)[0]) for name in names)]
+            errors = [found.hands[hand, name] for name in names]
+            by_hand += error_rows(words[f"hand.{hand}"], [*map(str, found.drawn)], errors, last, words)
+        said = wrapped(words["chart.sections_note"].format(n=DRAWINGS))
+        return "\n\n".join((aligned(rows), aligned(by_hand), said))
+
+    def _items(self) -> Iterator[tuple[str, str, int, str, float, float | None, bool | None]]:
+        found = self.found
+        for where, counts in found.sections.items():
+            for i, n in enumerate(counts):
+                for name in found.quantities:
+                    error = float(found.errors[where, name][i])
+                    yield NOBODY, where, n, name, error, found.order(where, name), None
+        for hand in HANDS:
+            for i, n in enumerate(found.drawn):
+                for name in found.quantities:
+                    best = found.best(hand, name)[0] == n
+                    yield hand, "nodes", n, name, float(found.hands[hand, name][i]), None, best
+
+    def _rows(self) -> Iterator[Sequence[Cell]]:
+        """Go through all errors: signed those of chords, of hands what 95 % of drawings keep."""
+        yield "drawn_by", "jumps", "sections", "quantity", "error [%]", "order", "best"
+        for by, where, n, name, error, order, best in self._items():
+            yield by, where, n, name, PERCENT * error, order, None if best is None else int(best)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all errors as data, in parts of the exact values."""
+        found, names = self.found, self.found.quantities
+        return {
+            "exact": {name: {"value": value, "unit": unit_of(name)} for name, value in found.exact.items()},
+            "orders": {where: {name: finite(found.order(where, name)) for name in names} for where in found.sections},
+            "best": {hand: {name: found.best(hand, name)[0] for name in names} for hand in HANDS},
+            "errors": [
+                {"drawn_by": by, "jumps": where, "sections": n, "quantity": name, "error": finite(error)}
+                for by, where, n, name, error, _, _ in self._items()
+            ],
+        }
+
+    def _page(self, words: Words, title: str) -> Figure:
+        return sections_page(self.found, words, title)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class CamStabilityChart(Chart):
+    """What a line beside a jump does, and by how much drawings do not close."""
+
+    heading: ClassVar[str] = "chart.cam_stability"
+    found: Robustness
+
+    def table(self, words: Words) -> str:
+        """Return errors of lines beside jumps, then for every hand what does not close, and what closing brings."""
+        rows = [[words["chart.hand"], *(words[f"chart.{name}"] for name in ORDINATES)]]
+        rows[0] += [words[f"chart.closed.{way}"] for way in WAYS]
+        for hand, closing in self.found.closings.items():
+            cells = [short(words, getattr(closing, name)) for name in ORDINATES]
+            cells += [short(words, per_cent(closing.errors.get(way))) for way in WAYS]
+            rows.append([words[f"hand.{hand}"], *cells])
+        return "\n\n".join((self._missed(words), aligned(rows), wrapped(self.note(words))))
+
+    def note(self, words: Words) -> str:
+        """Return what the numbers mean."""
+        return words["chart.closing_note"].format(n=DRAWINGS, sections=self.found.sections)
+
+    def _missed(self, words: Words) -> str:
+        found = self.found
+        if not found.beside:
+            return words["chart.no_jumps"]
+        rows = [[words["chart.sections_n"], "", *(words.short(part) for part in found.beside[::EVERY])]]
+        for n, name in found.missed:
+            tidy = [0.0 if abs(error) < ROUNDING else PERCENT * error for error in found.missed[n, name].tolist()]
+            rows.append([str(n), f"{name}, %", *(short(words, error) for error in tidy[::EVERY])])
+        return "\n".join((f"{words['chart.late']}:", aligned(rows, (0, 1))))
+
+    def _rows(self) -> Iterator[Sequence[Cell]]:
+        """Go through the rows of lines beside jumps, then of hands."""
+        yield "kind", "drawn_by", "sections", "late", "closed", "quantity", "error [%]", "size [mm]"
+        for (n, name), errors in self.found.missed.items():
+            for part, error in zip(self.found.beside, errors.tolist(), strict=True):
+                yield "jump", "exact", n, part, "", name, PERCENT * error, None
+        n = self.found.sections
+        for hand, closing in self.found.closings.items():
+            for name in ORDINATES:
+                yield "ordinate", hand, n, None, "", name, None, getattr(closing, name)
+            for way, error in closing.errors.items():
+                yield "travel", hand, n, None, way, "s", PERCENT * error, None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all of it as data: errors in parts, ordinates in metres of paper."""
+
+        def metres(millimetres: float | None) -> float | None:
+            return None if millimetres is None else 1e-3 * millimetres
+
+        missed, closings = self.found.missed.items(), self.found.closings.items()
+        return {
+            "late": list(self.found.beside),
+            "missed": [{"sections": n, "quantity": name, "error": errors.tolist()} for (n, name), errors in missed],
+            "sections": self.found.sections,
+            "hands": {
+                hand: {name: metres(getattr(closing, name)) for name in ORDINATES}
+                | {"travel_error": dict(closing.errors)}
+                for hand, closing in closings
+            },
+        }
+
+    def _page(self, words: Words, title: str) -> Figure:
+        return stability_page(self.found, words, title, self.note(words))

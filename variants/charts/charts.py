@@ -22,8 +22,7 @@ from ...scales.units import parse, unit
 from ..arguments import names_of, positions_of
 from ..case import Case, Settings, solve_case
 from ..task import LocatedError, Task
-from .data import Scene
-from .gallery import Chart, ChartRequest, Gallery
+from .data import Chart, ChartRequest, Gallery, Scene
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

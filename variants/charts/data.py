@@ -1,36 +1,44 @@
-"""What all charts share: the case, its words, places of its cycle, how a number is shown."""
+"""What all charts share: the scene, what is asked, what a chart answers; how numbers and places are shown."""
 
 from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...drawing.words import Words
-from ...plans.hands.hand import PRESETS, preset
+from ...plans.hands.hand import PRESETS, Hand, preset
 from ...plans.laws import TURN
 from ...plans.linkages.cycles.cycle import Cycle
 from ...scales.errors import InputError
+from ...scales.names import unknown
 from ...scales.numbers import quote
-from ...scales.units import format_unit, unit
+from ...scales.units import unit
 from ..case import Case
 from ..hands import is_own
 from ..spreadsheets.csv_write import Cell, csv_bytes, csv_text
-from ..sweeps.columns import driver_name
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 DIGITS = 3
 LINE = 110  # characters
+PERCENT = 100.0
 PLACES = {"rad": ("place", "deg"), "m": ("place", "mm"), "s": ("t", "s")}  # in files: what they are called, their unit
+HANDS: Mapping[str, Hand] = {name: found.hand for name, found in PRESETS.items()}
 
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """The case of a chart, its words, and the name of the hand that draws."""
+    """The case of a chart, its words, the name of the hand that draws; cycles by their numbers of positions."""
 
     case: Case
     words: Words
     hand: str
+    cycles: dict[int, Cycle] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Refuse a hand that nobody knows, and one of the user's own."""
@@ -45,21 +53,64 @@ class Scene:
         return f"{self.words[key]}. {of}"
 
 
-def place(cycle: Cycle, words: Words, at: float) -> str:
-    """Return a place of the driver with its unit, an angle within a turn."""
-    if cycle.drive.turns:
-        return f"{words.number(round(math.degrees(at) % 360.0, 2) % 360.0, 2)}°"
-    return f"{words.short(at * 1e3, 6)} {format_unit('mm', words.language)}"
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Chart(ABC):
+    """One chart of a variant: a table, rows, data, a picture; `heading` is the key of what it shows."""
+
+    heading: ClassVar[str]
+    scene: Scene
+
+    @abstractmethod
+    def table(self, words: Words) -> str:
+        """Return it as text."""
+
+    @abstractmethod
+    def _rows(self) -> Iterable[Sequence[Cell]]:
+        """Go through the rows of the CSV, the head first."""
+
+    def csv(self, words: Words) -> bytes:
+        """Return all its rows."""
+        return csv_bytes(csv_text(self._rows(), words.language), words.language)
+
+    @abstractmethod
+    def to_json(self) -> dict[str, Any]:
+        """Return it as data in SI."""
+
+    @abstractmethod
+    def _page(self, words: Words, title: str) -> Figure:
+        """Draw the picture under a title."""
+
+    def figure(self, words: Words) -> Figure:
+        """Draw the picture."""
+        return self._page(words, self.scene.title(self.heading))
 
 
-def place_head(cycle: Cycle, words: Words) -> str:
-    """Return the name of the driver's variable with its unit."""
-    return f"{driver_name(cycle)}, {format_unit('deg' if cycle.drive.turns else 'mm', words.language)}"
+@dataclass(frozen=True, slots=True)
+class ChartRequest:
+    """What is asked of charts: quantities (none: all), positions of the cycle (None: the chart's own), per cent."""
+
+    quantities: tuple[str, ...]
+    positions: int | None
+    tolerance: float
 
 
-def driver_unit(cycle: Cycle) -> str:
-    """Return the SI unit of the driver's places."""
-    return "rad" if cycle.drive.turns else "m"
+@dataclass(frozen=True, slots=True)
+class Gallery:
+    """The charts that tasks of a kind have, which of them each argument changes, and what makes one by its name.
+
+    `make` raises InputError where the case cannot have a chart.
+    """
+
+    charts: tuple[str, ...]
+    used_by: Mapping[str, tuple[str, ...]]
+    make: Callable[[str, Scene, ChartRequest], Chart]
+
+
+def check_known(names: Iterable[str], known: Sequence[str]) -> None:
+    """Refuse a quantity that a chart cannot show."""
+    for name in names:
+        if name not in known:
+            raise unknown("quantity-unknown", name, known)
 
 
 def place_value(of: str, at: float) -> float:
@@ -87,14 +138,27 @@ def short(words: Words, value: float | None, digits: int = DIGITS) -> str:
     return words.short(value, digits)
 
 
+def per_cent(part: float | None) -> float | None:
+    """Return a part in per cent, None for none."""
+    return None if part is None else PERCENT * part
+
+
+def error_rows(
+    label: str, settings: Sequence[str], errors: Iterable[Iterable[float]], last: Sequence[str], words: Words
+) -> list[list[str]]:
+    """Return rows of a table: errors in parts, a column for each quantity, as per cents for every setting.
+
+    The label stands before the first of them, and at the end what is said `last`.
+    """
+    cells = ([short(words, PERCENT * float(error)) for error in row] for row in zip(*errors, strict=True))
+    rows = [["", setting, *row] for setting, row in zip(settings, cells, strict=True)]
+    rows[0][0] = label
+    return [*rows, ["", *last]]
+
+
 def wrapped(text: str) -> str:
     """Return a note as lines of a table's width."""
     return textwrap.fill(text, LINE)
-
-
-def as_csv(head: Sequence[str], rows: Iterable[Sequence[Cell]], words: Words) -> bytes:
-    """Return rows as the CSV file of a chart."""
-    return csv_bytes(csv_text([head, *rows], words.language), words.language)
 
 
 def finite(value: float | None) -> float | None:

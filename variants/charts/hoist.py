@@ -4,47 +4,53 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import ClassVar
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
+
+from ...drawing.charts.hoist import choice_page, choice_said, depth_page, depth_verdict, roots_page, steps_page
+from ...drawing.words import Words
 from ...plans.contest import FULL, Effort
-from ...plans.hands.hand import preset
-from ...plans.hoist.choice import choose
-from ...plans.hoist.depth import depth
+from ...plans.hoist.choice import Choice, choose
+from ...plans.hoist.depth import COMPARED, MANY, HoistDepth, depth
 from ...plans.hoist.drawn import by_board, by_hand
+from ...plans.hoist.finders import FINDERS
 from ...plans.hoist.hoist import complete
+from ...plans.hoist.integrators import GROWN
 from ...plans.hoist.rivals import rivals
-from ...plans.hoist.root_race import root_race
+from ...plans.hoist.root_race import RootRace, Ways, root_race
 from ...plans.hoist.solve import SolvedHoist
-from ...plans.hoist.step_limits import step_limits
+from ...plans.hoist.step_limits import StepLimits, step_limits
+from ...plans.hoist.steppers import ORDERS
 from ...scales.errors import InputError
+from ...scales.units import format_unit, unit
+from ..spreadsheets.csv_write import Cell
+from ..tables import aligned
 from .accuracy import AccuracyChart
-from .data import Scene
-from .gallery import Chart, ChartRequest
-from .hoist_choice import HoistChoiceChart
-from .hoist_depth import HoistDepthChart
-from .hoist_roots import HoistRootsChart
-from .hoist_steps import HoistStepsChart
+from .data import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, finite, per_cent, short, wrapped
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE = "accuracy", "stability", "roots", "depth", "choice"
+EVERY = 5  # of the places stands in the tables
+TABLED = (("F_max", "kN"), ("sigma_max", "MPa"))
 
 
-class HoistCharts:
-    """Makes the charts of one hoist."""
+def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
+    """Make one of the charts of a hoist.
 
-    charts: ClassVar[tuple[str, ...]] = (ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE)
-    used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {"tolerance": (DEPTH,), "hand": (ACCURACY,)}
+    Raises
+    ------
+    InputError
+        A support that is rigid has no phase 1 to integrate; formulas that are not valid have no rivals.
+    """
+    return hoist_chart(name, scene, asked.tolerance)
 
-    def make(self, name: str, scene: Scene, asked: ChartRequest) -> Chart:
-        """Make one of the charts.
 
-        Raises
-        ------
-        InputError
-            A support that is rigid has no phase 1 to integrate; formulas that are not valid have no rivals.
-        """
-        return hoist_chart(name, scene, asked.tolerance)
+CHARTS = Gallery((ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE), {"tolerance": (DEPTH,), "hand": (ACCURACY,)}, make)
 
 
 def hoist_chart(name: str, scene: Scene, tolerance: float, effort: Effort = FULL) -> Chart:
@@ -71,6 +77,258 @@ def _accuracy(scene: Scene, solved: SolvedHoist, givens: Mapping[str, float], ef
     found = rivals(givens, time.process_time, effort)
     case = scene.case
     mus = {plan: scale.mu for plan, scale in case.kind.first_scales(solved, case.choosers, case.plans)[1].items()}
-    drawn = (*by_board(solved, time.process_time), *by_hand(solved, mus, preset(scene.hand).hand))
+    drawn = (*by_board(solved, time.process_time), *by_hand(solved, mus, HANDS[scene.hand]))
     whole = replace(found, entries=(*found.entries, *drawn))
     return AccuracyChart(scene, "s", whole, "chart.hoist_compared")
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class HoistStepsChart(Chart):
+    """Errors over the step of every method that integrates: orders, limits of stability, refusals."""
+
+    heading: ClassVar[str] = "chart.hoist_stability"
+    found: StepLimits
+
+    def table(self, words: Words) -> str:
+        """Return order and limit of every method, then errors over the step; a dash where a run is refused."""
+        found = self.found
+        heads = ("chart.method", "chart.order", "chart.hoist.limit_head", "chart.hoist.refused_from")
+        rows = [[words[key] for key in heads]]
+        for method in ORDERS:
+            order, refused, limit = found.order(method), found.refused_from(method), found.limit(method)
+            said = "–" if order is None else words.number(order, 2)
+            stable = "∞" if math.isinf(limit) else words.short(limit, 5) if limit else words["chart.hoist.always"]
+            since = words["chart.hoist.never"] if refused is None else words.short(refused, 3)
+            rows.append([words[f"chart.{method}"], said, stable, since])
+        errors = [[words["chart.hoist.step"], *(words[f"chart.{method}"] for method in ORDERS)]]
+        known = {(method, z): error for method, z, error, *_ in self._items()}
+        for z in sorted({z for _, z in known}, reverse=True):
+            cells = [short(words, known[m, z]) if (m, z) in known else "" for m in ORDERS]
+            errors.append([words.short(z, 3), *cells])
+        return "\n\n".join((aligned(rows), aligned(errors, ()), wrapped(self.note(words))))
+
+    def note(self, words: Words) -> str:
+        """Return what is refused, and why."""
+        grown = words.short(PERCENT * (GROWN - 1.0), 3)
+        return words["chart.hoist.limits_note"].format(grown=grown, ratio=words.short(self.found.ratio, 3))
+
+    def _items(self) -> Iterator[tuple[str, float, float | None, float | None]]:
+        """Go through all runs: method, step, error (none where it is refused), growth."""
+        found = self.found
+        for method in ORDERS:
+            columns = (found.steps[method], found.errors[method], found.grown[method])
+            for z, error, grown in zip(*(column.tolist() for column in columns), strict=True):
+                yield method, z, finite(error), finite(grown)
+
+    def _rows(self) -> Iterator[Sequence[Cell]]:
+        yield "method", "step [rad]", "error", "grown", "refused", "order", "limit"
+        for method, z, error, grown in self._items():
+            yield (
+                method,
+                z,
+                error,
+                grown,
+                int(error is None),
+                self.found.order(method),
+                finite(self.found.limit(method)),
+            )
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all of it as data."""
+        found = self.found
+        return {
+            "methods": {
+                method: {
+                    "order": found.order(method),
+                    "limit": finite(found.limit(method)),
+                    "stable": math.isinf(found.limit(method)),
+                    "refused_from": found.refused_from(method),
+                }
+                for method in ORDERS
+            },
+            "runs": [
+                {"method": method, "step": z, "error": error, "grown": grown, "refused": error is None}
+                for method, z, error, grown in self._items()
+            ],
+        }
+
+    def _page(self, words: Words, title: str) -> Figure:
+        return steps_page(self.found, words, title, self.note(words))
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class HoistRootsChart(Chart):
+    """Ways to the root of the hoist, and to one that is nearly triple."""
+
+    heading: ClassVar[str] = "chart.roots"
+    found: RootRace
+
+    @property
+    def _of_roots(self) -> dict[str, Ways]:
+        return {"own": self.found.own, "triple": self.found.triple}
+
+    def table(self, words: Words) -> str:
+        """Return how many evaluations every method takes to which error."""
+        parts = []
+        for name, ways in self._of_roots.items():
+            rows = [[words["chart.method"], words["chart.hoist.evaluations"], words["chart.hoist.reached"]]]
+            for method in FINDERS:
+                found, said = ways.found[method], words[f"chart.{method}"]
+                if math.isnan(found.root):
+                    rows.append([words["chart.hoist.fails"].format(method=said), "–", "–"])
+                else:
+                    rows.append([said, str(found.evaluations), short(words, ways.error(method))])
+            head = words[f"chart.hoist.{name}_root"].format(x=words.short(ways.root, 7))
+            parts.append(f"{head}\n{aligned(rows)}")
+        return "\n\n".join((*parts, wrapped(words["chart.hoist.roots_note"])))
+
+    def _rows(self) -> Iterator[Sequence[Cell]]:
+        """Go through all evaluations."""
+        yield "root", "method", "evaluation", "error", "stops", "fails"
+        for name, ways in self._of_roots.items():
+            for method in FINDERS:
+                found = ways.found[method]
+                for i, error in enumerate(ways.errors[method].tolist(), 1):
+                    yield name, method, i, finite(error), found.evaluations, int(math.isnan(found.root))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all of it as data."""
+        return {
+            name: {
+                "root": ways.root,
+                "methods": {
+                    method: {
+                        "evaluations": ways.found[method].evaluations,
+                        "error": finite(ways.error(method)),
+                        "errors": [finite(error) for error in ways.errors[method].tolist()],
+                    }
+                    for method in FINDERS
+                },
+            }
+            for name, ways in self._of_roots.items()
+        }
+
+    def _page(self, words: Words, title: str) -> Figure:
+        return roots_page(self.found, words, title)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class HoistDepthChart(Chart):
+    """What simplifications change, and one mass beside ropes of many."""
+
+    heading: ClassVar[str] = "chart.hoist_depth"
+    found: HoistDepth
+
+    def table(self, words: Words) -> str:
+        """Return what every simplification changes, ropes of more and more masses, one mass over the rope's weight."""
+        rows = [[words["chart.hoist.simpler"], *(f"{name}, %" for name in COMPARED)]]
+        for one in self.found.simpler:
+            cells = [short(words, per_cent(one.changes[name])) for name in COMPARED]
+            rows.append([words[f"chart.hoist.without.{one.key}"], *cells])
+        parts = [aligned(rows), self._ropes(words), self._one_mass(words), "\n".join(depth_verdict(self.found, words))]
+        return "\n\n".join(part for part in (*parts, wrapped(words["chart.hoist.depth_note"])) if part)
+
+    def _ropes(self, words: Words) -> str:
+        if not self.found.ropes:
+            return ""
+        newton, second = (format_unit(unit, words.language) for unit in ("N", "s"))
+        heads = [f"t_1, {second}", f"F_12_max, {newton}", f"P_12_max, {newton}"]
+        rows = [[words["chart.hoist.masses"], *heads, f"{words['chart.hoist.at_drum']}, {newton}"]]
+        for rope in self.found.ropes:
+            values = (rope.t_1, rope.F_12_max, rope.P_12_max, rope.F_drum_max)
+            rows.append([str(rope.n), *(short(words, value, 7) for value in values)])
+        return aligned(rows, ())
+
+    def _one_mass(self, words: Words) -> str:
+        if not self.found.one_mass:
+            return ""
+        rows = [["G_2/G_1", "t_1, %", *(f"{words[f'chart.hoist.{key}']}, %" for key in ("at_load", "at_drum"))]]
+        for one in self.found.one_mass:
+            errors = (one.t_1, one.at_load, one.at_drum)
+            rows.append([words.short(one.ratio, 3), *(short(words, PERCENT * error) for error in errors)])
+        return f"{words['chart.hoist.one_mass'].format(n=MANY)}\n{aligned(rows, ())}"
+
+    def _rows(self) -> Iterator[Sequence[Cell]]:
+        """Go through simplifications, ropes, weights of the rope."""
+        yield "kind", "key", "masses", "ratio", "t_1 [%]", "F_12_max [%]", "P_12_max [%]", "F_max [%]", "F_drum [%]"
+        found = self.found
+        for one in found.simpler:
+            yield "simpler", one.key, 1, None, *(per_cent(one.changes[name]) for name in COMPARED), None
+        for rope in found.ropes:
+            others = (rope.t_1, rope.F_12_max, rope.P_12_max, max(rope.F_12_max, rope.P_12_max))
+            changes = [PERCENT * (value / found.full[n] - 1.0) for n, value in zip(COMPARED, others, strict=True)]
+            drum = PERCENT * (rope.F_drum_max / found.full["F_max"] - 1.0)
+            yield "rope", "", rope.n, found.ratio, *changes, drum
+        for mass in found.one_mass:
+            at_load, at_drum = PERCENT * mass.at_load, PERCENT * mass.at_drum
+            yield "one_mass", "", MANY, mass.ratio, PERCENT * mass.t_1, None, None, at_load, at_drum
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all of it as data, changes and errors in parts."""
+        found = self.found
+        return {
+            "full": dict(found.full),
+            "tolerance": found.tolerance,
+            "simpler": [{"without": one.key, "changes": dict(one.changes)} for one in found.simpler],
+            "spare": list(found.spare),
+            "ropes": [asdict(rope) for rope in found.ropes],
+            "ratio": found.ratio,
+            "one_mass": [asdict(one) for one in found.one_mass],
+            "here": None if found.here is None else asdict(found.here),
+            "enough_to": finite(found.enough_to),
+        }
+
+    def _page(self, words: Words, title: str) -> Figure:
+        return depth_page(self.found, words, title)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class HoistChoiceChart(Chart):
+    """The spectrum of forces and stresses over the places of load and drum; `S` is the area of the rope, m^2."""
+
+    heading: ClassVar[str] = "chart.choice"
+    found: Choice
+    S: float
+
+    def table(self, words: Words) -> str:
+        """Return forces and stresses over both places, a star where they are permitted, and what the loop finds."""
+        grids = [self._grid(name, of, words) for name, of in TABLED]
+        return "\n\n".join((*grids, "\n".join(choice_said(self.found, words))))
+
+    def _grid(self, name: str, of: str, words: Words) -> str:
+        grid = self.found.spectrum
+        values, shown = getattr(grid, name), unit(of)
+        rows = [["β₀ \\ β₂", *(words.short(float(beta), 3) for beta in grid.beta_2[::EVERY])]]
+        for i in range(0, len(grid.beta_0), EVERY):
+            cells = [
+                words.short(shown.from_si(float(values[i, j])), 4) + ("*" if grid.permitted[i, j] else " ")
+                for j in range(0, len(grid.beta_2), EVERY)
+            ]
+            rows.append([words.short(float(grid.beta_0[i]), 3), *cells])
+        head = words["chart.hoist.choice_key"].format(name=name, unit=format_unit(of, words.language))
+        return f"{head}\n{aligned(rows, ())}"
+
+    def _rows(self) -> Iterator[Sequence[Cell]]:
+        """Go through all pairs of places."""
+        yield "beta_0", "beta_2", "F_max [N]", "sigma_max [Pa]", "safety", "permitted", "formulas"
+        grid = self.found.spectrum
+        for i, j in np.ndindex(*grid.F_max.shape):
+            numbers = (float(column[i, j]) for column in (grid.F_max, grid.sigma_max, grid.safety))
+            judged = (int(column[i, j]) for column in (grid.permitted, grid.formulas))
+            yield round(float(grid.beta_0[i]), 6), round(float(grid.beta_2[j]), 6), *numbers, *judged
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all of it as data."""
+        found, grid = self.found, self.found.spectrum
+        columns = ("beta_0", "beta_2", "F_max", "sigma_max", "safety", "permitted", "formulas")
+        return {
+            "given": asdict(found.given),
+            "best": asdict(found.best),
+            "safety_required": found.K,
+            "found": found.found,
+            "trials": [asdict(trial) for trial in found.trials],
+            "spectrum": {name: getattr(grid, name).tolist() for name in columns},
+        }
+
+    def _page(self, words: Words, title: str) -> Figure:
+        return choice_page(self.found, self.S, words, title)

@@ -2,70 +2,93 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
-from typing import ClassVar
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
+
+from ...drawing.charts.linkage import SPOTS, Abscissa, depth_page, depth_verdict, stability_page
 from ...drawing.formats import format_named
 from ...drawing.linkages.layout.ladders import first_scales
+from ...drawing.words import GREEK, Words
 from ...plans.board import with_needs
+from ...plans.boards.exact import SMALL, STATUSES
 from ...plans.contest import FULL, Contest, Effort, Entry
-from ...plans.hands.hand import preset
 from ...plans.linkages.accuracy.comparison import contest
+from ...plans.linkages.accuracy.depth import Cost, Depth, depth
 from ...plans.linkages.accuracy.hand_drawn import DrawnSheet, by_hand
+from ...plans.linkages.accuracy.stability import DEAD, Stability, stability
 from ...plans.linkages.chain import NEEDS
 from ...plans.linkages.cycles.cycle import Cycle, cycle
-from ...plans.linkages.solved import SolvedLinkage
+from ...plans.linkages.solved import SolvedLinkage, solve_linkage
+from ...plans.names import role
+from ...plans.quantities import BALANCES, unit_of
 from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
-from ...scales.names import unknown
+from ...scales.units import format_unit
 from ..case import Case
+from ..spreadsheets.csv_write import Cell
+from ..sweeps.columns import driver_name
+from ..tables import aligned
 from .accuracy import AccuracyChart
-from .data import Scene, driver_unit
-from .depth import depth_chart
-from .gallery import Chart, ChartRequest
-from .stability import stability_chart
+from .data import (
+    HANDS,
+    Chart,
+    ChartRequest,
+    Gallery,
+    Scene,
+    check_known,
+    finite,
+    place_column,
+    place_si,
+    place_value,
+    short,
+    wrapped,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 POSITIONS = {"accuracy": 36, "stability": 360, "depth": 360}
+LINES = 24  # of the table of stability
+LOOKED = 12  # positions at which scale factors are looked for
 
 
-class LinkageCharts:
-    """Makes the charts of one linkage; a cycle of so many positions is looked at once for all of them."""
+def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
+    """Make one of the charts of a linkage; a cycle of so many positions is looked at once for all of them.
 
-    charts: ClassVar[tuple[str, ...]] = tuple(POSITIONS)
-    used_by: ClassVar[Mapping[str, tuple[str, ...]]] = {
+    Raises
+    ------
+    InputError
+        An unknown quantity, or a chart that the plans of the case do not allow.
+    PositionError
+        No position at all can be assembled.
+    """
+    count = asked.positions or POSITIONS[name]
+    if count not in scene.cycles:
+        scene.cycles[count] = _cycle(scene.case, count)
+    whole = scene.cycles[count]
+    check_known(asked.quantities, whole.quantities)
+    if name == "accuracy":
+        return accuracy_chart(scene, whole, asked.quantities)
+    if name == "stability":
+        return stability_chart(scene, whole, asked.quantities)
+    return DepthChart(scene, whole, depth(whole, asked.tolerance))
+
+
+CHARTS = Gallery(
+    tuple(POSITIONS),
+    {
         "quantities": ("accuracy", "stability"),
         "hand": ("accuracy", "stability"),
         "tolerance": ("depth",),
-        "positions": charts,
-    }
-
-    def __init__(self) -> None:
-        self._cycles: dict[int, Cycle] = {}
-
-    def make(self, name: str, scene: Scene, asked: ChartRequest) -> Chart:
-        """Make one of the charts.
-
-        Raises
-        ------
-        InputError
-            An unknown quantity, or a chart that the plans of the case do not allow.
-        PositionError
-            No position at all can be assembled.
-        """
-        count = asked.positions or POSITIONS[name]
-        if count not in self._cycles:
-            self._cycles[count] = _cycle(scene.case, count)
-        whole = self._cycles[count]
-        for one in asked.quantities:
-            if one not in whole.quantities:
-                raise unknown("quantity-unknown", one, whole.quantities)
-        if name == "accuracy":
-            return accuracy_chart(scene, whole, asked.quantities)
-        if name == "stability":
-            return stability_chart(scene, whole, asked.quantities)
-        return depth_chart(scene, whole, asked.tolerance)
+        "positions": tuple(POSITIONS),
+    },
+    make,
+)
 
 
 def _cycle(case: Case, positions: int) -> Cycle:
@@ -74,8 +97,13 @@ def _cycle(case: Case, positions: int) -> Cycle:
     plans = tuple(plan for plan in wanted if plan not in ("cycle", "compound"))
     found = cycle(case.task.mechanism, case.task.values(case.variant, case.settings), plans, positions)
     if not found.reach.stretches:
-        raise case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
+        raise _unreachable(case)
     return found
+
+
+def _unreachable(case: Case) -> PositionError:
+    """Return why there is no position to look at."""
+    return case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
 
 
 def accuracy_chart(scene: Scene, cycle: Cycle, names: Sequence[str], effort: Effort = FULL) -> AccuracyChart:
@@ -90,7 +118,8 @@ def accuracy_chart(scene: Scene, cycle: Cycle, names: Sequence[str], effort: Eff
     if not found.kinds:
         raise InputError("chart-no-rivals")
     hands = tuple(_hands(scene, cycle, found))
-    return AccuracyChart(scene, driver_unit(cycle), replace(found, entries=found.entries + hands))
+    places = "rad" if cycle.drive.turns else "m"
+    return AccuracyChart(scene, places, replace(found, entries=found.entries + hands))
 
 
 def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
@@ -99,7 +128,7 @@ def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
         mus = _mus(scene, name)
         if mus is not None:
             drawn = DrawnSheet(name, SolvedLinkage.of(scene.case.solved), mus)
-            yield from by_hand(cycle, drawn, preset(scene.hand).hand, found.kinds)
+            yield from by_hand(cycle, drawn, HANDS[scene.hand], found.kinds)
 
 
 def _mus(scene: Scene, name: str) -> Mapping[str, float] | None:
@@ -112,3 +141,236 @@ def _mus(scene: Scene, name: str) -> Mapping[str, float] | None:
     except InputError:  # too small for a plan, or for a scale factor that was asked for
         return None
     return {plan: scale.mu for plan, scale in scales.items()}
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class _OfCycle(Chart):
+    """A chart with places of the driver: how they are shown and called."""
+
+    cycle: Cycle
+
+    @property
+    def _places(self) -> str:
+        """The SI unit of places."""
+        return "rad" if self.cycle.drive.turns else "m"
+
+    def _place(self, words: Words, at: float) -> str:
+        """Return a place with its unit, an angle within a turn."""
+        if self.cycle.drive.turns:
+            return f"{words.number(round(math.degrees(at) % 360.0, 2) % 360.0, 2)}°"
+        return f"{words.short(at * 1e3, 6)} {format_unit('mm', words.language)}"
+
+    def _place_head(self, words: Words) -> str:
+        """Return the name of the driver's variable with its unit."""
+        return f"{driver_name(self.cycle)}, {format_unit('deg' if self.cycle.drive.turns else 'mm', words.language)}"
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class DepthChart(_OfCycle):
+    """What simplifications cost over the cycle."""
+
+    heading: ClassVar[str] = "chart.depth"
+    found: Depth
+
+    def table(self, words: Words) -> str:
+        """Return a row for every simplification, then what the scene needs."""
+        found = self.found
+        names = [found.balance, words["chart.reactions"]][: 2 if found.reaction else 1]
+        head = ["", *(f"{name}, {words[f'chart.{key}']}, %" for name in names for key in ("max", "rms"))]
+        rows = [[*head, self._place_head(words)]]
+        for cost in found.costs:
+            alone = cost.parts == (cost.key,)
+            named = words["chart.without" if alone else f"chart.without.{cost.key}"].format(part=cost.key)
+            values = [cost.balance, cost.balance_rms]
+            values += [cost.reaction or 0.0, cost.reaction_rms or 0.0] if found.reaction else []
+            tidy = (0.0 if value < 1e-10 else value for value in values)
+            rows.append([named, *(short(words, value) for value in tidy), self._place(words, cost.place)])
+        return "\n".join((aligned(rows), "", depth_verdict(found, words, plain=True)))
+
+    def _rows(self) -> Iterator[Sequence[Cell]]:
+        errors = ("balance_max [%]", "balance_rms [%]", "reaction_max [%]", "reaction_rms [%]")
+        yield "without", "parts", *errors, place_column(self._places)
+        for c in self.found.costs:
+            found = (c.balance, c.balance_rms, c.reaction, c.reaction_rms)
+            yield c.key, " ".join(c.parts), *found, place_value(self._places, c.place)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all simplifications as data."""
+        found = self.found
+        largest = {found.balance: {"value": found.largest_balance, "unit": unit_of(found.balance)}}
+        if found.reaction:
+            largest[found.reaction] = {"value": found.largest_reaction or 0.0, "unit": "N"}
+        return {
+            "balance": found.balance,
+            "reaction": found.reaction,
+            "largest": largest,
+            "tolerance": found.tolerance,
+            "needed": list(found.needed),
+            "spare": list(found.spare),
+            "spare_cost": found.together.worst,
+            "costs": [self._item(cost) for cost in found.costs],
+        }
+
+    def _item(self, cost: Cost) -> dict[str, Any]:
+        return {
+            "without": cost.key,
+            "parts": list(cost.parts),
+            "balance": {"max": cost.balance, "rms": cost.balance_rms},
+            "reaction": None if cost.reaction is None else {"max": cost.reaction, "rms": finite(cost.reaction_rms)},
+            "at": place_si(self._places, cost.place),
+        }
+
+    def _page(self, words: Words, title: str) -> Figure:
+        return depth_page(self.found, words, title)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class StabilityChart(_OfCycle):
+    """What is lost over the cycle; `scales` are the scale factors of the hand, by plan."""
+
+    heading: ClassVar[str] = "chart.stability"
+    found: Stability
+    scales: Mapping[str, float]
+
+    def _unit(self, name: str) -> str:
+        """Return in what a quantity misses."""
+        return "mm" if self.found.in_mm[name] else "%"
+
+    def table(self, words: Words) -> str:
+        """Return some positions, the worst one of every quantity, special places."""
+        found, names = self.found, tuple(self.found.conditions)
+        head = [self._place_head(words), words["chart.angle"], *(f"K {name}" for name in names)]
+        head += [f"Δ {name}, {words.unit('mm') if found.in_mm[name] else '%'}" for name in names]
+        step = max(len(found.places) // LINES, 1)
+        rows = [head, *(self._row(i, words) for i in range(0, len(found.places), step))]
+        worst = filter(None, (self._worst(name, words) for name in names))
+        return "\n".join((aligned(rows, ()), "", *worst, *self._spots(words), wrapped(self._note(words))))
+
+    def _row(self, i: int, words: Words) -> list[str]:
+        found, status = self.found, self.found.statuses[i]
+        columns = (found.angles, *found.conditions.values(), *(found.misses[name] for name in found.conditions))
+        cells = [self._place(words, found.places[i]), *(short(words, values[i]) for values in columns)]
+        return [*cells, "" if status == "ok" else words[f"status.{status}"]]
+
+    def _worst(self, name: str, words: Words) -> str:
+        values = self.found.conditions[name]
+        if not np.isfinite(values).any():
+            return ""
+        i = int(np.nanargmax(values))
+        at, digits = self._place(words, self.found.places[i]), short(words, float(self.found.digits(name)[i]))
+        return words["chart.worst"].format(name=name, condition=short(words, values[i]), digits=digits, place=at)
+
+    def _spots(self, words: Words) -> list[str]:
+        """Say where special places are, all that is there on one line."""
+        texts: dict[str, list[str]] = {}
+        dead: dict[str, list[str]] = {}
+        for spot in self.found.spots:
+            at = self._place(words, spot.place)
+            if spot.kind == DEAD:
+                dead.setdefault(at, []).append(str(spot.link))
+            else:
+                texts.setdefault(at, []).append(words[SPOTS[spot.kind]])
+        for at, links in dead.items():
+            texts.setdefault(at, []).append(words["chart.dead"].format(links=", ".join(links)))
+        return [f"{at}: {'; '.join(dict.fromkeys(said))}" for at, said in texts.items()]
+
+    def _note(self, words: Words) -> str:
+        """Return what the columns are."""
+        return words["chart.drawn"].format(hand=words[f"hand.{self.scene.hand}"])
+
+    def _rows(self) -> Iterator[Sequence[Cell]]:
+        """Go through all positions."""
+        found, names = self.found, tuple(self.found.conditions)
+        heads = [place_column(self._places), "status", "sine", "angle [deg]", "worst"]
+        columns = []
+        for name in names:
+            heads += [f"K_{name}", f"digits_{name}", f"miss_{name} [{self._unit(name)}]"]
+            columns += [found.conditions[name], found.digits(name), found.misses[name]]
+        yield heads
+        for i, at in enumerate(found.places):
+            head = place_value(self._places, at), found.statuses[i], float(found.sines[i]), float(found.angles[i])
+            yield *head, found.worst[i], *(float(column[i]) for column in columns)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all positions as data."""
+        found = self.found
+        return {
+            "hand": self.scene.hand,
+            "scales": dict(self.scales),
+            "places": [place_si(self._places, at) for at in found.places],
+            "statuses": list(found.statuses),
+            "sines": [finite(value) for value in found.sines],
+            "worst": list(found.worst),
+            "quantities": {
+                name: {
+                    "condition": [finite(value) for value in found.conditions[name]],
+                    "digits": [finite(value) for value in found.digits(name)],
+                    "miss": [finite(value) for value in found.misses[name]],
+                    "unit": self._unit(name),
+                }
+                for name in found.conditions
+            },
+            "spots": [
+                {"kind": spot.kind, "at": place_si(self._places, spot.place), "link": spot.link} for spot in found.spots
+            ],
+        }
+
+    def _page(self, words: Words, title: str) -> Figure:
+        name = driver_name(self.cycle)
+        kind = role(name).kind or name
+        unit = "°" if self.cycle.drive.turns else words.unit("mm")
+        along = Abscissa(f"{GREEK.get(kind, kind)}, {unit}", self.cycle.drive.turns)
+        return stability_page(self.found, self.cycle.reach.apart, words, title, along, self._note(words))
+
+
+def stability_chart(scene: Scene, cycle: Cycle, names: Sequence[str]) -> StabilityChart:
+    """Look at quantities over the cycle; without `names` at the motion of the output and what balances the driver."""
+    mus = scales_of_cycle(scene, cycle)
+    found = stability(cycle, tuple(names) or usual(cycle), mus, HANDS[scene.hand])
+    return StabilityChart(scene, cycle, found, mus)
+
+
+def usual(cycle: Cycle) -> tuple[str, ...]:
+    """Return velocity and acceleration of a point of the last output, and what balances the driver."""
+    known = cycle.quantities
+    links = [cycle.mechanism.link(output.link) for output in cycle.outputs[::-1]] or [cycle.mechanism.links[-1]]
+    points = [point for link in links for point in link.points if f"V_{point}" in known]
+    found = [name for point in points[:1] for name in (f"V_{point}", f"a_{point}") if name in known]
+    return (*found, *[name for name in BALANCES if name in known][:1]) or known[:1]
+
+
+def scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
+    """Return scale factors, by plan, at which plans of all positions find room where lines do not meet flatly.
+
+    They are the coarsest that the task's own choice gives at some positions of the cycle.
+
+    Raises
+    ------
+    InputError
+        What is chosen gives none at any of them.
+    PositionError
+        None of them can be assembled.
+    """
+    case, mus, reason = scene.case, dict[str, float](), None
+    values = case.task.values(case.variant, case.settings)
+    plans = (*case.plans, "position")
+    sound: list[SolvedLinkage] = []
+    for angles in (cycle.angles, cycle.angles[cycle.codes < STATUSES.index("singular")]):
+        places = angles[:: max(len(angles) // LOOKED, 1)]
+        solutions = [solve_linkage(cycle.mechanism, {**values, cycle.drive.variable: at}, plans) for at in places]
+        sound = [solved for solved in solutions if solved.trouble is None]
+        if sound:
+            break
+    if not sound:
+        raise _unreachable(case)
+    for solved in [solved for solved in sound if solved.worst_sine()[1] >= SMALL] or sound:
+        try:
+            _, scales = first_scales(solved, case.choosers, plans)
+        except InputError as error:  # the segment that sets a scale factor is zero here
+            reason = error
+            continue
+        for plan, scale in scales.items():
+            mus[plan] = max(mus.get(plan, 0.0), scale.mu)
+    if reason is not None and not mus:
+        raise reason
+    return mus

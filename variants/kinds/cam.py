@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
-    from ..charts.cam import CamCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
     from ..sweeps.asked import SweepRequest
@@ -138,12 +137,6 @@ class Cams(Kind[Cam, "SolvedCam"]):
         from ...plans.cams.conditions import conditions_of
 
         return conditions_of(cam(case.solved))
-
-    def gallery(self, task: Task) -> CamCharts:
-        """Return who makes the charts of a cam."""
-        from ..charts.cam import CamCharts
-
-        return CamCharts()
 
     def warnings(self, solved: SolvedCam) -> tuple[InputError, ...]:
         """Tell what is unusual, which rules are broken, and where a profile does not give the motion, or cannot."""

@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
-    from ..charts.gear import GearCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
     from ..sweeps.asked import SweepRequest
@@ -137,12 +136,6 @@ class Gears(Kind[GearPair, "SolvedGear"]):
     def checks(self, solved: SolvedGear, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
         """Return what the pair is judged by: the compared value, its limit, how they have to stand, SI."""
         return solved.checks
-
-    def gallery(self, task: Task) -> GearCharts:
-        """Return who makes the chart of a pair."""
-        from ..charts.gear import GearCharts
-
-        return GearCharts()
 
     def sweep(self, case: Case, words: Words, asked: SweepRequest) -> GearSweep:
         """Look at a pair over the contact of one pair of teeth."""

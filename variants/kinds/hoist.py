@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
-    from ..charts.hoist import HoistCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
     from ..sweeps.asked import SweepRequest
@@ -125,12 +124,6 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         from ..sweeps.hoist import hoist_sweep
 
         return hoist_sweep(case, words, asked)
-
-    def gallery(self, task: Task) -> HoistCharts:
-        """Return who makes the charts of a hoist."""
-        from ..charts.hoist import HoistCharts
-
-        return HoistCharts()
 
     def headings(self, solved: SolvedHoist, words: Words) -> dict[str, str]:
         """Return the headings of the sections of the note."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from ...plans.check import Check
@@ -16,6 +17,7 @@ from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.scale import Scale
 from ..task import Given, Instead, Task
+from . import MODULES
 
 if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...drawing.compose import Drawn
@@ -30,7 +32,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
-    from ..charts.gallery import Gallery
+    from ..charts.data import Gallery
     from ..checks.basics import Checker
     from ..checks.names import Names
     from ..sweeps.asked import SweepRequest, Swept
@@ -163,14 +165,27 @@ class Kind(ABC, Generic[Subject, Answer]):
         return ()
 
     def gallery(self, task: Task) -> Gallery:
-        """Return who makes the charts of a task.
+        """Return what makes the charts of a task.
 
         Raises
         ------
         InputError
             There are none.
         """
-        raise InputError("kind-without", task=quote(task.id), text="chart")
+        found: Gallery = self._own("charts", task).CHARTS
+        return found
+
+    def _own(self, folder: str, task: Task) -> Any:
+        """Return the module about this kind of tasks in a folder of what is done with them.
+
+        Raises
+        ------
+        InputError
+            There is none.
+        """
+        if self.table not in MODULES:
+            raise InputError("kind-without", task=quote(task.id), text=folder.removesuffix("s"))
+        return import_module(f"..{folder}.{MODULES[self.table]}", __package__)
 
     def sweep(self, case: Case, words: Words, asked: SweepRequest) -> Swept:
         """Look at a case over its whole cycle.

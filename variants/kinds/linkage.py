@@ -42,7 +42,6 @@ if TYPE_CHECKING:
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
-    from ..charts.linkage import LinkageCharts
     from ..checks.basics import Checker
     from ..checks.names import Names
     from ..sweeps.asked import SweepRequest
@@ -141,12 +140,6 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         from ..sweeps.sweeps import linkage_sweep
 
         return linkage_sweep(case, words, asked)
-
-    def gallery(self, task: Task) -> LinkageCharts:
-        """Return who makes the charts of a linkage."""
-        from ..charts.linkage import LinkageCharts
-
-        return LinkageCharts()
 
     def warnings(self, solved: SolvedLinkage) -> tuple[InputError, ...]:
         """Tell of lines that meet at a small angle."""

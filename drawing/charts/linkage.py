@@ -1,4 +1,4 @@
-"""Stability over the cycle: the worst intersection, the condition, the error of drawing, over the driver's place."""
+"""Charts of linkages: what is lost over the cycle, and what simplifications of the model change."""
 
 from __future__ import annotations
 
@@ -13,19 +13,21 @@ from numpy.typing import NDArray
 
 from ...plans.boards.exact import SMALL as SMALL_SINE
 from ...plans.laws import TURN
+from ...plans.linkages.accuracy.depth import Cost, Depth
 from ...plans.linkages.accuracy.stability import CHANGE, DEAD, DIGITS, LIMIT, POLE, Spot, Stability
 from ...plans.linkages.cycles.limits import Arc
+from ...plans.quantities import unit_of
 from ..words import Words
-from .paper import BLACK, GREY, LIGHT, SMALL, TEXT, box, decimals, mathtext, page
+from .paper import BLACK, GREY, HEIGHT, HOLLOW, LIGHT, SMALL, TEXT, WIDTH, box, decimals, mathtext, page
+from .paper import LIMIT as TOLERANCE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 Array = NDArray[Any]
-LEFT, WIDTH = 24.0, 232.0  # mm
+LEFT, WIDE = 24.0, 232.0  # mm: the fields of stability
 FOOT, HEAD, GAP = 27.0, 27.0, 9.0
-TALL = 210.0
 LOOKS: tuple[tuple[Any, str], ...] = (
     ("-", "o"),
     ((0, (6, 2)), "s"),
@@ -34,6 +36,7 @@ LOOKS: tuple[tuple[Any, str], ...] = (
     ((0, (10, 3)), "v"),
     ((0, (3, 1, 1, 1, 1, 1)), "x"),
 )
+CURVE: Mapping[str, Any] = {"color": BLACK, "lw": 1.0, "ms": 3.6, **HOLLOW}
 FARTHEST = 1e3  # mm or per cent beyond which nothing is drawn
 SHOWN_DIGITS = 6
 DECADES = 1.2  # at least, of a logarithmic axis
@@ -41,6 +44,11 @@ FEWEST_DIGITS = 3  # whole numbers of digits on the right axis; where there are 
 ROOM = 0.2  # of the axis, between special places that are named in full
 MARKED = 12  # markers along a curve
 SPOTS = {CHANGE: "chart.change", POLE: "chart.parallel", LIMIT: "chart.limit"}
+
+MARGIN, COLUMN, APART = 60.0, 104.0, 15.0  # mm: the rows of the depth of the model
+BELOW, ABOVE, ROW = 46.0, 34.0, 9.0
+LEAST, MOST = 1e-3, 1e3  # per cent
+SHOWN = 3  # digits
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,54 +67,53 @@ class Abscissa:
 
 
 def stability_page(
-    found: Stability, apart: Sequence[Arc], words: Words, title: str, along: Abscissa, hand: str
+    found: Stability, apart: Sequence[Arc], words: Words, title: str, along: Abscissa, note: str
 ) -> Figure:
-    """Draw what is lost over a cycle.
+    """Draw what is lost over a cycle: the worst intersection, the condition, the error of drawing.
 
     Parameters
     ----------
     apart : sequence of Arc
         Where the mechanism cannot be assembled.
     """
-    lengths = [name for name, mm in found.in_mm.items() if mm]
-    others = [name for name, mm in found.in_mm.items() if not mm]
+    missed = {
+        key: [name for name, mm in found.in_mm.items() if mm == in_mm]
+        for key, in_mm in (("millimetres", True), ("per_cent", False))
+    }
+    missed = {key: names for key, names in missed.items() if names}
 
     def draw(figure: Figure) -> None:
         x = along.shown(found.places)
         order = np.argsort(x, kind="stable")
         looks = dict(zip(found.conditions, LOOKS * 4, strict=False))
-        fields = _fields(figure, 2 + bool(lengths) + bool(others))
+        fields = _fields(figure, 2 + len(missed))
         _angles(fields[0], x[order], found.angles[order], words)
         _curves(fields[1], x[order], {n: c[order] for n, c in found.conditions.items()}, looks, words)
         _log(fields[1], words["chart.condition"])
         _digits(fields[1], words)
-        for axes, names, key in zip(
-            fields[2:],
-            [names for names in (lengths, others) if names],
-            [key for key, names in (("millimetres", lengths), ("per_cent", others)) if names],
-            strict=True,
-        ):
+        for axes, (key, names) in zip(fields[2:], missed.items(), strict=True):
             _curves(axes, x[order], {n: found.misses[n][order] for n in names}, looks, words)
             axes.set_ylim(top=min(axes.get_ylim()[1], FARTHEST))
             _log(axes, words[f"chart.{key}"], words)
         for axes in fields:
-            _along(axes, along, x)
+            if along.turns:
+                axes.set_xlim(0.0, 360.0)
+                axes.set_xticks(range(0, 361, 30))
+            else:
+                axes.set_xlim(float(x.min()), float(x.max()))
             _special(axes, found.spots, apart, along)
         _named(fields[0], found.spots, along, words)
-        fields[-1].set_xlabel(along.label, labelpad=1.0)
+        fields[-1].set_xlabel(along.label)
 
-    return page(title, words["chart.drawn"].format(hand=words[f"hand.{hand}"]), draw)
+    return page(title, note, draw)
 
 
 def _fields(figure: Figure, count: int) -> list[Axes]:
     """Return fields one below the other."""
-    tall = (TALL - FOOT - HEAD - GAP * (count - 1)) / count
-    fields = [box(figure, LEFT, FOOT + (tall + GAP) * (count - 1 - i), WIDTH, tall) for i in range(count)]
+    tall = (HEIGHT - FOOT - HEAD - GAP * (count - 1)) / count
+    fields = [box(figure, LEFT, FOOT + (tall + GAP) * (count - 1 - i), WIDE, tall) for i in range(count)]
     for axes in fields[:-1]:
         axes.tick_params(labelbottom=False)
-    for axes in fields:
-        axes.grid(True)
-        axes.set_axisbelow(True)
     return fields
 
 
@@ -114,9 +121,8 @@ def _angles(axes: Axes, x: Array, angles: Array, words: Words) -> None:
     axes.plot(x, angles, color=BLACK, lw=1.1)
     small = math.degrees(math.asin(SMALL_SINE))
     axes.axhline(small, color=GREY, lw=0.7, ls=(0, (4, 2)))
-    axes.text(
-        1.005, small, words["chart.small"], transform=axes.get_yaxis_transform(), fontsize=SMALL, va="center", wrap=True
-    )
+    at: Any = {"transform": axes.get_yaxis_transform(), "fontsize": SMALL, "va": "center", "wrap": True}
+    axes.text(1.005, small, words["chart.small"], **at)
     axes.set_ylim(0.0, 92.0)
     axes.set_yticks(range(0, 91, 30))
     _titled(axes, words["chart.angle"])
@@ -132,18 +138,7 @@ def _curves(
         positive = np.where(values > 0.0, values, np.nan)
         every = max(len(x) // MARKED, 1)
         first = (number * every) // max(len(curves), 1)
-        axes.plot(
-            x,
-            positive,
-            ls=line,
-            color=BLACK,
-            lw=1.0,
-            marker=marker,
-            ms=3.6,
-            mfc="white",
-            mew=0.8,
-            markevery=(first, every),
-        )
+        axes.plot(x, positive, ls=line, marker=marker, markevery=(first, every), **CURVE)
         known = positive[np.isfinite(positive)]
         if known.size:
             ends[name] = float(known[-1])
@@ -163,7 +158,7 @@ def _widen(axes: Axes) -> None:
 def _beside(axes: Axes, ends: Mapping[str, float], looks: Mapping[str, tuple[Any, str]], words: Words) -> None:
     """Write the symbols of curves to the right of the field, with their lines, none over another."""
     low, high = (math.log10(y) for y in axes.get_ylim())
-    apart = 3.6 / (axes.get_position().height * TALL)  # 3.6 mm
+    apart = 3.6 / (axes.get_position().height * HEIGHT)  # 3.6 mm
     wanted = sorted(((math.log10(value) - low) / (high - low), name) for name, value in ends.items())
     heights: list[float] = []
     for height, _ in wanted:
@@ -172,64 +167,39 @@ def _beside(axes: Axes, ends: Mapping[str, float], looks: Mapping[str, tuple[Any
     for height, (_, name) in zip(heights, wanted, strict=True):
         line, marker = looks[name]
         y = height - over
-        axes.plot(
-            [1.045, 1.075],
-            [y, y],
-            ls=line,
-            marker=marker,
-            markevery=[0],
-            ms=3.6,
-            mfc="white",
-            mew=0.8,
-            color=BLACK,
-            lw=1.0,
-            transform=axes.transAxes,
-            clip_on=False,
-        )
+        look = {**CURVE, "ls": line, "marker": marker, "markevery": [0], "clip_on": False}
+        axes.plot([1.045, 1.075], [y, y], transform=axes.transAxes, **look)
         axes.text(1.082, y, mathtext(words.symbol(name)), transform=axes.transAxes, va="center", fontsize=TEXT)
 
 
 def _log(axes: Axes, label: str, words: Words | None = None) -> None:
+    """Give an axis numbers, the more in each power of ten the shorter it is, and say above the field what it shows."""
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    axes.yaxis.set_major_locator(LogLocator(10.0, subs=_steps(_decades(axes)), numticks=20))
+    low, high = axes.get_ylim()
+    decades = math.log10(high / low)
+    subs = (1.0, 2.0, 3.0, 5.0, 7.0) if decades < 1.5 else (1.0, 2.0, 5.0) if decades < 3.0 else (1.0,)
+    axes.yaxis.set_major_locator(LogLocator(10.0, subs=subs, numticks=20))
     axes.yaxis.set_minor_formatter(NullFormatter())
-    if _decades(axes) < 5.0 and words is not None:
+    if decades < 5.0 and words is not None:
         decimals(axes.yaxis, words)
-    elif _decades(axes) < 5.0:
+    elif decades < 5.0:
         axes.yaxis.set_major_formatter("{x:g}")
     _titled(axes, label)
 
 
-def _steps(decades: float) -> tuple[float, ...]:
-    """Return the numbers that a logarithmic axis names in each power of ten: the more the shorter it is."""
-    return (1.0, 2.0, 3.0, 5.0, 7.0) if decades < 1.5 else (1.0, 2.0, 5.0) if decades < 3.0 else (1.0,)
-
-
 def _titled(axes: Axes, label: str) -> None:
     """Say above a field what it shows."""
-    axes.set_title(label, loc="left", fontsize=TEXT, pad=3.0)
-
-
-def _decades(axes: Axes) -> float:
-    low, high = axes.get_ylim()
-    return math.log10(high / low)
+    axes.set_title(label, fontsize=TEXT, pad=3.0)
 
 
 def _digits(axes: Axes, words: Words) -> None:
     """Write at the right how many digits are left."""
     low, high = (math.log10(y) for y in axes.get_ylim())
+    small: Any = {"transform": axes.transAxes, "fontsize": SMALL, "style": "italic"}
     for k in _lost(low, high):
-        axes.text(
-            1.008,
-            (k - low) / (high - low),
-            words.short(DIGITS - k),
-            transform=axes.transAxes,
-            fontsize=SMALL,
-            va="center",
-            style="italic",
-        )
-    axes.text(1.008, 1.09, words["chart.digits"], transform=axes.transAxes, fontsize=SMALL, va="bottom", style="italic")
+        axes.text(1.008, (k - low) / (high - low), words.short(DIGITS - k), va="center", **small)
+    axes.text(1.008, 1.09, words["chart.digits"], va="bottom", **small)
 
 
 def _lost(low: float, high: float) -> list[float]:
@@ -241,14 +211,6 @@ def _lost(low: float, high: float) -> list[float]:
     whole, halves = ([k / n for k in range(math.ceil(low * n), math.floor(high * n) + 1) if k >= 0] for n in (1, 2))
     found = whole if len(whole) >= FEWEST_DIGITS else halves
     return found[:: math.ceil(len(found) / SHOWN_DIGITS) or 1]
-
-
-def _along(axes: Axes, along: Abscissa, x: Array) -> None:
-    if along.turns:
-        axes.set_xlim(0.0, 360.0)
-        axes.set_xticks(range(0, 361, 30))
-    else:
-        axes.set_xlim(float(x.min()), float(x.max()))
 
 
 def _special(axes: Axes, spots: Sequence[Spot], apart: Sequence[Arc], along: Abscissa) -> None:
@@ -287,23 +249,101 @@ def _named(axes: Axes, spots: Sequence[Spot], along: Abscissa, words: Words) -> 
     low, high = axes.get_xlim()
     roomy = all((b - a) / (high - low) >= ROOM for a, b in pairwise(sorted({*texts, *dead})))
     for x, links in dead.items():
-        texts.setdefault(x, []).insert(0, _dead(links, roomy, words))
+        key = "chart.dead" if not roomy else "chart.dead_position" if len(links) == 1 else "chart.dead_positions"
+        texts.setdefault(x, []).insert(0, words[key].format(links=", ".join(map(str, links))))
     last, row = -math.inf, 0
     for x, said in sorted(texts.items()):
         row = row + 1 if (x - last) / (high - low) < 0.09 else 0
         side = "left" if x - low < 0.03 * (high - low) else "right" if high - x < 0.03 * (high - low) else "center"
-        axes.text(
-            x,
-            1.16 + 0.1 * (row % 3),
-            "; ".join(said),
-            transform=axes.get_xaxis_transform(),
-            fontsize=SMALL,
-            ha=side,
-            va="bottom",
-        )
+        above: Any = {"transform": axes.get_xaxis_transform(), "fontsize": SMALL, "va": "bottom"}
+        axes.text(x, 1.16 + 0.1 * (row % 3), "; ".join(said), ha=side, **above)
         last = x
 
 
-def _dead(links: Sequence[int], roomy: bool, words: Words) -> str:
-    key = "chart.dead" if not roomy else "chart.dead_position" if len(links) == 1 else "chart.dead_positions"
-    return words[key].format(links=", ".join(map(str, links)))
+def depth_page(found: Depth, words: Words, title: str) -> Figure:
+    """Draw what each simplification changes, one row each, on a logarithmic scale of per cents."""
+    tall = min(HEIGHT - BELOW - ABOVE, ROW * (len(found.costs) + 1))
+    height = BELOW + tall + ABOVE
+    changes = [[(c.balance, c.balance_rms) for c in found.costs]]
+    heads = [_change_of("chart.change_of", found.balance, found.largest_balance, words)]
+    if found.reaction:
+        changes.append([(c.reaction or 0.0, c.reaction_rms or 0.0) for c in found.costs])
+        heads.append(_change_of("chart.change_of_reactions", found.reaction, found.largest_reaction or 0.0, words))
+
+    def draw(figure: Figure) -> None:
+        for i, (head, pairs) in enumerate(zip(heads, changes, strict=True)):
+            axes = box(figure, MARGIN + i * (COLUMN + APART), BELOW, COLUMN * (3 - len(heads)), tall, height)
+            axes.set_title(head, fontsize=TEXT)
+            _rows(axes, pairs, found.tolerance, words)
+            if i:
+                axes.tick_params(labelleft=False)
+            else:
+                axes.set_yticks(range(len(pairs)), [_simplified(cost, words) for cost in found.costs], fontsize=TEXT)
+        below, said = (BELOW - 16.0) / height, depth_verdict(found, words)
+        figure.text(MARGIN / WIDTH, below, said, fontsize=TEXT + 0.5, va="top", linespacing=1.5)
+
+    return page(title, words["chart.whole"], draw, height)
+
+
+def _change_of(key: str, name: str, value: float, words: Words) -> str:
+    """Return of what a field shows the changes, and how large that is."""
+    size = words.short(float(f"{words.display.value(value, unit_of(name)):.4g}"))
+    unit = words.unit(words.display.unit(unit_of(name)))
+    return words[key].format(name=mathtext(words.symbol(name)), value=size, unit=unit)
+
+
+def _simplified(cost: Cost, words: Words) -> str:
+    if cost.parts == (cost.key,):
+        return words["chart.without"].format(part=mathtext(words.symbol(cost.key)))
+    return words[f"chart.without.{cost.key}"]
+
+
+def depth_verdict(found: Depth, words: Words, plain: bool = False) -> str:
+    """Return which parts a tolerance asks for, and which may go; `plain` names them as the data do."""
+
+    def names(parts: Sequence[str]) -> str:
+        shown = (part if plain else mathtext(words.symbol(part)) for part in parts)
+        return ", ".join(shown) or words["chart.nothing"]
+
+    tolerance = words.short(found.tolerance)
+    lines = [words["chart.needed"].format(tolerance=tolerance, parts=names(found.needed))]
+    cost = _short(found.together.worst, words)
+    lines.append(words["chart.spare"].format(parts=names(found.spare), cost=cost))
+    return "\n".join(lines)
+
+
+def _rows(axes: Axes, pairs: Sequence[tuple[float, float]], tolerance: float, words: Words) -> None:
+    """Draw a row for each simplification: the largest change filled, the root of the mean square hollow."""
+    axes.set_xscale("log")
+    axes.set_xlim(LEAST, MOST)
+    axes.set_ylim(len(pairs) - 0.4, -0.6)
+    axes.grid(False, axis="y")
+    axes.axvline(tolerance, **TOLERANCE)
+    text = words["chart.tolerance"].format(value=words.short(tolerance))
+    below: Any = {"xycoords": axes.get_xaxis_transform(), "textcoords": "offset points", "ha": "center", "va": "top"}
+    line = {"arrowstyle": "-", "lw": 0.5, "shrinkB": 0.0}
+    axes.annotate(text, (tolerance, 0.0), (0.0, -17.0), fontsize=SMALL, arrowprops=line, **below)
+    for row, (most, mean) in enumerate(pairs):
+        _row(axes, row, most, mean, words)
+    decimals(axes.xaxis, words)
+    axes.minorticks_off()
+
+
+def _row(axes: Axes, row: int, most: float, mean: float, words: Words) -> None:
+    at, half = (min(max(value, LEAST), MOST) for value in (most, mean))
+    axes.plot([LEAST, at], [row, row], color=GREY, lw=2.4, solid_capstyle="butt", zorder=2, clip_on=False)
+    axes.plot(half, row, "o", mfc="white", mec=BLACK, ms=4.6, mew=0.8, zorder=3, clip_on=False)
+    axes.plot(at, row, "D", mfc=BLACK, mec=BLACK, ms=4.6, zorder=3, clip_on=False)
+    beside: Any = {"xytext": (7.0, 0.0), "textcoords": "offset points", "va": "center"}
+    white = {"facecolor": "white", "edgecolor": "none", "pad": 0.4}
+    axes.annotate(_short(most, words), (at, row), fontsize=SMALL, bbox=white, **beside)
+
+
+def _short(value: float, words: Words) -> str:
+    return equal(value, words) if value >= LEAST else "0" if value < 1e-12 else f"< {words.short(LEAST)}"
+
+
+def equal(value: float, words: Words) -> str:
+    """Return a number with all its significant digits, zeros at the end too: 2.60."""
+    power = math.floor(math.log10(abs(float(f"{value:.{SHOWN - 1}e}")))) if value else 0
+    return words.number(value, max(SHOWN - 1 - power, 0))

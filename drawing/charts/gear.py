@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...plans.gears.scale_errors import DRAWINGS, MILLI, ScaleErrors
 from ..words import Words
-from .lettering import Label, put
-from .paper import BLACK, GREY, SMALL, TEXT, box, mathtext, page
-from .sections import HANDS, logarithmic
+from .paper import GREY, HANDS, SMALL, TEXT, box, curves_of_hands, logarithmic, mathtext, page, put
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,24 +36,20 @@ def scales_page(found: ScaleErrors, words: Words, title: str, tolerances: Mappin
 
 def _field(axes: Axes, found: ScaleErrors, name: str, words: Words, tolerances: Mapping[str, float]) -> None:
     """Draw what every hand keeps of one quantity, and what is let pass of it."""
-    axes.set_title(
-        words["chart.by_hands"].format(name=mathtext(words.symbol(name))), loc="left", fontsize=TEXT, pad=3.0
-    )
-    ratios = np.array(found.ratios)
-    labels, points = [], []
-    for hand, (line, marker) in HANDS.items():
-        error = 100.0 * found.errors[hand, name]
-        axes.plot(ratios, error, ls=line, marker=marker, color=BLACK, ms=3.6, mfc="white", mew=0.8, lw=0.9, zorder=3)
-        enough = found.enough(hand, name, tolerances[hand])
-        if enough is not None:
-            axes.plot(enough, error[found.ratios.index(enough)], "o", ms=9.0, mfc="none", mec=BLACK, mew=0.8, zorder=4)
-        points += list(zip(ratios.tolist(), error.tolist(), strict=True))
-        labels.append(Label(BESIDE * float(ratios[-1]), float(error[-1]), words[f"hand.{hand}"], must=True))
+    title = words["chart.by_hands"].format(name=mathtext(words.symbol(name)))
+    axes.set_title(title, fontsize=TEXT, pad=3.0)
+    axes.set_xlabel(words["chart.scale_axis"])
+    errors = {hand: 100.0 * found.errors[hand, name] for hand in HANDS}
+    enough = {hand: found.enough(hand, name, tolerances[hand]) for hand in HANDS}
+    ringed = {
+        hand: None if ratio is None else (ratio, errors[hand][found.ratios.index(ratio)])
+        for hand, ratio in enough.items()
+    }
+    labels, points = curves_of_hands(axes, np.array(found.ratios), errors, ringed, words, BESIDE)
     logarithmic(axes, found.ratios, words)
     low, high = axes.get_ylim()
     axes.set_ylim(low, high * 1.3)
     axes.set_xlim(right=axes.get_xlim()[1] * 2.0)
-    axes.set_xlabel(words["chart.scale_axis"], labelpad=1.0)
     _customary(axes, HIGH * MILLI / found.tooth, words)
     put(axes, labels, points)
 
@@ -64,13 +58,6 @@ def _customary(axes: Axes, ratio: float, words: Words) -> None:
     """Mark from which scale on a tooth is as high as is customary."""
     if axes.get_xlim()[0] < ratio < axes.get_xlim()[1]:
         axes.axvline(ratio, color=GREY, lw=0.8, ls=(0, (8, 2, 1, 2)), zorder=1)
-        axes.annotate(
-            words["chart.scale_tooth"].format(height=words.short(HIGH)),
-            (ratio, axes.get_ylim()[1]),
-            (-3.0, -4.0),
-            textcoords="offset points",
-            ha="right",
-            va="top",
-            rotation=90,
-            fontsize=SMALL,
-        )
+        text, top = words["chart.scale_tooth"].format(height=words.short(HIGH)), (ratio, axes.get_ylim()[1])
+        place: Any = {"xytext": (-3.0, -4.0), "textcoords": "offset points", "ha": "right", "va": "top"}
+        axes.annotate(text, top, rotation=90, fontsize=SMALL, **place)
