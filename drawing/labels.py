@@ -34,6 +34,7 @@ from .spots import (
 
 SOME = 300  # places on a leader, the cheapest for their own sake, that are looked at
 AGAIN = 4  # times that all labels are placed anew when some found no place
+MANY = 24  # of these, for whom no order helps: the drawing is crowded
 
 __all__ = ["Labels", "Obstacles", "Request", "place"]
 
@@ -80,7 +81,7 @@ def place(requests: Sequence[Request], obstacles: Obstacles, gap: float = 0.6, b
     best, first = scene.placed(grid, ()), tuple[int, ...]()
     for _ in range(AGAIN):
         failed = [i for i, request in enumerate(requests) if request.name in best.failed]
-        if not any(requests[i].afield for i in failed):
+        if len(failed) > MANY or not any(requests[i].afield for i in failed):
             break
         # who found no place the last time chooses first the next time
         first = (*first, *(i for i in failed if i not in first))
