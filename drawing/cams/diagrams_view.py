@@ -117,10 +117,15 @@ def _exact(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:
     exact = diagram(scene.solved, ORDER[plan], scene.solved.motion.phases[:3])
     curves = [[field.at(*place) for place in curve] for curve in exact]
     ends = [[field.at(0.0, 0.0)], *curves, [field.at(field.x.high, 0.0)]]
-    steps = [(a[-1], b[0]) for a, b in pairwise(ends) if abs(b[0] - a[-1]) > SAME]
     canvas.add(Group(tuple(Polyline(tuple(points), Pen.MAIN) for points in curves), "curve", plan))
+    jumps(canvas, ends, plan)
+
+
+def jumps(canvas: Canvas, pieces: Sequence[Sequence[complex]], name: str) -> None:
+    """Draw the lines from the end of a piece of a curve to the beginning of the next, where they are apart."""
+    steps = [(a[-1], b[0]) for a, b in pairwise(pieces) if abs(b[0] - a[-1]) > SAME]
     for k, (a, b) in enumerate(steps, start=1):
-        canvas.add(Group((Line(a, b, Pen.MAIN),), "jump", f"{plan}.{k}"))
+        canvas.add(Group((Line(a, b, Pen.MAIN),), "jump", f"{name}.{k}"))
 
 
 def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field, away: float) -> None:

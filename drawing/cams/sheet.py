@@ -166,7 +166,7 @@ def _diagrams(contents: SheetContents[SolvedCam], width: float) -> Iterator[CamF
 
 
 def _sizes(contents: SheetContents[SolvedCam], width: float) -> Iterator[CamFigure]:
-    from . import plate_sizes_view, rocker_sizes_view, sizes_view
+    from . import rocker_sizes_view, sizes_view
     from .text import plate_block, rocker_block, roller_block
 
     if contents.solved.roller is not None:
@@ -176,7 +176,7 @@ def _sizes(contents: SheetContents[SolvedCam], width: float) -> Iterator[CamFigu
         yield rocker_sizes_view.FIGURE
         yield Figure("equations_rocker", lambda scene: rocker_block(scene, NARROW * width))
     if contents.solved.plate is not None:
-        yield plate_sizes_view.FIGURE
+        yield sizes_view.PLATE_FIGURE
         yield Figure("equations_plate", lambda scene: plate_block(scene, width))
 
 

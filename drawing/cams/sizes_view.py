@@ -1,11 +1,24 @@
-"""The plan of S over ds/dphi: limit tangents, the permitted places of the cam's centre, the one chosen."""
+"""The plans of S over its derivatives: where the centre of a cam may be, and the smallest cam for a plate.
+
+Over ds/dphi stand the limit tangents, the permitted places of the centre and the one chosen; over d2s/dphi2 the tangent
+at 45 degrees to the negative branch.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from ...plans.cams.construction import SIZES, is_back, phase_of
-from ...plans.cams.dense import analogue, offset_places, outwards, over_velocity, pressed, touch_of
+from ...plans.cams.construction import PLATE_SIZES, SIZES, is_back, phase_of
+from ...plans.cams.dense import (
+    analogue,
+    offset_places,
+    outwards,
+    over_acceleration,
+    over_velocity,
+    pressed,
+    touch_of,
+    touch_of_plate,
+)
 from ...plans.cams.followers import RollerCam
 from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.sizes import HalfPlane, wedge
@@ -15,7 +28,9 @@ from ..dimensions import angle, linear, turning
 from ..figure import Figure, Stage
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, arc_between, at_level, swept, unit
+from ..text import lay_out
 from ..view import Canvas, View
+from .diagrams_view import jumps
 from .scene import CamScene, given
 from .text import transfer
 
@@ -25,6 +40,9 @@ SHOWN = 0.6  # part of the greatest pressure angle: a ray clear of its limit, an
 ARC = 4.0  # radius of the arc of an angle in heights of letters
 LINE = 18.0  # mm by which a limit runs past the place where it touches
 OVER = 4.0 / 180.0 * HALF_TURN  # of the circle beyond the permitted part
+OUT = {"r_0_flat_min": 14.0, "r_0_flat": 46.0}  # mm from the axis to the dimensions
+ALONG = unit(-1.0 + 1.0j)  # up the tangent
+TANGENT = 12.0  # mm by which the tangent runs past the place where it touches
 TICK = 2.0  # mm to both sides of the circle
 
 
@@ -38,7 +56,7 @@ def sizes_view(scene: CamScene) -> View:
     canvas.part("points")
     outline = _curve(canvas, scene)
     canvas.part("axes")
-    _axes(canvas, scene, outline, centre)
+    _axes(canvas, scene, outline, centre.imag - 2 * PAST, "ds")
     planes = wedge(solved.motion, roller.limits, solved.cam.sense)
     apex = scene.drawn(complex(roller.by_tangents.e, -roller.by_tangents.s_0), SIZES)
     low = min(centre.imag, apex.imag) - BELOW
@@ -68,13 +86,14 @@ def _curve(canvas: Canvas, scene: CamScene) -> list[complex]:
     return every
 
 
-def _axes(canvas: Canvas, scene: CamScene, outline: list[complex], centre: complex) -> None:
+def _axes(canvas: Canvas, scene: CamScene, outline: list[complex], foot: float, letter: str) -> None:
+    """Draw both axes through the origin past an outline, that of S down to `foot`."""
     left, right = (end(p.real for p in outline) for end in (min, max))
     top = max(p.imag for p in outline) + PAST
-    for a, b in ((complex(left - PAST, 0.0), complex(right + PAST, 0.0)), (1j * (centre.imag - 2 * PAST), 1j * top)):
+    for a, b in ((complex(left - PAST, 0.0), complex(right + PAST, 0.0)), (1j * foot, 1j * top)):
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
     canvas.label(scene.words.symbol("s"), 1j * top, prefer=1 + 0j, clear=1.2)
-    canvas.label(scene.words.symbol("ds"), complex(right + PAST, 0.0), prefer=-1j, clear=1.2)
+    canvas.label(scene.words.symbol(letter), complex(right + PAST, 0.0), prefer=-1j, clear=1.2)
 
 
 def _limit(canvas: Canvas, scene: CamScene, plane: HalfPlane, low: float) -> None:
@@ -176,4 +195,93 @@ FIGURE = Figure(
         Stage("pressure"),
     ),
     "cam.sizes",
+)
+
+
+def plate_sizes_view(scene: CamScene) -> View:
+    """Draw the diagram, and what it gives: r_0min, and r_0 with the radius of curvature wanted."""
+    solved, words = scene.solved, scene.words
+    plate = solved.plate
+    assert plate is not None
+    canvas = PLATE_FIGURE.canvas(scene)
+    canvas.part("points")
+    outline = _plate_curve(canvas, scene)
+    canvas.part("axes")
+    _axes(canvas, scene, outline, -scene.drawn(plate.sizes.r_0, PLATE_SIZES) - PAST, "d2s")
+    canvas.part("tangent")
+    _tangent(canvas, scene, -1j * scene.drawn(plate.sizes.r_0_min, PLATE_SIZES))
+    canvas.part("points")
+    _plate_nodes(canvas, scene)
+    canvas.part("centre")
+    _plate_centre(canvas, scene)
+    heading = words["heading.cam_plate_sizes"], scene.factor(scene.scale(PLATE_SIZES))
+    return canvas.finish("plate_sizes", heading, transfer(scene, PLATE_SIZES))
+
+
+def _plate_curve(canvas: Canvas, scene: CamScene) -> list[complex]:
+    """Draw the exact curve by smooth pieces, and the lines across where the acceleration jumps."""
+    motion = scene.solved.motion
+    every: list[complex] = []
+    for phase in (motion.rise, motion.fall):
+        curves = [scene.curve(piece, PLATE_SIZES) for piece in over_acceleration(scene.solved, phase)]
+        canvas.add(Group(tuple(Polyline(points, Pen.MAIN) for points in curves), "curve", phase.name))
+        ends = [(complex(0.0, curves[0][0].imag),), *curves, (complex(0.0, curves[-1][-1].imag),)]
+        jumps(canvas, ends, phase.name)
+        every += [point for points in curves for point in points]
+    return every
+
+
+def _tangent(canvas: Canvas, scene: CamScene, foot: complex) -> None:
+    """Draw the tangent at 45 degrees from past the place where it touches to its foot on the axis, with its angle."""
+    touch = scene.drawn(touch_of_plate(scene.solved), PLATE_SIZES)
+    canvas.add(Line(touch + ALONG * TANGENT, foot - ALONG * TANGENT, Pen.THIN, role="limit", name="convex"))
+    canvas.add(scene.node(touch, "convex", "touch", filled=True))
+    angle(canvas, foot, (1j, ALONG), 3.0 * scene.style.label, "tangent", "45°")
+
+
+def _plate_nodes(canvas: Canvas, scene: CamScene) -> None:
+    """Mark and number the points on the section lines; at a jump both ends."""
+    shared: dict[complex, list[str]] = {}
+    for i, _ in on_lines(scene):
+        for end in ("before", "after"):
+            mark = f"{PLATE_SIZES}.{i}_{end}"
+            if mark not in scene.solved.values:
+                continue
+            at = scene.mm(mark)
+            key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
+            if str(i) not in shared.setdefault(key, []):
+                shared[key].append(str(i))
+                canvas.add(scene.node(at, f"{i}_{end}"))
+    for at, numbers in shared.items():
+        canvas.label(", ".join(numbers), at, prefer=1j, clear=0.8, height=small(scene.style.text))
+
+
+def _plate_centre(canvas: Canvas, scene: CamScene) -> None:
+    """Dimension r_0min and r_0 downwards from the lowest place of the plate."""
+    words, style, plate = scene.words, scene.style, scene.solved.plate
+    assert plate is not None
+    low, centre = (-1j * scene.drawn(size, PLATE_SIZES) for size in (plate.sizes.r_0_min, plate.sizes.r_0))
+    canvas.add(Group((Circle(centre, 1.5 * style.node, Pen.MAIN, fill="white"),), "point", "O"))
+    canvas.label("O", centre, prefer=1 - 1j, clear=1.0)
+    sizes = ((low, "r_0_flat_min", plate.sizes.r_0_min), (centre, "r_0_flat", plate.sizes.r_0))
+    for at, name, size in sizes:
+        symbol = words.symbol(name)
+        text = f"{symbol} = {scene.length(size)}"
+        between = abs(at) - 2.0 * style.arrow
+        if lay_out(text, style.text).width >= between > lay_out(symbol, style.text).width:
+            text = symbol  # the number stands with the calculations
+        linear(canvas, (at, 0j), complex(OUT[name], 0.0), text, name)
+
+
+PLATE_FIGURE = Figure(
+    PLATE_SIZES,
+    plate_sizes_view,
+    ("mu_s_d2s", "reduction"),
+    (
+        Stage("axes", "plate_sizes.#"),
+        Stage("points", "plate_sizes.#_before"),
+        Stage("tangent", "plate_sizes.T"),
+        Stage("centre", variant=given("r_0_flat")),
+    ),
+    "cam.plate_sizes",
 )
