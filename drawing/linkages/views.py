@@ -2,181 +2,183 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import Coupler
-from ...plans.linkages.mechanism import Diagram
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group
-from ...plans.names import role, scale_factor
-from ..table import note_block
+from ...plans.names import scale_factor
+from ..contents import SheetContents
+from ..figure import Figure
+from ..table import note_block, text_block
 from ..view import View
-from .calculations.forces import LOADS, WHOLE, force_parts, forces_block, lever_block
-from .calculations.kinematics import KinematicsPart, kinematics_block, kinematics_parts
-from .calculations.tables import Part, givens_table, results_parts, results_table, structure_block
-from .figures.diagrams import load_diagram
+from .calculations.equations import Lines
+from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
+from .calculations.kinematics import PLANS, kinematics_text
+from .calculations.tables import givens_table, results_parts, results_table, structure_lines
 from .figures.group import driver_view, group_view, link_view
 from .figures.lever import lever_view
 from .figures.plan import plan_view
 from .figures.scheme import scheme
 from .layout.ladders import links_apart
 from .scene import Scene
+from .telling.compound import block_name, compound_heading, compound_lines
 
 if TYPE_CHECKING:
     from ...plans.linkages.cycles.cycle import Cycle
 
+LinkageFigure = Figure[Scene]
+
 
 @dataclass(frozen=True, slots=True)
-class Figure:
-    """One figure of the sheet: how it is drawn, and the scale factor that sizes it ("" for a table or text).
+class Contents(SheetContents[SolvedLinkage]):
+    """What the sheet of a linkage shows; its whole cycle, too, where that is wanted."""
 
-    Vectors that stand on the mechanism have two: `beside` is then that of the mechanism.
+    cycle: Cycle | None = None
+
+
+def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
+    """Go through the figures of a sheet in the order of the work; lines of text are at most `width` long.
+
+    The ladders of a figure are the scale factors that size it; vectors that stand on the mechanism have two.
     """
-
-    draw: Callable[[Scene], View]
-    symbol: str = ""
-    beside: str = ""
-
-
-def figures(solved: SolvedLinkage, plans: tuple[str, ...], width: float, cycle: Cycle | None = None) -> list[Figure]:
-    """Return the figures for `plans` in the order of the work; lines of text are at most `width` long."""
-    return [
-        *_kinematics(solved, plans, width),
-        *_compound(solved, plans, width),
-        *_cycle(solved, cycle),
-        *_forces(solved, plans, width),
-        *_lever(solved, plans, width),
-    ]
-
-
-def noted(note: str, width: float) -> Iterator[Figure]:
-    """Return the figure of what the task says of its data; none where it says nothing."""
-    if note:
-        yield Figure(lambda scene: note_block(scene.words, note, scene.style, width))
+    solved, plans = contents.solved, contents.plans
+    if contents.note:
+        yield Figure("note", lambda scene: note_block(scene.words, contents.note, scene.style, width))
+    yield from _kinematics(solved, plans, width)
+    if "compound" in plans:
+        yield from _compound(solved, width)
+        yield from _results(solved, ("compound",))
+    yield from _cycle(contents)
+    if "forces" in plans:
+        yield from _forces(solved, width)
+    if "lever" in plans:
+        yield Figure("lever", lever_view, ("mu_V",))
+        yield _text("equations_lever", partial(lever_lines, with_loads="forces" not in plans), width)
+    yield from _results(solved, [kind for kind in ("forces", "lever") if kind in plans])
 
 
-def _kinematics(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
-    symbols = solved.scale_of_plan
+def _text(
+    name: str, lines: Callable[[Scene], Lines], width: float, heading: Callable[[Scene], str] | None = None
+) -> LinkageFigure:
+    """Return lines of text; where no other heading is said, they have that of their name."""
+
+    def draw(scene: Scene) -> View:
+        said = heading(scene) if heading else scene.words[f"heading.{name}"]
+        return text_block(name, said, lines(scene), scene.style, width)
+
+    return Figure(name, draw)
+
+
+def _results(solved: SolvedLinkage, kinds: Sequence[str]) -> Iterator[LinkageFigure]:
+    for part in results_parts(solved):
+        if part.kind in kinds:
+            yield Figure(part.name, partial(results_table, part=part))
+
+
+def _plan(solved: SolvedLinkage, plan: str) -> LinkageFigure:
+    return Figure(plan, partial(plan_view, plan=plan), (solved.scale_of_plan[plan],))
+
+
+def _kinematics(solved: SolvedLinkage, plans: Sequence[str], width: float) -> Iterator[LinkageFigure]:
+    """Go through what is given, the mechanism, its plans, and their equations: for each plan where groups are many."""
     if "structure" in plans:
-        yield Figure(givens_table)
-        yield Figure(lambda scene: structure_block(scene, width))
+        yield Figure("givens", givens_table)
+        yield _text("structure", structure_lines, width)
     if "position" in plans:
-        yield Figure(scheme, "mu_l")
-    for plan in ("velocity", "acceleration"):
-        if plan in plans:
-            yield _plan(plan, symbols[plan])
-    yield from (_kinematics_text(part, width) for part in kinematics_parts(solved, plans))
-    parts = results_parts(solved)
-    yield from (_results(p) for p in parts if p.kind in ("velocity", "acceleration") and p.kind in plans)
+        yield Figure("position", scheme, ("mu_l",))
+    drawn = [plan for plan in PLANS if plan in plans]
+    yield from (_plan(solved, plan) for plan in drawn)
+    single = len(solved.structure.groups) < 2
+    for i, plan in enumerate(drawn[:1] if single else drawn):
+        own = drawn if single else [plan]
+        key = f"heading.equations_{'kinematics' if len(own) > 1 else plan}"
+        lines = partial(kinematics_text, plans=own, before=drawn[:i])
+        name = "equations_kinematics" if single else f"equations_{plan}"
+        yield _text(name, lines, width, partial(_heading, key=key))
+    yield from _results(solved, drawn)
 
 
-def _compound(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
-    if "compound" not in plans:
-        return
-    from .figures.compound import velocity_figure  # few tasks split motions
+def _heading(scene: Scene, key: str) -> str:
+    return scene.words[key]
+
+
+def _compound(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
+    from .figures.compound import acceleration_figure, velocity_figure  # few tasks split motions
 
     couplers = hinged(solved.mechanism, solved.structure)
+
+    def text(coupler: Coupler, kind: str) -> LinkageFigure:
+        lines = partial(compound_lines, c=coupler, kind=kind)
+        return _text(block_name(coupler, kind), lines, width, partial(compound_heading, c=coupler, kind=kind))
+
     if couplers:
-        yield Figure(lambda scene: velocity_figure(scene, couplers), "mu_V", "mu_l")
-    yield from (_compound_text(coupler, "V", width) for coupler in couplers)
+        yield Figure("compound_velocity", partial(velocity_figure, couplers=couplers), ("mu_V", "mu_l"))
+    yield from (text(coupler, "V") for coupler in couplers)
     for coupler in couplers:
-        yield from (_accelerations(coupler, point) for point in coupler.letters)
-        yield _compound_text(coupler, "a", width)
-    yield from (_results(p) for p in results_parts(solved) if p.kind == "compound")
+        for point, letter in coupler.letters.items():
+            draw = partial(acceleration_figure, coupler=coupler, point=point)
+            yield Figure(f"compound_a_{letter}", draw, (scale_factor("a", letter), "mu_l"))
+        yield text(coupler, "a")
 
 
-def _cycle(solved: SolvedLinkage, cycle: Cycle | None) -> Iterator[Figure]:
+def _cycle(contents: Contents) -> Iterator[LinkageFigure]:
+    solved, cycle = contents.solved, contents.cycle
     if cycle is not None:
         # a sheet of one position does not pay for the import
         from .figures.diagrams import diagrams_view
         from .figures.positions import coupler, field_view, main_output, positions_view
 
-        yield Figure(lambda scene: positions_view(scene, cycle), "mu_l")
+        yield Figure("positions", partial(positions_view, cycle=cycle), ("mu_l",))
         if main_output(cycle) is not None:
-            yield Figure(lambda scene: diagrams_view(scene, cycle))
+            yield Figure("diagrams", partial(diagrams_view, cycle=cycle))
         link = coupler(solved)
         if link is not None:
-            yield Figure(lambda scene: field_view(scene, link), "mu_l")
+            yield Figure("field", partial(field_view, link=link), ("mu_l",))
 
 
-def _forces(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
-    if "forces" in plans:
-        symbols, link = solved.scale_of_plan, str(solved.structure.driver)
-        parts = force_parts(solved)  # one text after all figures, or one for each group after its own
-        yield from (_load_diagram(diagram) for diagram in solved.mechanism.diagrams)
-        yield from (_forces_text(part, width) for part in parts if part == LOADS)
-        for group in reversed(solved.structure.groups):
-            yield from _group(solved, group)
-            yield from (_forces_text(part, width) for part in parts if part == group.name)
-        yield Figure(driver_view, "mu_l")
-        yield _plan(f"forces_{link}", symbols[f"forces_{link}"])
-        yield from (_forces_text(part, width) for part in parts if part in (WHOLE, link))
+def _forces(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
+    """Go through the force plans from the last group to the driver, with their equations.
+
+    These are one text after all figures, or one for each group after its own.
+    """
+    if solved.mechanism.diagrams:
+        from .figures.diagrams import load_diagram
+
+        yield from (Figure(f"load_{d.name}", partial(load_diagram, diagram=d)) for d in solved.mechanism.diagrams)
+    texts = {part: _equations_of_forces(part, width) for part in force_parts(solved)}
+    yield from (texts[part] for part in texts if part == LOADS)
+    for group in reversed(solved.structure.groups):
+        yield from _group(solved, group)
+        yield from (texts[part] for part in texts if part == group.name)
+    driver = str(solved.structure.driver)
+    yield Figure("driver", driver_view, ("mu_l",))
+    yield _plan(solved, f"forces_{driver}")
+    yield from (texts[part] for part in texts if part in (WHOLE, driver))
 
 
-def _load_diagram(diagram: Diagram) -> Figure:
-    """Return the figure of a load diagram that the task gives."""
-    return Figure(lambda scene: load_diagram(scene, diagram))
+def _equations_of_forces(part: str, width: float) -> LinkageFigure:
+    name = f"equations_forces_{part}" if part else "equations_forces"
+    return _text(name, partial(force_lines, part=part), width, partial(equations_heading, part=part))
 
 
-def _group(solved: SolvedLinkage, group: Group) -> Iterator[Figure]:
+def _group(solved: SolvedLinkage, group: Group) -> Iterator[LinkageFigure]:
     """Go through a group, its plans of forces in the order of construction, and its sliders apart.
 
     A slider whose plan the construction draws stands before it; that of a rod beside it stands after the plans.
     """
-    symbols, apart = solved.scale_of_plan, links_apart(solved, group)
-    plans = [plan for plan in symbols if plan in {f"forces_{n}" for n in (group.name, *group.links)}]
-    plans.sort(key=solved.program.plans.index)
-    yield _apart(group, None)
-    for plan in plans:
-        link = role(plan).of
-        if link != group.name and int(link) in apart:
-            yield _apart(group, int(link))
-        yield _plan(plan, symbols[plan])
-    yield from (_apart(group, number) for number in apart if f"forces_{number}" not in plans)
-
-
-def _apart(group: Group, number: int | None) -> Figure:
-    """Return the figure of a whole group, or of one of its links."""
-    if number is None:
-        return Figure(lambda scene: group_view(scene, group), "mu_l")
-    return Figure(lambda scene: link_view(scene, group, number), "mu_l")
-
-
-def _lever(solved: SolvedLinkage, plans: tuple[str, ...], width: float) -> Iterator[Figure]:
-    if "lever" in plans:
-        yield Figure(lever_view, "mu_V")
-        yield Figure(lambda scene: lever_block(scene, width, with_inertia="forces" not in plans))
-    yield from (_results(p) for p in results_parts(solved) if p.kind in ("forces", "lever") and p.kind in plans)
-
-
-def _accelerations(coupler: Coupler, point: str) -> Figure:
-    """Return the figure of the accelerations of one point of a coupler."""
-    from .figures.compound import acceleration_figure
-
-    symbol = scale_factor("a", coupler.letters[point])
-    return Figure(lambda scene: acceleration_figure(scene, coupler, point), symbol, "mu_l")
-
-
-def _compound_text(coupler: Coupler, kind: str, width: float) -> Figure:
-    from .calculations.compound import compound_block
-
-    return Figure(lambda scene: compound_block(scene, width, coupler, kind))
-
-
-def _plan(plan: str, symbol: str) -> Figure:
-    return Figure(lambda scene: plan_view(scene, plan), symbol)
-
-
-def _kinematics_text(part: KinematicsPart, width: float) -> Figure:
-    return Figure(lambda scene: kinematics_block(scene, width, part))
-
-
-def _forces_text(part: str, width: float) -> Figure:
-    return Figure(lambda scene: forces_block(scene, width, part))
-
-
-def _results(part: Part) -> Figure:
-    return Figure(lambda scene: results_table(scene, part))
+    sliders = {
+        f"forces_{n}": Figure(f"link_{n}", partial(link_view, group=group, number=n), ("mu_l",))
+        for n in links_apart(solved, group)
+    }
+    own = {f"forces_{n}" for n in (group.name, *group.links)}
+    yield Figure(f"group_{group.name}", partial(group_view, group=group), ("mu_l",))
+    for plan in sorted(own.intersection(solved.scale_of_plan), key=solved.program.plans.index):
+        if plan in sliders:
+            yield sliders.pop(plan)
+        yield _plan(solved, plan)
+    yield from sliders.values()

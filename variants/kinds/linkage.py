@@ -181,8 +181,8 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the plans of one position, and the cycle where the task wants it."""
-        from ...drawing.linkages.layout.fitting import Contents
         from ...drawing.linkages.layout.sheet import draw
+        from ...drawing.linkages.views import Contents
 
         whole = None
         if "cycle" in case.plans:  # drawing a single position does not import it
@@ -204,7 +204,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what the first steps of every plan draw."""
-        from ...drawing.linkages.begun import begun
+        from ...drawing.linkages.steps import begun
 
         return begun(self._scene(case, scales, words), steps)
 

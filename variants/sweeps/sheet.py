@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...drawing.linkages.layout.fitting import Contents
 from ...drawing.linkages.layout.sheet import draw
+from ...drawing.linkages.views import Contents
 from ...drawing.titleblock import Stamp
 from ...drawing.words import Words
 from ...plans.linkages.cycles.cycle import Cycle

@@ -14,8 +14,6 @@ from ....plans.names import FORCES, role
 from ....scales.display import AS_INSIDE
 from ...formulas import Symbol
 from ...printed import POINT, value_text
-from ...table import text_block
-from ...view import View
 from ..reading import read
 from ..scene import Scene
 from .equations import (
@@ -46,13 +44,8 @@ def force_parts(solved: SolvedLinkage) -> tuple[str, ...]:
     return (WHOLE,) if len(groups) < 2 else (LOADS, *groups, str(solved.structure.driver))
 
 
-def forces_block(scene: Scene, width: float, part: str = WHOLE) -> View:
-    """Return the equations of forces, all of them or those of one part."""
-    name = f"equations_forces_{part}" if part else "equations_forces"
-    return text_block(name, _heading(scene, part), force_lines(scene, part), scene.style, width)
-
-
-def _heading(scene: Scene, part: str) -> str:
+def equations_heading(scene: Scene, part: str) -> str:
+    """Return the heading of the equations of a part."""
     words, groups = scene.words, {group.name: group for group in scene.solved.structure.groups}
     if part in groups:
         return words["heading.equations_links"].format(links=", ".join(map(str, sorted(groups[part].links))))
@@ -97,11 +90,6 @@ def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, Lines]
             number = link_of(scene, step.operands[1] if step.verb == "arm" else step.name)
             found.setdefault(f"link_{number}" if number in apart else last[part], []).extend(lines)
     return found
-
-
-def load_lines(scene: Scene) -> Lines:
-    """Return how masses, loads, forces and moments of inertia were found."""
-    return force_lines(scene, LOADS)
 
 
 def _part(scene: Scene, step: Step) -> str:
@@ -320,16 +308,10 @@ def links_in(scene: Scene, number: int, point: str) -> str:
     return ", ".join(map(str, sorted(group.links)))
 
 
-def lever_block(scene: Scene, width: float, with_inertia: bool) -> View:
-    """Return the moment equation of Zhukovsky's lever and the comparison of what balances the driver."""
-    lines = [*(load_lines(scene) if with_inertia else []), *lever_lines(scene)]
-    return text_block("equations_lever", scene.words["heading.equations_lever"], lines, scene.style, width)
-
-
-def lever_lines(scene: Scene) -> Lines:
-    """Return the lines of the lever in order of construction."""
+def lever_lines(scene: Scene, with_loads: bool = False) -> Lines:
+    """Return the moments on Zhukovsky's lever and what balances the driver by it; where that is wanted, loads first."""
+    lines = force_lines(scene, LOADS) if with_loads else []
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
-    lines: Lines = []
     for step in scene.solved.program:
         if step.law in TOLD and (step.law != "moment_equation" or role(step.operands[0]).kind == "V"):
             lines += TOLD[step.law](scene, step)

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from ....plans.board import POSITION, Step
 from ....plans.linkages.compound import found_here
 from ....plans.linkages.mechanism import ZERO
-from ....plans.linkages.solved import SolvedLinkage
 from ....plans.names import POLE, role
 from ....plans.quantities import unit_of
 from ...printed import Input, calculation
-from ...table import text_block
-from ...view import View
 from ..figures.plan import on_link
 from ..reading import Reading, read
 from ..scene import Scene
@@ -41,36 +38,15 @@ PLANS = ("velocity", "acceleration")
 STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 
 
-@dataclass(frozen=True, slots=True)
-class KinematicsPart:
-    """A block of equations: the plans that it tells of, and those of which another block has told before."""
-
-    plans: tuple[str, ...]
-    before: tuple[str, ...] = ()
-
-
-def kinematics_parts(solved: SolvedLinkage, plans: tuple[str, ...]) -> tuple[KinematicsPart, ...]:
-    """Return the blocks for the plans wanted: one for both where there is one group, else one for each."""
-    drawn = tuple(plan for plan in PLANS if plan in plans)
-    if len(solved.structure.groups) > 1:
-        return tuple(KinematicsPart((plan,), drawn[:i]) for i, plan in enumerate(drawn))
-    return (KinematicsPart(drawn),) if drawn else ()
-
-
-def kinematics_block(scene: Scene, width: float, part: KinematicsPart) -> View:
-    """Return the equations of velocities, of accelerations or of both."""
-    told = {name for plan in part.before for name in _measured_for(scene, plan)}
-    lines = [line for plan in part.plans for line in kinematics_lines(scene, plan, told)]
-    if "velocity" not in (*part.plans, *part.before):
-        lines = [*_speed(scene), *lines]
-    key, single = "kinematics" if len(part.plans) > 1 else part.plans[0], len(scene.solved.structure.groups) < 2
-    name = "equations_kinematics" if single else f"equations_{key}"
-    return text_block(name, scene.words[f"heading.equations_{key}"], lines, scene.style, width)
-
-
-def _measured_for(scene: Scene, plan: str) -> set[str]:
-    """Return the names that the calculations of a plan take: lengths among them have been told with it."""
-    return {name for step in scene.solved.program if step.law and stage_of(step) == plan for name in step.operands}
+def kinematics_text(scene: Scene, plans: Sequence[str], before: Sequence[str]) -> Lines:
+    """Return the equations of plans; lengths that those of the plans `before` take have been told with these."""
+    steps = [step for step in scene.solved.program if step.law]
+    told = {name for step in steps if stage_of(step) in before for name in step.operands}
+    lines = [line for plan in plans for line in kinematics_lines(scene, plan, told)]
+    if "velocity" in (*plans, *before):
+        return lines
+    given = (step for step in steps if step.law == "signed" and role(step.name).kind == "omega")
+    return [*(line for step in given for line in _turning_alike(scene, step)), *lines]  # the crank's omega alone
 
 
 def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> Lines:
@@ -178,12 +154,6 @@ def _lies(scene: Scene, reading: Reading, step: Step, name: str) -> tuple[str, .
         )
         return tuple(said.split("|"))
     return ()
-
-
-def _speed(scene: Scene) -> Lines:
-    """Return the crank's omega alone, for a plan of accelerations without that of velocities."""
-    given = (s for s in scene.solved.program if s.law == "signed" and role(s.name).kind == "omega")
-    return [line for step in given for line in _turning_alike(scene, step)]
 
 
 def _turning_alike(scene: Scene, step: Step) -> Lines:

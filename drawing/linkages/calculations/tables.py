@@ -19,7 +19,7 @@ from ....plans.quantities import Quantity
 from ....scales.scale import Scale
 from ...givens import givens_view
 from ...printed import ruler_decimals, segment_decimals, value_text
-from ...table import table, text_block
+from ...table import table
 from ...view import View
 from ..figures.inset import enlarged
 from ..reading import read
@@ -224,7 +224,7 @@ def tidy(q: Quantity, value: float) -> float:
     return 0.0 if role(q.name).kind == "delta" and abs(size) < 1e-6 else size
 
 
-def structure_block(scene: Scene, width: float) -> View:
+def structure_lines(scene: Scene) -> Lines:
     """Return mobility, groups and the formula of structure."""
     words, s = scene.words, scene.solved.structure
     lines: Lines = [
@@ -236,7 +236,7 @@ def structure_block(scene: Scene, width: float) -> View:
     text, _, tail = words["structure.formula"].partition("{formula}")
     first, *rest = formula(s, words.frame)
     lines.append((text.strip(), first, *rest[:-1], *(f"{last}{tail}" for last in rest[-1:])))
-    return text_block("structure", words["heading.structure"], lines, scene.style, width)
+    return lines
 
 
 def _group(scene: Scene, group: Group) -> tuple[str, ...]:

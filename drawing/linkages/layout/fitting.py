@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 from ....plans.linkages.cycles.slider_runs import Runs, slider_runs
 from ....plans.linkages.solved import SolvedLinkage
@@ -13,29 +12,18 @@ from ....scales.choices import SIZES
 from ....scales.choose import UNITS
 from ....scales.errors import InputError
 from ....scales.scale import Scale, steps
-from ...contents import SheetContents
 from ...extents import Extents, Rungs
 from ...formats import FORMATS, Format, printable, room
 from ...style import STYLES
 from ...view import View
 from ..reading import lettered
 from ..scene import Scene
-from ..views import Figure, figures, noted
+from ..views import Contents, LinkageFigure, figures
 from .ladders import MARKS, by_plan, extents_of, mus_of
-
-if TYPE_CHECKING:
-    from ....plans.linkages.cycles.cycle import Cycle
 
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 SURELY = 0.85  # part of the excess of a view that certainly comes from what is drawn to scale
 Fitted = tuple[list[View], Mapping[str, Scale]]
-
-
-@dataclass(frozen=True, slots=True)
-class Contents(SheetContents[SolvedLinkage]):
-    """What the sheet of a linkage shows; its whole cycle, too, where that is wanted."""
-
-    cycle: Cycle | None = None
 
 
 class Watched(Mapping[str, Scale]):
@@ -67,7 +55,7 @@ class Fitting:
     contents: Contents
     extents: Extents = field(init=False)
     runs: Runs = field(init=False)
-    _drawings: dict[tuple[str, int], list[tuple[dict[str, Scale], View]]] = field(default_factory=dict)
+    _drawings: dict[tuple[str, str], list[tuple[dict[str, Scale], View]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Find what figures take up, the ladders among it, and how long guides are."""
@@ -125,22 +113,15 @@ class Fitting:
         mus = mus_of(self.extents, rungs)
         scene = self._scene(sheet, mus)
         built = []
-        wanted = [*noted(contents.note, text_width)]
-        wanted += figures(contents.solved, contents.plans, text_width, contents.cycle)
-        for number, figure in enumerate(wanted):
-            view = self._drawn(sheet, number, figure, scene)
-            built.append((view, self.extents.root(self._sizing(figure, mus))))
+        for figure in figures(contents, text_width):
+            # of two scale factors the one with the longer lines makes the figure as large as it is
+            symbol = max(figure.ladders, key=lambda s: _reach(contents.solved, s) / mus[s], default="")
+            built.append((self._drawn(sheet, figure, scene), self.extents.root(symbol)))
         return built, scene.scales
 
-    def _sizing(self, figure: Figure, mus: Mapping[str, float]) -> str:
-        """Return the scale factor that makes a figure as large as it is: of two the one with the longer lines."""
-        if not figure.beside:
-            return figure.symbol
-        return max((figure.symbol, figure.beside), key=lambda s: _reach(self.contents.solved, s) / mus[s])
-
-    def _drawn(self, sheet: Format, number: int, figure: Figure, scene: Scene) -> View:
+    def _drawn(self, sheet: Format, figure: LinkageFigure, scene: Scene) -> View:
         """Draw a figure, unless it has been drawn for this format at the same of the scale factors that it used."""
-        drawings = self._drawings.setdefault((sheet.name, number), [])
+        drawings = self._drawings.setdefault((sheet.name, figure.name), [])
         for used, view in drawings:
             if all(scene.scales[plan] == scale for plan, scale in used.items()):
                 return view

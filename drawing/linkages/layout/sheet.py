@@ -15,7 +15,8 @@ from ...packing import Placement, pack
 from ...pens import Norm
 from ...text import Box
 from ...view import View
-from .fitting import Contents, Fitted, Fitting
+from ..views import Contents
+from .fitting import Fitted, Fitting
 from .ladders import chosen
 
 # views with which the part of the forces begins

@@ -1,17 +1,32 @@
-"""Compound motion, told: at every point of a coupler its parts are hung on one another, as one draws them there."""
+"""Compound motion told in words and numbers: at every point of a coupler its parts are hung on one another."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import partial
+from collections.abc import Iterator, Sequence
 
 from ....plans.board import POSITION, Step
-from ....plans.linkages.compound import Coupler
-from ....plans.names import POLE, role
+from ....plans.linkages.compound import ACCELERATION, COMPOUND, VELOCITY, Closing, Coupler
+from ....plans.linkages.mechanism import ZERO
+from ....plans.names import POLE, Name, role, spelled, vector
+from ...printed import Input, calculation, ruler_decimals, segment_decimals
 from ..at_point import At
-from ..calculations.compound import block_name, compound_lines, measured, tangential
-from ..calculations.equations import Lines
+from ..calculations.equations import (
+    Factor,
+    Lines,
+    Product,
+    by_direction,
+    factor,
+    known,
+    line_note,
+    line_of,
+    sensed,
+    worked,
+)
+from ..scene import Scene
 from .teller import Teller, Told
+
+Line = tuple[str, ...]
+UNITS = {"V": "m/s", "a": "m/s^2", "omega": "rad/s", "epsilon": "rad/s^2"}
 
 
 def compound_equations(teller: Teller) -> dict[str, Lines]:
@@ -31,27 +46,18 @@ def compound_told(teller: Teller, view: str) -> Iterator[Told]:
     """Go through the steps of one figure: the mechanism once more, then the vectors of every point."""
     scene, points = teller.scene, teller.figures[view]
     first = scene.solved.program.on(points[0].plan)[0]
-    marks = {point for link in scene.solved.mechanism.links for point in link.points}
-    links = frozenset(f"link:{link.number}" for link in scene.solved.mechanism.links)
-    letters = frozenset(scene.words.mark(mark) for mark in marks)
-    yield Told(first, teller.say("compound_mechanism"), names=links | marks, letters=letters)
+    links = scene.solved.mechanism.links
+    marks, names = {p for link in links for p in link.points}, {f"link:{link.number}" for link in links}
+    letters = frozenset(map(teller.mark, marks))
+    yield Told(first, teller.say("compound_mechanism"), names=frozenset(names | marks), letters=letters)
     for at in points:
-        yield from _at(teller, at)
-        if at.kind == "V" and at.point == [*at.coupler.letters][-1]:
-            yield from _centre(teller, at.coupler)
-
-
-def _at(teller: Teller, at: At) -> Iterator[Told]:
-    """Go through the steps of one point."""
-    if at.kind == "V":
-        yield _distance(teller, at)
-    for step in teller.scene.solved.program.on(at.plan):
-        if step.verb == "chain":
-            yield _hung(teller, at, step)
-        elif step.verb == "meet":
-            yield _met(teller, at, step)
-        elif step.verb == "read":
-            yield from _measured(teller, at, step)
+        if at.kind == "V":
+            yield _distance(teller, at)
+        for step in scene.solved.program.on(at.plan):
+            if step.verb in POINT_STEPS:
+                yield from POINT_STEPS[step.verb](teller, at, step)
+        if at.kind == "V" and at.point == [*at.coupler.letters][-1] and scene.defined(at.coupler.centre):
+            yield _centre_told(teller, at.coupler)
 
 
 def _distance(teller: Teller, at: At) -> Told:
@@ -60,20 +66,18 @@ def _distance(teller: Teller, at: At) -> Told:
     step = teller.reading.made[name]
     start, end = (teller.mark(mark) for mark in step.operands)
     said = " ".join(measured(teller.scene, name, POSITION))
-    text = teller.say("compound_distance", start=start, end=end, sum=said)
-    return Told(step, text, names=frozenset((name,)))
+    return Told(step, teller.say("compound_distance", start=start, end=end, sum=said), names=frozenset((name,)))
 
 
-def _hung(teller: Teller, at: At, step: Step) -> Told:
+def _hung(teller: Teller, at: At, step: Step) -> Iterator[Told]:
     """Tell a part that is known in full."""
     start, vector = step.operands
-    letter = teller.vector(vector)
+    letter = teller.scene.letter(vector)
     if teller.scene.vanishes(vector):
-        return Told(step, teller.say("compound_zero", vector=letter))
-    mm = teller.drawn(vector, at.plan)
-    begin = _start(teller, at, start)
-    text = teller.say("compound_vector", start=begin, line=teller.along(vector), vector=letter, mm=mm)
-    return _drawn(step, text, vector, letter)
+        yield Told(step, teller.say("compound_zero", vector=letter))
+        return
+    parts = {"start": _start(teller, at, start), "line": teller.along(vector), "mm": teller.drawn(vector, at.plan)}
+    yield Told(step, teller.say("compound_vector", vector=letter, **parts), vectors=(vector,))
 
 
 def _start(teller: Teller, at: At, mark: str) -> str:
@@ -81,54 +85,249 @@ def _start(teller: Teller, at: At, mark: str) -> str:
     if role(mark).kind == POLE:
         return teller.say("compound_point", point=teller.mark(at.point))
     before = teller.reading.made[mark]
-    return teller.say("compound_end", vector=teller.vector(before.operands[1]))
+    return teller.say("compound_end", vector=teller.scene.letter(before.operands[1]))
 
 
-def _met(teller: Teller, at: At, step: Step) -> Told:
+def _met(teller: Teller, at: At, step: Step) -> Iterator[Told]:
     """Tell the two lines that close the figure."""
     p, u, q, w = step.operands
     lines = [(teller.line(direction), _start(teller, at, mark)) for mark, direction in ((p, u), (q, w))]
     (one, first), (other, second) = lines
-    text = teller.say("compound_meet", one=one, first=first, other=other, second=second, whole=_whole(teller, at))
+    whole = teller.scene.letter(f"{at.kind}_{at.point}")
+    text = teller.say("compound_meet", one=one, first=first, other=other, second=second, whole=whole)
     letters = frozenset(said for *_, said in at.lines())
-    return Told(step, text, names=frozenset(f"{at.plan}_{i}" for i in (1, 2)), letters=letters)
-
-
-def _whole(teller: Teller, at: At) -> str:
-    return teller.vector(f"{at.kind}_{at.point}")
+    yield Told(step, text, names=frozenset(f"{at.plan}_{i}" for i in (1, 2)), letters=letters)
 
 
 def _measured(teller: Teller, at: At, step: Step) -> Iterator[Told]:
     """Tell what is measured: the part that was known by direction, then the whole."""
-    say = partial(_reading, teller, at, step)
-    if not role(step.name).hidden:
-        yield say(step.name, "compound_read")
-        return
-    closing = at.coupler.closing if at.point == at.coupler.span.end else None
-    if at.kind == "a" and closing is not None and closing.normal is not None:
-        yield say(tangential(closing.normal), "compound_read")
-    yield say(f"{at.kind}_{at.point}", "compound_whole")
+    found = {step.name: "compound_read"}
+    if role(step.name).hidden:
+        closing = _closing(at.coupler, at.point) if at.kind == "a" else None
+        parts = [tangential(closing.normal)] if closing is not None and closing.normal is not None else []
+        found = dict.fromkeys(parts, "compound_read") | {f"{at.kind}_{at.point}": "compound_whole"}
+    for name, key in found.items():
+        said = " ".join(measured(teller.scene, name, at.plan))
+        text = teller.say(key, vector=teller.scene.letter(name), sum=said, point=teller.mark(at.point))
+        yield Told(step, text, vectors=(name,))
 
 
-def _reading(teller: Teller, at: At, step: Step, name: str, key: str) -> Told:
-    vector = teller.vector(name)
-    said = " ".join(measured(teller.scene, name, at.plan))
-    text = teller.say(key, vector=vector, sum=said, point=teller.mark(at.point))
-    return _drawn(step, text, name, vector)
+POINT_STEPS = {"chain": _hung, "meet": _met, "read": _measured}
 
 
-def _drawn(step: Step, text: str, vector: str, letter: str) -> Told:
-    return Told(step, text, names=frozenset((vector,)), letters=frozenset((letter,)))
-
-
-def _centre(teller: Teller, c: Coupler) -> Iterator[Told]:
-    """Tell where the instant centre of a coupler stands, where it has one."""
-    scene = teller.scene
-    if not scene.defined(c.centre):
-        return
-    symbol, step = scene.words.symbol(c.centre), teller.reading.made[c.centre]
-    name = f"l_{c.hinge}P{c.number}"
-    said = " ".join(measured(scene, name, POSITION))
-    text = teller.say("compound_centre", line=f"{teller.mark(c.pivot)}{teller.mark(c.hinge)}", point=symbol, sum=said)
+def _centre_told(teller: Teller, c: Coupler) -> Told:
+    """Tell where the instant centre of a coupler stands."""
+    scene, line = teller.scene, f"{teller.mark(c.pivot)}{teller.mark(c.hinge)}"
+    symbol, said = scene.words.symbol(c.centre), " ".join(measured(scene, f"l_{c.hinge}P{c.number}", POSITION))
+    text = teller.say("compound_centre", line=line, point=symbol, sum=said)
     names = frozenset((c.centre, *(f"{c.centre}_{joint}" for joint in (c.hinge, c.span.end))))
-    yield Told(step, text, names=names, letters=frozenset((symbol,)))
+    return Told(teller.reading.made[c.centre], text, names=names, letters=frozenset((symbol,)))
+
+
+def block_name(coupler: Coupler, kind: str) -> str:
+    """Return the name of the view of a coupler's equations: of velocities (`kind` "V") or of accelerations ("a")."""
+    return f"equations_compound_{kind}_{coupler.number}"
+
+
+def compound_heading(scene: Scene, c: Coupler, kind: str) -> str:
+    """Return the heading of a coupler's equations."""
+    return scene.words[f"heading.equations_compound_{kind}"].format(link=_name(scene, c.number))
+
+
+def compound_lines(scene: Scene, c: Coupler, kind: str, only: str = "") -> list[Line]:
+    """Return the equations of a coupler's velocities ("V") or accelerations ("a"), all or those of the point `only`.
+
+    What is said of the whole coupler stands before the first of its points.
+    """
+    points = [point for point in c.letters if only in ("", point)]
+    lines = list(_of_the_whole(scene, c, kind)) if next(iter(c.letters)) in points else []
+    told = _velocities if kind == "V" else _accelerations
+    return [*lines, *(line for point in points for line in told(scene, c, point))]
+
+
+def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Line]:
+    """Go through what is known before any point: the split, and relative rates where no end is closed."""
+    if kind == "V":
+        yield _split(scene, c)
+    if c.closing is None:
+        whole, carrier = ("omega", c.omega_e) if kind == "V" else ("epsilon", c.epsilon_e)
+        yield _sum_of_rates(scene, f"{whole}_r_{c.number}", f"{whole}_{c.number}", carrier, -1.0)
+        if kind == "V":
+            yield from _centre(scene, c)
+
+
+def _velocities(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
+    """Go through the velocities of a point: where the end is closed, omega_r follows from it, else it is known."""
+    rate, letter, distance = f"omega_r_{c.number}", c.letters[point], f"l_{c.pivot}{point}"
+    yield _vectors(scene, c, point, "V")
+    yield measured(scene, distance, POSITION)
+    yield _product(scene, f"V_{letter}_e", factor(scene, c.omega_e), factor(scene, distance))
+    if _closing(c, point) is not None:
+        yield measured(scene, f"V_{letter}_r", spelled(VELOCITY, letter))
+        yield _product(scene, rate, factor(scene, f"V_{letter}_r"), _arm(scene, c, point, -1))
+        yield _sum_of_rates(scene, f"omega_{c.number}", c.omega_e, rate, 1.0)
+        yield from _centre(scene, c)
+    else:
+        yield _product(scene, f"V_{letter}_r", factor(scene, rate), _arm(scene, c, point))
+    yield measured(scene, f"V_{point}", spelled(VELOCITY, letter))
+
+
+def _accelerations(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
+    """Go through the accelerations of a point in the order in which they are hung."""
+    rate, letter = f"epsilon_r_{c.number}", c.letters[point]
+    closing, plan = _closing(c, point), spelled(ACCELERATION, letter)
+    yield _vectors(scene, c, point, "a")
+    yield from _known_parts(scene, c, point)
+    if closing is not None:
+        yield from _closed(scene, c, closing, plan)
+        yield _product(scene, rate, factor(scene, f"a_{letter}_rt"), _arm(scene, c, point, -1))
+        yield _sum_of_rates(scene, f"epsilon_{c.number}", c.epsilon_e, rate, 1.0)
+    else:
+        yield _product(scene, f"a_{letter}_rt", factor(scene, rate), _arm(scene, c, point))
+    yield measured(scene, f"a_{point}", plan)
+
+
+def _split(scene: Scene, c: Coupler) -> Line:
+    """Say which rotation is the transport one, and which the relative one."""
+    words = scene.words
+    said = words["said.split"].format(
+        link=_name(scene, c.number),
+        carrier=_name(scene, c.carrier.link.number),
+        pivot=words.mark(c.pivot),
+        hinge=words.mark(c.hinge),
+    )
+    return tuple(said.split("|"))
+
+
+def _closing(c: Coupler, point: str) -> Closing | None:
+    """Return what is known of the absolute motion of a point."""
+    return c.closing if point == c.span.end else None
+
+
+def _known_parts(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
+    """Go through the parts that the velocities give: normal ones, the tangential one of transport, Coriolis."""
+    letter, distance = c.letters[point], factor(scene, f"l_{c.pivot}{point}")
+    yield _product(scene, f"a_{letter}_rn", factor(scene, f"omega_r_{c.number}", 2), _arm(scene, c, point))
+    yield _product(scene, f"a_{letter}_en", factor(scene, c.omega_e, 2), distance)
+    if c.epsilon_e == ZERO:
+        yield (f"{scene.words.symbol(f'a_{letter}_et')} = 0",)
+    else:
+        yield _product(scene, f"a_{letter}_et", factor(scene, c.epsilon_e), distance)
+    two = Factor("2", 2.0, exact=True)
+    yield _product(scene, f"a_{letter}_k", two, factor(scene, c.omega_e), factor(scene, f"V_{letter}_r"))
+
+
+def _closed(scene: Scene, c: Coupler, closing: Closing, plan: str) -> Iterator[Line]:
+    """Go through what closes the figure: the normal part on the circle of the end, and what was measured."""
+    letter = c.letters[c.span.end]
+    if closing.normal is not None:
+        group = next(group for group in scene.solved.structure.groups if c.number in group.links)
+        link = scene.solved.mechanism.link(next(number for number in group.links if number != c.number))
+        pivot = next(point for point in link.points if point in scene.solved.mechanism.frame_points)
+        rate = factor(scene, f"omega_{link.number}", 2)
+        yield _product(scene, closing.normal, rate, _length(scene, pivot, c.span.end))
+    yield measured(scene, f"a_{letter}_rt", plan)
+    if closing.normal is not None:
+        yield measured(scene, tangential(closing.normal), plan)
+
+
+def tangential(normal: Name) -> Name:
+    """Return the name of the tangential part that goes with a normal one."""
+    return vector(normal.kind, normal.of, normal.about, "t")
+
+
+def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Line:
+    """Return the vector equation of a point, and along which lines its unknown vectors lie."""
+    closing, letter = _closing(c, point), c.letters[point]
+
+    def bar(name: str) -> str:
+        return scene.words.symbol(name, bar=True)
+
+    *parts, last = (bar(vector(kind, letter, part=part)) for part in COMPOUND[kind])
+    whole = bar(f"{kind}_{point}")
+    if closing is None:
+        return _equation(whole, [*map(known, parts), known(last)], [])
+    notes = [f"{last} {line_of(scene, c.span.n)}"]
+    if kind == "a" and closing.normal is not None:
+        across = tangential(closing.normal)
+        notes.append(line_note(scene, across, closing.direction))
+        whole = f"{known(bar(closing.normal))} + {by_direction(bar(across))}"
+    else:
+        notes.append(f"{whole} {line_of(scene, closing.direction)}")
+        whole = by_direction(whole)
+    return _equation(whole, [*map(known, parts), by_direction(last)], notes)
+
+
+def _equation(whole: str, terms: Sequence[str], notes: Sequence[str]) -> Line:
+    chunks = [f"{whole} = {terms[0]}", *(f"+ {term}" for term in terms[1:])]
+    return _listed(tuple(chunks[:-1]), (chunks[-1], *notes))
+
+
+def _listed(before: Line, items: Sequence[str]) -> Line:
+    """Put a comma after all but the last of `items`."""
+    return (*before, *(f"{item}," for item in items[:-1]), items[-1])
+
+
+def _centre(scene: Scene, c: Coupler) -> Iterator[Line]:
+    """Go through what places the instant centre: the two rotations cancel there."""
+    words = scene.words
+    if not scene.defined(c.centre):
+        yield tuple(words["said.no_centre"].format(link=_name(scene, c.number)).split("|"))
+        return
+    pivot, hinge = (words.symbol(f"l_{end}P{c.number}") for end in (c.pivot, c.hinge))
+    law = f"{pivot}·{words.symbol(c.omega_e)} = {hinge}·{words.symbol(f'omega_r_{c.number}')}"
+    rates = factor(scene, c.omega_e), factor(scene, f"omega_{c.number}", -1)
+    yield f"{law},", *_product(scene, f"l_{c.hinge}P{c.number}", _length(scene, c.pivot, c.hinge), *rates)
+
+
+def _product(scene: Scene, name: str, *factors: Factor) -> Line:
+    """Return a quantity as a product of magnitudes; of a rate the sense, too."""
+    head = role(name).kind
+    line = worked(scene.words, scene.words.symbol(name), [Product(factors)], UNITS.get(head, "m"))
+    sense = sensed(scene.words, scene.solved.values[name]) if head in ("omega", "epsilon") else ""
+    return _listed(line[:-1], [line[-1], sense]) if sense else line
+
+
+def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float) -> Line:
+    """Return a rate as the algebraic sum of two others; one that is zero by the form of the mechanism is left out."""
+    words, values = scene.words, scene.solved.values
+    terms = [(other, turn) for other, turn in ((first, 1.0), (second, sign)) if other != ZERO]
+    signs = ["" if i == 0 and turn > 0 else "+ " if turn > 0 else "− " for i, (_, turn) in enumerate(terms)]
+    formula = " ".join(f"{sign}{words.symbol(other)}" for sign, (other, _) in zip(signs, terms, strict=True))
+    inputs = [Input(float(values[other]) * turn) for other, turn in terms]
+    texts, result = calculation(words, lambda *x: sum(x), inputs)
+    numbers = " ".join([texts[0], *(f"− {text[1:]}" if text.startswith("−") else f"+ {text}" for text in texts[1:])])
+    last = f"{result} {words.unit(UNITS[role(name).kind])}"
+    sense = sensed(words, float(values[name]))
+    head = f"{words.symbol(name)} = {formula} =", *([f"{numbers} ="] if len(terms) > 1 else [])
+    return _listed(head, [last, sense]) if sense else (*head, last)
+
+
+def measured(scene: Scene, name: str, plan: str) -> Line:
+    """Return what was measured: the segment and the scale factor."""
+    words, item = scene.words, scene.solved.quantities[name]
+    value, number = words.display.value(item.value or 0.0, item.unit), words.factor(scene.scales[plan])
+    mu = 1.0 / number if words.per_unit else number
+    places, decimals = segment_decimals(value, mu, ruler_decimals(words))
+    segment, unit = words.number(abs(value) / mu, places), words.unit(words.display.unit(item.unit))
+    times = "/" if words.per_unit else "·"
+    head = f"{words.symbol(name)} = {segment}{times}{words.short(number)} ="
+    return head, f"{words.number(abs(value), decimals)} {unit}"
+
+
+def _arm(scene: Scene, c: Coupler, point: str, power: int = 1) -> Factor:
+    """Return the distance of a point of the coupler from its hinge."""
+    return _length(scene, c.hinge, point, power)
+
+
+def _length(scene: Scene, start: str, end: str, power: int = 1) -> Factor:
+    """Return the distance of two points of a link; one that the task gives is exact."""
+    words, name = scene.words, f"l_{start}{end}"
+    size = words.display.value(abs(scene.solved.point(end) - scene.solved.point(start)), "m")
+    exact = name in scene.givens
+    return Factor(words.symbol(name), float(f"{size:.12g}") if exact else size, exact, power)
+
+
+def _name(scene: Scene, number: int) -> str:
+    """Return a link by its ends."""
+    return scene.words.ends.get(str(number), str(number))

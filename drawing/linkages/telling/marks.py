@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from ....plans.board import POSITION, Step
 from ....plans.linkages.legs import guide_letters
-from ....plans.names import ORIGIN, role
+from ....plans.names import COUPLE, ORIGIN, role
 from ..calculations.equations import size_of
 from ..calculations.kinematics import triangles
 from ..calculations.tables import printed_segment
-from .teller import Teller
+from ..figures.lever import LeverArm, arms_on_lever, driven, hung_on_lever, images, letter_of, lines_of_lever
+from .teller import Teller, Told
 
 LINES = ("lay", "back")
 FIRST_PATH, OF_PATH = 6, 4  # where the paths of a template's joints begin among its operands, operands of a path
@@ -40,13 +41,13 @@ def _lay(teller: Teller, step: Step) -> Iterator[str]:
         return
     a = teller.mark(start)
     if edge is not None and teller.scene.vanishes(edge.name):
-        yield teller.say("zero", vector=teller.vector(edge.name), start=a, end=b)
+        yield teller.say("zero", vector=teller.scene.letter(edge.name), start=a, end=b)
         return
     parts = {"start": a, "length": teller.segment(f"{a}{b}", size, step.plan)}
     if edge is None:
         yield teller.say("lay", line=teller.angle(direction) or line, **parts)
     else:
-        yield teller.say("vector", line=line, vector=teller.vector(edge.name), **parts)
+        yield teller.say("vector", line=line, vector=teller.scene.letter(edge.name), **parts)
 
 
 def _chain(teller: Teller, step: Step) -> Iterator[str]:
@@ -54,7 +55,7 @@ def _chain(teller: Teller, step: Step) -> Iterator[str]:
     start, vector = step.operands
     a, b = teller.mark(start), teller.mark(step.name)
     if teller.scene.vanishes(vector):
-        yield teller.say("zero", vector=teller.vector(vector), start=a, end=b)
+        yield teller.say("zero", vector=teller.scene.letter(vector), start=a, end=b)
         return
     line = teller.along(vector)
     parts = {"length": teller.segment(f"{a}{b}", vector, step.plan), "vector": teller.hung(vector)}
@@ -224,3 +225,66 @@ TOLD: Mapping[str, Callable[[Teller, Step], Iterator[str]]] = {
     "incline": guide_told,
     "template": _template,
 }
+
+
+def lever_told(teller: Teller) -> Iterator[Told]:
+    """Go through the steps of Zhukovsky's lever: the velocity plan turned, then what hangs on its ends, with arms."""
+    for step in teller.scene.solved.program.on("lever"):
+        if step.verb == "pole":
+            yield from (Told(step, text, before=True) for text in _pole(teller, step))
+    yield from _turned(teller)
+    hung: dict[str, list[Step]] = {}
+    for step in teller.scene.solved.program.which(("moment",)):
+        if step.operands[2] == "lever.p":
+            hung.setdefault(step.operands[1], []).append(step)
+    told, left = set[str](), arms_on_lever(teller.scene)
+    for mark, moments in hung.items():
+        told.update(moment.operands[0] for moment in moments)
+        drawn = [arm for arm in left if told.issuperset(arm.forces)]
+        left = [arm for arm in left if arm not in drawn]
+        yield _hung(teller, mark, moments, drawn)
+    yield from _balance(teller)
+
+
+def _turned(teller: Teller) -> Iterator[Told]:
+    """Tell which segments are turned; a line is there with both its ends, the rest of the plan with the last one."""
+    scene, told = teller.scene, {"lever.p"}
+    lines, marks = lines_of_lever(scene), images(scene)
+    steps = [step for step in scene.solved.program.on("lever") if step.verb == "normal"]
+    for step in steps:
+        told |= set(marks) if step is steps[-1] else {step.name}
+        drawn = {line.name for line in lines if step is steps[-1] or told.issuperset((line.start, line.end))}
+        segment = f"{teller.mark('velocity.p')}{teller.mark(step.operands[0])}"
+        letters = frozenset(letter_of(scene, mark) for mark in told & set(marks))
+        yield Told(step, teller.say("turned", segment=segment), names=frozenset(drawn | told), letters=letters)
+
+
+def _hung(teller: Teller, mark: str, moments: list[Step], drawn: Iterable[LeverArm]) -> Told:
+    """Tell the forces on one end of the lever, and their arms about its pole; those `drawn` have all their forces."""
+    scene = teller.scene
+    words, forces = scene.words, [moment.operands[0] for moment in moments]
+    arms = [user.name for moment in moments for user in teller.reading.users(moment.name) if user.verb == "arm"]
+    zero = {arm for arm in arms if not scene.defined(arm) or size_of(scene, arm) == 0.0}
+    sizes = ("0" if arm in zero else f"{scene.segment(arm)} {words.unit(words.display.paper)}" for arm in arms)
+    text = teller.say(
+        "lever_forces",
+        point=letter_of(scene, mark),
+        forces=", ".join(map(scene.letter, forces)),
+        arms=", ".join(f"{words.symbol(arm)} = {size}" for arm, size in zip(arms, sizes, strict=True)),
+    )
+    couples = {role(force).of for force in forces if role(force).part == COUPLE}
+    at_pole = [name for name, at in hung_on_lever(scene) if at == "lever.p" and role(name).part == COUPLE]
+    hung = (*forces, *(name for name in at_pole if role(name).of in couples))
+    names = frozenset(name for arm in drawn for name in (arm.line, *arm.names))
+    return Told(moments[0], text, names=names, letters=frozenset(arm.said(scene) for arm in drawn), vectors=hung)
+
+
+def _balance(teller: Teller) -> Iterator[Told]:
+    """Tell the force that balances, at the end of the driver's velocity and normal to it when turned."""
+    point = teller.scene.solved.mechanism.driver.point
+    step = teller.reading.step(f"lever.{point}")
+    if step is not None and step.verb == "normal":
+        segment = f"{teller.mark('velocity.p')}{teller.mark(f'velocity.{point}')}"
+        vector = teller.scene.letter(balance := hung_on_lever(teller.scene)[-1][0])
+        text = teller.say("lever_balance", point=teller.mark(f"velocity.{point}"), segment=segment, vector=vector)
+        yield Told(step, text, letters=frozenset((driven(teller.scene),)), vectors=(balance,))

@@ -26,7 +26,8 @@ ACROSS = ("transport_speed", "transport_tangential")  # laws of vectors normal t
 class Told:
     """A sentence, the step that it tells of, and what it draws beside the mark that the step makes.
 
-    What is there `before` only sets a drawing up, as a pole does: a handout shows it from the start.
+    `vectors` have their letters; `letters` are those of all else that it `names`. What is there `before` only sets a
+    drawing up, as a pole does: a handout shows it from the start.
     """
 
     step: Step
@@ -34,6 +35,7 @@ class Told:
     before: bool = False
     names: frozenset[str] = frozenset()
     letters: frozenset[str] = frozenset()
+    vectors: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,10 +60,6 @@ class Teller:
     def mark(self, name: str) -> str:
         """Return the letter of a mark."""
         return self.scene.words.mark(name)
-
-    def vector(self, name: str) -> str:
-        """Return the letter of a vector, with its bar."""
-        return self.scene.letter(name)
 
     def distance(self, start: str, end: str) -> str:
         """Return the length of a segment on its plan, with its unit."""
@@ -128,8 +126,10 @@ class Teller:
 
     def hung(self, vector: str) -> str:
         """Return the letter of a vector that is hung on others; of a reaction the one that it answers, too."""
-        made, letter = self.reading.step(vector), self.vector(vector)
-        return letter if made is None or made.law != "opposite" else f"{letter} = −{self.vector(made.operands[0])}"
+        made, letter = self.reading.step(vector), self.scene.letter(vector)
+        return (
+            letter if made is None or made.law != "opposite" else f"{letter} = −{self.scene.letter(made.operands[0])}"
+        )
 
     def along(self, vector: str) -> str:
         """Return how a vector that is hung on others lies, by the law that gives it; nothing where that is said so."""
@@ -155,11 +155,11 @@ class Teller:
         return self.say("in_sense", line=f"⊥ {pin}{point}", rate=self.scene.words.symbol(made.operands[0]))
 
     def _against(self, made: Step) -> str:
-        return self.say("against", motion=self.vector(made.operands[1]))
+        return self.say("against", motion=self.scene.letter(made.operands[1]))
 
     def _across(self, made: Step) -> str:
         rate, vector = made.operands
-        return self.say("turned_by", vector=self.vector(vector), rate=self.scene.words.symbol(rate))
+        return self.say("turned_by", vector=self.scene.letter(vector), rate=self.scene.words.symbol(rate))
 
     def _down(self, made: Step) -> str:
         return self.say("down")
