@@ -20,7 +20,7 @@ from ..style import Style
 from ..words import Words
 
 if TYPE_CHECKING:
-    from ...plans.linkages.cycles.slider_runs import Runs
+    from ...plans.linkages.cycles.swept import Runs
 
 DRIVER = "driver"  # the figure of the driver apart, among the plans that have scale factors
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding

@@ -13,11 +13,10 @@ from ..names import Name, by_lever, couple, lever_arm, moment, role, spelled, ve
 from . import compound
 from .driver import driver_of
 from .legs import AssurGroup
-from .loads import hung, lay_loads
+from .loads import Moving, hung, lay_loads, needs_stroke
 from .mechanism import FRAME, ZERO, Mechanism
 from .parts import Bodies, Ends, Forces, Span
 from .structure import TRIAD, Structure, analyse
-from .working_stroke import Moving, needs_stroke
 
 NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, with those they are built on
     "structure": (),

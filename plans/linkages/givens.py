@@ -9,11 +9,9 @@ from typing import Any
 from ...scales.kept import Kept
 from ..board import Program
 from ..names import magnitude
-from .bare import without_loads
 from .chain import constructed
-from .loads import in_order
+from .loads import BEGIN, END, in_order
 from .mechanism import Mechanism, start_names
-from .working_stroke import BEGIN, END
 
 _STROKES = Kept[tuple[float, float]](64)
 
@@ -41,7 +39,7 @@ def board_givens(
     sizes: dict[str, Any] = {magnitude(name): values[name] for name in mechanism.sizes}
     if program is None or END not in program.needs or END in values:
         return {**values, **sizes}
-    _, motion = constructed(without_loads(mechanism), ("velocity",))
+    _, motion = constructed(mechanism.without_loads, ("velocity",))
     return {**values, **sizes, **_stroke_ends(mechanism, values, motion.needs)}
 
 

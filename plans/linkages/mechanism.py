@@ -9,7 +9,7 @@ of a length stands for its opposite (a second crank on the other side of the sha
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ..names import POINT, Name, role, spelled
 
@@ -333,3 +333,14 @@ class Mechanism:
     def loads_on(self, number: int) -> tuple[Load, ...]:
         """Return the loads on link `number`."""
         return tuple(load for load in self.loads if load.link == number)
+
+    @property
+    def without_loads(self) -> Mechanism:
+        """The mechanism as its geometry alone."""
+        return replace(self, loads=(), couples=(), diagrams=(), gravity=None)
+
+    @property
+    def at_unit_speed(self) -> Mechanism:
+        """The mechanism whose driver moves by one radian or metre a second in the positive sense, steadily."""
+        driver = replace(self.driver, speed="one", acceleration=None)
+        return replace(self, driver=replace(driver, sense="one") if isinstance(driver, Driver) else driver)

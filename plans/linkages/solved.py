@@ -5,22 +5,27 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...scales.errors import PositionError
 from ..board import POSITION, Program
-from ..boards.exact import Trouble, run
+from ..boards.exact import SMALL, Trouble, run
+from ..laws import cross
 from ..names import Name, role, scale_factor, spelled
 from ..quantities import quantities, shown_on
+from ..references import extent, plans_of
 from ..solved import Solved
 from . import compound
 from .chain import USUAL, constructed, hinged
-from .dyads.moment_centres import with_moment_centres
 from .givens import board_givens
 from .legs import guide_letters
-from .mechanism import FRAME, ZERO, Mechanism, Prismatic, SlidingDriver
+from .mechanism import FRAME, ZERO, Mechanism, Prismatic, Revolute, SlidingDriver
 from .structure import TRIAD, Structure
 
+if TYPE_CHECKING:
+    from ..condition import Condition
+
+TWICE = 2.0  # how much better another centre of moments must be: it costs moments that else nobody needs
 # which operands of a step are pins that must not coincide
 COINCIDENT = {"arcs": (0, 2), "tangent": (0, 1), "measure": (0, 1)}
 
@@ -131,10 +136,6 @@ def moment_points(mechanism: Mechanism, structure: Structure) -> dict[str, str]:
     return {mechanism.pair("M", *links): point for both, point in sliding for links in (both, both[::-1])}
 
 
-def _is_given(name: str) -> bool:
-    return name != ZERO and not role(name).hidden
-
-
 def _spoken(direction: str, program: Program) -> str:
     """Return a direction as it is written in equations: normal to AB, along AB, along the guide x-x."""
     line, letters = role(direction), guide_letters(program)
@@ -174,7 +175,8 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
         mechanism = better
         program = constructed(mechanism, plans)[1]
         board = run(program, givens)
-    lengths = {x: values[x] for link in mechanism.links for xy in link.points.values() for x in xy if _is_given(x)}
+    places = (x for link in mechanism.links for xy in link.points.values() for x in xy)
+    lengths = {x: values[x] for x in places if x != ZERO and not role(x).hidden}
     items = quantities(program, board.values, lengths)
     for name, point in moment_points(mechanism, structure).items():
         if name in items:
@@ -192,3 +194,82 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
         scale_of_plan=_scale_of_plan(structure, program),
         givens=givens,
     )
+
+
+def with_moment_centres(mechanism: Mechanism, structure: Structure, values: Mapping[str, Any]) -> Mechanism:
+    """Return the mechanism with joints chosen about which moments of whole RRR dyads are taken; itself where none is.
+
+    The plan of forces is closed by the parallels to AB and CB, which meet at the angle of the links. Where A and C
+    stand close together beside B, both links are nearly parallel. Moments of the whole group about C give the part of
+    R_12 normal to CA, so that the parallel to CA may take the place of that to CB, and it meets AB at the angle of the
+    triangle ABC in A; about A likewise at that in C. The largest of the three sines is opposite to the longest side.
+
+    Parameters
+    ----------
+    values : mapping of str to number
+        Of a run of its construction in one position: the joints of all groups.
+    """
+    found = []
+    for group in structure.groups:
+        if group.kind == "RRR":
+            A, C = (pair.point for pair in group.outer)
+            centre = _centre(A, group.inner[0].point, C, values)
+            found += [(group.name, centre)] if centre else []
+    return replace(mechanism, centres=tuple(found)) if found else mechanism
+
+
+def sines_of(a: complex, b: complex, c: complex) -> tuple[float, float, float]:
+    """Return the sines of the angles of a triangle in A, B and C; NaN where two corners coincide."""
+    doubled = abs(cross(b - a, c - a))
+    sides = [abs(c - b), abs(a - c), abs(b - a)]
+    product = sides[0] * sides[1] * sides[2]
+    if not product > 0.0:
+        return (float("nan"),) * 3
+    first, second, third = (doubled * side / product for side in sides)
+    return first, second, third
+
+
+def _centre(A: str, B: str, C: str, values: Mapping[str, Any]) -> str | None:
+    """Return the joint about which to take moments, None for the usual plan."""
+    at_a, at_b, at_c = sines_of(*(complex(values[point]) for point in (A, B, C)))
+    if at_b >= SMALL or not max(at_a, at_c) >= TWICE * at_b:
+        return None
+    return C if at_a >= at_c else A
+
+
+def signs(mechanism: Mechanism) -> frozenset[str]:
+    """Return the names of givens that are +1 or -1: senses and branches. They do not err."""
+    names = [pair.branch for pair in mechanism.pairs if isinstance(pair, (Revolute, Prismatic))]
+    names += [couple.sense for couple in mechanism.couples]
+    names += [getattr(mechanism.driver, "sense", None), mechanism.stroke.sense if mechanism.stroke else None]
+    return frozenset(name for name in names if name is not None)
+
+
+def varied(solved: SolvedLinkage) -> tuple[str, ...]:
+    """Return the givens that may err: numbers other than zero that are no signs; ends of the stroke count as givens."""
+    fixed = signs(solved.mechanism)
+    return tuple(name for name, value in solved.givens.items() if name not in fixed and value)
+
+
+def conditions_of(solved: SolvedLinkage) -> dict[str, Condition]:
+    """Return the condition of every quantity; given lengths are their own."""
+    from ..condition import Condition, conditions  # which needs numpy, and plain solutions do without
+
+    found = conditions(solved.program, solved.givens, varied(solved), solved.values, solved.sines)
+    size = extent(solved.program, solved.values)
+    for name, quantity in solved.quantities.items():
+        if name not in found:
+            found[name] = Condition(abs(quantity.value or 0.0) / size if size else None, 1.0)
+    return {name: found[name] for name in solved.quantities}
+
+
+def worst_condition(solved: SolvedLinkage, plan: str | None = None) -> tuple[str, float]:
+    """Return the quantity of the largest condition, of those that `plan` or any plan shows, and that condition.
+
+    What is only calculated may lose its digits because it passes zero: that says nothing of the position.
+    """
+    shown = plans_of(solved.program)
+    found = ((item.value or 0.0, name) for name, item in conditions_of(solved).items() if name in shown)
+    here = (pair for pair in found if plan is None or shown[pair[1]] == plan)
+    value, name = max(here, default=(0.0, ""))
+    return name, value

@@ -1,23 +1,26 @@
-"""Structure of a mechanism: mobility W, and Assur groups in order of attachment to the driver.
+"""Structure of a mechanism: mobility W, and Assur groups in order of attachment to the driver; or why there is none.
 
-Source: Artobolevsky, Theory of mechanisms and machines: W = 3n - 2p_1 - p_2 (Chebyshev); a group has W = 0 and cannot
-be split into smaller ones. Kinds of class II groups: 1 RRR, 2 RRP, 3 RPR, 4 PRP, 5 RPP.
+A joint of three links counts as two pairs, and it does not matter which two of the three a task names: the structure
+takes the named ones where it can, and others where only those make dyads.
+
+Source: Artobolevsky, Theory of mechanisms and machines: W = 3n - 2p_1 - p_2 (Chebyshev), for the whole mechanism and
+for any part of it: a part of k links with p pairs among them is rigid when 3(k - 1) - 2p = 0. A group has W = 0 and
+cannot be split into smaller ones. Kinds of class II groups: 1 RRR, 2 RRP, 3 RPR, 4 PRP, 5 RPP.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
 from ...scales.errors import InputError
 from ..names import Name, scale_factor
-from .joints import Joint, joints_of, pairs_of
 from .mechanism import FRAME, Mechanism, Pair, Prismatic, Revolute
-from .mobility import MANY, no_structure
 
 TRIAD = "III"
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
+MANY = 12  # links from which on only the smallest rigid parts are looked for
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +104,94 @@ class Structure:
         return *map(scale_factor, ("l", "V", "a")), *forces
 
 
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """The links on one pin, and the revolute pairs that the task names of them."""
+
+    point: str
+    links: tuple[int, ...]
+    named: tuple[Revolute, ...]
+
+    def pair(self, first: int, second: int) -> Revolute:
+        """Return the pair of two of its links; place and branch are those of the joint, whichever pair states them."""
+        own = [pair for pair in self.named if {*pair.links} == {first, second}]
+        at = next((pair.at for pair in self.named if pair.at), None) if FRAME in (first, second) else None
+        branch = next((pair.branch for pair in (*own, *self.named) if pair.branch), None)
+        return Revolute(self.point, own[0].links if own else (first, second), at, branch)
+
+    def names(self, pair: Pair) -> bool:
+        """Whether the task names this pair."""
+        return any({*pair.links} == {*named.links} for named in self.named)
+
+    def tree(self, links: Collection[int]) -> list[Pair]:
+        """Return the pairs that hold `links` together, one less than there are links, named ones first."""
+        own = [number for number in self.links if number in links]
+        ways = [self.pair(first, second) for i, first in enumerate(own) for second in own[i + 1 :]]
+        held, tree = [{number} for number in own], []
+        for pair in sorted(ways, key=lambda pair: not self.names(pair)):
+            parts = [part for part in held if part & {*pair.links}]
+            if len(parts) == 2:
+                tree.append(pair)
+                held = [part for part in held if part not in parts] + [parts[0] | parts[1]]
+        return list[Pair](tree)
+
+    def ties(self, links: Collection[int], known: Sequence[int]) -> list[Pair]:
+        """Return the pair that holds `links` to one of the `known`: a named one, else to the first of these."""
+        here = [own for own in links if own in self.links]
+        ways = [self.pair(own, other) for other in known if other in self.links for own in here]
+        return list[Pair](sorted(ways, key=lambda pair: not self.names(pair))[:1])
+
+
+def joints_of(pairs: Iterable[Pair]) -> tuple[Joint | Prismatic, ...]:
+    """Collect revolute pairs with one letter that have links in common; prismatic pairs stay among them.
+
+    Raises
+    ------
+    InputError
+        When a joint of three links or more is given a pair too many.
+    """
+    found: list[Joint | Prismatic] = []
+    for pair in pairs:
+        if isinstance(pair, Prismatic):
+            found.append(pair)
+            continue
+        one = Joint(pair.point, pair.links, (pair,))
+        touching = [j for j in found if isinstance(j, Joint) and j.point == one.point and {*j.links} & {*one.links}]
+        for joint in touching:
+            links = dict.fromkeys((*joint.links, *one.links))
+            one = Joint(one.point, tuple(links), (*joint.named, *one.named))
+        place = found.index(touching[0]) if touching else len(found)
+        found = [joint for joint in found if joint not in touching]
+        found.insert(place, one)
+    for made in found:
+        if isinstance(made, Joint) and len(made.named) >= len(made.links) > 2:
+            links_of = ", ".join(map(str, sorted(made.links)))
+            raise InputError("joint-closed", point=made.point, links=links_of, n=len(made.links) - 1)
+    return tuple(found)
+
+
+def pairs_of(
+    joints: Iterable[Joint | Prismatic], links: Collection[int], known: Sequence[int]
+) -> tuple[tuple[Pair, ...], tuple[Pair, ...], bool]:
+    """Return the pairs of `links` among themselves, those with `known` ones, and whether the task names all of them."""
+    inner: list[Pair] = []
+    outer: list[Pair] = []
+    named = True
+    for joint in joints:
+        if not any(number in links for number in joint.links):
+            continue
+        if isinstance(joint, Joint):
+            tree, ties = joint.tree(links), joint.ties(links, known)
+            named = named and all(map(joint.names, (*tree, *ties)))
+            inner += tree
+            outer += ties
+        elif {*joint.links} <= {*links}:
+            inner.append(joint)
+        elif {*joint.links} & {*links} and {*joint.links} & {*known}:
+            outer.append(joint)
+    return tuple(inner), tuple(outer), named
+
+
 def letter(pair: Pair) -> str:
     """Return R for a revolute pair, P for a prismatic one."""
     return "R" if isinstance(pair, Revolute) else "P"
@@ -171,3 +262,44 @@ def _dyad(links: tuple[int, ...], inner: tuple[Pair, ...], outer: tuple[Pair, ..
         if kind in KINDS:
             return Group((first, second), inner, (pairs[0], pairs[2]), kind)
     raise InputError("no-revolute", links=", ".join(map(str, links)))
+
+
+def no_structure(mechanism: Mechanism, mobility: int, left: Collection[int] = ()) -> InputError:
+    """Return why `mechanism` of this mobility has no structure; the links `left` belong to no group."""
+    numbers = [link.number for link in mechanism.links]
+    data = {"w": mobility, "n": len(numbers), "p": len(mechanism.pairs)}
+    for number in numbers:  # a driver needs one pair with the frame alone if nothing follows it
+        count = sum(number in pair.links for pair in mechanism.pairs)
+        if count < 2 and number != mechanism.driver.link:
+            return InputError("link-loose", link=number, count=count, **data)
+    apart = _apart(mechanism.pairs, numbers)
+    if apart:
+        return InputError("links-apart", links=_listed(apart), **data)
+    rigid = _rigid(mechanism.pairs, numbers)
+    if rigid:
+        return InputError("links-rigid", links=_listed(rigid), **data)
+    key = "no-group" if mobility == 1 else "links-free" if mobility > 1 and left else "mobility"
+    return InputError(key, links=_listed(left), **data)
+
+
+def _apart(pairs: Collection[Pair], numbers: Iterable[int]) -> list[int]:
+    """Return the links from which no way leads over pairs to the frame."""
+    held, found = {FRAME}, {FRAME}
+    while found:
+        found = {n for pair in pairs if held & {*pair.links} for n in pair.links} - held
+        held |= found
+    return [number for number in numbers if number not in held]
+
+
+def _rigid(pairs: Collection[Pair], numbers: Collection[int]) -> tuple[int, ...]:
+    """Return the fewest links, the frame among them or not, whose pairs let them not move against one another."""
+    bodies = (FRAME, *numbers)
+    for size in range(2, (len(bodies) if len(bodies) <= MANY else 3) + 1):
+        for part in combinations(bodies, size):
+            if 3 * (size - 1) <= 2 * sum({*pair.links} <= {*part} for pair in pairs):
+                return part
+    return ()
+
+
+def _listed(numbers: Iterable[int]) -> str:
+    return ", ".join(map(str, sorted(numbers)))

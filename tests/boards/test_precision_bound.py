@@ -21,11 +21,11 @@ from kulman.plans.boards.exact import run
 from kulman.plans.boards.fifty_digits import DIGITS, fifty_digits
 from kulman.plans.condition import derivatives, sizes_beside
 from kulman.plans.laws import LAWS, TURN
-from kulman.plans.linkages.accuracy.conditions import signs
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.cycles.limits import Reach, reach_of
 from kulman.plans.linkages.cycles.strokes import output_motions
 from kulman.plans.linkages.cycles.swept import Swept, swept
+from kulman.plans.linkages.solved import signs
 from kulman.plans.references import results
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.mechanisms import one_of

@@ -15,8 +15,7 @@ from kulman.drawing.words import Words
 from kulman.plans import contest as contests
 from kulman.plans.contest import Contest, Effort, Entry
 from kulman.plans.hands.hand import preset
-from kulman.plans.linkages.accuracy.comparison import contest, places_of, truth
-from kulman.plans.linkages.accuracy.hand_drawn import DrawnSheet, by_hand
+from kulman.plans.linkages.accuracy.comparison import DrawnSheet, by_hand, contest, places_of, truth
 from kulman.plans.linkages.accuracy.methods import Rivals, kinds_of
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.solved import solve_linkage

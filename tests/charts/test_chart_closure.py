@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from kulman.plans.boards.exact import run
-from kulman.plans.linkages.accuracy.closure import Closure
 from kulman.plans.linkages.accuracy.comparison import places_of
-from kulman.plans.linkages.accuracy.contours import Pose
+from kulman.plans.linkages.accuracy.contours import Closure, Pose
 from kulman.plans.linkages.accuracy.methods import Newton, Rivals, kinds_of
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle

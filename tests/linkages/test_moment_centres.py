@@ -17,8 +17,7 @@ from kulman.plans.hands.hand import preset
 from kulman.plans.hands.sensitivities import sensitivities
 from kulman.plans.hands.shaky import Paper
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.dyads.moment_centres import TWICE, sines_of, with_moment_centres
-from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
+from kulman.plans.linkages.solved import TWICE, SolvedLinkage, sines_of, solve_linkage, with_moment_centres
 from kulman.plans.references import references
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.linkage_cases import Linkage

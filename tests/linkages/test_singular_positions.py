@@ -15,9 +15,8 @@ from kulman import cli
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES
 from kulman.plans.boards.fifty_digits import fifty_digits
-from kulman.plans.linkages.accuracy.conditions import conditions_of
 from kulman.plans.linkages.givens import board_givens
-from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, conditions_of, solve_linkage
 from kulman.plans.references import references
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.both_sides import Limit, limits

@@ -17,9 +17,8 @@ from ...drawing.words import GREEK, Words
 from ...plans.board import with_needs
 from ...plans.boards.exact import SMALL, STATUSES
 from ...plans.contest import FULL, Contest, Effort, Entry
-from ...plans.linkages.accuracy.comparison import contest
+from ...plans.linkages.accuracy.comparison import DrawnSheet, by_hand, contest
 from ...plans.linkages.accuracy.depth import Cost, Depth, depth
-from ...plans.linkages.accuracy.hand_drawn import DrawnSheet, by_hand
 from ...plans.linkages.accuracy.stability import DEAD, Stability, stability
 from ...plans.linkages.chain import NEEDS
 from ...plans.linkages.cycles.cycle import Cycle, cycle

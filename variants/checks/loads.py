@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ...plans.linkages.loads import in_order
+from ...plans.linkages.loads import in_order, output_pair
 from ...plans.linkages.mechanism import (
     ANGLE,
     BOTH,
@@ -20,7 +20,6 @@ from ...plans.linkages.mechanism import (
     SlidingDriver,
     Stroke,
 )
-from ...plans.linkages.working_stroke import output_pair
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.units import ONE, unit

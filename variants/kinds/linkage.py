@@ -131,7 +131,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity."""
-        from ...plans.linkages.accuracy.conditions import conditions_of  # needs numpy, which plain solutions do without
+        from ...plans.linkages.solved import conditions_of  # needs numpy, which plain solutions do without
 
         return conditions_of(SolvedLinkage.of(case.solved))
 
@@ -152,7 +152,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         said = {"point": point, "angle": f"{math.degrees(math.asin(sine)):.3g}", "loss": _short(1.0 / sine)}
         if solved.status != "ill-conditioned":
             return (InputError("small-angle", **said),)
-        from ...plans.linkages.accuracy.conditions import worst_condition  # needs numpy, and few positions need it
+        from ...plans.linkages.solved import worst_condition  # needs numpy, and few positions need it
 
         quantity, condition = worst_condition(solved)
         said |= {"quantity": quantity, "condition": _short(condition)}

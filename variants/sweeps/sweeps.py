@@ -11,9 +11,8 @@ from typing import Any
 
 from ...drawing.words import Words
 from ...drawing.writers import WRITERS, Files, page_files, save_all
-from ...plans.graphs import Diagrams
 from ...plans.linkages.cycles.cycle import Cycle, cycle
-from ...plans.linkages.cycles.diagrams import diagrams
+from ...plans.linkages.cycles.diagrams import Diagrams, diagrams
 from ...plans.linkages.mechanism import Driver, Mechanism
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, PositionError

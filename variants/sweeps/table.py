@@ -9,8 +9,8 @@ import numpy as np
 
 from ...drawing.words import Words
 from ...plans.extremes import Extreme
-from ...plans.graphs import Curve, Diagrams
 from ...plans.linkages.cycles.cycle import Cycle
+from ...plans.linkages.cycles.diagrams import Curve, Diagrams
 from ...plans.linkages.cycles.strokes import OutputMotion
 from ...plans.names import role
 from ...plans.quantities import unit_of

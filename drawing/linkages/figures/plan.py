@@ -161,7 +161,7 @@ def said_flat(scene: Scene, plan: str) -> Iterator[str]:
     here = {mark: sine for mark, sine in intersections(solved.program, solved.sines).items() if role(mark).plan == plan}
     mark, sine = min(here.items(), key=lambda item: item[1], default=("", 1.0))
     if 0.0 < sine < ILL:
-        from ....plans.linkages.accuracy.conditions import worst_condition  # needs numpy, and few positions need it
+        from ....plans.linkages.solved import worst_condition  # needs numpy, and few positions need it
 
         quantity, condition = worst_condition(solved, plan)
         said = _meeting(scene, mark, sine)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from ....plans.linkages.cycles.slider_runs import Runs, slider_runs
+from ....plans.linkages.cycles.swept import Runs, slider_runs
 from ....plans.linkages.solved import SolvedLinkage
 from ....plans.names import role
 from ....scales.choices import SIZES

@@ -18,16 +18,15 @@ from ...boards.batch import batch
 from ...boards.exact import STATUSES
 from ...boards.precision import batch_in
 from ...contest import Kind
-from ...graphs import chords
 from ...laws import inclination
 from ...names import LEVER, role
 from ...quantities import BALANCES
 from ..chain import construct, moving_bodies
 from ..cycles.cycle import Cycle
+from ..cycles.diagrams import chords
 from ..mechanism import Driver
 from ..parts import Bodies
-from .closure import Closure
-from .contours import Pose
+from .contours import Closure, Pose
 
 Array = NDArray[Any]
 Values = dict[str, Array]

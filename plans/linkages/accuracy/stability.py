@@ -18,9 +18,8 @@ from ...hands.spread import kept
 from ...laws import TURN
 from ...references import plans_of, worst_behind
 from ..cycles.cycle import Cycle
-from ..cycles.undetermined import undetermined_at
+from ..solved import signs
 from .comparison import one_of
-from .conditions import signs
 
 Array = NDArray[Any]
 DIGITS = 16.0  # of double precision
@@ -89,7 +88,7 @@ def stability(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand
     mus : mapping of str to float
         Scale factors by plan, SI per mm.
     """
-    lost = undetermined_at(cycle.drive, cycle.reach, cycle.angles)
+    lost = cycle.reach.undetermined(cycle.angles)
     sines, worst, found = _conditions(cycle, names, lost)
     plans = plans_of(cycle.program)
     in_mm = {name: plans.get(name, "") in mus for name in names}

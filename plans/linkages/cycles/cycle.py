@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....scales.errors import InputError
-from ...board import Program
+from ...board import POSITION, Program
 from ...boards.batch import FEW, batch
 from ...boards.exact import STATUSES
 from ...extremes import Extreme, extremes
@@ -24,10 +24,9 @@ from ...quantities import quantities
 from ..chain import USUAL, constructed
 from ..mechanism import Mechanism
 from ..structure import Structure
-from .limits import Arc, Reach, reach_of
+from .limits import NEAR_LIMIT, Arc, Reach, reach_of
 from .strokes import Output, OutputMotion, Travel, measured, output_motions, outputs, stroke_of, zero_position
 from .swept import Swept, swept
-from .undetermined import NEAR_LIMIT, strike_out, undetermined_at
 
 __all__ = ["Arc", "Cycle", "Extreme", "Travel", "cycle", "stroke_of"]
 Array = NDArray[Any]
@@ -188,7 +187,7 @@ def cycle(
         results, codes = batch(program, drive.givens(values, places, program), wanted)
     else:
         results, codes = drive.along(program, values, wanted).batch(places)
-    strike_out(results, codes, program, undetermined_at(drive, reach, places))
+    _strike_out(results, codes, program, reach.undetermined(places))
     speed = abs(float(values[mechanism.driver.speed]))
     with np.errstate(divide="ignore", invalid="ignore"):
         times = np.abs(places - places[0]) / speed
@@ -202,6 +201,21 @@ def _wanted(mechanism: Mechanism, program: Program, motions: Iterable[OutputMoti
     measures = [name for motion in motions for name in motion.output.measures]
     known = set(program.names)
     return [name for name in dict.fromkeys((*named, *points, *measures)) if name in known]
+
+
+def _strike_out(
+    results: dict[str, Array], codes: NDArray[np.int8], program: Program, undetermined: NDArray[np.bool_]
+) -> None:
+    """Call the undetermined positions singular, and take from them what hangs on lines that meet in their plans."""
+    if not undetermined.any():
+        return
+    codes[undetermined] = np.maximum(codes[undetermined], STATUSES.index("singular"))
+    hanging: set[str] = set()
+    for step in program:
+        if (step.verb == "meet" and step.plan != POSITION) or not hanging.isdisjoint(step.operands):
+            hanging.add(step.name)
+    for name in hanging.intersection(results):
+        results[name] = np.where(undetermined, np.nan, results[name])
 
 
 def _places(drive: Swept, start: float, between: Arc | None, positions: int) -> Array:

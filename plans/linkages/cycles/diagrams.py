@@ -1,7 +1,16 @@
-"""Motion of a point or a link over the cycle: travel, velocity and acceleration by plans and by chords."""
+"""Diagrams of motion over the cycle, of a point or a link: travel, velocity and acceleration by plans and by chords.
+
+By chords a curve that is drawn to scale is differentiated graphically. It is divided into sections. From a pole at the
+distance H to the left of the axes a ray is drawn parallel to the chord of each section; on the axis it cuts off the
+mean slope of the section, which belongs to its middle. Done once it turns travels into velocities, done again
+velocities into accelerations.
+
+Source: Artobolevsky, Theory of mechanisms and machines (method of chords); Kinytskyi, the same.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,13 +18,117 @@ from numpy.typing import NDArray
 
 from ....scales.errors import InputError
 from ....scales.names import unknown
-from ...graphs import Curve, Diagrams, differentiate
 from ...laws import inclination
 from ..chain import moving_bodies
 from .cycle import Cycle
-from .strokes import Output, unwound
+from .strokes import unwound
 
 Array = NDArray[Any]
+
+
+def chords(values: Array, section: float) -> Array:
+    """Return the mean slope of every section of a curve.
+
+    Parameters
+    ----------
+    values : float64 or complex128 array of shape (n + 1,)
+        Values at the ends of the sections: of a vector the differences of its ends.
+    section : float
+        Length of a section along the axis.
+
+    Returns
+    -------
+    array of shape (n,)
+        Slopes, at the middles of the sections.
+
+    >>> chords(np.array([0.0, 1.0, 4.0]), 0.5).tolist()
+    [2.0, 6.0]
+    """
+    slopes: Array = (values[1:] - values[:-1]) * (1.0 / section)
+    return slopes
+
+
+def pole_distance(mu: float, mu_t: float, derived: float) -> float:
+    """Return the pole distance H, mm, with which a derived curve gets the scale factor `derived`.
+
+    A ray at the pole distance rises like its chord, so that mu_v = mu_s / (mu_t * H), mu_a = mu_v / (mu_t * H).
+    """
+    return mu / (mu_t * derived)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Curve:
+    """A curve by plans, and the same by chords where chords give it; `difference` is chords less plans.
+
+    Attributes
+    ----------
+    times : float64 array of shape (n,)
+        Seconds.
+    plans, chords : array of shape (n,)
+        SI; complex for a vector.
+    """
+
+    times: Array
+    plans: Array
+    chords: Array
+
+    @property
+    def difference(self) -> Array:
+        """Chords less plans."""
+        found: Array = self.chords - self.plans
+        return found
+
+    @property
+    def per_cent(self) -> Array:
+        """Size of the difference in per cent of the largest size of the curve by plans."""
+        size: float = np.nanmax(np.abs(self.plans), initial=0.0)
+        found: Array = np.abs(self.difference) * (100.0 / size if size else 0.0)
+        return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Diagrams:
+    """Diagrams of travel, velocity and acceleration over n sections of the cycle.
+
+    Attributes
+    ----------
+    unit : str
+        `m` for a point, `rad` for a link; velocities and accelerations in it per second and per second squared.
+    times : float64 array of shape (n + 1,)
+        Ends of the sections, seconds.
+    s, v, a : array of shape (n + 1,)
+        By plans: signed along a guide and for angles, complex for a point without a guide, whose travel is its place.
+    velocity, acceleration : Curve
+        By chords beside plans, at the middles: velocities of the sections, accelerations of the sections of the
+        velocity curve, which are the ends of the first ones.
+    """
+
+    unit: str
+    times: Array
+    s: Array
+    v: Array
+    a: Array
+    velocity: Curve
+    acceleration: Curve
+
+
+def differentiate(s: Array, section: float, closed: bool) -> tuple[Array, Array]:
+    """Return velocities and accelerations by chords of travels at the ends of n sections.
+
+    Parameters
+    ----------
+    s : array of shape (n + 1,)
+        Travels; on a closed curve the last section runs into the first one.
+
+    Returns
+    -------
+    v : array of shape (n,)
+        At the middles of the sections.
+    a : array of shape (n,) or (n - 1,)
+        At the beginnings of the sections; on an open curve not at the first one.
+    """
+    v = chords(s, section)
+    return v, chords(np.concatenate((v[-1:], v)) if closed else v, section)
 
 
 class _Motion:
@@ -25,7 +138,8 @@ class _Motion:
         mechanism = cycle.mechanism
         points = dict.fromkeys(point for link in mechanism.links for point in link.points)
         links = {str(link.number): link.number for link in mechanism.links}
-        slider = _slider_with(cycle, of)
+        sliders = (output for output in cycle.outputs if output.slides)
+        slider = next((x for x in sliders if of in (str(x.link), *mechanism.link(x.link).points)), None)
         self.angle = of in links and slider is None
         if slider is not None:
             self.names = (slider.place, slider.rate, slider.change)
@@ -45,12 +159,6 @@ class _Motion:
         values = self.cycle.at(places, [name for name in self.names if name])
         s, v, a = (values[name] if name else np.zeros(len(places)) for name in self.names)
         return unwound(inclination(s)) if self.angle else s, v, a
-
-
-def _slider_with(cycle: Cycle, of: str) -> Output | None:
-    """Return the slider on the frame that `of` names, or that carries this point."""
-    sliders = (output for output in cycle.outputs if output.slides)
-    return next((x for x in sliders if of in (str(x.link), *cycle.mechanism.link(x.link).points)), None)
 
 
 def diagrams(cycle: Cycle, of: str, sections: int = 12) -> Diagrams:

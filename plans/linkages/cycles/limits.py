@@ -21,7 +21,6 @@ from ...boards.arrays import ArrayBoard
 from ...boards.exact import TANGENT
 from ...laws import TURN
 from ...zeros import Stretch, zeros
-from ..bare import without_loads
 from ..chain import constructed
 from ..givens import board_givens
 from ..mechanism import FRAME, Mechanism, Prismatic, Revolute
@@ -29,6 +28,7 @@ from .swept import Swept, swept
 
 Array = NDArray[Any]
 SAME = 1e-9  # radians, or parts of a slide's range, within which two places of the driver are one, but for rounding
+NEAR_CHANGE, NEAR_LIMIT = 1e-7, 1e-12  # the same: how well change points and limits are known
 TURN_CELLS, SLIDE_CELLS = 360, 720  # grid on which a margin is looked at first: a full turn, the range of a slide
 
 Margins = Callable[[Array], Mapping[str, Array]]
@@ -86,6 +86,21 @@ class Reach:
             elif stretch.length > 4.0 * beside:
                 trimmed.append(stretch.part(stretch.low + low, stretch.high - high))
         return tuple(trimmed)
+
+    def undetermined(self, places: Array) -> NDArray[np.bool_]:
+        """Tell which places are those of change points or limits, but for rounding: they have no plan of velocities.
+
+        Links in line leave the motion undetermined. The angle between them is a root of the rounding there, small but
+        not zero, and what is computed with it means nothing.
+        """
+        spots = [(x, NEAR_CHANGE) for x in self.changes] + [(x, NEAR_LIMIT) for x in self.limits]
+        turns = self.whole.closed
+        found = np.zeros(places.shape, bool)
+        for spot, near in spots:
+            off = places - spot
+            away = np.minimum(off % TURN, -off % TURN) if turns else np.abs(off)
+            found |= away <= near * (1.0 if turns else self.whole.length)
+        return found
 
     def _changes_at(self, place: float) -> bool:
         offs = (abs(place - change) for change in self.changes)
@@ -146,7 +161,7 @@ def reach(mechanism: Mechanism, values: Mapping[str, float], between: Arc | None
 
 def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = None) -> Reach:
     """Find the reach of a mechanism that is ready for a sweep."""
-    free = without_loads(drive.mechanism)
+    free = drive.mechanism.without_loads
     _, program = constructed(free, ("position",))
     position = drive.along(program, values, program.names, MarginBoard, free)
     whole = _range(drive, values, between)
@@ -207,7 +222,7 @@ def size_of(mechanism: Mechanism, values: Mapping[str, float]) -> float:
             names += pair.at or ()
         elif isinstance(pair, Prismatic):
             names += [*pair.through, pair.offset]
-    given = board_givens(replace(without_loads(mechanism), starts=()), values)
+    given = board_givens(replace(mechanism.without_loads, starts=()), values)
     return sum(abs(given.get(name, 0.0)) for name in set(names)) or 1.0
 
 

@@ -21,7 +21,6 @@ from ...along import remembering
 from ...board import Program, Step
 from ...laws import TURN, inclination
 from ...zeros import Stretch, zeros
-from ..bare import at_unit_speed, without_loads
 from ..chain import constructed, moving_bodies
 from ..mechanism import FRAME, ZERO, Mechanism, Prismatic
 from ..structure import Structure
@@ -205,7 +204,7 @@ def output_motions(drive: Swept, values: Mapping[str, float], found: Reach) -> t
 
     Dead positions are zeros of the velocity, refined until they do not change: better than 1e-12 rad.
     """
-    mechanism = at_unit_speed(without_loads(drive.mechanism))
+    mechanism = drive.mechanism.without_loads.at_unit_speed
     structure, program = constructed(mechanism, ("velocity",))
     moved = outputs(mechanism, structure)
     wanted = [name for output in moved for name in (output.place, output.rate) if name]

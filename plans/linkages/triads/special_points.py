@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from ...board import Program, RecordingBoard
 from ...boards.batch import batch
 from ...boards.exact import ILL, SMALL, run
-from ..bare import without_loads
 from ..chain import construct, named_groups
 from ..legs import Leg
 from ..mechanism import Mechanism
@@ -72,7 +71,7 @@ def _sines(
     """
     if not any(start.legs is None for start in mechanism.starts):
         return {}
-    free = without_loads(mechanism)
+    free = mechanism.without_loads
     triads = [group for group in named_groups(free) if isinstance(group, Triad)]
     board, named = RecordingBoard(), {}
     for triad in triads:
