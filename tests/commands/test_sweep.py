@@ -16,7 +16,7 @@ from kulman import KulmanError, cli
 from kulman.docs import refresh
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.documents import run_here
-from kulman.variants.sweeps.sweeps import Sweep
+from kulman.variants.sweeps.linkage import Sweep
 
 TASK = "nau-slider-crank"
 SHORT_ROD = ["--set", "l_AB=20"]  # cannot reach the guide all round

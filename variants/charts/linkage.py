@@ -30,7 +30,7 @@ from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit
 from ..case import Case
 from ..spreadsheets.csv_write import Cell
-from ..sweeps.columns import driver_name
+from ..sweeps.cycles import driver_name
 from ..tables import aligned
 from .accuracy import AccuracyChart
 from .data import (

@@ -36,8 +36,6 @@ if TYPE_CHECKING:
     from ..case import Case
     from ..checks.basics import Checker
     from ..checks.names import Names
-    from ..sweeps.asked import SweepRequest
-    from ..sweeps.cam import CamSweep
 
 SYMBOLS = ("mu_l", "mu_s_ds", "mu_s_d2s")  # the others follow from the drawn amplitude and the pole distances
 PER_MM, MILLI = 1e-3, 1e3
@@ -125,12 +123,6 @@ class Cams(Kind[Cam, "SolvedCam"]):
         from ...drawing.cams.ladders import first_scales
 
         return first_scales(solved, choosers, plans)
-
-    def sweep(self, case: Case, words: Words, asked: SweepRequest) -> CamSweep:
-        """Look at a cam over its turn."""
-        from ..sweeps.cam import cam_sweep
-
-        return cam_sweep(case, words, asked)
 
     def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity."""

@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from ..case import Case
     from ..checks.basics import Checker
     from ..checks.names import Names
-    from ..sweeps.asked import SweepRequest
-    from ..sweeps.gear import GearSweep
 
 RULES = {  # checks that are told when they fail
     "undercut": "gear-rule-undercut",
@@ -136,12 +134,6 @@ class Gears(Kind[GearPair, "SolvedGear"]):
     def checks(self, solved: SolvedGear, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
         """Return what the pair is judged by: the compared value, its limit, how they have to stand, SI."""
         return solved.checks
-
-    def sweep(self, case: Case, words: Words, asked: SweepRequest) -> GearSweep:
-        """Look at a pair over the contact of one pair of teeth."""
-        from ..sweeps.gear import gear_sweep
-
-        return gear_sweep(case, words, asked)
 
     def headings(self, solved: SolvedGear, words: Words) -> dict[str, str]:
         """Return the headings of the sections of the note."""

@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from ..case import Case
     from ..checks.basics import Checker
     from ..checks.names import Names
-    from ..sweeps.asked import SweepRequest
-    from ..sweeps.hoist import HoistSweep
 
 UNASKED = ("s_min", "t_P12_max")
 RULES = {  # what is told of a check that fails
@@ -118,12 +116,6 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         load, `strength` the safety beside the required one.
         """
         return solved.forces.checks
-
-    def sweep(self, case: Case, words: Words, asked: SweepRequest) -> HoistSweep:
-        """Look at a hoist over time."""
-        from ..sweeps.hoist import hoist_sweep
-
-        return hoist_sweep(case, words, asked)
 
     def headings(self, solved: SolvedHoist, words: Words) -> dict[str, str]:
         """Return the headings of the sections of the note."""

@@ -35,7 +35,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..charts.data import Gallery
     from ..checks.basics import Checker
     from ..checks.names import Names
-    from ..sweeps.asked import SweepRequest, Swept
+    from ..sweeps.sweeps import SweepRequest, Swept
 
 TRIED_FOR = 1.3  # seconds of processor time in which a file is read and its variants are tried
 
@@ -195,7 +195,8 @@ class Kind(ABC, Generic[Subject, Answer]):
         InputError
             It has none.
         """
-        raise InputError("kind-without", task=quote(case.task.id), text="sweep")
+        found: Swept = self._own("sweeps", case.task).SWEEP.of(case, words, asked)
+        return found
 
     def listed(self, solved: Answer, plans: tuple[str, ...]) -> tuple[str, ...]:
         """Return the names of the quantities and scale factors that a list for some plans shows, in its order."""

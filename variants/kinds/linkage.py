@@ -44,8 +44,6 @@ if TYPE_CHECKING:
     from ..case import Case
     from ..checks.basics import Checker
     from ..checks.names import Names
-    from ..sweeps.asked import SweepRequest
-    from ..sweeps.sweeps import Sweep
 
 LEVER_AGREES = 1e-6  # per cent by which the balancing moment and the lever's may differ
 SHORT = 0.01  # part of the longest vector of a plan below which another is hardly seen: a millimetre beside 100
@@ -134,12 +132,6 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         from ...plans.linkages.solved import conditions_of  # needs numpy, which plain solutions do without
 
         return conditions_of(SolvedLinkage.of(case.solved))
-
-    def sweep(self, case: Case, words: Words, asked: SweepRequest) -> Sweep:
-        """Solve a linkage over its whole cycle."""
-        from ..sweeps.sweeps import linkage_sweep
-
-        return linkage_sweep(case, words, asked)
 
     def warnings(self, solved: SolvedLinkage) -> tuple[InputError, ...]:
         """Tell of lines that meet at a small angle."""

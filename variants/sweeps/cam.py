@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,12 +13,7 @@ from ...plans.cams.course import columns, cut_at, extremes, lines, sharpest, und
 from ...plans.cams.motion import TURN
 from ...plans.cams.solve import SolvedCam
 from ...plans.columned import Columned
-from ...scales.units import format_unit, unit
-from ..case import Case
-from .asked import SweepRequest
 from .sized import (
-    DIGITS,
-    OK,
     SizedSweep,
     column_table,
     columns_csv,
@@ -25,7 +21,7 @@ from .sized import (
     degrees,
     extremes_json,
     extremes_table,
-    refuse_unused,
+    millimetres,
 )
 
 TABLED = ("phi", "s", "ds", "d2s", "v", "a", "psi", "theta", "gamma", "theta_rocker", "gamma_rocker")
@@ -56,14 +52,20 @@ class CamSweep(SizedSweep):
         parts = [
             column_table([column for column in rows if column.name in TABLED], heads, words),
             extremes_table(extremes(self.solved), words),
-            _profiles(self.case, self.solved, words),
+            "\n".join((*self._sharpest(words), *self._warned(words))),
         ]
         return "\n\n".join(part for part in parts if part)
 
+    def _sharpest(self, words: Words) -> Iterator[str]:
+        """Say where profiles are curved most."""
+        for one in sharpest(self.solved):
+            said = {"rho": millimetres(one.rho, words), "at": degrees(one.phi, words)}
+            yield words[f"sweep.sharpest.{one.curve}"].format(**said)
+
     def csv(self, language: str | None = None) -> str:
-        """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
+        """Return all columns as CSV."""
         phi = self._angles()
-        status = [f"{UNDERCUT}: {followers}" if followers else OK for followers in cut_at(self.solved, phi)]
+        status = [f"{UNDERCUT}: {followers}" if followers else "ok" for followers in cut_at(self.solved, phi)]
         return columns_csv(columns(self.solved, phi), self._words(language), {"status": status})
 
     def _data(self) -> dict[str, Any]:
@@ -94,24 +96,4 @@ def _joined(solved: SolvedCam, places: list[tuple[float, int]]) -> list[Columned
     return [Columned(b.name, b.unit, np.where(after, b.values, a.values)) for a, b in zip(left, right, strict=True)]
 
 
-def _profiles(case: Case, solved: SolvedCam, words: Words) -> str:
-    """Say where profiles are curved most, and what a user should know of them."""
-    millimetre = unit("mm")
-    said = []
-    for one in sharpest(solved):
-        rho = f"{words.short(millimetre.from_si(one.rho), DIGITS)} {format_unit('mm', words.language)}"
-        said.append(words[f"sweep.sharpest.{one.curve}"].format(rho=rho, at=degrees(one.phi, words)))
-    return "\n".join((*said, *(warning.text(words.language) for warning in case.warnings)))
-
-
-def cam_sweep(case: Case, words: Words, asked: SweepRequest) -> CamSweep:
-    """Look at a cam over its turn.
-
-    Raises
-    ------
-    InputError
-        Points, a beginning or end of the motion, or chords are asked for: a cam has none; its diagrams by chords are
-        on its sheet, their errors in its chart.
-    """
-    refuse_unused(case, asked)
-    return CamSweep(case, words, asked.positions)
+SWEEP = CamSweep

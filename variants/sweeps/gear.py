@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,18 +11,14 @@ import numpy as np
 from ...drawing.words import Words
 from ...plans.gears.course import columns, extremes, marks, zones
 from ...plans.gears.solve import SolvedGear
-from ...scales.units import format_unit, unit
-from ..case import Case
-from .asked import SweepRequest
 from .sized import (
-    DIGITS,
     SizedSweep,
     column_table,
     columns_csv,
     columns_json,
     extremes_json,
     extremes_table,
-    refuse_unused,
+    millimetres,
 )
 
 
@@ -49,26 +46,18 @@ class GearSweep(SizedSweep):
         else:
             rows = columns(self.solved, self._places())
             heads = [str(k) for k in range(self.positions)]
-        said = [self._zones(words), *(warning.text(words.language) for warning in self.case.warnings)]
+        said = (*self._zones(words), *self._warned(words))
         return "\n\n".join(
             (column_table(rows, heads, words), extremes_table(extremes(self.solved), words), "\n".join(said))
         )
 
-    def _zones(self, words: Words) -> str:
-        mm = unit("mm")
-        return "\n".join(
-            words["sweep.zone"].format(
-                **{
-                    name: f"{words.short(mm.from_si(value), DIGITS)} {format_unit('mm', words.language)}"
-                    for name, value in (("first", zone.first), ("last", zone.last), ("length", zone.length))
-                },
-                pairs=zone.pairs,
-            )
-            for zone in zones(self.solved)
-        )
+    def _zones(self, words: Words) -> Iterator[str]:
+        for zone in zones(self.solved):
+            ends = {name: millimetres(getattr(zone, name), words) for name in ("first", "last", "length")}
+            yield words["sweep.zone"].format(**ends, pairs=zone.pairs)
 
     def csv(self, language: str | None = None) -> str:
-        """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
+        """Return all columns as CSV."""
         return columns_csv(columns(self.solved, self._places()), self._words(language))
 
     def _data(self) -> dict[str, Any]:
@@ -84,13 +73,4 @@ class GearSweep(SizedSweep):
         return np.linspace(*self.solved.meshing.touching, self.count)
 
 
-def gear_sweep(case: Case, words: Words, asked: SweepRequest) -> GearSweep:
-    """Look at a pair over the contact of one pair of teeth.
-
-    Raises
-    ------
-    InputError
-        Points, a beginning or end of the motion, or chords are asked for: a contact has none.
-    """
-    refuse_unused(case, asked)
-    return GearSweep(case, words, asked.positions)
+SWEEP = GearSweep

@@ -9,13 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...drawing.words import Words
 from ...plans.hoist.course import Course, course, end_of, marks
 from ...plans.hoist.forces import Forces
 from ...plans.hoist.solve import SolvedHoist
-from ..case import Case
-from .asked import SweepRequest
-from .sized import SizedSweep, column_table, columns_csv, columns_json, refuse_unused
+from .sized import SizedSweep, column_table, columns_csv, columns_json
 
 TABLED = 25  # times in the table, beside the marks
 
@@ -49,11 +46,10 @@ class HoistSweep(SizedSweep):
             heads.setdefault(at, []).append(name)
         found = self.at(np.array(sorted(heads)))
         names = [", ".join(heads[t]) for t in sorted(heads)]
-        said = [column_table(found.columned, names, words)]
-        return "\n\n".join((*said, *(warning.text(words.language) for warning in self.case.warnings)))
+        return "\n\n".join((column_table(found.columned, names, words), *self._warned(words)))
 
     def csv(self, language: str | None = None) -> str:
-        """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
+        """Return all columns as CSV."""
         found = self.at(self._times(self.count))
         return columns_csv(found.columned, self._words(language), {"bears": found.states})
 
@@ -71,13 +67,4 @@ class HoistSweep(SizedSweep):
         return np.linspace(0.0, end_of(self.solved.found, self.solved.motion), count)
 
 
-def hoist_sweep(case: Case, words: Words, asked: SweepRequest) -> HoistSweep:
-    """Look at a hoist over time.
-
-    Raises
-    ------
-    InputError
-        Points, a beginning or end of the motion, or chords are asked for: a hoist has none.
-    """
-    refuse_unused(case, asked)
-    return HoistSweep(case, words, asked.positions)
+SWEEP = HoistSweep

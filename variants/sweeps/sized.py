@@ -6,36 +6,32 @@ As text, lengths are in mm, angles in degrees, stresses in MPa, all else is in S
 from __future__ import annotations
 
 import os
-from abc import abstractmethod
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
 from ...drawing.words import Words
-from ...drawing.writers import Files, save_all
+from ...drawing.writers import save_all
 from ...plans.columned import Columned, Ends
-from ...scales.errors import InputError, PositionError
+from ...scales.errors import InputError
 from ...scales.numbers import quote
 from ...scales.units import format_unit, unit
 from ..case import Case
-from ..spreadsheets.csv_write import csv_bytes, csv_text
+from ..spreadsheets.csv_write import csv_text
 from ..tables import aligned
-from .asked import OfCase, SweepRequest
-from .data import numbers
+from .sweeps import CSV, SweepRequest, Swept, numbers
 
 SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}
 DIGITS, PLACES = 6, 9  # of a number in the table; decimals of the degrees of what drives
 DRIVES = "phi"
 NOTHING = 1e-9  # part of the largest value of a column below which one is rounding
-OK = "ok"
-SUFFIXES = (".csv",)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class SizedSweep(OfCase):
+class SizedSweep(Swept):
     """What is found of a subject that is solved, at `positions` places; None for as many as are usual."""
 
     positions: int | None
@@ -44,67 +40,40 @@ class SizedSweep(OfCase):
     places: ClassVar[str] = "positions"  # what they are
     not_drawn: ClassVar[str]  # key of the message that refuses files of other kinds
 
+    @classmethod
+    def of(cls, case: Case, words: Words, asked: SweepRequest) -> Self:
+        """Look at what has been solved over its motion.
+
+        Raises
+        ------
+        InputError
+            Points, a beginning or end of the motion, or chords are asked for, which only the cycle of a linkage has.
+        """
+        unused = {"--points": asked.points, "--from": asked.start, "--to": asked.end, "--chords": asked.chords}
+        for option, value in unused.items():
+            if value is not None:
+                raise InputError("kind-without", task=quote(case.task.id), text=option)
+        return cls(case, words, asked.positions)
+
     @property
     def count(self) -> int:
         """The number of places in files."""
         return self.positions or self.usual
 
-    @property
-    def status(self) -> str:
-        """`ok`: what is solved moves."""
-        return OK
-
-    @property
-    def reason(self) -> PositionError | None:
-        """None: what is solved moves."""
-        return None
-
-    @abstractmethod
-    def csv(self, language: str | None = None) -> str:
-        """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
-
-    @abstractmethod
-    def _data(self) -> dict[str, Any]:
-        """Return what has been found, for JSON: everything in SI."""
-
-    def to_json(self) -> dict[str, Any]:
-        """Return what `kulman sweep --json` prints: everything in SI."""
-        return {"task": self.task.id, "variant": self.variant, "status": self.status} | self._data()
-
     def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
-        """Write the columns to each of `paths`.
-
-        Raises
-        ------
-        InputError
-            A file that is not a .csv: diagrams are on the sheet.
-        """
-
-        def files(path: Path) -> Files:
-            return [(path, csv_bytes(self.csv(), self.words.language))]
-
+        """Write the columns to each of `paths`, .csv alone: diagrams are on the sheet."""
         for path in map(Path, paths):
-            if path.suffix.lower() not in SUFFIXES:
+            if path.suffix.lower() != CSV:
                 raise InputError(self.not_drawn, task=quote(self.task.id), file=quote(path.name))
-        return save_all(paths, SUFFIXES, files)
+        return save_all(paths, (CSV,), lambda path: [(path, self._csv_file())])
+
+    def _warned(self, words: Words) -> list[str]:
+        """Return what a user should know."""
+        return [warning.text(words.language) for warning in self.case.warnings]
 
     def __repr__(self) -> str:
         """Return task, variant and the number of places."""
         return f"<{type(self).__name__} {self.task.id} {self.variant}: {self.count} {self.places}>"
-
-
-def refuse_unused(case: Case, asked: SweepRequest) -> None:
-    """Refuse what only the cycle of a linkage has.
-
-    Raises
-    ------
-    InputError
-        Points, a beginning or end of the motion, or chords are asked for.
-    """
-    unused = {"--points": asked.points, "--from": asked.start, "--to": asked.end, "--chords": asked.chords}
-    for option, value in unused.items():
-        if value is not None:
-            raise InputError("kind-without", task=quote(case.task.id), text=option)
 
 
 def columns_json(found: Iterable[Columned]) -> dict[str, Any]:
@@ -128,7 +97,8 @@ def columns_csv(found: Iterable[Columned], words: Words, said: Mapping[str, Sequ
     """Return columns as CSV, the number of the row before them, after them what is `said` of each row, by heading."""
     shown, said = [in_degrees_and_millimetres(column) for column in found], said or {}
     rows = zip(*(map(float, column.values) for column in shown), *said.values(), strict=True)
-    head = ["k", *_csv_head(shown, words), *said]
+    heads = (f"{one.name} [{of}]" if (of := format_unit(one.unit, words.language)) else one.name for one in shown)
+    head = ["k", *heads, *said]
     return csv_text([head, *([k, *row] for k, row in enumerate(rows))], words.language)
 
 
@@ -140,11 +110,6 @@ def in_degrees_and_millimetres(column: Columned) -> Columned:
     to: Callable[[Any], Any] = unit(shown).from_si
     values = to(column.values)
     return Columned(column.name, shown, np.round(values, PLACES) if column.name == DRIVES else values)
-
-
-def _csv_head(shown: Collection[Columned], words: Words) -> list[str]:
-    """Return the names of columns with their units."""
-    return [f"{one.name} [{of}]" if (of := format_unit(one.unit, words.language)) else one.name for one in shown]
 
 
 def column_table(found: Collection[Columned], heads: list[str], words: Words) -> str:
@@ -187,3 +152,8 @@ def extremes_table(found: Collection[Ends], words: Words) -> str:
 def degrees(at: float, words: Words) -> str:
     """Return an angle in degrees."""
     return f"{words.short(round(unit('deg').from_si(at), 4), DIGITS)}°"
+
+
+def millimetres(length: float, words: Words) -> str:
+    """Return a length in millimetres."""
+    return f"{words.short(unit('mm').from_si(length), DIGITS)} {format_unit('mm', words.language)}"
