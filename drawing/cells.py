@@ -1,7 +1,8 @@
-"""Text in a cell: as large as fits, wrapped, shrunk, and at last made narrower; it never touches a line."""
+"""Text in a cell: as large as fits, wrapped, shrunk, at last made narrower; names of people as surname and initials."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -16,6 +17,8 @@ PITCH = 1.5  # from baseline to baseline, in heights of a capital
 FALL = 0.3  # of p and y below the baseline, in heights of a capital
 SHOWN = 60  # characters of a text in a message
 NARROWEST = 40  # per cent of a letter's own width
+LEGIBLE = 0.5  # letters that are made narrower than that cannot be read
+_PATRONYMIC = re.compile(r"\w+(вич|івна|ївна|ична|овна|евна|vych|vich|ivna|yivna|ovna|evna)", re.IGNORECASE)
 
 
 def fitted(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor = "middle", name: str = "") -> list[Text]:
@@ -87,3 +90,59 @@ def _placed(lines: list[str], cell: Box, height: float, anchor: Anchor, name: st
         Text(complex(x, y - row * PITCH * height), escape(line), height, anchor, role="stamp", name=name)
         for row, line in enumerate(lines)
     ]
+
+
+def named(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor, name: str) -> list[Text]:
+    """Return the lines of a person's name in `cell`, in letters that one can read where that is possible.
+
+    Raises
+    ------
+    InputError
+        Not even the surname has room.
+    """
+    found: list[list[Text]] = []
+    refused: list[InputError] = []
+    for way in dict.fromkeys((plain, with_initials(plain), surname(plain))):
+        try:
+            found.append(fitted(way, cell, heights, anchor, name))
+        except InputError as error:
+            refused.append(error)
+    if not found:
+        raise refused[0]
+    return next((texts for texts in found if all(text.squeeze >= LEGIBLE for text in texts)), found[0])
+
+
+def surname(plain: str) -> str:
+    """Return the surname of a full name: before a patronymic's given name, or behind it; else first, in Latin last.
+
+    >>> surname("Коваль Іван Петрович"), surname("Іван Петрович Коваль"), surname("Ivan Koval")
+    ('Коваль', 'Коваль', 'Koval')
+    """
+    words = plain.split()
+    return words[_surname_at(words)] if words else ""
+
+
+def with_initials(plain: str) -> str:
+    """Return a full name as surname and initials, in the order in which it is written.
+
+    >>> with_initials("Коваль Анна-Марія Петрівна"), with_initials("Ivan Koval"), with_initials("доц. Коваль Ольга")
+    ('Коваль А.-М. П.', 'I. Koval', 'доц. Коваль О.')
+    """
+    words = plain.split()
+    at = _surname_at(words)
+    return " ".join(word if place == at else _initial(word) for place, word in enumerate(words))
+
+
+def _surname_at(words: Sequence[str]) -> int:
+    first = next((at for at, word in enumerate(words) if not word.endswith(".")), 0)  # behind a title
+    last = len(words) - 1
+    if last > first and _PATRONYMIC.fullmatch(words[last]):
+        return first
+    if last > first + 1 and _PATRONYMIC.fullmatch(words[last - 1]):
+        return last
+    return last if words and re.match("[A-Za-z]", words[first]) else first
+
+
+def _initial(word: str) -> str:
+    """Return the first letter of each part of a name; what is no name stays."""
+    return re.sub(r"(\w)\w+", r"\1.", word) if word[:1].isalpha() and not word.endswith(".") else word

@@ -7,13 +7,12 @@ from dataclasses import dataclass, replace
 
 from ..scales.scale import Scale
 from .formats import GAPS, Format, reserved_boxes, usable
-from .frame import frame_shapes
 from .packing import Placement, pack
 from .page import Page
 from .pens import Norm
 from .rows import Size
 from .shapes import Group
-from .titleblock import Stamp
+from .titleblock import Stamp, frame_shapes
 from .view import View
 
 SHARES = (0.0, 0.02, -0.02, 0.04, -0.04, 0.06, -0.06, 0.09, -0.09)  # of the width, by which halves may be unequal

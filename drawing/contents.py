@@ -8,11 +8,11 @@ from typing import Generic, TypeVar
 
 from ..plans.solved import Solved
 from ..scales.choose import Choosers
+from .formats import Style
 from .givens import Given
 from .pens import Norm
 from .printed import DEGREES, value_text
 from .shapes import Circle, Group, Pen
-from .style import Style
 from .words import Words
 
 Subject = TypeVar("Subject", bound=Solved)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from .words import Words
 
 if TYPE_CHECKING:
-    from .style import Style
+    from .formats import Style
     from .view import View
 
 LONG, DENOMINATOR, ROUNDING = 10, 100, 1e-11  # characters of a number that may be a simple fraction

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .formats import Style
 from .shapes import Circle, Group, Line, Pen, Polyline, Shape
-from .style import Style
 from .symbols import guide, hatching, unit
 
 COILS = 5

@@ -1,4 +1,4 @@
-"""A page laid out by hand: rows and columns of views within one another, spread evenly over the room that they have."""
+"""Customary arrangements of a page: rows and columns of views within one another, laid out by hand, spread evenly."""
 
 from __future__ import annotations
 
@@ -12,8 +12,6 @@ from .pens import Norm
 from .rows import SLACK, Size
 from .view import View
 
-BLOCK, TURNED = "block", "turned"  # the title block below the last column, column 26 above the first one
-GAP = 4.0  # mm between views
 Place: TypeAlias = tuple[str, float, float]  # of a view: its name, its lower left corner
 
 
@@ -86,6 +84,10 @@ def names(parts: Sequence[Nest | str]) -> Iterator[str]:
     """Go through the names of the views of parts."""
     for part in parts:
         yield from (part,) if isinstance(part, str) else names(part.parts)
+
+
+BLOCK, TURNED = "block", "turned"  # the title block below the last column, column 26 above the first one
+GAP = 4.0  # mm between views
 
 
 def zoned(layouts: Sequence[Nest], views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] | None:

@@ -1,15 +1,17 @@
-"""A page: its size, its shapes, and what they cover."""
+"""A page: its size, its shapes, what they cover, and the layers that a reader shows or hides together."""
 
 from __future__ import annotations
 
 from cmath import rect
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from enum import Enum
 from math import pi, tau
 from typing import assert_never
 
+from ..scales.packaged import packaged
 from .pens import Norm, Pens, pens_for
-from .shapes import Arc, Arrow, Circle, Group, Head, Line, Polyline, Shape, Text, Vector
+from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from .text import Box, corners
 
 
@@ -73,3 +75,97 @@ def extent(shapes: Iterable[Shape]) -> Box:
     points = [point for shape in shapes for point in _reach(shape)]
     xs, ys = [point.real for point in points], [point.imag for point in points]
     return min(xs), min(ys), max(xs), max(ys)
+
+
+NOTE = "note"  # the name of lines under a heading, which may hold results
+TASK_VIEWS = ("givens", "data", "choices", "note", "structure", "scales")  # of the task, and of how it is drawn
+
+
+class Layer(Enum):
+    """A layer by its name in a file; those that come later are painted over those before them."""
+
+    GRID = "grid"
+    FRAME = "frame"
+    CONSTRUCTION = "construction"
+    GIVEN = "given"
+    RESULT = "result"
+    LABELS = "labels"
+    KEY = "key"
+
+    @property
+    def hidden(self) -> bool:
+        """Whether a file opens without it."""
+        return self is Layer.KEY
+
+    def title(self, language: str) -> str:
+        """Return what it is called in a list of layers."""
+        text: str = packaged(__package__, "texts", language)[f"layer.{self.value}"]
+        return text
+
+
+# by role; what has none of these is judged by its pen, and a text is a label
+_ROLES = {
+    Layer.FRAME: "edge titleblock margin ruler",
+    Layer.GIVEN: "heading axis pivot guide ground support shaft pole",
+    Layer.RESULT: "link pair centre node curve mean contact touch sharpest extreme rigid spring arrow arm "
+    "line-of-action enlarged magnified table text",
+    Layer.LABELS: "dimension extension leader point ordinate",
+}
+_LAYERS = {role: layer for layer, roles in _ROLES.items() for role in roles.split()}
+
+
+def parts_of(page: Page) -> Sequence[tuple[Layer | None, Sequence[Shape]]]:
+    """Return the shapes of a page by layers, in the order of painting; all as they come where it has none."""
+    return layered(page.shapes) if page.layers else [(None, page.shapes)]
+
+
+def layered(shapes: Iterable[Shape]) -> list[tuple[Layer, list[Shape]]]:
+    """Sort the shapes of a page by layers, in the order of painting; a view is parted into groups of one name.
+
+    Within a layer they keep their order.
+    """
+    found: dict[Layer, list[Shape]] = {layer: [] for layer in Layer}
+    for shape in shapes:
+        if isinstance(shape, Group) and shape.role == "view":
+            _part(shape, found)
+        else:
+            found[_on_page(shape)].append(shape)
+    return [(layer, own) for layer, own in found.items() if own]
+
+
+def _part(view: Group, found: dict[Layer, list[Shape]]) -> None:
+    if view.layer or view.name in TASK_VIEWS:
+        found[Layer(view.layer or Layer.GIVEN)].append(view)
+        return
+    parts: dict[Layer, list[Shape]] = {}
+    for shape in view.shapes:
+        parts.setdefault(layer_of(shape), []).append(shape)
+    for layer, own in parts.items():
+        found[layer].append(Group(tuple(own), "view", view.name, view.title))
+
+
+def _on_page(shape: Shape) -> Layer:
+    """Return the layer of what stands on a page outside of views."""
+    return Layer.FRAME if getattr(shape, "role", "") == "frame" else layer_of(shape)
+
+
+def layer_of(shape: Shape) -> Layer:
+    """Return the layer of a part of a view, which is in it as a whole."""
+    if isinstance(shape, Group) and shape.layer:
+        return Layer(shape.layer)
+    if isinstance(shape, Vector | Arrow):
+        return Layer.RESULT
+    if isinstance(shape, Head):  # of an axis: others are in groups
+        return Layer.GIVEN
+    if shape.name == NOTE and isinstance(shape, Text):
+        return Layer.LABELS
+    known = _LAYERS.get(shape.role)
+    if known is not None:
+        return known
+    if isinstance(shape, Text):
+        return Layer.LABELS
+    if isinstance(shape, Group):
+        return layer_of(shape.shapes[0]) if shape.shapes else Layer.CONSTRUCTION
+    if shape.pen is Pen.AXIS:
+        return Layer.GIVEN
+    return Layer.RESULT if shape.pen is Pen.MAIN else Layer.CONSTRUCTION

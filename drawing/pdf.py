@@ -1,34 +1,85 @@
-"""The PDF writer: the same shapes in points, with selectable text in an embedded subset of the font."""
+"""The PDF writer: the same shapes in points, with selectable text in an embedded subset of the font, in layers.
+
+Pages as large as they are, or spread over small paper; and a PNG as a picture of the PDF.
+"""
 
 from __future__ import annotations
 
 from cmath import rect
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import closing
+from dataclasses import dataclass
 from functools import cache, lru_cache
 from io import BytesIO
 from math import ceil, cos, pi, sin, tan
 from typing import TYPE_CHECKING, BinaryIO, assert_never
 from zlib import compress
 
+from ..scales.errors import InputError
+from ..scales.numbers import quote
 from .font import font
-from .layers import Layer, parts_of
-from .page import Page
-from .pdf_layers import DocumentLayers, opened
+from .page import Layer, Page, parts_of
 from .pens import Pens, arrow_parts, head_outline, length_of
 from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
-from .text import lay_out, placer
+from .text import Box, lay_out, placer
 
 if TYPE_CHECKING:
-    from reportlab.pdfbase.pdfdoc import PDFStream
+    from reportlab.pdfbase.pdfdoc import PDFDictionary, PDFResourceDictionary, PDFStream
     from reportlab.pdfbase.ttfonts import TTFont
     from reportlab.pdfgen.canvas import Canvas
+
 
 POINT = 72 / 25.4  # points in a millimetre
 FONT = "DejaVuSans"
 BLACK = "#000"
 QUICK = 4  # how hard zlib tries
 _SOLID = (Pen.MAIN, Pen.THIN)
+DPI = 200  # of a picture
+PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0)}  # small paper, mm
+MARGIN = 10.0  # of small paper, mm: no printer reaches its edge
+OVERLAP = 10.0  # mm of small sheets, to glue on
+MARK = 5.0  # length of a cut mark, mm
+
+
+class _DocumentLayers:
+    """The layers of one document as optional content groups (ISO 32000-1, 8.11), which readers list, show and hide.
+
+    Its pages name them as resources, its catalog says which are shown at first.
+    """
+
+    def __init__(self, canvas: Canvas, language: str) -> None:
+        self.document = canvas._doc
+        self.language = language
+        self.groups: dict[Layer, PDFDictionary] = {}
+
+    def resources(self, layers: Iterable[Layer]) -> PDFResourceDictionary:
+        """Return the resources of a page or form on which these layers are."""
+        from reportlab.pdfbase.pdfdoc import PDFResourceDictionary
+
+        found = PDFResourceDictionary(Properties={layer.value: self._reference(layer) for layer in layers})
+        found.basicFonts()
+        return found
+
+    def close(self) -> None:
+        """Tell the catalog of the layers of all pages, if there are any."""
+        from reportlab.pdfbase.pdfdoc import PDFArray, PDFDictionary
+
+        if not self.groups:
+            return
+        listed = [layer for layer in Layer if layer in self.groups]
+        hidden = PDFArray([self._reference(layer) for layer in listed if layer.hidden])
+        groups = PDFArray([self._reference(layer) for layer in listed])
+        catalog = self.document.Catalog
+        catalog.__NoDefault__ = [*catalog.__NoDefault__, "OCProperties"]  # it writes the entries that it lists
+        catalog.OCProperties = PDFDictionary({"OCGs": groups, "D": PDFDictionary({"Order": groups, "OFF": hidden})})
+
+    def _reference(self, layer: Layer) -> object:
+        from reportlab.pdfbase.pdfdoc import PDFDictionary, PDFName, PDFString
+
+        if layer not in self.groups:
+            title = PDFString(layer.title(self.language))
+            self.groups[layer] = PDFDictionary({"Type": PDFName("OCG"), "Name": title})
+        return self.document.Reference(self.groups[layer], f"layer-{layer.value}")
 
 
 def write_pdf(pages: Sequence[Page], stream: BinaryIO) -> None:
@@ -39,11 +90,11 @@ def write_pdf(pages: Sequence[Page], stream: BinaryIO) -> None:
     ValueError
         A coordinate is not a finite number.
     """
-    canvas, out = new_canvas(pages[0])
-    document = DocumentLayers(canvas, pages[0].language)
+    canvas, out = _new_canvas(pages[0])
+    document = _DocumentLayers(canvas, pages[0].language)
     for page in pages:
         canvas.setPageSize((page.width * POINT, page.height * POINT))
-        layers = draw_page(canvas, page)
+        layers = _draw_page(canvas, page)
         canvas.showPage()
         shown = canvas._doc.Pages.pages[-1]
         shown.Resources = document.resources(layers)
@@ -53,7 +104,7 @@ def write_pdf(pages: Sequence[Page], stream: BinaryIO) -> None:
     stream.write(out.getvalue())
 
 
-def new_canvas(page: Page) -> tuple[Canvas, BytesIO]:
+def _new_canvas(page: Page) -> tuple[Canvas, BytesIO]:
     """Return an empty document with the title and language of `page`, and the stream it will fill."""
     from reportlab.pdfgen.canvas import Canvas
 
@@ -97,29 +148,20 @@ def _packed(code: str) -> PDFStream:
     return PDFStream(PDFDictionary({"Filter": PDFName("FlateDecode")}), compress(code.encode("ascii"), QUICK))
 
 
-def draw_page(canvas: Canvas, page: Page) -> list[Layer]:
+def _draw_page(canvas: Canvas, page: Page) -> list[Layer]:
     """Draw a page layer by layer on a canvas whose unit is the point and whose y points up; return its layers."""
     canvas.saveState()
     writer = _Writer(canvas, page.pens)
     parts = parts_of(page)
     for layer, shapes in parts:
         if layer is not None:
-            writer.put(opened(layer))
+            writer.put(f"/OC /{layer.value} BDC")  # all is in the layer up to its `EMC`
         for shape in shapes:
             writer.draw(shape)
         if layer is not None:
             writer.put("EMC")
     canvas.restoreState()
     return [layer for layer, _ in parts if layer is not None]
-
-
-def draw_shapes(canvas: Canvas, shapes: Sequence[Shape], pens: Pens) -> None:
-    """Draw shapes of no layer on a canvas whose unit is the point and whose y points up."""
-    canvas.saveState()
-    writer = _Writer(canvas, pens)
-    for shape in shapes:
-        writer.draw(shape)
-    canvas.restoreState()
 
 
 def _place(point: complex) -> str:
@@ -263,3 +305,104 @@ def _curve(centre: complex, radius: float, start: float, sweep: float) -> str:
         path += f" {' '.join(_place(centre + end) for end in ends)} c"
         here = there
     return path
+
+
+def write_png(pages: Sequence[Page], stream: BinaryIO, dpi: float = DPI) -> None:
+    """Write the first of `pages` as a picture of `dpi` dots per inch.
+
+    Raises
+    ------
+    InputError
+        The extra `png` is not installed.
+    """
+    try:
+        from pypdfium2 import PdfDocument
+    except ImportError:
+        raise InputError("extra-missing", extra="png", suffix=".png") from None
+    pdf = BytesIO()
+    write_pdf(pages[:1], pdf)
+    document = PdfDocument(pdf.getvalue())
+    try:
+        grey = not _coloured(pages[0].shapes)
+        document[0].render(scale=dpi / 72, grayscale=grey).to_pil().save(stream, "PNG", dpi=(dpi, dpi))
+    finally:
+        document.close()
+
+
+def _coloured(shapes: Iterable[Shape]) -> bool:
+    return any(_coloured(shape.shapes) if isinstance(shape, Group) else shape.colour is not None for shape in shapes)
+
+
+@dataclass(frozen=True, slots=True)
+class Tile:
+    """One small sheet: its name (column letter, row number from the top) and the part of the page that it shows."""
+
+    name: str
+    window: Box
+
+
+def tiles(page: Page, paper: str = "A4") -> list[Tile]:
+    """Return the tiles of a page, row by row from the top left; neighbours share a strip.
+
+    Raises
+    ------
+    InputError
+        `paper` is not a paper for tiles.
+    """
+    if paper not in PAPERS:
+        raise InputError("tile-unknown", text=quote(paper), known=", ".join(PAPERS))
+    wide, high = (side - 2 * MARGIN for side in PAPERS[paper])
+    columns, rows = _count(page.width, wide), _count(page.height, high)
+    found = []
+    for row in range(rows):
+        for column in range(columns):
+            x, y = column * (wide - OVERLAP), page.height - row * (high - OVERLAP)
+            window = (x, max(0.0, y - high), min(page.width, x + wide), y)
+            found.append(Tile(f"{chr(ord('A') + column)}{row + 1}", window))
+    return found
+
+
+def _count(length: float, room: float) -> int:
+    return max(1, ceil((length - OVERLAP) / (room - OVERLAP) - 1e-9))
+
+
+def write_tiles(pages: Sequence[Page], stream: BinaryIO, paper: str = "A4") -> None:
+    """Write pages as a PDF of small sheets at full size: print it at 100 %, cut at the marks, glue."""
+    canvas, out = _new_canvas(pages[0])
+    document = _DocumentLayers(canvas, pages[0].language)
+    width, height = PAPERS.get(paper, PAPERS["A4"])
+    for number, page in enumerate(pages):
+        whole = f"page-{number}"
+        parts = tiles(page, paper)
+        canvas.beginForm(whole, 0, 0, page.width * POINT, page.height * POINT)
+        layers = _draw_page(canvas, page)
+        canvas.endForm(Resources=document.resources(layers))
+        for part in parts:
+            canvas.setPageSize((width * POINT, height * POINT))
+            x0, y0, x1, y1 = part.window
+            left, bottom = MARGIN, height - MARGIN - (y1 - y0)
+            canvas.saveState()
+            clip = canvas.beginPath()
+            clip.rect(left * POINT, bottom * POINT, (x1 - x0) * POINT, (y1 - y0) * POINT)
+            canvas.clipPath(clip, stroke=0, fill=0)
+            canvas.translate((left - x0) * POINT, (bottom - y0) * POINT)
+            canvas.doForm(whole)
+            canvas.restoreState()
+            marks = _marks(part.name, (left, bottom, left + x1 - x0, bottom + y1 - y0))
+            _draw_page(canvas, Page(width, height, tuple(marks), part.name, page.language))
+            canvas.showPage()
+    document.close()
+    canvas.save()
+    stream.write(out.getvalue())
+
+
+def _marks(name: str, box: Box) -> list[Shape]:
+    """Return cut marks outside the corners of `box`, and the name of a tile under its left bottom corner."""
+    x0, y0, x1, y1 = box
+    shapes: list[Shape] = []
+    for x, outward in ((x0, -1), (x1, 1)):
+        for y, up in ((y0, -1), (y1, 1)):
+            corner = complex(x, y)
+            shapes.append(Line(corner + outward, corner + outward * MARK, Pen.THIN))
+            shapes.append(Line(corner + up * 1j, corner + up * MARK * 1j, Pen.THIN))
+    return [*shapes, Text(complex(x0 + 3, y0 - 5), name, 3.5)]

@@ -137,7 +137,7 @@ class Arrow:
 class Group:
     """Shapes that belong together: a link, an arm, a dimension, a point, a curve, a view.
 
-    `layer` names the layer that they are in, whatever their roles say (`layers.py`).
+    `layer` names the layer that they are in, whatever their roles say (`page.py`).
     """
 
     shapes: tuple[Shape, ...]

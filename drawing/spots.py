@@ -1,4 +1,4 @@
-"""Places that a label may take beside its node or vector, and what each of them would cover."""
+"""Places that a label may take beside its node or vector, what each of them would cover, and which are clear of all."""
 
 from __future__ import annotations
 

@@ -12,8 +12,7 @@ from math import cos, degrees, isfinite, pi, sin
 from typing import BinaryIO, assert_never
 
 from .font import FAMILY, subset, web_subset
-from .layers import Layer, parts_of
-from .page import Page
+from .page import Layer, Page, parts_of
 from .pens import Pens, arrow_parts, head_outline, length_of
 from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from .text import lay_out, placer

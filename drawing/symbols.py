@@ -6,8 +6,8 @@ import cmath
 import math
 from cmath import rect
 
+from .formats import Style
 from .shapes import Arc, Circle, Group, Head, Line, Pen, Polyline, Shape
-from .style import Style
 
 # radii of a revolute pair: what a filled corner reaches at most, and how far apart sides at a sharper angle must be
 SHARPEST, PARTED = 2.6, 0.7

@@ -7,8 +7,8 @@ from dataclasses import replace
 from itertools import accumulate, pairwise
 from typing import TypeAlias
 
+from .formats import Style
 from .shapes import Group, Line, Pen, Shape, Text
-from .style import Style
 from .text import Box, lay_out
 from .view import View, heading_shapes
 from .words import Words

@@ -1,18 +1,23 @@
-"""Title blocks after GOST 2.104, forms 1 and 2a, and after ISO 7200, and what any title block says."""
+"""The frame of a sheet, and what stands in and round it: a title block after GOST 2.104 or ISO 7200, column 26."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import pi
+from typing import TypeAlias
 
 from ..scales.packaged import packaged
-from .cells import fitted
-from .people import named
-from .shapes import Line, Pen, Shape, Text
+from .cells import fitted, named
+from .formats import Format, block_box, drawing_area, turned_box
+from .pens import Norm
+from .shapes import Group, Line, Pen, Polyline, Shape, Text, shifted
 from .text import Box
 
 T, t = Pen.MAIN, Pen.THIN
 CAPTION = (2.5,)
+UNDER = 3.7  # mm from the frame down to the words under it
+Ruling: TypeAlias = tuple[tuple[float, float, float, float, Pen], ...]  # ends and pens of lines
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,15 +44,14 @@ class Stamp:
 
 # From the bottom left corner of the block: level and ends of horizontal lines, place and ends of vertical ones, mm.
 # The bottom and the right side of every block are lines of the frame.
-_ROW_LINES = (25, 20, 15, 10, 5)
-FORM_1: tuple[tuple[float, float, float, float, Pen], ...] = (
+FORM_1: Ruling = (
     (0, 55, 185, 55, T),
     *((0, y, 65, y, t) for y in (50, 45, 40)),
     (65, 40, 185, 40, T),
     (0, 35, 65, 35, T),
     (135, 35, 185, 35, T),
     (0, 30, 65, 30, T),
-    *((0, y, 65, y, t) for y in _ROW_LINES),
+    *((0, y, 65, y, t) for y in (25, 20, 15, 10, 5)),
     (135, 20, 185, 20, T),
     (65, 15, 185, 15, T),
     (0, 0, 0, 55, T),
@@ -58,35 +62,12 @@ FORM_1: tuple[tuple[float, float, float, float, Pen], ...] = (
     *((x, 20, x, 40, T) for x in (150, 167)),
     (155, 15, 155, 20, T),
 )
-FORM_2A: tuple[tuple[float, float, float, float, Pen], ...] = (
+FORM_2A: Ruling = (
     (0, 15, 185, 15, T),
     (0, 10, 65, 10, t),
     (0, 5, 65, 5, T),
     (175, 8, 185, 8, T),
     *((x, 0, x, 15, T) for x in (0, 7, 17, 40, 55, 65, 175)),
-)
-# 180 x 36 mm in three rows of 12
-ISO_7200: tuple[tuple[float, float, float, float, Pen], ...] = (
-    (0, 36, 180, 36, T),
-    (0, 0, 0, 36, T),
-    (0, 24, 140, 24, t),
-    (0, 12, 180, 12, t),
-    (80, 0, 80, 36, t),
-    (100, 0, 100, 12, t),
-    (140, 0, 140, 36, t),
-    (160, 0, 160, 12, t),
-)
-ISO_CELLS: tuple[tuple[str, Box], ...] = (
-    ("title", (0.0, 24.0, 80.0, 36.0)),
-    ("document_type", (0.0, 12.0, 80.0, 24.0)),
-    ("identification", (0.0, 0.0, 80.0, 12.0)),
-    ("creator", (80.0, 24.0, 140.0, 36.0)),
-    ("approver", (80.0, 12.0, 140.0, 24.0)),
-    ("owner", (140.0, 12.0, 180.0, 36.0)),
-    ("language", (80.0, 0.0, 100.0, 12.0)),
-    ("issued", (100.0, 0.0, 140.0, 12.0)),
-    ("revision", (140.0, 0.0, 160.0, 12.0)),
-    ("sheet", (160.0, 0.0, 180.0, 12.0)),
 )
 CHANGES = (("change", 0, 7), ("row_sheet", 7, 17), ("document_no", 17, 40), ("signature", 40, 55), ("date", 55, 65))
 ROLES = (("drawn", 25), ("checked", 20), ("technical", 15), ("norms", 5), ("approved", 0))
@@ -98,7 +79,7 @@ def words(language: str) -> dict[str, str]:
     return captions
 
 
-def ruled(lines: Iterable[tuple[float, float, float, float, Pen]]) -> list[Shape]:
+def _ruled(lines: Ruling) -> list[Shape]:
     """Return the lines of a table of ends and pens."""
     return [Line(complex(x0, y0), complex(x1, y1), pen, role="cell") for x0, y0, x1, y1, pen in lines]
 
@@ -113,12 +94,11 @@ def form_1(stamp: Stamp) -> list[Shape]:
     caption = words(stamp.language)
     filled: list[Shape] = [*_changes(caption, 30.0), *_people(caption, stamp)]
     name_cell = (65.0, 22.0 if stamp.document_type else 15.0, 135.0, 40.0)
-    below_name = (65.0, 15.0, 135.0, 22.5)
     owner = ", ".join(part for part in (stamp.organisation, stamp.group) if part)
     for key, plain, cell, heights in (
         ("designation", stamp.designation, (65.0, 40.0, 185.0, 55.0), (7.0, 5.0, 3.5, 2.5)),
         ("title", stamp.title, name_cell, (5.0, 3.5, 2.5)),
-        ("document_type", stamp.document_type, below_name, (3.5, 2.5)),
+        ("document_type", stamp.document_type, (65.0, 15.0, 135.0, 22.5), (3.5, 2.5)),
         ("organisation", owner, (135.0, 0.0, 185.0, 15.0), (5.0, 3.5, 2.5)),
         ("letter", caption["letter"], (135.0, 35.0, 150.0, 40.0), CAPTION),
         ("letter_value", caption["letter_value"], (135.0, 20.0, 140.0, 35.0), (3.5, 2.5)),
@@ -129,7 +109,7 @@ def form_1(stamp: Stamp) -> list[Shape]:
         ("sheets", f"{caption['sheets']} {stamp.sheets}", (155.0, 15.0, 185.0, 20.0), CAPTION),
     ):
         filled += fitted(plain, cell, heights, name=key)
-    return [*ruled(FORM_1), *filled]
+    return [*_ruled(FORM_1), *filled]
 
 
 def _people(caption: dict[str, str], stamp: Stamp) -> list[Text]:
@@ -149,26 +129,119 @@ def form_2a(stamp: Stamp) -> list[Shape]:
     filled += fitted(stamp.designation, (65.0, 0.0, 175.0, 15.0), (7.0, 5.0, 3.5, 2.5), name="designation")
     filled += fitted(caption["row_sheet"], (175.0, 8.0, 185.0, 15.0), CAPTION, name="sheet_caption")
     filled += fitted(str(stamp.sheet), (175.0, 0.0, 185.0, 8.0), (3.5, 2.5), name="sheet")
-    return [*ruled(FORM_2A), *filled]
+    return [*_ruled(FORM_2A), *filled]
+
+
+# From the bottom left corner of the block, mm: 180 x 36 in three rows of 12.
+ISO_7200: Ruling = (
+    (0, 36, 180, 36, T),
+    (0, 0, 0, 36, T),
+    (0, 24, 140, 24, t),
+    (0, 12, 180, 12, t),
+    (80, 0, 80, 36, t),
+    (100, 0, 100, 12, t),
+    (140, 0, 140, 36, t),
+    (160, 0, 160, 12, t),
+)
 
 
 def iso_block(stamp: Stamp) -> list[Shape]:
     """Return the block of ISO 7200, filled in; a caption stands in the top left of each cell."""
     caption = words(stamp.language)
-    values = {
-        "title": stamp.title,
-        "document_type": stamp.document_type,
-        "identification": stamp.designation,
-        "creator": " ".join(part for part in (stamp.student, stamp.group) if part),
-        "approver": stamp.teacher,
-        "owner": stamp.organisation,
-        "language": stamp.language,
-        "issued": stamp.date,
-        "sheet": f"{stamp.sheet}/{stamp.sheets}",
-    }
-    parts = ruled(ISO_7200)
-    for key, (x0, y0, x1, y1) in ISO_CELLS:
-        parts += fitted(caption[f"iso_{key}"], (x0, y1 - 4.6, x1, y1), (2.5,), "left", f"{key}_caption")
-        value = (x0, y0, x1, y1 - 3.95)
-        parts += fitted(values.get(key, ""), value, (3.5, 2.5), "left", key)
+    creator = " ".join(part for part in (stamp.student, stamp.group) if part)
+    parts = _ruled(ISO_7200)
+    for key, value, (x0, y0, x1, y1) in (
+        ("title", stamp.title, (0.0, 24.0, 80.0, 36.0)),
+        ("document_type", stamp.document_type, (0.0, 12.0, 80.0, 24.0)),
+        ("identification", stamp.designation, (0.0, 0.0, 80.0, 12.0)),
+        ("creator", creator, (80.0, 24.0, 140.0, 36.0)),
+        ("approver", stamp.teacher, (80.0, 12.0, 140.0, 24.0)),
+        ("owner", stamp.organisation, (140.0, 12.0, 180.0, 36.0)),
+        ("language", stamp.language, (80.0, 0.0, 100.0, 12.0)),
+        ("issued", stamp.date, (100.0, 0.0, 140.0, 12.0)),
+        ("revision", "", (140.0, 0.0, 160.0, 12.0)),
+        ("sheet", f"{stamp.sheet}/{stamp.sheets}", (160.0, 0.0, 180.0, 12.0)),
+    ):
+        parts += fitted(caption[f"iso_{key}"], (x0, y1 - 4.6, x1, y1), CAPTION, "left", f"{key}_caption")
+        parts += fitted(value, (x0, y0, x1, y1 - 3.95), (3.5, 2.5), "left", key)
     return parts
+
+
+def centring_marks(sheet: Format) -> Group:
+    """Return the four marks in the middles of the sides, from 5 mm outside the frame to 5 mm inside it."""
+    x0, y0, x1, y1 = drawing_area(sheet, "iso")
+    across, up = sheet.width / 2, sheet.height / 2
+    left, _, right, _ = block_box(sheet, "iso")
+    inward = 0 if left < across < right else 5  # a mark through the title block would cross its words
+    ends = (
+        (complex(x0 - 5, up), complex(x0 + 5, up)),
+        (complex(x1 + 5, up), complex(x1 - 5, up)),
+        (complex(across, y0 - 5), complex(across, y0 + inward)),
+        (complex(across, y1 + 5), complex(across, y1 - 5)),
+    )
+    return Group(tuple(Line(a, b, T) for a, b in ends), "margin", "centring")
+
+
+def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm = "gost", first: bool = True) -> tuple[Shape, ...]:
+    """Return edge, frame, title block and what stands round them; following sheets get the small block.
+
+    Raises
+    ------
+    InputError
+        A field is too long for its cell, or the font lacks one of its characters.
+    """
+    edge = _rectangle((0.0, 0.0, sheet.width, sheet.height), t, "edge")
+    frame = _rectangle(drawing_area(sheet, norm), T, "frame")
+    x0, y0, _, _ = block_box(sheet, norm, first)
+    identity = (_identity(sheet, stamp),) if stamp.identity else ()
+    if norm == "iso":
+        return edge, frame, centring_marks(sheet), _at_corner(iso_block(stamp), "iso-7200", x0, y0), *identity
+    parts, name = (form_1(stamp), "form-1") if first else (form_2a(stamp), "form-2a")
+    around = [_below(sheet, stamp), _turned(sheet, stamp)] if first else [_below(sheet, stamp)]
+    return edge, frame, _at_corner(parts, name, x0, y0), *around, *identity
+
+
+def _rectangle(box: Box, pen: Pen, role: str) -> Polyline:
+    """Return the outline of a box."""
+    x0, y0, x1, y1 = box
+    corners = (complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1))
+    return Polyline(corners, pen, closed=True, role=role)
+
+
+def _at_corner(parts: Iterable[Shape], name: str, x0: float, y0: float) -> Group:
+    """Return a title block whose bottom left corner lies at (x0, y0), its outer corner mitred."""
+    moved = [shifted(part, complex(x0, y0)) for part in parts]
+    lines = [part for part in moved if isinstance(part, Line)]
+    corner = complex(x0, max(line.a.imag for line in lines))
+    return Group((*moved, Polyline((corner - 1j, corner, corner + 1), T, role="corner")), "titleblock", name)
+
+
+def _below(sheet: Format, stamp: Stamp) -> Group:
+    """Return the words under the frame: who copied it, and the format."""
+    caption = words(stamp.language)
+    _, foot, right, _ = drawing_area(sheet)
+    y = foot - UNDER
+    copied = Text(complex(right - 120, y), caption["copied"], 2.5, role="stamp", name="copied")
+    size = Text(complex(right - 50, y), caption["format"].format(sheet.letters), 2.5, role="stamp", name="format")
+    return Group((copied, size), "margin")
+
+
+def _identity(sheet: Format, stamp: Stamp) -> Group:
+    """Return the id of the sheet under the frame, at its left end, to be copied into a form of answers."""
+    left, foot, *_ = drawing_area(sheet)
+    at = complex(left + 2.0, foot - UNDER)
+    text = words(stamp.language)["identity"].format(stamp.identity)
+    return Group((Text(at, text, 2.5, role="stamp", name="identity"),), "margin", "identity")
+
+
+def _turned(sheet: Format, stamp: Stamp) -> Group:
+    """Return column 26: the designation turned round, for whoever looks through a pile of folded sheets."""
+    x0, y0, x1, y1 = turned_box(sheet)
+    tall = y1 - y0 > x1 - x0
+    near, far = (x0, x1) if tall else (x1, x0)
+    bend = complex(near, y0)
+    lines = Polyline((complex(far, y0), bend, complex(near, y1)), T, role="cell")
+    middle, turn, angle = complex((x0 + x1) / 2, (y0 + y1) / 2), (-1j if tall else -1), (-pi / 2 if tall else pi)
+    texts = fitted(stamp.designation, (-35.0, -7.0, 35.0, 7.0), (7.0, 5.0, 3.5, 2.5), name="designation_turned")
+    turned = (replace(text, at=middle + text.at * turn, angle=angle) for text in texts)
+    return Group((lines, *turned), "titleblock", "column-26")

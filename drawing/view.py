@@ -9,13 +9,12 @@ from itertools import pairwise
 from math import pi
 from typing import assert_never
 
+from .formats import Style
 from .labels import Labels, Obstacles, Request, place
-from .layers import NOTE
-from .page import extent
+from .page import NOTE, extent
 from .pens import HEAD_HALF_WIDTH
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
 from .spots import first_clear
-from .style import Style
 from .text import Box, lay_out
 from .thinning import coarser
 

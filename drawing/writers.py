@@ -34,7 +34,7 @@ def _pdf(pages: Sequence[Page], stream: BinaryIO) -> None:
 
 
 def _png(pages: Sequence[Page], stream: BinaryIO) -> None:
-    from .png import write_png
+    from .pdf import write_png
 
     write_png(pages, stream)
 
@@ -167,7 +167,7 @@ def _tiled(path: Path, paper: str) -> Writer:
         raise InputError("tile-suffix", file=quote(path, SHOWN))
 
     def write(pages: Sequence[Page], stream: BinaryIO) -> None:
-        from .tile import write_tiles
+        from .pdf import write_tiles
 
         write_tiles(pages, stream, paper)
 

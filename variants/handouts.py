@@ -8,8 +8,7 @@ from dataclasses import replace
 
 from ..drawing.compose import Drawn
 from ..drawing.formats import format_named, printable
-from ..drawing.handouts.begun import begun_pages
-from ..drawing.handouts.pages import gridded, keyed, marked, over_page
+from ..drawing.handouts import begun_pages, gridded, keyed, marked, over_page
 from ..drawing.page import Page
 from ..drawing.pens import Norm
 from ..scales.arguments import of_kind

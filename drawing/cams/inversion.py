@@ -11,10 +11,10 @@ from ...plans.cams.dense import dwelling, on_circle, pitch_curve, rests, theta, 
 from ...plans.cams.envelopes import Undercut
 from ...plans.cams.motion import LOWER, Motion
 from ...plans.cams.profile import RollerProfile
+from ..formats import Style
 from ..hardware import shaft, shaft_radius
 from ..printed import DEGREES, decimals_for
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
-from ..style import Style
 from ..symbols import angle_dimension, polar, swept, turning_arrow, unit
 from ..text import box, lay_out
 from ..view import Canvas

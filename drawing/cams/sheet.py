@@ -13,11 +13,10 @@ from ...scales.scale import Scale
 from ..compose import arrange
 from ..contents import SheetContents
 from ..figure import Figure
-from ..formats import Format, room
+from ..formats import STYLES, Format, room
 from ..givens import givens_view
 from ..nesting import BLOCK, TURNED, column, row, zoned
 from ..rungs import Fitting, Found, may_fit
-from ..style import STYLES
 from ..view import View
 from .ladders import SYMBOLS, first_scales, ladder, size_of
 from .scene import CamScene, lettered

@@ -13,8 +13,8 @@ from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.rules import Rule, rules_of
 from ...plans.cams.solve import SCALES
 from ..givens import choice
-from ..handouts.begun import NOTHING
-from ..handouts.begun import Shown as Begun
+from ..handouts import NOTHING
+from ..handouts import Shown as Begun
 from ..printed import DEGREES, Input, Shown, calculation, worked
 from ..symbols import swept
 from ..table import table, text_block, words_of

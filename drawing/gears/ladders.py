@@ -12,8 +12,7 @@ from ...plans.solved import PAPER_MM
 from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, steps
 from ..extents import not_a_point, smallest, visible
-from ..formats import Format
-from ..style import STYLES
+from ..formats import STYLES, Format
 
 TOOTH = 50.0  # mm, by which a drawn tooth should be high at least
 LONGEST = 230.0  # mm, that N1N2 may be where the involutes are constructed

@@ -15,12 +15,11 @@ from ...scales.scale import Scale
 from ..compose import arrange, arrange_rest
 from ..contents import SheetContents
 from ..figure import Figure
-from ..formats import Format, room
+from ..formats import STYLES, Format, room
 from ..nesting import BLOCK, TURNED, Nest, column, names, row, zoned
 from ..packing import Placement
 from ..pens import Norm
 from ..rungs import Fitting, Found, may_fit, pages
-from ..style import STYLES
 from ..table import note_block
 from ..view import View
 from .ladders import first_scales, mu_ladder, near_ladder, parts_of, rolled_ladder

@@ -10,7 +10,7 @@ from ...plans.gears.checks import rule_of
 from ...plans.gears.gear import SHIFTS, WHEELS
 from ...plans.gears.geometry import POINTS
 from ...plans.names import role
-from ..handouts.begun import Shown
+from ..handouts import Shown
 from ..printed import DEGREES
 from ..table import table
 from ..view import View

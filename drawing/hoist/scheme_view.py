@@ -8,7 +8,7 @@ from ...plans.hoist.beam_plans import SCHEME
 from ..dimensions import linear
 from ..figure import Figure, stages
 from ..hardware import COILS, coils
-from ..layers import Layer
+from ..page import Layer
 from ..shapes import Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import fixed_pivot, hatching, unit
 from ..text import lay_out

@@ -11,9 +11,8 @@ from ...scales.scale import Scale
 from ..compose import arrange
 from ..contents import SheetContents
 from ..figure import Figure
-from ..formats import Format
+from ..formats import STYLES, Format
 from ..rungs import Fitting, Found
-from ..style import STYLES
 from ..table import note_block, text_block
 from ..view import View
 from .ladders import UNITS, first_scales, ladder

@@ -11,7 +11,7 @@ from ...plans.hoist.model import section_of
 from ...plans.hoist.paper import SCALED
 from ...plans.hoist.solve import unit_of
 from ..givens import Given, givens_view
-from ..handouts.begun import NOTHING, Shown
+from ..handouts import NOTHING, Shown
 from ..printed import Input, calculation
 from ..table import table
 from ..view import View

@@ -13,10 +13,10 @@ from ...plans.linkages.structure import Structure
 from ...plans.names import inertia, rate, role
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
+from ..formats import Style
 from ..givens import Given as Given
 from ..printed import segment_decimals
 from ..shapes import Vector
-from ..style import Style
 from ..words import Words
 
 if TYPE_CHECKING:

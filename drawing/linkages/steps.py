@@ -9,7 +9,7 @@ from ...plans.board import POSITION, Step
 from ...plans.linkages.legs import guide_letters
 from ...plans.linkages.mechanism import Driver
 from ...plans.names import FORCES, role
-from ..handouts.begun import Shown
+from ..handouts import Shown
 from ..notes.blocks import Block, Equations, Heading, Story
 from .at_point import is_at_point
 from .calculations.forces import LOADS, force_lines, force_parts, lines_by_plan

@@ -85,7 +85,7 @@ def _needs_libraries() -> None:
 
 
 def _drawn(figure: Figure, language: str) -> Drawing:
-    from ..png import write_png
+    from ..pdf import write_png
     from ..svg import write_svg
 
     page = figure_page(figure, language)

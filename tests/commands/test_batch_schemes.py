@@ -10,7 +10,7 @@ from types import ModuleType
 import pytest
 
 from kulman import batch, check, load_task
-from kulman.drawing import people
+from kulman.drawing import cells
 from kulman.scales.errors import InputError
 from kulman.variants import record_book
 from kulman.variants.record_book import Digits, Schemes, variant_of_book
@@ -177,7 +177,7 @@ def _copy(task: Path, other: Path) -> Path:
     return other
 
 
-@pytest.mark.parametrize("module", [record_book, headers, csv_write, people])
+@pytest.mark.parametrize("module", [record_book, headers, csv_write, cells])
 def test_examples_in_docstrings_say_what_comes_out(module: ModuleType) -> None:
     found = doctest.testmod(module)
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import shapely
 
+from kulman.drawing.formats import STYLES
 from kulman.drawing.shapes import Circle, Line, Pen, Text
 from kulman.drawing.spots import Obstacles, first_clear
-from kulman.drawing.style import STYLES
 from kulman.drawing.view import Canvas
 
 SIZE = 6.0, 4.0

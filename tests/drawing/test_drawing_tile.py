@@ -11,8 +11,8 @@ from pypdfium2 import PdfDocument
 from kulman.drawing import writers
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.page import Page
+from kulman.drawing.pdf import MARGIN, OVERLAP, tiles, write_tiles
 from kulman.drawing.shapes import Line, Text
-from kulman.drawing.tile import MARGIN, OVERLAP, tiles, write_tiles
 from kulman.drawing.writers import WRITERS, write_pages
 from kulman.scales.errors import InputError
 

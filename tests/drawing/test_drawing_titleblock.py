@@ -8,16 +8,15 @@ from lxml import etree
 from pdfminer.high_level import extract_pages
 from pdfminer.layout import LTLine
 
+from kulman.drawing.cells import named
 from kulman.drawing.formats import FORMATS, block_box, drawing_area
-from kulman.drawing.frame import frame_shapes
 from kulman.drawing.page import Page
 from kulman.drawing.pdf import write_pdf
 from kulman.drawing.pens import pens_for
-from kulman.drawing.people import named
 from kulman.drawing.shapes import Group, Line, Pen, Polyline, Text
 from kulman.drawing.svg import svg_text
 from kulman.drawing.text import box
-from kulman.drawing.titleblock import Stamp, words
+from kulman.drawing.titleblock import Stamp, frame_shapes, words
 from kulman.scales.errors import InputError
 from kulman.tests.support.shapes import leaves
 

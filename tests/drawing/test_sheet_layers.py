@@ -22,12 +22,10 @@ from pypdfium2 import PdfDocument
 
 from kulman import cli, handout, sheet
 from kulman.drawing.formats import FORMATS, drawing_area, printable, reserved_boxes
-from kulman.drawing.layers import Layer, layered
-from kulman.drawing.page import Page
-from kulman.drawing.pdf import write_pdf
+from kulman.drawing.page import Layer, Page, layered
+from kulman.drawing.pdf import write_pdf, write_tiles
 from kulman.drawing.shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from kulman.drawing.svg import svg_text
-from kulman.drawing.tile import write_tiles
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.readback import SVG, read
 from kulman.tests.support.shapes import leaves

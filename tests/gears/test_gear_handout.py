@@ -10,7 +10,7 @@ import pytest
 
 from kulman import handout, note, solve
 from kulman.drawing.figure import ANSWERS
-from kulman.drawing.handouts.begun import begun_pages
+from kulman.drawing.handouts import begun_pages
 from kulman.drawing.notes.blocks import Steps
 from kulman.drawing.page import Page
 from kulman.drawing.shapes import Group, Line, Shape, Text

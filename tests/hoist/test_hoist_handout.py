@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import pytest
 
-from kulman.drawing.handouts.begun import begun_pages, begun_stages
+from kulman.drawing.handouts import begun_pages, begun_stages
 from kulman.drawing.notes.blocks import Story
 from kulman.drawing.page import Page
 from kulman.drawing.shapes import Group, Line, Shape, Text

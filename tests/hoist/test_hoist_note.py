@@ -7,10 +7,10 @@ from itertools import chain, pairwise
 import pytest
 
 from kulman import note
+from kulman.drawing.formats import STYLES
 from kulman.drawing.hoist.scene import HoistScene
 from kulman.drawing.hoist.steps import BENT, DRAWN, HANGING, REDUCED, SLACK, STARTED, formula
 from kulman.drawing.notes.blocks import Equations, Figure, Steps, Table
-from kulman.drawing.style import STYLES
 from kulman.drawing.words import Words
 from kulman.plans.hoist.forces import forces
 from kulman.plans.laws import form_of

@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import pytest
 
+from kulman.drawing.formats import STYLES
 from kulman.drawing.linkages.calculations.equations import Lines
 from kulman.drawing.linkages.calculations.forces import force_lines, force_parts, lever_lines
 from kulman.drawing.linkages.calculations.kinematics import kinematics_lines
@@ -16,7 +17,6 @@ from kulman.drawing.linkages.calculations.tables import ROWS, formula, results_p
 from kulman.drawing.linkages.layout.ladders import first_scales
 from kulman.drawing.linkages.reading import lettered
 from kulman.drawing.linkages.scene import Scene
-from kulman.drawing.style import STYLES
 from kulman.drawing.words import Words, notations
 from kulman.plans.linkages.chain import PLANS
 from kulman.plans.linkages.mechanism import Mechanism

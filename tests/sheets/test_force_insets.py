@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from kulman.drawing.style import STYLES
+from kulman.drawing.formats import STYLES
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.printed_numbers import numbers_of, table
 from kulman.tests.support.readback import View

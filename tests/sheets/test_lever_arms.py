@@ -6,9 +6,9 @@ from itertools import combinations
 
 import numpy as np
 
+from kulman.drawing.formats import STYLES
 from kulman.drawing.linkages.figures.lever import LeverArm, staggered
 from kulman.drawing.shapes import Line, Pen, Text
-from kulman.drawing.style import STYLES
 from kulman.drawing.view import Canvas
 from kulman.tests.support.sheet_geometry import crosses
 

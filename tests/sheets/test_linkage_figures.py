@@ -8,8 +8,8 @@ import re
 import pytest
 
 from kulman import sheet, solve
+from kulman.drawing.formats import STYLES
 from kulman.drawing.shapes import Line, Pen, Text
-from kulman.drawing.style import STYLES
 from kulman.drawing.view import Canvas
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.linkage_points import l1_plan, l5_similarity, l7_senses

@@ -22,7 +22,7 @@ from .kind import Kind, first_of
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
     from ...drawing.formats import Format
-    from ...drawing.handouts.begun import Shown
+    from ...drawing.handouts import Shown
     from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
     from ...drawing.words import Words
@@ -251,7 +251,7 @@ class Cams(Kind[Cam, "SolvedCam"]):
         """Tell the drawing stage by stage, with the lengths that it has on the sheet."""
         from ...drawing.cams.scene import CamScene
         from ...drawing.cams.steps import story
-        from ...drawing.style import STYLES
+        from ...drawing.formats import STYLES
         from ...plans.cams.integration import TRAVEL
         from ...plans.cams.solve import reduced
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ...drawing.compose import Drawn
     from ...drawing.formats import Format
     from ...drawing.gears.scene import GearScene
-    from ...drawing.handouts.begun import Shown
+    from ...drawing.handouts import Shown
     from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
     from ...drawing.words import Words
@@ -179,8 +179,8 @@ class Gears(Kind[GearPair, "SolvedGear"]):
 
     def _scene(self, case: Case, words: Words) -> GearScene:
         """Return the pair with its letters, for what is said of it: no scale factor counts there."""
+        from ...drawing.formats import STYLES
         from ...drawing.gears.scene import GearScene
-        from ...drawing.style import STYLES
 
         solved = gear(case.solved)
         return GearScene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, 1.0, 1.0, 1.0)

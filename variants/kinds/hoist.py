@@ -18,7 +18,7 @@ from .kind import Kind, check_scales, first_of
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
     from ...drawing.formats import Format
-    from ...drawing.handouts.begun import Shown
+    from ...drawing.handouts import Shown
     from ...drawing.hoist.scene import HoistScene
     from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
@@ -173,8 +173,8 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
     def _scene(self, case: Case, words: Words) -> HoistScene:
         """Return the hoist with its letters, for what is said of it: no scale factor counts there."""
+        from ...drawing.formats import STYLES
         from ...drawing.hoist.scene import HoistScene
-        from ...drawing.style import STYLES
 
         solved = hoist(case.solved)
         return HoistScene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, {})

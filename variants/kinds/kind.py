@@ -22,7 +22,7 @@ from . import MODULES
 if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...drawing.compose import Drawn
     from ...drawing.formats import Format
-    from ...drawing.handouts.begun import Shown
+    from ...drawing.handouts import Shown
     from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
     from ...drawing.words import Words

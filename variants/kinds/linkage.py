@@ -33,7 +33,7 @@ from .kind import Kind
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
     from ...drawing.formats import Format
-    from ...drawing.handouts.begun import Shown
+    from ...drawing.handouts import Shown
     from ...drawing.linkages.scene import Scene
     from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
@@ -201,8 +201,8 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         return begun(self._scene(case, scales, words), steps)
 
     def _scene(self, case: Case, scales: Mapping[str, Scale], words: Words) -> Scene:
+        from ...drawing.formats import STYLES
         from ...drawing.linkages.scene import Scene
-        from ...drawing.style import STYLES
 
         solved = placed(case)
         return Scene(solved, scales, self.lettered(words, solved), STYLES["A4"], case.givens)

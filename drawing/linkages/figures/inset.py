@@ -10,9 +10,9 @@ from ....plans.board import Step
 from ....plans.names import FORCES, role
 from ....scales.scale import SERIES, Scale
 from ...areas import clipped
+from ...formats import Style
 from ...page import extent
 from ...shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
-from ...style import Style
 from ...text import Box
 from ...view import Canvas, View, write_above
 from ..reading import vectors_of

@@ -13,8 +13,7 @@ from ....scales.choose import UNITS
 from ....scales.errors import InputError
 from ....scales.scale import Scale, steps
 from ...extents import Extents, Rungs
-from ...formats import FORMATS, Format, printable, room
-from ...style import STYLES
+from ...formats import FORMATS, STYLES, Format, printable, room
 from ...view import View
 from ..reading import lettered
 from ..scene import Scene

@@ -1,0 +1,216 @@
+"""Handouts: the first steps of a sheet, its answers in a hidden layer, one plan alone; squares and rulers of a page."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import ceil
+
+from ..scales.packaged import packaged
+from .areas import beside
+from .formats import Format, drawing_area, reserved_boxes
+from .page import TASK_VIEWS, Layer, Page, extent
+from .pens import Norm
+from .shapes import Arrow, Group, Line, Pen, Polyline, Shape, Text, Vector, shifted
+from .table import cells
+from .view import View
+
+NUMBER = re.compile(r"[−-]?\d+(?:[.,]\d+)?(?: |$)")  # what a cell of units does not begin with
+ALWAYS = ("axis", "pivot", "frame")  # roles of what the task gives, not the work
+ENLARGED = ("window", "enlarged")  # roles of what is drawn when the whole view is: its crowded parts, larger
+TOGETHER = re.compile(r", | = ")  # between letters of marks at one place, and of vectors that are one
+SQUARE, LIGHT = 5.0, "#d9d9d9"  # of the grid: side in mm, colour
+ANSWER = "#0072B2"  # what the teacher's hand adds is blue
+ROUND = 30.0  # mm of free paper round a plan that stands alone: room for the rulers that prove the print
+LEAST = 180.0  # mm of the sides of its page, so that both rulers have room
+RULER, TICK, LONG = 100, 1.5, 3.0  # lengths of a ruler and of its marks, mm
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """What is drawn of a view: names of points, links, construction lines and quantities, and the letters.
+
+    `notes` are the lines under its heading, which may hold results. A table keeps its first `columns`, and the `rows`
+    with these first cells; without any said, its last column where that is one of units. Of a view that is drawn in
+    stages the shapes of these `stages` are drawn, whatever their names and letters. What is enlarged beside a view is
+    drawn when the view is drawn `whole`.
+    """
+
+    names: frozenset[str]
+    letters: frozenset[str]
+    notes: bool = True
+    rows: frozenset[str] | None = None
+    columns: int = 1
+    stages: frozenset[str] | None = None
+    whole: bool = False
+
+
+NOTHING = Shown(frozenset(), frozenset(), notes=False)
+
+
+def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str, Shown], steps: int = 0) -> list[Page]:
+    """Return pages on which so many steps are done, and views without stages show no more than is `shown` of them.
+
+    Tables keep their heads and first columns. All of it is given to the student, and in that layer.
+    """
+    by_name = {view.name: view for view in views}
+    shown = {**shown, **{view.name: begun_stages(view, steps) for view in by_name.values() if view.stages}}
+    return [replace(page, shapes=tuple(_page_shape(shape, by_name, shown) for shape in page.shapes)) for page in pages]
+
+
+def begun_stages(view: View, steps: int) -> Shown:
+    """Return what is drawn of a view in its first stages; what stands under its heading is known when all are done."""
+    drawn = frozenset(list(view.stages)[: steps + 1])
+    return Shown(frozenset(), frozenset(), notes=drawn.issuperset({*view.parts, *view.stages} - {""}), stages=drawn)
+
+
+def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Shown]) -> Shape:
+    if not isinstance(shape, Group) or shape.role != "view":
+        return shape
+    shape = replace(shape, layer=Layer.GIVEN.value)
+    view = views.get(shape.name)
+    if view is None or (view.name in TASK_VIEWS and view.name not in shown):
+        return shape
+    kept = shown.get(view.name, NOTHING)
+    if view.rows:
+        return replace(shape, shapes=tuple(_table(part, view, kept) for part in shape.shapes))
+    if view.lines:
+        return replace(shape, shapes=tuple(part for part in shape.shapes if getattr(part, "role", "") == "heading"))
+    hidden = frozenset(() if kept.notes else view.notes)
+    stages = view.parts or ("",) * len(shape.shapes)
+
+    def is_kept(part: Shape, stage: str) -> bool:
+        if isinstance(part, Text) and part.role == "heading":
+            return part.markup not in hidden
+        return _is_shown(part, kept) if kept.stages is None else stage in kept.stages
+
+    return replace(
+        shape, shapes=tuple(part for part, stage in zip(shape.shapes, stages, strict=True) if is_kept(part, stage))
+    )
+
+
+def _table(shape: Shape, view: View, shown: Shown) -> Shape:
+    """Leave out what a table answers: all cells but the head, the first column and that of units, or whole rows."""
+    if not isinstance(shape, Group) or shape.role != "table":
+        return shape
+    places = [(row, column, end) for row, line in enumerate(view.rows) for column, end, _ in cells(line)]
+    texts = iter(places)
+    width = _width(view.rows[0])
+    last = -1 if any(NUMBER.match(row[-1] or "") for row in view.rows[1:]) else width
+    kept = []
+    for part in shape.shapes:
+        if isinstance(part, Text):
+            row, column, end = next(texts)
+            given = (end - 1) % width + 1 == last if shown.rows is None else view.rows[row][0] in shown.rows
+            if row and column % width >= shown.columns and not given:
+                continue
+        kept.append(part)
+    return replace(shape, shapes=tuple(kept))
+
+
+def _width(head: Sequence[str | None]) -> int:
+    """Return the columns of a table, or of each half of one whose halves stand side by side under the same head."""
+    half, odd = divmod(len(head), 2)
+    return half if half and not odd and head[:half] == head[half:] else len(head)
+
+
+def _is_shown(shape: Shape, shown: Shown) -> bool:
+    match shape:
+        case Text(role="diameter", name=name):  # at the end of its circle, on a leader
+            return name in shown.names
+        case Text(markup=markup):
+            return _told(markup, shown)
+        case Vector(quantity=quantity):
+            return quantity in shown.names
+        case Arrow(name=name):
+            return bool(name) and name in shown.names
+        case Group(role=role, name=name):
+            own = f"link:{name}" if role == "guide" else f"{role}:{name}"
+            return role in ALWAYS or own in shown.names or name in shown.names or (role in ENLARGED and shown.whole)
+        case Line(role="leader", name=name):
+            return name in shown.names or _told(name, shown)
+        case Polyline(role=role) if role in ENLARGED:
+            return shown.whole
+        case Line(role="similarity", name=name):
+            return shown.names.issuperset(name.split())
+        case Line(name=name, pen=pen) | Polyline(name=name, pen=pen):
+            return name in shown.names or (not name and pen.name == "AXIS")
+        case _:
+            name = getattr(shape, "name", "")
+            return bool(name) and name in shown.names
+
+
+def _told(letters: str, shown: Shown) -> bool:
+    """Whether what is written is shown: as it stands, or each of the letters that stand together."""
+    return letters in shown.letters or shown.letters.issuperset(TOGETHER.split(letters))
+
+
+def gridded(page: Page, sheet: Format, norm: Norm, first: bool) -> Page:
+    """Return a page of `sheet` with squares inside its frame, but for the title block and column 26."""
+    x0, y0, x1, y1 = drawing_area(sheet, norm)
+    boxes = reserved_boxes(sheet, norm, first)
+    ways = [(complex(x, y0), complex(x, y1)) for x in _between(x0, x1)]
+    ways += [(complex(x0, y), complex(x1, y)) for y in _between(y0, y1)]
+    ends = (part for way in ways for part in beside(*way, boxes))
+    squares = tuple(Line(*part, Pen.THIN, role="grid", colour=LIGHT) for part in ends)
+    return replace(page, shapes=(Group(squares, "grid", layer=Layer.GRID.value), *page.shapes))
+
+
+def _between(low: float, high: float) -> list[float]:
+    """Return the places of the lines of squares between two sides of a frame."""
+    return [low + k * SQUARE for k in range(1, ceil((high - low) / SQUARE - 1e-9))]
+
+
+def keyed(page: Page, whole: Iterable[Group]) -> Page:
+    """Return a begun page with a hidden layer of what `whole`, the views that stand there, have beyond it."""
+    shown = {shape.name: shape for shape in page.shapes if isinstance(shape, Group) and shape.role == "view"}
+    answers = (replace(view, shapes=tuple(_beyond(view, shown[view.name]))) for view in whole)
+    hidden = (replace(view, layer=Layer.KEY.value) for view in answers if view.shapes)
+    return replace(page, shapes=(*page.shapes, *hidden))
+
+
+def _beyond(whole: Group, begun: Group) -> Iterator[Shape]:
+    """Go through what a group has and its begun twin has not, in the teacher's colour."""
+    shown = set(begun.shapes)
+    twins = {(part.role, part.name): part for part in begun.shapes if isinstance(part, Group)}
+    for part in whole.shapes:
+        if part in shown:
+            continue
+        if isinstance(part, Group) and (twin := twins.get((part.role, part.name))) is not None:
+            yield replace(part, shapes=tuple(_beyond(part, twin)))
+        else:
+            yield _inked(part)
+
+
+def _inked(shape: Shape) -> Shape:
+    if isinstance(shape, Group):
+        return replace(shape, shapes=tuple(map(_inked, shape.shapes)))
+    return replace(shape, colour=ANSWER)
+
+
+def over_page(view: View, like: Page) -> Page:
+    """Return a page with one plan, its heading above; `like` is the page on which it stood."""
+    x0, y0, x1, y1 = extent(view.shapes)
+    width, height = max(x1 - x0 + 2 * ROUND, LEAST), max(y1 - y0 + 2 * ROUND, LEAST)
+    by = complex((width - x1 - x0) / 2, (height - y1 - y0) / 2)
+    shapes: tuple[Shape, ...] = tuple(shifted(shape, by) for shape in view.shapes)
+    heading = next((shape.markup for shape in view.shapes if isinstance(shape, Text) and shape.role == "heading"), "")
+    return replace(like, width=width, height=height, shapes=shapes, title=heading or like.title)
+
+
+def marked(page: Page) -> Page:
+    """Return a page in layers with a ruler under the frame and one beside it."""
+    start, word = complex(24.0, 6.0), packaged(__package__, "texts", page.language)["print.whole"]
+    text = Text(start + RULER + 4.0, word, 2.5, role="stamp", name="print")
+    across = Group((*_ruler(start, 1 + 0j), text), "ruler", "across")
+    up = Group(tuple(_ruler(complex(12.0, 60.0), 1j)), "ruler", "up")
+    return replace(page, shapes=(*page.shapes, across, up), layers=True)
+
+
+def _ruler(start: complex, along: complex) -> Iterator[Line]:
+    """Go through the lines of a ruler with a mark at every 5 mm, longer ones at every 10."""
+    yield Line(start, start + RULER * along, Pen.THIN, role="ruler")
+    for mm in range(0, RULER + 1, 5):
+        at = start + mm * along
+        yield Line(at, at + along * 1j * (TICK if mm % 10 else LONG), Pen.THIN, role="ruler")
