@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import lru_cache
 
 POINT, POLE, NORMAL, CORIOLIS = "", "p", "n", "k"  # kinds of marks: a point, the pole, ends of parts of accelerations
 MAGNITUDE = "|"  # kind of the size of a load, beside its vector
@@ -141,7 +142,12 @@ def _plan(name: str) -> Name:
 
 def role(name: str) -> Name:
     """Return a name with its role; one that a task or a user gives has that of its letters."""
-    return name if isinstance(name, Name) else Name(name)
+    return name if isinstance(name, Name) else _read_name(name)
+
+
+@lru_cache(maxsize=16_384)  # each variant of a task, and each mistake in it, makes the same names
+def _read_name(text: str) -> Name:
+    return Name(text)
 
 
 def is_shown(name: str) -> bool:

@@ -176,8 +176,8 @@ def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> Travel:
     if not found.stretches:
         return Travel(math.nan, math.nan, math.nan, math.nan)
     wanted = mechanism.stroke.link if mechanism.stroke else None
-    for motion in output_motions(drive, values, found):
-        if wanted in (None, motion.output.link) and motion.travel is not None:
+    for motion in output_motions(drive, values, found, wanted):
+        if motion.travel is not None:
             return motion.travel
     raise InputError("stroke-none", link=FRAME if wanted is None else wanted)
 
@@ -199,14 +199,16 @@ def zero_position(drive: Swept, values: Mapping[str, float], motions: Sequence[O
     return travel.angle_low if working_sense(drive.mechanism, values) > 0.0 else travel.angle_high
 
 
-def output_motions(drive: Swept, values: Mapping[str, float], found: Reach) -> tuple[OutputMotion, ...]:
-    """Find the dead positions of every output, its stroke and the ratio of its times.
+def output_motions(
+    drive: Swept, values: Mapping[str, float], found: Reach, link: int | None = None
+) -> tuple[OutputMotion, ...]:
+    """Find the dead positions of every output, or of one link, its stroke and the ratio of its times.
 
     Dead positions are zeros of the velocity, refined until they do not change: better than 1e-12 rad.
     """
     mechanism = drive.mechanism.without_loads.at_unit_speed
     structure, program = constructed(mechanism, ("velocity",))
-    moved = outputs(mechanism, structure)
+    moved = tuple(output for output in outputs(mechanism, structure) if link in (None, output.link))
     wanted = [name for output in moved for name in (output.place, output.rate) if name]
     along = remembering(drive.along(measured(program, moved), values, wanted, mechanism=mechanism))
     size = size_of(mechanism, values)

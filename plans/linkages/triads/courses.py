@@ -118,11 +118,13 @@ class Course:
 
     def _run(self, program: Program, wanted: Sequence[str], more: Mapping[str, Array], which: Places) -> dict[str, Any]:
         """Run a program for some mechanisms; the results have the shape of what varies."""
-        values = {name: value[which] if np.ndim(value) else value for name, value in self._values.items()}
-        values |= more
-        size = max((len(value) for value in values.values() if np.ndim(value)), default=1)
+        values = self._values
+        if self.count > 1:
+            values = {name: value[which] if isinstance(value, np.ndarray) else value for name, value in values.items()}
+        values = {**values, **more}
+        size = len(which) if more or self.count > 1 else 1
         if size == 1:
-            one = {name: float(value[0]) if np.ndim(value) else value for name, value in values.items()}
+            one = {name: float(value[0]) if isinstance(value, np.ndarray) else value for name, value in values.items()}
             board = run(program, one)
             return {name: np.array([board.values[name]]) for name in wanted}
         if size > FEW:
@@ -167,7 +169,9 @@ class Course:
         """Lay all templates down with the driver at `at`, from where they lie."""
         still = {start_names(number)[ASTRAY]: np.zeros(len(at)) for number in self.numbers}
         found = self._run(self._program, self._wanted, {AT: at, **poses, **still}, which)
-        return _Look(self.numbers, {name: np.broadcast_to(value, len(at)) for name, value in found.items()})
+        if len(at) > 1:
+            found = {name: np.broadcast_to(value, len(at)) for name, value in found.items()}
+        return _Look(self.numbers, found)
 
     def follow(self, start: State, goal: Array, which: Places) -> State:
         """Follow from one start, or one for each, as far towards `goal` as it goes; `which` are the mechanisms."""
