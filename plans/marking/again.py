@@ -6,7 +6,7 @@ right key, and so is everything that the student's numbers made on the way to th
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property
 
@@ -54,8 +54,11 @@ class Judged:
         marker.begin(self._marker, anew, self._steps(self._program, anew))
         return Judged(marker, tuple(marker.lines(self._lines, anew)))
 
-    def under(self, key: Key, first: str = "") -> tuple[Line, ...] | None:
-        """Return what `judge` returns for another key: the right one with a rule broken."""
+    def under(self, key: Key, first: str = "", faulty: Collection[str] = ()) -> tuple[Line, ...] | None:
+        """Return what `judge` returns for another key: the right one with a rule broken.
+
+        With `first` also None where no line that is `faulty` under the right key passes: others are not looked at then.
+        """
         if self._alone:
             return judge(key, self.answers, first)
         anew = self._anew(self._different(key))
@@ -65,6 +68,11 @@ class Judged:
             alone = marker if marker.likely(first) else self._marker.again(key, anew, self._behind(first, steps, key))
             alone.go_on(first)
             if alone.misses(first):
+                return None
+            passed = any(
+                line.name in faulty and not line.verdict.faulty for line in self._lines if line.name not in anew
+            )
+            if not passed and not any(marker.passes(name) for name in key.questions if name in anew and name in faulty):
                 return None
         return tuple(marker.lines(self._lines, anew))
 

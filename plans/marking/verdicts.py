@@ -303,6 +303,11 @@ class Marker:
         """Judge the lines up to that of `name`."""
         self.board.go_on(self.settled.get(name, 0))
 
+    def passes(self, name: str) -> bool:
+        """Judge the lines up to that of `name`; whether it has no error of its own."""
+        self.go_on(name)
+        return not self._faulty(name)
+
     def misses(self, name: str) -> bool:
         """Whether a line that is judged is clearly wrong by itself."""
         held = self.held.get(name)

@@ -20,8 +20,9 @@
     All `Mistake(id, breaks, by_scale)` by id, `M01` ...; `inputs`, `reading`, `velocity`, `acceleration`, `forces` and
     `lever` hold the rules of linkages, `cams` and `cam_sizes` those of cams, `gears` those of gears. Whether one
     concerns a task follows from the steps of its program alone.
-`rules.Broken(mistake, at, how, program, givens)`
-    One rule broken at one place: `at` names the step, the quantity or the given, `how` which of several ways.
+`rules.Broken(mistake, paper, change)`
+    One rule broken at one place: `at` names the step, the quantity or the given; `program` and `givens` are those of
+    the construction with the rule broken.
 `book.broken(paper, values, ids=()) -> iterator of Broken`
     Every way in which a construction can go wrong.
 `book.book(key) -> Book`

@@ -19,7 +19,7 @@ from ..hands.shaky import Paper
 from ..marking.again import Judged
 from ..marking.answers import FREE, Answer, Said, known, measured, nearest
 from ..marking.verdicts import Line, Marking, Verdict, behind
-from .book import MISTAKES, Book, Signature, broken, key_of, signature, signatures_after
+from .book import MISTAKES, Book, Signature, broken, key_of, signatures
 from .reading import other_orders, transposed
 from .rules import Broken, Scene
 
@@ -279,7 +279,7 @@ class _Search:
             return []
         paper = Paper(last.broken.program, last.broken.givens, self.mus)
         again = broken(paper, last.values, {place[0] for place in places})
-        return list(signatures_after(self.book.key, last, (one for one in again if one.place in places)))
+        return list(signatures(self.book.key, (one for one in again if one.place in places), last))
 
     def _transposed(self, line: Line, chain: tuple[Signature, ...]) -> list[Signature]:
         """Return the numbers with two digits transposed that the millimetres or the earlier numbers of a line mean."""
@@ -291,7 +291,7 @@ class _Search:
         scene = Scene(paper, last.values if last else key.values)
         orders = [other for other in other_orders(answer.value) if other and self._meant(line, answer, other)]
         made = (transposed(scene, line.name, answer.value, other) for other in orders)
-        return list(signatures_after(key, last, made))
+        return list(signatures(key, made, last))
 
     def _meant(self, line: Line, answer: Answer, other: float) -> bool:
         """Whether mm times mu gives another number than is written, or what is calculated from earlier numbers does."""
@@ -334,8 +334,8 @@ class _Search:
             most = book.allowed * np.fmax(1.0, np.abs(table) / np.abs(book.right))
         means = _mean(self.said.misses(book, table, most))
         near = [int(i) for i in np.argsort(means, kind="stable")[:ANGLES] if means[i] <= 1.0]
-        made = [signature(book.key, book.turned.broken(i)) for i in near]
-        return [found for one in made if one is not None and (found := self._found((one,))) is not None]
+        made = signatures(book.key, map(book.turned.broken, near))
+        return [found for one in made if (found := self._found((one,))) is not None]
 
     def _put_right(self, off: Floats) -> tuple[Candidate, ...]:
         """Return the mistakes that explain every line that is not right, where right values were taken after them."""
@@ -364,7 +364,8 @@ class _Search:
         """Mark the answers with a broken construction; None where it does not explain the first wrong line."""
         by_scale = any(MISTAKES[one.broken.mistake].by_scale for one in chain)
         judged = self.by_value if by_scale else self.as_said
-        again = judged.under(key_of(self.book.key, chain[-1]), first or str(self.marking.first_wrong))
+        key = key_of(self.book.key, chain[-1])
+        again = judged.under(key, first or str(self.marking.first_wrong), self.faulty)
         if again is None:
             return None
         left = tuple(line.name for line in again if line.verdict.faulty)

@@ -163,9 +163,8 @@ def digits_transposed(scene: Scene) -> Iterator[Change]:
 def transposed(scene: Scene, name: str, written: float, meant: float) -> Broken:
     """Return the construction in which a number was written for another one of the same digits, and gone on with."""
     step = scene.steps.get(f"_{name}", scene.steps[name])  # what is laid off and read again is calculated before
-    change = scaled(step, abs(written / meant))
-    givens = {**scene.paper.givens, **change.givens}
-    return Broken("M123", name, f"{meant:.4g}", scene.program, givens, change.steps)
+    change = scaled(step, abs(written / meant), f"{meant:.4g}")
+    return Broken("M123", scene.paper, replace(change, at=name))
 
 
 def other_orders(number: float) -> Iterator[float]:

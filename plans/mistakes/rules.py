@@ -6,7 +6,7 @@ The mistakes have numbers, M01 to M125; the other modules here, a chapter each, 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -88,24 +88,32 @@ class Mistake:
 
 @dataclass(frozen=True, eq=False)
 class Broken:
-    """A construction with one rule broken, or several one after the other, at the steps or data `at`.
-
-    It is the construction `before` with other `steps` in the place of those of the same names, and other data.
-    """
+    """A construction with a rule broken: the `paper` as it was before, the right one or broken already; the change."""
 
     mistake: str
-    at: str
-    how: str
-    before: Program
-    givens: Mapping[str, Any]
-    steps: Mapping[str, tuple[Step, ...]] = field(default_factory=dict)
+    paper: Paper
+    change: Change
+
+    @property
+    def at(self) -> str:
+        """The step, the quantity or the given at which it is broken."""
+        return self.change.at
+
+    @property
+    def how(self) -> str:
+        """In which of several ways."""
+        return self.change.how
 
     @cached_property
     def program(self) -> Program:
         """The construction with the rule broken: put together for the few that are looked at closely."""
-        if not self.steps:
-            return self.before
-        return Program(tuple(new for step in self.before for new in self.steps.get(step.name, (step,))))
+        before, steps = self.paper.program, self.change.steps
+        return Program(tuple(new for step in before for new in steps.get(step.name, (step,)))) if steps else before
+
+    @cached_property
+    def givens(self) -> Mapping[str, Any]:
+        """The data with those that are other ones."""
+        return {**self.paper.givens, **self.change.givens}
 
     @property
     def place(self) -> tuple[str, str, str]:
@@ -152,9 +160,7 @@ def _both(first: Rule, second: Rule) -> Rule:
 
 def breaks(scene: Scene, mistake: Mistake) -> Iterator[Broken]:
     """Go through all ways in which the rule of one mistake can be broken here."""
-    for change in mistake.breaks(scene):
-        givens = {**scene.paper.givens, **change.givens}
-        yield Broken(mistake.id, change.at, change.how, scene.program, givens, change.steps)
+    return (Broken(mistake.id, scene.paper, change) for change in mistake.breaks(scene))
 
 
 # Rewrites that many rules share.

@@ -15,9 +15,8 @@ from kulman.plans.hands.shaky import Paper
 from kulman.plans.marking.answers import Answer
 from kulman.plans.marking.key import Key
 from kulman.plans.marking.verdicts import mark
-from kulman.plans.mistakes.book import book, broken
+from kulman.plans.mistakes.book import Signature, book, broken
 from kulman.plans.mistakes.explaining import Explanation, explain
-from kulman.plans.mistakes.signatures import Signature
 from kulman.tests.support.cam_students import (
     ROCKER,
     Settings,

@@ -16,7 +16,7 @@ from kulman.plans.hands.shaky import Paper
 from kulman.plans.marking.answers import Answer
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.marking.verdicts import Verdict, mark
-from kulman.plans.mistakes.book import Book, Signature, book, broken, signatures_after
+from kulman.plans.mistakes.book import Book, Signature, book, broken, signatures
 from kulman.plans.mistakes.explaining import Candidate, Explanation, explain
 from kulman.tests.support.broken_rules import (
     LEVER,
@@ -358,7 +358,7 @@ def twice_broken(of_book: Book, first: str, second: str) -> Signature:
     one = next(s for s in of_book.signatures if s.broken.mistake == first)
     paper = Paper(one.broken.program, one.broken.givens, of_book.key.paper.mus)
     found = next(b for b in broken(paper, one.values, (second,)))
-    return next(signatures_after(of_book.key, one, (found,)))
+    return next(signatures(of_book.key, (found,), one))
 
 
 @pytest.mark.parametrize(

@@ -120,3 +120,20 @@ def test_right_lines_are_counted_as_marked_unless_they_are_too_few(task: str) ->
     assert 0 < right < len(answers)
     assert count_right(of, answers, 0.0) == count_right(of, answers, right) == right
     assert count_right(of, answers, math.nextafter(right, math.inf)) == 0
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_what_mends_no_faulty_line_is_given_up(task: str) -> None:
+    of, given_up = mistakes(task), 0
+    for found in of.signatures[7::30]:
+        marking = mark(of.key, planted(of, found, 1))
+        first, faulty = str(marking.first_wrong), [line.name for line in marking.lines if line.verdict.faulty][-1:]
+        judged = Judged(marking.marker, marking.lines)
+        for other in of.signatures[::20] if faulty else ():
+            under = key_of(marking.key, other)
+            whole, again = judge(under, judged.answers, first), judged.under(under, first, faulty)
+
+            mended = whole is not None and any(x.name in faulty and not x.verdict.faulty for x in whole)
+            assert (again is not None) == mended, (found.broken.place, other.broken.place)
+            given_up += whole is not None and again is None
+    assert given_up > 0

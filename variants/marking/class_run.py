@@ -17,14 +17,14 @@ from ..crew import Advance, shared_out
 from ..journal import Journal, digest_of, remove_stale
 from .answers import Answers
 from .checks import Check
-from .marked import Desk
+from .marked import Desk, variant_of
 from .report import report
 from .reports import REPORTS, report_bytes
 from .result import Result, failed, result_of
 
 JOURNAL = ".kulman-check.jsonl"
 REPORTS_NOTED = ".kulman-reports.json"  # which reports of a folder are the program's own
-COLLECTED = 20_000  # objects made anew after which garbage is looked for
+COLLECTED = 200_000  # objects made anew after which garbage is looked for: 40 MB
 Item = tuple[int, Answers]
 
 
@@ -68,7 +68,7 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
     marked = _Marked(job)
     found = {item[0]: result for item in students if (result := marked.before(item)) is not None}
     advance(len(found), len(students))
-    todo = [item for item in students if item[0] not in found]
+    todo = sorted((item for item in students if item[0] not in found), key=lambda item: _variant(job.check, item[1]))
     with _seldom_collected():
         for done in shared_out(job, todo, jobs or os.cpu_count() or 1):
             for number, result in (marked.noted(todo[one.place], one.made) for one in done):
@@ -77,6 +77,14 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
     results = [found[number] for number, _ in students]
     marked.finish(results)
     return results
+
+
+def _variant(check: Check, answers: Answers) -> str:
+    """Return the variant of a student: those of one go to one process, one after the other, and share its key."""
+    try:
+        return variant_of(check, answers, check.roster.find(answers.who) if check.roster else None)[0]
+    except KulmanError:
+        return ""
 
 
 @contextmanager

@@ -62,6 +62,37 @@ class Marked:
         return sum(line.verdict is verdict for line in self.lines)
 
 
+def variant_of(check: Check, answers: Answers, entry: Entry | None) -> tuple[str, list[KulmanError]]:
+    """Return the variant that a student has, by roster, file or record book; and what contradicts it.
+
+    Raises
+    ------
+    InputError
+        The record book has no such digits.
+    """
+    task, said = check.request.task, answers.about.get("variant", "")
+    notes: list[KulmanError] = []
+    if check.roster is not None and entry is None:
+        notes.append(InputError("marked-stranger", text=quote(answers.who.student or answers.source)))
+    other = answers.about.get("task", "")
+    if other and other != task.id:
+        notes.append(InputError("marked-task", text=quote(other), task=quote(task.id)))
+    book = answers.who.book or (entry.who.book if entry else "")
+    found = entry.variant if entry else ""
+    if not found and entry and book:
+        found = variant_of_book(task, book, check.digits)
+    found = found or check.request.variant or (said if said in task.variants else "")
+    if not found and book:
+        found = variant_of_book(task, book, check.digits)
+    found = found or variant_of_id(task, answers.about.get("sheet", "")) or ""
+    if not found:
+        found = next(iter(task.variants))
+        notes += [InputError("marked-no-variant", variant=quote(found))] if len(task.variants) > 1 else []
+    if said and said != found:
+        notes.append(InputError("marked-variant", text=quote(said), variant=quote(found)))
+    return found, notes
+
+
 class Desk:
     """Where answers are marked: keys are made once for each variant with its data."""
 
@@ -90,7 +121,7 @@ class Desk:
         if answers.unread is not None:
             raise answers.unread
         entry = self.check.roster.find(answers.who) if self.check.roster else None
-        variant, notes = self._variant(answers, entry)
+        variant, notes = variant_of(self.check, answers, entry)
         settings = entry.settings if entry else {}
         key = self.keyed(variant, settings)
         notes += self._sheet(answers, key)
@@ -123,30 +154,6 @@ class Desk:
     def _other_variants(self, variant: str) -> list[str]:
         """Return the other variants, as many as there are keys kept."""
         return [other for other in self.check.request.task.variants if other != variant][: KEPT - 1]
-
-    def _variant(self, answers: Answers, entry: Entry | None) -> tuple[str, list[KulmanError]]:
-        """Return the variant that a student has, by roster, file or record book; and what contradicts it."""
-        task, said = self.check.request.task, answers.about.get("variant", "")
-        notes: list[KulmanError] = []
-        if self.check.roster is not None and entry is None:
-            notes.append(InputError("marked-stranger", text=quote(answers.who.student or answers.source)))
-        other = answers.about.get("task", "")
-        if other and other != task.id:
-            notes.append(InputError("marked-task", text=quote(other), task=quote(task.id)))
-        book = answers.who.book or (entry.who.book if entry else "")
-        found = entry.variant if entry else ""
-        if not found and entry and book:
-            found = variant_of_book(task, book, self.check.digits)
-        found = found or self.check.request.variant or (said if said in task.variants else "")
-        if not found and book:
-            found = variant_of_book(task, book, self.check.digits)
-        found = found or variant_of_id(task, answers.about.get("sheet", "")) or ""
-        if not found:
-            found = next(iter(task.variants))
-            notes += [InputError("marked-no-variant", variant=quote(found))] if len(task.variants) > 1 else []
-        if said and said != found:
-            notes.append(InputError("marked-variant", text=quote(said), variant=quote(found)))
-        return found, notes
 
     def _sheet(self, answers: Answers, key: Keyed) -> list[KulmanError]:
         """Say where the sheet id is that of another sheet."""
