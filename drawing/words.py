@@ -265,8 +265,8 @@ def _joined(index: str) -> str:
 
 def _split(symbol: str) -> tuple[str, str]:
     """Cut a symbol into its letter and its scripts."""
-    head = re.split(r"[_^]", symbol, maxsplit=1)[0]
-    return head, symbol[len(head) :]
+    at = next((n for n, letter in enumerate(symbol) if letter in "_^"), len(symbol))
+    return symbol[:at], symbol[at:]
 
 
 def _plain(value: float, digits: int) -> str:
