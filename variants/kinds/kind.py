@@ -184,7 +184,7 @@ class Kind(ABC, Generic[Subject, Answer]):
             There is none.
         """
         if self.table not in MODULES:
-            raise InputError("kind-without", task=quote(task.id), text=folder.removesuffix("s"))
+            raise InputError("kind-without", task=quote(task.id), text=folder[:-1])
         return import_module(f"..{folder}.{MODULES[self.table]}", __package__)
 
     def sweep(self, case: Case, words: Words, asked: SweepRequest) -> Swept:
