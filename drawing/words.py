@@ -263,10 +263,10 @@ def _joined(index: str) -> str:
     return PARTING.sub(",", index).replace("_", "")
 
 
-def _split(symbol: str) -> tuple[str, str]:
-    """Cut a symbol into its letter and its scripts."""
-    at = next((n for n, letter in enumerate(symbol) if letter in "_^"), len(symbol))
-    return symbol[:at], symbol[at:]
+def _split(markup: str) -> tuple[str, str]:
+    """Cut the markup of a symbol into its letter and its scripts."""
+    at = next((n for n, letter in enumerate(markup) if letter in "_^"), len(markup))
+    return markup[:at], markup[at:]
 
 
 def _plain(value: float, digits: int) -> str:
