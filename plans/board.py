@@ -10,16 +10,17 @@ marks of the mechanism itself are bare letters. What a name is, whose and about 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from operator import itemgetter
-from typing import Any
+from typing import Any, TypeVar
 
 from ..scales.errors import InputError
 from .names import POSITION, Name, role
 
 __all__ = ["POSITION", "Board", "Program", "RecordingBoard", "Step", "with_needs"]
+Made = TypeVar("Made")
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -242,38 +243,28 @@ class Program:
 
     def at(self, bits: int) -> tuple[Prepared, ...]:
         """Return the steps that are set in a number of `hanging`, in order; kept, for the same ones come again."""
-        found = self._at.get(bits)
-        if found is None:
-            found = self._at[bits] = tuple(one for place, one in enumerate(self.prepared) if bits >> place & 1)
-        return found
+        return self._once(bits, lambda: tuple(one for place, one in enumerate(self.prepared) if bits >> place & 1))
 
     def which(self, verbs: tuple[str, ...], law: str = "", plan: str = "") -> tuple[Step, ...]:
         """Return the steps of some verbs, of one law if it is named, on the plans of a kind; kept, too."""
-        asked = verbs, law, plan
-        found = self._which.get(asked)
-        if found is None:
-            steps = (s for s in self.steps if s.verb in verbs and law in ("", s.law))
-            found = self._which[asked] = tuple(s for s in steps if plan in ("", s.plan.kind, s.plan))
-        return found
+        steps = (s for s in self.steps if s.verb in verbs and law in ("", s.law))
+        return self._once((verbs, law, plan), lambda: tuple(s for s in steps if plan in ("", s.plan.kind, s.plan)))
 
     def counting(self, counts: Callable[[Step, str], bool]) -> tuple[tuple[str, tuple[str, ...]], ...]:
         """Return what each step makes, with those of its operands that count; kept."""
-        found = self._counting.get(counts)
-        if found is None:
-            found = tuple((s.name, tuple(name for name in s.operands if counts(s, name))) for s in self.steps)
-            self._counting[counts] = found
-        return found
+        return self._once(
+            counts, lambda: tuple((s.name, tuple(x for x in s.operands if counts(s, x))) for s in self.steps)
+        )
+
+    def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
+        """Return what `make` makes, or what is kept under its key."""
+        if key not in self._kept:
+            self._kept[key] = make()
+        made: Made = self._kept[key]
+        return made
 
     @cached_property
-    def _counting(self) -> dict[Callable[[Step, str], bool], tuple[tuple[str, tuple[str, ...]], ...]]:
-        return {}
-
-    @cached_property
-    def _at(self) -> dict[int, tuple[Prepared, ...]]:
-        return {}
-
-    @cached_property
-    def _which(self) -> dict[tuple[tuple[str, ...], str, str], tuple[Step, ...]]:
+    def _kept(self) -> dict[Hashable, Any]:
         return {}
 
     @property

@@ -6,6 +6,7 @@ What keeps a driver moving follows from the moments of its forces, and a second 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 from ...scales.errors import InputError
 from ..board import Board
@@ -135,21 +136,13 @@ class SlidingBlock:
     mechanism: Mechanism
     driver: SlidingDriver
     slide: Slide
-
-    @property
-    def spans(self) -> tuple[Span, ...]:
-        """It has no two joints."""
-        return ()
+    spans: ClassVar[tuple[Span, ...]] = ()  # it has no two joints
+    balance: ClassVar[Name] = F_BAL
 
     @property
     def body(self) -> Body:
         """Return the slider for the links attached to it."""
         return self.slide.body
-
-    @property
-    def balance(self) -> Name:
-        """Name of what balances it."""
-        return F_BAL
 
     def turning_rate(self, board: Board) -> str:
         """Return the name of an angular velocity beside which another one is rounding: v_P over all lengths."""

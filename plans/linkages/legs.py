@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import ClassVar
 
 from ...scales.errors import InputError
 from ..board import Board, Program
@@ -140,6 +141,7 @@ class Slide:
     known: Body | None
     carries: bool  # whether the link carries the guide, not the known one
     mechanism: Mechanism
+    spans: ClassVar[tuple[Span, ...]] = ()  # it has one joint
 
     @property
     def number(self) -> int:
@@ -175,11 +177,6 @@ class Slide:
     def across(self) -> Name:
         """Direction of the guide."""
         return self.u
-
-    @property
-    def spans(self) -> tuple[Span, ...]:
-        """A slider has one joint."""
-        return ()
 
     @property
     def under(self) -> Name:

@@ -104,11 +104,6 @@ class Driver:
         """Name of the value that says where the driver stands."""
         return self.angle
 
-    @property
-    def givens(self) -> tuple[str, ...]:
-        """Names of the values that it needs under their own names; its rates are not."""
-        return self.angle, self.sense
-
 
 @dataclass(frozen=True, slots=True)
 class SlidingDriver:
@@ -128,11 +123,6 @@ class SlidingDriver:
     def coordinate(self) -> str:
         """Name of the value that says where the driver stands."""
         return self.travel
-
-    @property
-    def givens(self) -> tuple[str, ...]:
-        """Names of the values that it needs under their own names; its rates are not."""
-        return (self.travel,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -294,7 +284,8 @@ class Mechanism:
         names += [name for d in self.diagrams for name in d.at]
         names += [name for d in self.diagrams for name in d.sizes if name not in sizes]
         names += [self.gravity or ZERO, self.stroke.sense if self.stroke else ZERO]
-        return frozenset((*names, *self.driver.givens)) - self.opposites.keys()
+        names += [self.driver.coordinate, self.driver.sense if isinstance(self.driver, Driver) else ZERO]
+        return frozenset(names) - self.opposites.keys()
 
     @property
     def opposites(self) -> dict[str, str]:

@@ -162,8 +162,7 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     """
     near, plans = dict[str, Any](), tuple(plans)
     if mechanism.starts:  # groups of class III need arrays, and so numpy, on the way from their start
-        from .triads.following import followed
-        from .triads.special_points import with_special_points
+        from .triads.following import followed, with_special_points
 
         near = followed(mechanism, values)
         mechanism = with_special_points(mechanism, values, near)

@@ -16,8 +16,7 @@ from kulman.plans.linkages.cycles.swept import swept
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Mechanism, Prismatic, Revolute, SlidingDriver, Start
 from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
-from kulman.plans.linkages.triads.following import Follower, followed
-from kulman.plans.linkages.triads.special_points import with_special_points
+from kulman.plans.linkages.triads.following import Follower, followed, with_special_points
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.mechanisms import one_of
 from kulman.tests.support.presses import ORIGIN, PRESS, RAM, RAM_VALUES, VALUES, press, two_presses

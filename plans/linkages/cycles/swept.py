@@ -90,8 +90,7 @@ def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
         mechanism = replace(mechanism, driver=replace(driver, **{key: name}))  # type: ignore[arg-type]
     follower = None
     if mechanism.starts:  # few mechanisms have groups of class III
-        from ..triads.following import Follower, triads
-        from ..triads.special_points import with_special_points
+        from ..triads.following import Follower, triads, with_special_points
 
         if triads(mechanism):
             follower = Follower(mechanism, {**values, name: start})

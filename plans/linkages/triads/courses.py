@@ -15,6 +15,7 @@ from ...boards.arrays import ArrayBoard
 from ...boards.batch import FEW, batch
 from ...boards.exact import run
 from ...boards.template import ASTRAY, CLOSED, FOLDED
+from ...laws import TURN
 from ...names import role
 from ..chain import construct
 from ..mechanism import Driver, Mechanism, start_names
@@ -79,7 +80,8 @@ class Course:
         self._mechanism = replace(mechanism, driver=own, loads=(), couples=())
         self.numbers = tuple(numbers)
         program = construct(self._mechanism, ("position",))[1]
-        self._first = {n: _first_mark(program, n) for n in numbers}
+        templates = {step.operands[1]: step for step in reversed(program.which(("template",)))}
+        self._first = {n: templates[start_names(n)[0]] for n in numbers}
         extra = [
             Step(f"template_{part}", f"_{part}_{n}", step.operands[1:])
             for n, step in self._first.items()
@@ -89,12 +91,19 @@ class Course:
         self._program = Program((*program.steps, *extra)).needed_for(self._wanted)
         self._rough = self._starting()
         needed = {name for step in (*self._program, *self._rough) for name in step.operands}
-        self._values = {name: _lone(value) for name, value in values.items() if name in needed}
+        self._values: dict[str, Any] = {  # a number that stands alone in an array is one for all
+            name: float(value[0]) if np.ndim(value) and len(value) == 1 else value
+            for name, value in values.items()
+            if name in needed
+        }
         self.count = max((len(value) for value in self._values.values() if np.ndim(value)), default=1)
         self._nodes: dict[int, State] = {}
-        self.size = self._largest_side()
-        turns = isinstance(driver, Driver)
-        self._steps = np.full(self.count, CRANK_GRID) if turns else SLIDE_GRID * self.size
+        self.start: State  # one for all mechanisms, or one for each: see `settle`
+        sides = self._run(self._rough, self._joints(), {}, np.arange(self.count))
+        a, b, c = (sides[name] for name in self._joints())  # the largest distance of two joints, for each mechanism
+        self.size = np.array(np.broadcast_to(np.max(np.abs([a - b, b - c, c - a]), axis=0), self.count))
+        self._turns = isinstance(driver, Driver)
+        self._steps = np.full(self.count, CRANK_GRID) if self._turns else SLIDE_GRID * self.size
 
     def _starting(self) -> Program:
         """Record where the last central link's first joint and x axis are at the start, and its joints on it."""
@@ -134,17 +143,11 @@ class Course:
             program.run(many)
         return {name: many.values[name] for name in wanted}
 
-    def _largest_side(self) -> Array:
-        """Return the largest distance of two joints of the last central link, for each mechanism."""
-        found = self._run(self._rough, self._joints(), {}, np.arange(self.count))
-        a, b, c = (found[name] for name in self._joints())
-        return np.array(np.broadcast_to(np.max(np.abs([a - b, b - c, c - a]), axis=0), self.count))
-
     def _of(self, each: Array, which: Places) -> Array:
         """Return what there is one of for each mechanism, for some of them."""
         return each[which] if self.count > 1 else np.broadcast_to(each, len(which))
 
-    def settled(self, at: Array, poses: Poses) -> State:
+    def settle(self, at: Array, poses: Poses) -> None:
         """Lay the last central link down near where the task says that it starts, those before lie as in `poses`.
 
         Where that fails the driver is nowhere, and the link stays at its rough start.
@@ -163,7 +166,58 @@ class Course:
         held = look.closed & (moved <= FAR) & (np.abs(turned.imag) <= FAR) & (turned.real > 0.0)
         state = look.state(np.where(held, at, np.nan))
         state.put(np.flatnonzero(~held), State(state.at, rough, state.signs).take(~held))
-        return state
+        self.start = state
+
+    def near(self, goal: Array) -> Poses:
+        """Return the givens of the last group of the course, at any positions of the driver."""
+        goal = np.broadcast_to(goal, max(len(goal), len(self.start.at)))
+        state = self.go(self._within(goal))
+        lost = np.flatnonzero(state.at != self._within(goal))
+        if self._turns and len(lost):
+            self._other_way(state, goal, lost)
+            lost = lost[state.at[lost] != self._within(goal)[lost]]
+        astray = np.zeros(len(goal))
+        if len(lost):
+            astray[lost] = self._astray(state, goal, lost)
+        x, y, c, s, way = start_names(self.numbers[-1])
+        return {**{name: state.poses[name] for name in (x, y, c, s)}, way: astray}
+
+    def _within(self, goal: Array) -> Array:
+        """Return positions of a crank less whole turns, where the group comes back after one or cannot make it."""
+        if not self._turns:
+            return goal
+        whole = np.trunc((goal - self.start.at) / TURN)
+        far = np.flatnonzero(np.abs(whole) >= 1.0)
+        if not len(far):
+            return goal
+        goal = goal.copy()
+        start = self._starts(len(goal)).take(far)
+        once = start.at + np.copysign(TURN, whole[far])
+        after = self._follow(self.start if len(self.start.at) == 1 else start, once, far)
+        goal[far] -= np.where((after.at != once) | self._same(after, start, far), whole[far] * TURN, 0.0)
+        return goal
+
+    def _starts(self, count: int) -> State:
+        return self.start.take(np.zeros(count, int) if len(self.start.at) == 1 else np.arange(count))
+
+    def go(self, goal: Array, which: NDArray[np.intp] | None = None) -> State:
+        """Return the state at `goal`, or where the way to it ends; `which` are the mechanisms."""
+        which = np.arange(len(goal)) if which is None else which
+        start = self.start if len(self.start.at) == 1 else self.start.take(which)
+        return self._follow(start, goal, which)
+
+    def _other_way(self, state: State, goal: Array, lost: NDArray[np.intp]) -> None:
+        """Try to come round the other way, where that way does not lead past the place at which this one ends.
+
+        If it does, the crank has two positions for that angle, and a sweep would jump from one to the other.
+        """
+        start, within = self._starts(len(goal)).at[lost], self._within(goal)[lost]
+        back = np.copysign(TURN, within - start)
+        found, end = self.go(within - back, lost), self.go(state.at[lost] - back, lost)
+        there = (found.at == within - back) & (end.at != state.at[lost] - back)
+        arrived = found.take(there)
+        arrived.at[:] = within[there]
+        state.put(lost[there], arrived)
 
     def _look(self, at: Array, poses: Poses, which: Places) -> _Look:
         """Lay all templates down with the driver at `at`, from where they lie."""
@@ -173,7 +227,7 @@ class Course:
             found = {name: np.broadcast_to(value, len(at)) for name, value in found.items()}
         return _Look(self.numbers, found)
 
-    def follow(self, start: State, goal: Array, which: Places) -> State:
+    def _follow(self, start: State, goal: Array, which: Places) -> State:
         """Follow from one start, or one for each, as far towards `goal` as it goes; `which` are the mechanisms."""
         grid = self._of(self._steps, which)
         ahead = np.trunc((goal - start.at) / grid)
@@ -221,7 +275,7 @@ class Course:
             going = (state.at[active] != goal[active]) & (np.abs(step) > least[active])
             active, step = active[going], step[going]
 
-    def same(self, one: State, other: State, which: Places) -> NDArray[np.bool_]:
+    def _same(self, one: State, other: State, which: Places) -> NDArray[np.bool_]:
         """Tell where the last central link lies in two states alike, or nearly."""
         x, y, c, s, _ = start_names(self.numbers[-1])
         apart = [np.abs(one.poses[name] - other.poses[name]) for name in (x, y, c, s)]
@@ -229,7 +283,7 @@ class Course:
         same: NDArray[np.bool_] = np.max([apart[0] / size, apart[1] / size, *apart[2:]], axis=0) <= SAME
         return same
 
-    def astray(self, state: State, goal: Array, lost: Places) -> Array:
+    def _astray(self, state: State, goal: Array, lost: Places) -> Array:
         """Return how far the legs of the last group are from its joints, where the driver stands at `goal` in vain.
 
         Just at a dead position it is zero, and the pose is refined: it is singular, not out of reach.
@@ -286,14 +340,3 @@ class _Look:
         kept = [np.sign(self.found[f"_determinant_{n}"]) == signs[n] for n in self.numbers]
         held: NDArray[np.bool_] = np.logical_and.reduce([self.closed, self._all("doubt", SURE), *kept])
         return held
-
-
-def _lone(value: Any) -> Any:
-    """Return a number that stands alone in an array as a float."""
-    return float(value[0]) if np.ndim(value) and len(value) == 1 else value
-
-
-def _first_mark(program: Program, number: int) -> Step:
-    """Return the step by which the first joint of a central link is marked."""
-    x = start_names(number)[0]
-    return next(step for step in program if step.verb == "template" and step.operands[1] == x)

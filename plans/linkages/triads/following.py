@@ -8,25 +8,36 @@ determinant of the legs must keep its sign. Where that fails the step is halved,
 The way leads over a grid of the driver's positions that begins at the start. So what is found for one position does not
 depend on which others are asked for with it, to the last bit.
 
+Any two legs of a group may make its special point, but where two legs are nearly parallel their lines meet far away,
+and where the special point stands in the joint of the third leg nothing turns about it. The choice is data of the
+construction: `Start.legs`.
+
 Source of the criterion: Deuflhard, Newton methods for nonlinear problems, chapter 5 (adaptive pathfollowing).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...board import Program, RecordingBoard
+from ...boards.batch import batch
+from ...boards.exact import ILL, SMALL, run
 from ...laws import TURN
-from ..mechanism import Driver, Mechanism, start_names
+from ..chain import construct, named_groups
+from ..mechanism import Driver, Mechanism
 from ..structure import TRIAD, analyse
-from .courses import Course, Poses, State
+from .courses import Course, Poses
+from .triad import Triad
 
 Array = NDArray[np.float64]
+Legs = tuple[int, int]
 
 
 class Follower:
@@ -41,7 +52,7 @@ class Follower:
 
     def __init__(self, mechanism: Mechanism, values: Mapping[str, Any]) -> None:
         self._turns = isinstance(mechanism.driver, Driver)
-        self._ways: list[_Way] = []
+        self._courses: list[Course] = []
         numbers = triads(mechanism)
         for count, number in enumerate(numbers, start=1):
             course = Course(mechanism, values, numbers[:count])
@@ -49,11 +60,9 @@ class Follower:
             assert start is not None
             at = np.atleast_1d(np.asarray(values.get(start.driver, 0.0), float))
             at = np.broadcast_to(at, max(len(at), course.count))
-            self._ways.append(_Way(course, course.settled(at, self._poses(at)), self._turns))
-
-    def _poses(self, at: Array) -> Poses:
-        """Return where the central links lie that are followed already."""
-        return {name: value for name, value in self.near(at).items() if "astray" not in name}
+            # from where the central links lie that are followed already
+            course.settle(at, {name: value for name, value in self.near(at).items() if "astray" not in name})
+            self._courses.append(course)
 
     def near(self, at: Array) -> Poses:
         """Return the board's givens that say where each central link lies, about, with the driver at `at`.
@@ -66,26 +75,26 @@ class Follower:
         Returns
         -------
         dict of str to float64 array of shape (N,)
-            Five givens for each group; see `parts.start_names`. One of them is not zero where the group cannot
+            Five givens for each group; see `start_names`. One of them is not zero where the group cannot
             come from its start, so that the board refuses that position.
         """
         found: Poses = {}
-        for way in self._ways:
-            found |= way.near(at)
+        for course in self._courses:
+            found |= course.near(at)
         return found
 
     @property
     def starts(self) -> NDArray[np.bool_]:
         """Whether all groups can be laid down near their starts, shape (N,)."""
         held = np.ones(1, bool)
-        for way in self._ways:
-            held = held & np.isfinite(way.start.at)
+        for course in self._courses:
+            held = held & np.isfinite(course.start.at)
         return held
 
     @property
     def places(self) -> Array:
         """Places of the driver that stand for all: around a crank's circle, a slide's start."""
-        start = self._ways[-1].start.at[:1]
+        start = self._courses[-1].start.at[:1]
         return start + np.arange(-36, 37) * (TURN / 72) if self._turns else start
 
     def limits(self, range_of: float = TURN) -> tuple[float, float] | None:
@@ -94,11 +103,11 @@ class Follower:
         The groups come to a dead position there, to 1e-9 rad; after `range_of` the search ends. None when nothing can
         be laid down.
         """
-        way = self._ways[-1]
-        start = float(way.start.at[0])
+        course = self._courses[-1]
+        start = float(course.start.at[0])
         if not math.isfinite(start):
             return None
-        low, high = way.go(np.array([start - range_of, start + range_of])).at
+        low, high = course.go(np.array([start - range_of, start + range_of])).at
         return float(low), float(high)
 
 
@@ -127,61 +136,87 @@ def followed(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
     return found
 
 
-@dataclass(slots=True)
-class _Way:
-    """The way of one course from its start: `start` is one state for all, or one for each mechanism."""
+def with_special_points(
+    mechanism: Mechanism,
+    values: Mapping[str, Any],
+    near: Mapping[str, Any] | None = None,
+    enough: float = SMALL,
+    first: Mapping[int, Legs | None] | None = None,
+) -> Mechanism:
+    """Return the mechanism with two legs chosen for the special point of every triad whose task names none.
 
-    course: Course
-    start: State
-    turns: bool
+    Parameters
+    ----------
+    values : mapping of str to float or float64 array of shape (N,)
+        Its numbers in SI, for one position or for many: of these the worst one counts.
+    near : mapping, optional
+        What `following.followed` gives for them, where it is known already.
+    enough : float
+        The first two legs whose sines are nowhere below are taken, so that one position is constructed like another;
+        without such ones the best two.
+    first : mapping of int to pair of int, optional
+        By the number of the central link two legs that are taken where their lines meet everywhere, however flatly.
+    """
+    for number, (pairs, sines) in _sines(mechanism, values, near).items():
+        worst = sines.min(axis=1)
+        legs = pairs[int(np.argmax(np.minimum(worst, enough)))]
+        wanted = (first or {}).get(number)
+        keeps = wanted is not None and worst[pairs.index(wanted)] >= ILL
+        legs = wanted if keeps and wanted else legs
+        starts = tuple(replace(start, legs=legs) if start.link == number else start for start in mechanism.starts)
+        mechanism = replace(mechanism, starts=starts)
+    return mechanism
 
-    def near(self, goal: Array) -> Poses:
-        """Return the givens of the last group of the course, at any positions of the driver."""
-        goal = np.broadcast_to(goal, max(len(goal), len(self.start.at)))
-        state = self.go(self._within(goal))
-        lost = np.flatnonzero(state.at != self._within(goal))
-        if self.turns and len(lost):
-            self._other_way(state, goal, lost)
-            lost = lost[state.at[lost] != self._within(goal)[lost]]
-        astray = np.zeros(len(goal))
-        if len(lost):
-            astray[lost] = self.course.astray(state, goal, lost)
-        x, y, c, s, way = start_names(self.course.numbers[-1])
-        return {**{name: state.poses[name] for name in (x, y, c, s)}, way: astray}
 
-    def _within(self, goal: Array) -> Array:
-        """Return positions of a crank less whole turns, where the group comes back after one or cannot make it."""
-        if not self.turns:
-            return goal
-        whole = np.trunc((goal - self.start.at) / TURN)
-        far = np.flatnonzero(np.abs(whole) >= 1.0)
-        if not len(far):
-            return goal
-        goal = goal.copy()
-        start = self._starts(len(goal)).take(far)
-        once = start.at + np.copysign(TURN, whole[far])
-        after = self.course.follow(self.start if len(self.start.at) == 1 else start, once, far)
-        goal[far] -= np.where((after.at != once) | self.course.same(after, start, far), whole[far] * TURN, 0.0)
-        return goal
+def _sines(
+    mechanism: Mechanism, values: Mapping[str, Any], near: Mapping[str, Any] | None
+) -> dict[int, tuple[list[Legs], Array]]:
+    """Return for each triad without named legs the pairs of its legs, and the worse sine of each, shape (3, N).
 
-    def _starts(self, count: int) -> State:
-        return self.start.take(np.zeros(count, int) if len(self.start.at) == 1 else np.arange(count))
+    Where the mechanism cannot be assembled all are one.
+    """
+    if not any(start.legs is None for start in mechanism.starts):
+        return {}
+    free = mechanism.without_loads
+    triads = [group for group in named_groups(free) if isinstance(group, Triad)]
+    board, named = RecordingBoard(), {}
+    for triad in triads:
+        start = mechanism.start(triad.central.number)
+        if start is not None and start.legs is None:
+            named[triad.central.number] = dict(_pairs(board, triad))
+    if not named:
+        return {}
+    _, position = construct(free, ("position",))
+    program = Program((*position.steps, *board.steps))
+    wanted = [name for pairs in named.values() for names in pairs.values() for name in names]
+    found = _run(program.needed_for(wanted), {**values, **(near or followed(mechanism, values))}, wanted)
+    return {number: (list(pairs), _rows(found, pairs.values())) for number, pairs in named.items()}
 
-    def go(self, goal: Array, which: NDArray[np.intp] | None = None) -> State:
-        """Return the state at `goal`, or where the way to it ends; `which` are the mechanisms."""
-        which = np.arange(len(goal)) if which is None else which
-        start = self.start if len(self.start.at) == 1 else self.start.take(which)
-        return self.course.follow(start, goal, which)
 
-    def _other_way(self, state: State, goal: Array, lost: NDArray[np.intp]) -> None:
-        """Try to come round the other way, where that way does not lead past the place at which this one ends.
+def _rows(found: Mapping[str, Any], pairs: Iterable[tuple[str, str]]) -> Array:
+    rows = np.stack([np.min([np.atleast_1d(np.abs(found[name])) for name in names], axis=0) for names in pairs])
+    apart = np.isnan(rows).all(axis=0)
+    return np.where(apart, 1.0, np.nan_to_num(rows, nan=0.0))
 
-        If it does, the crank has two positions for that angle, and a sweep would jump from one to the other.
-        """
-        start, within = self._starts(len(goal)).at[lost], self._within(goal)[lost]
-        back = np.copysign(TURN, within - start)
-        found, end = self.go(within - back, lost), self.go(state.at[lost] - back, lost)
-        there = (found.at == within - back) & (end.at != state.at[lost] - back)
-        arrived = found.take(there)
-        arrived.at[:] = within[there]
-        state.put(lost[there], arrived)
+
+def _run(program: Program, values: Mapping[str, Any], wanted: list[str]) -> Mapping[str, Any]:
+    needs = program.needs
+    values = {name: value for name, value in values.items() if name in needs}
+    if any(np.ndim(value) for value in values.values()):
+        return batch(program, values, wanted)[0]
+    return run(program, values).values
+
+
+def _pairs(board: RecordingBoard, triad: Triad) -> Iterable[tuple[Legs, tuple[str, str]]]:
+    """Record the sines of every two legs: of their lines, and of the third line with the way to the special point."""
+    board.pole("_nowhere")
+    for first, second in combinations(triad.by_number, 2):
+        third = next(leg for leg in triad.legs if leg not in (first, second))
+        key = f"{first.number}_{second.number}"
+        board.meet(f"_X_{key}", first.start, first.line, second.start, second.line)
+        board.distance(f"_l_{key}", f"_X_{key}", third.end)
+        board.calc(f"_sine_{key}", "across_axis", first.line, "_nowhere", second.line)
+        # the normals to both meet like the lines themselves
+        board.calc(f"_across_{key}", "across_axis", third.line, f"_X_{key}", third.end)
+        board.calc(f"_sine_D_{key}", "part_of", f"_across_{key}", f"_l_{key}")
+        yield (first.number, second.number), (f"_sine_{key}", f"_sine_D_{key}")
