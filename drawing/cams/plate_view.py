@@ -23,7 +23,7 @@ from .inversion import (
     undercut_notes,
 )
 from .roller_view import NUMBERS, PHASES
-from .scene import CamScene
+from .scene import CamScene, needed
 
 SAME = 1e-4  # part of the greatest velocity within which that of the fall is the same
 ANALOGUE = "|s′|"  # letter of the velocity analogue where there is little room
@@ -35,8 +35,7 @@ THICK = 0.5  # thickness of the plate, in heights of letters
 def plate_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the follower is lowest."""
     solved, canvas = scene.solved, FIGURE.canvas(scene)
-    plate = solved.plate
-    assert plate is not None
+    plate = needed(solved.plate)
     r_0, stroke, R = map(scene.drawn, (plate.sizes.r_0, solved.motion.h, plate.sizes.R_plate))
     label = scene.style.label
     outer = max(abs(end) for i in solved.layout.division.lines for end in _plate(scene, i, R))
@@ -98,8 +97,7 @@ def _follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
 def _sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> list[str]:
     """Dimension radii, the plate, how far to both sides it touches, the stroke; return what has no place there."""
     solved, words, sense = scene.solved, scene.words, scene.solved.cam.sense
-    plate, motion = solved.plate, solved.motion
-    assert plate is not None
+    plate, motion = needed(solved.plate), solved.motion
     middle, r_0 = quiet(motion, sense), scene.drawn(plate.sizes.r_0)
     canvas.part("circles")
     left_out = radius_at(canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (0.0, r_0, r_0))
@@ -144,8 +142,7 @@ def _crossed(canvas: Canvas, place: Box) -> bool:
 
 def _numbers(scene: CamScene) -> list[str]:
     """Return the numbers of what has only a letter in the figure."""
-    words, motion, plate = scene.words, scene.solved.motion, scene.solved.plate
-    assert plate is not None
+    words, motion, plate = scene.words, scene.solved.motion, needed(scene.solved.plate)
     sizes = {"h": motion.h, "R_plate": plate.sizes.R_plate}
     lengths = [f"{words.symbol(name)} = {scene.length(size)}" for name, size in sizes.items()]
     said = dict.fromkeys(scene.length(motion.maximum(0.0, way, 0.0).value) for way in (1.0, -1.0))

@@ -23,7 +23,7 @@ from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, at_level, fixed_pivot, nearer, unit
 from ..text import Box
 from ..view import Canvas, View
-from .scene import CamScene, given
+from .scene import CamScene, given, needed
 from .sizes_view import SHOWN, on_lines
 
 AROUND = 24.0  # mm of the permitted places shown about the chosen one
@@ -33,8 +33,7 @@ LIMIT = 3.0  # length of a limit at the end of an analogue, in heights of letter
 
 def rocker_sizes_view(scene: CamScene) -> View:
     """Draw the rocker about its pivot, and the centre of the cam that is built."""
-    canvas, words, cam = FIGURE.canvas(scene), scene.words, scene.solved.rocker
-    assert cam is not None
+    canvas, words, cam = FIGURE.canvas(scene), scene.words, needed(scene.solved.rocker)
     centre = scene.mm(f"{ROCKER_SIZES}.C")
     _rocker(canvas, scene, cam)
     frame = _frame(scene, centre)
@@ -93,8 +92,7 @@ def _limits(canvas: Canvas, scene: CamScene) -> None:
 
 def _bound(canvas: Canvas, scene: CamScene, bound: Bound, frame: Box) -> None:
     """Mark the end of the analogue whose limit comes nearest to the centre, and dimension the angle permitted."""
-    cam, limit, arm, along = scene.solved.rocker, bound.limit, bound.arm, bound.along
-    assert cam is not None
+    cam, limit, arm, along = needed(scene.solved.rocker), bound.limit, bound.arm, bound.along
     end = scene.drawn(bound.end)
     canvas.add(scene.node(end, limit.name, "touch", filled=True))
     canvas.add(Line(end, at_level(end, along, frame[1]), Pen.THIN, role="bound", name=limit.name))

@@ -25,7 +25,7 @@ from .inversion import (
     undercut_notes,
 )
 from .roller_view import NUMBERS, PHASES
-from .scene import CamScene, is_sharp
+from .scene import CamScene, is_sharp, needed
 from .sizes_view import SHOWN
 
 ASIDE = 0.45  # rad between the rays of two radii
@@ -35,8 +35,7 @@ OVER = 4.0  # mm of the roller's arcs beyond its extreme places
 def rocker_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the rocker is lowest."""
     solved, canvas = scene.solved, FIGURE.canvas(scene)
-    cam = solved.rocker
-    assert cam is not None
+    cam = needed(solved.rocker)
     r_0, label = scene.drawn(cam.sizes.r_0), scene.style.label
     pivot, start = scene.mm(f"{PROFILE}.A0"), scene.mm(f"{PROFILE}.B0")
     far = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in solved.layout.division.lines) + scene.drawn(cam.profile.R)
@@ -71,8 +70,7 @@ def rocker_view(scene: CamScene) -> View:
 def _positions(canvas: Canvas, scene: CamScene) -> None:
     """Draw the pivot, the roller's arc about it, and the roller in each position."""
     solved = scene.solved
-    cam = solved.rocker
-    assert cam is not None
+    cam = needed(solved.rocker)
     l, R, swing = scene.drawn(cam.sizes.l), scene.drawn(cam.profile.R), cam.rocker.motion.h
     over = OVER / l
     for i, phi in enumerate(solved.angles.tolist()):
@@ -111,8 +109,7 @@ def _normal(canvas: Canvas, scene: CamScene, i: int) -> None:
 def _follower(canvas: Canvas, scene: CamScene) -> None:
     """Draw the rocker on its pivot with the roller in position 0."""
     pivot, at = (scene.mm(f"{PROFILE}.{letter}0") for letter in "AB")
-    cam, style = scene.solved.rocker, scene.style
-    assert cam is not None
+    cam, style = needed(scene.solved.rocker), scene.style
     along = unit(at - pivot)
     canvas.add(Group((Circle(at, scene.drawn(cam.profile.R), Pen.MAIN),), "roller", "0"))
     canvas.add(Group((Line(pivot + along * style.pair, at - along * style.pair, Pen.MAIN),), "rocker", "0"))
@@ -127,8 +124,7 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
     `quiet` is the middle of the lower dwell.
     """
     solved, words = scene.solved, scene.words
-    cam, division = solved.rocker, solved.layout.division
-    assert cam is not None
+    cam, division = needed(solved.rocker), solved.layout.division
     sizes, R = cam.sizes, cam.profile.R
     r_0, far = scene.drawn(sizes.r_0), scene.drawn(sizes.l_OC)
     canvas.part("pivots")
@@ -152,8 +148,7 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
 
 def _lettered(scene: CamScene) -> list[str]:
     """Return the numbers of what has only a letter in the figure."""
-    cam, words = scene.solved.rocker, scene.words
-    assert cam is not None
+    cam, words = needed(scene.solved.rocker), scene.words
     lengths = {
         "l_rocker": cam.sizes.l,
         "R_roller": cam.profile.R,

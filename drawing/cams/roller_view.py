@@ -28,7 +28,7 @@ from .inversion import (
     sharpest,
     undercut_notes,
 )
-from .scene import CamScene, is_aside, is_sharp
+from .scene import CamScene, is_aside, is_sharp, needed
 from .sizes_view import SHOWN
 
 OUT = 1.5  # heights of letters from the roller to the dimension of the stroke
@@ -38,8 +38,7 @@ NUMBERS, PHASES = 1.7, 2.8  # heights of letters from the outermost roller to th
 def roller_view(scene: CamScene) -> View:
     """Draw the cam as it stands when the follower is lowest."""
     solved, canvas = scene.solved, FIGURE.canvas(scene)
-    roller = solved.roller
-    assert roller is not None
+    roller = needed(solved.roller)
     e, s_0, stroke = map(scene.drawn, (roller.sizes.e, roller.sizes.s_0, solved.motion.h))
     R, r_0 = scene.drawn(roller.profile.R), scene.drawn(roller.sizes.r_0)
     outer = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in solved.layout.division.lines) + R
@@ -109,8 +108,7 @@ def _follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
 def _sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
     """Dimension r_0, e, the roller and the stroke; return what has no place in the figure."""
     solved, words = scene.solved, scene.words
-    roller, sense = solved.roller, solved.cam.sense
-    assert roller is not None
+    roller, sense = needed(solved.roller), solved.cam.sense
     middle = quiet(solved.motion, sense)
     r_0, R = scene.drawn(roller.sizes.r_0), scene.drawn(roller.profile.R)
     canvas.part("circles")

@@ -18,6 +18,7 @@ from ..contents import SubjectScene
 from ..words import Words
 
 Size = TypeVar("Size", float, complex)
+Part = TypeVar("Part")
 MU_DIGITS = 5  # of a scale factor that follows from a drawing: enough for 0.01 mm
 CENTRAL = 0.05  # mm, of a circle of the offset that is not drawn
 INDEXED = re.compile(r"([^_]+)(?:_\{?(.*?)\}?)?")  # a symbol: its letter, its index
@@ -98,6 +99,12 @@ class CamScene(SubjectScene[SolvedCam]):
 def given(*names: str) -> Callable[[CamScene], str]:
     """Return what the key of a sentence about a size ends with: the `names` that are given."""
     return lambda scene: "".join(f"_{name}" for name in names if name in scene.solved.givens)
+
+
+def needed(part: Part | None) -> Part:
+    """Return a part of a solved cam without which a figure or a text of it is not made."""
+    assert part is not None
+    return part
 
 
 def is_aside(scene: CamScene) -> bool:

@@ -31,7 +31,7 @@ from ..symbols import HALF_TURN, arc_between, at_level, swept, unit
 from ..text import lay_out
 from ..view import Canvas, View
 from .diagrams_view import jumps
-from .scene import CamScene, given
+from .scene import CamScene, given, needed
 from .text import transfer
 
 PAST = 8.0  # mm by which an axis runs past the curve
@@ -49,8 +49,7 @@ TICK = 2.0  # mm to both sides of the circle
 def sizes_view(scene: CamScene) -> View:
     """Draw the diagram, with the centre of the cam that is built."""
     solved, words = scene.solved, scene.words
-    roller = solved.roller
-    assert roller is not None
+    roller = needed(solved.roller)
     canvas = FIGURE.canvas(scene)
     centre = scene.mm(f"{SIZES}.C")
     canvas.part("points")
@@ -201,8 +200,7 @@ FIGURE = Figure(
 def plate_sizes_view(scene: CamScene) -> View:
     """Draw the diagram, and what it gives: r_0min, and r_0 with the radius of curvature wanted."""
     solved, words = scene.solved, scene.words
-    plate = solved.plate
-    assert plate is not None
+    plate = needed(solved.plate)
     canvas = PLATE_FIGURE.canvas(scene)
     canvas.part("points")
     outline = _plate_curve(canvas, scene)
@@ -258,8 +256,7 @@ def _plate_nodes(canvas: Canvas, scene: CamScene) -> None:
 
 def _plate_centre(canvas: Canvas, scene: CamScene) -> None:
     """Dimension r_0min and r_0 downwards from the lowest place of the plate."""
-    words, style, plate = scene.words, scene.style, scene.solved.plate
-    assert plate is not None
+    words, style, plate = scene.words, scene.style, needed(scene.solved.plate)
     low, centre = (-1j * scene.drawn(size, PLATE_SIZES) for size in (plate.sizes.r_0_min, plate.sizes.r_0))
     canvas.add(Group((Circle(centre, 1.5 * style.node, Pen.MAIN, fill="white"),), "point", "O"))
     canvas.label("O", centre, prefer=1 - 1j, clear=1.0)

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Mapping
 
 from ...plans.cams.cam import PLATE
 from ...plans.cams.construction import OUTWARDS, PLATE_SIZES, ROCKER_SIZES, SIZES
-from ...plans.cams.dense import analogue, permitted, pressed, rolls, theta, transmission, turning
+from ...plans.cams.dense import analogue, permitted, pressed, rolling, rolls, theta, transmission, turning
 from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.rules import Rule, rules_of
 from ..notes.blocks import Sentences, Story
 from ..printed import segment_decimals
 from .inversion import undercut_notes
-from .scene import MU_DIGITS, CamScene, is_aside
+from .scene import MU_DIGITS, CamScene, is_aside, needed
 from .sizes_view import SHOWN
 from .text import offsets_line, ratio
 
@@ -119,15 +119,12 @@ def _of_pressure(scene: CamScene) -> Said:
         found[name] = f"{words.symbol(name)} = {scene.degrees(solved.values[name])}"
     limits = {phase: abs(limit) for phase, limit in permitted(solved)}
     found |= {f"theta_{phase}": f"[θ] = {scene.degrees(limits[phase])}" for phase in OUTWARDS}
-    cam = solved.roller or solved.rocker
-    assert cam is not None
-    return found | {"line": str(line), "rho_min": scene.stated("rho_min", cam.profile.rho_min)}
+    return found | {"line": str(line), "rho_min": scene.stated("rho_min", rolling(solved)[0].rho_min)}
 
 
 def _of_roller(scene: CamScene, texts: Mapping[str, str]) -> Said:
     """Return what is read from S over ds/dphi, and what the plan of the cam begins with."""
-    solved, words, roller = scene.solved, scene.words, scene.solved.roller
-    assert roller is not None
+    solved, words, roller = scene.solved, scene.words, needed(scene.solved.roller)
     sizes, sides = roller.sizes, (texts["cam.right"], texts["cam.left"])
     found = {name: scene.stated(name, float(solved.values[name])) for name in ("r_0_tangents", "e_tangents")}
     found |= {"r_0": scene.stated("r_0", sizes.r_0), "e": scene.stated("e", abs(sizes.e))}
@@ -157,8 +154,7 @@ def _of_profiles(scene: CamScene) -> Said:
 
 def _of_rocker(scene: CamScene) -> Said:
     """Return what is read from the positions of a rocker, and what the plan of the cam begins with."""
-    solved, words, cam = scene.solved, scene.words, scene.solved.rocker
-    assert cam is not None
+    solved, words, cam = scene.solved, scene.words, needed(scene.solved.rocker)
     sizes = {"r_0": cam.sizes.r_0, "l_OC": cam.sizes.l_OC}
     found = {name: scene.stated(name, size) for name, size in sizes.items()}
     found |= {f"{name}_read": read(scene, ROCKER_SIZES, name, size) for name, size in sizes.items()}
@@ -172,8 +168,7 @@ def _of_rocker(scene: CamScene) -> Said:
 
 def _of_plate(scene: CamScene) -> Said:
     """Return what is read from S over d2s/dphi2, and the plate."""
-    solved, words, plate = scene.solved, scene.words, scene.solved.plate
-    assert plate is not None
+    solved, words, plate = scene.solved, scene.words, needed(scene.solved.plate)
     sizes = plate.sizes
     found = {"r_0_flat": scene.stated("r_0_flat", sizes.r_0), "mu_s_d2s": scene.factor(scene.scale(PLATE_SIZES))}
     found["r_0_flat_min_read"] = read(scene, PLATE_SIZES, "r_0_flat_min", sizes.r_0_min)
@@ -252,8 +247,7 @@ def _rule(scene: CamScene, rule: Rule) -> dict[str, str]:
 
 def _plate(scene: CamScene, texts: Texts) -> Iterator[str]:
     """Tell the sizes of a cam for a plate, and how its profile is curved."""
-    plate = scene.solved.plate
-    assert plate is not None
+    plate = needed(scene.solved.plate)
     sizes, least = plate.sizes, float(plate.profile.rho_min)
     said = {"r_0_flat": sizes.r_0, "R_plate": sizes.R_plate}
     yield texts["cam.conclusion.plate"].format(**{name: scene.stated(name, size) for name, size in said.items()})

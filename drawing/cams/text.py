@@ -19,7 +19,7 @@ from ..printed import DEGREES, Input, Shown, calculation, worked
 from ..symbols import swept
 from ..table import table, text_block, words_of
 from ..view import View
-from .scene import CamScene
+from .scene import CamScene, needed
 
 Lines = list[tuple[str, ...]]
 MM = Shown("mm", 1e3)
@@ -51,8 +51,7 @@ def choices_block(scene: CamScene, note: str, width: float) -> View:
 def roller_block(scene: CamScene, width: float) -> View:
     """Return the sizes of the cam for a roller, with the rules for its radius and the transmission angles."""
     solved, words = scene.solved, scene.words
-    roller = solved.roller
-    assert roller is not None
+    roller = needed(solved.roller)
     mm = words.unit("mm")
     sizes = roller.sizes
     legs = [length("e", abs(sizes.e)), length("s_0", sizes.s_0)]
@@ -68,8 +67,7 @@ def roller_block(scene: CamScene, width: float) -> View:
 
 def plate_block(scene: CamScene, width: float) -> View:
     """Return the sizes of the cam for a plate."""
-    words, plate = scene.words, scene.solved.plate
-    assert plate is not None
+    words, plate = scene.words, needed(scene.solved.plate)
     values = scene.solved.values
     lines: Lines = []
     if "r_0_flat_tangent" in values:
@@ -210,8 +208,7 @@ def offsets_line(scene: CamScene) -> list[str]:
 
 def rocker_block(scene: CamScene, width: float) -> View:
     """Return the sizes of the cam for a rocker, with the rules for its roller and the transmission angles."""
-    cam, words = scene.solved.rocker, scene.words
-    assert cam is not None
+    cam, words = needed(scene.solved.rocker), scene.words
     sizes, swing = cam.sizes, cam.rocker.motion.h
     travel = [Input(swing * DEGREES, True, name="psi", times=DEGREES), length("l_rocker", sizes.l, True)]
     given = "l_OC" in scene.givens
