@@ -23,12 +23,10 @@ from kulman.scales.packaged import packaged
 from kulman.variants import reader
 from kulman.variants.checks import basics as checks
 from kulman.variants.checks import cam as checks_cam
-from kulman.variants.checks import driver as checks_driver
-from kulman.variants.checks import gear as checks_gear
 from kulman.variants.checks import givens as checks_givens
-from kulman.variants.checks import hoist as checks_hoist
 from kulman.variants.checks import loads as checks_loads
 from kulman.variants.checks import mechanism as checks_mechanism
+from kulman.variants.kinds import gear, kind
 from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
 from kulman.variants.starter import template
@@ -57,7 +55,7 @@ def keys_read(text: str, monkeypatch: pytest.MonkeyPatch) -> set[str]:
         keys.update(fields)
         return checks.record(checker, path, raw, fields)
 
-    own = (checks_mechanism, checks_driver, checks_loads, checks_cam, checks_gear, checks_hoist)
+    own = (checks_mechanism, checks_loads, checks_cam, kind)
     modules: tuple[ModuleType, ...] = (reader, checks_givens, *own)
     for module in modules:
         monkeypatch.setattr(module, "record", noting)
@@ -98,7 +96,7 @@ def test_the_words_that_a_task_file_may_use_are_named() -> None:
     assert all(f"`{name}`" in NOTATIONS for name in notations())
     plans = (*PLANS, *CAM_PLANS, *GEAR_PLANS, *HOIST_PLANS)
     assert all(f'"{word}"' in TASK_FILE for word in (*plans, *FOLLOWERS, *LAWS, *MATERIALS, *SIDES))
-    assert all(f"`{name}`" in TASK_FILE for name in (*checks_cam.NUMBERS, *checks_gear.NUMBERS, *VALUES))
+    assert all(f"`{name}`" in TASK_FILE for name in (*checks_cam.NUMBERS, *gear.NUMBERS, *VALUES))
 
 
 def test_every_key_of_a_notation_is_explained() -> None:

@@ -13,10 +13,10 @@ from kulman.drawing.hoist.steps import BENT, DRAWN, HANGING, REDUCED, SLACK, STA
 from kulman.drawing.notes.blocks import Equations, Figure, Steps, Table
 from kulman.drawing.words import Words
 from kulman.plans.hoist.forces import forces
+from kulman.plans.hoist.solve import SolvedHoist
 from kulman.plans.laws import form_of
 from kulman.scales.errors import LANGUAGES
 from kulman.variants.case import solve_case
-from kulman.variants.kinds.hoist import hoist
 
 TASK = "karpenko-hoist"
 FORMULAS = (*REDUCED, SLACK, *STARTED, *HANGING, *BENT)
@@ -43,7 +43,7 @@ def test_expressions_that_are_printed_give_the_results(variant: str) -> None:
 def test_numbers_stand_in_the_place_of_letters() -> None:
     case = solve_case(TASK, "V03", None, None, None)
     words = case.kind.lettered(Words.of("en", "nau"), case.solved)
-    scene = HoistScene(hoist(case.solved), words, STYLES["A4"], case.givens, {})
+    scene = HoistScene(SolvedHoist.of(case.solved), words, STYLES["A4"], case.givens, {})
     by_name = {told.name: " ".join(formula(scene, told)) for told in FORMULAS}
     assert by_name["m"] == "m = (G_{1} + G_{2}/3)/g = (32000 + 90/3)/9.81 = 3265 kg (4)"
     assert by_name["R"].endswith("= √((−2534)^{2} + 8241^{2}) = 8622 N")

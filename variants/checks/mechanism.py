@@ -1,12 +1,32 @@
-"""Checking the mechanism of a task: every name is known and of the right dimension, every pair joins what it says."""
+"""Checking the mechanism of a task: names and dimensions, what pairs and driver join, what the structure needs."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from ...plans.linkages.mechanism import FRAME, ZERO, Link, Mechanism, Pair, Prismatic, Revolute, Start, positive
-from ...plans.linkages.structure import analyse
+from ...plans.linkages.mechanism import (
+    BOTH,
+    FORCE,
+    FRAME,
+    MOMENT,
+    WORKING,
+    ZERO,
+    Couple,
+    Diagram,
+    Driver,
+    Link,
+    Load,
+    Mechanism,
+    Pair,
+    Prismatic,
+    Revolute,
+    SlidingDriver,
+    Start,
+    positive,
+)
+from ...plans.linkages.structure import TRIAD, Structure, analyse
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
@@ -14,13 +34,11 @@ from ...scales.units import ONE, unit
 from ..task import Bound
 from ..toml_places import Path
 from .basics import Checker, Field, Read, array_of, link_number, name, on_link, one_of, record, rows
-from .driver import driver_joined, read_driver
 from .loads import loads_joined, output_joined, read_couple, read_diagrams, read_load, read_stroke
 from .names import Names
-from .start import start_fields, starts_joined
-from .structure import place_of
 
-_RAD, _M_S2 = unit("rad"), unit("m/s^2")
+_RAD, _RAD_S, _RAD_S2 = unit("rad"), unit("rad/s"), unit("rad/s^2")
+_M, _M_S, _M_S2 = unit("m"), unit("m/s"), unit("m/s^2")
 _KG, _KG_M2, _KG_M = unit("kg"), unit("kg*m^2"), unit("kg/m")
 
 
@@ -31,7 +49,7 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | N
         "gravity": Field(names.value(_M_S2), required=False),
         "link": Field(_rows(lambda c, p, r: _link(c, p, r, names))),
         "pair": Field(_rows(lambda c, p, r: _pair(c, p, r, names))),
-        "driver": Field(lambda c, p, r: read_driver(c, p, r, names)),
+        "driver": Field(lambda c, p, r: _driver(c, p, r, names)),
         "stroke": Field(lambda c, p, r: read_stroke(c, p, r, names), required=False),
         # before the loads that name them
         "diagram": Field(lambda c, p, r: read_diagrams(c, rows(c, p, r), names), required=False),
@@ -39,7 +57,7 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | N
         "couple": Field(_rows(lambda c, p, r: read_couple(c, p, r, names)), required=False),
     }
     slides = isinstance(raw, dict) and isinstance(raw.get("driver"), dict) and "travel" in raw["driver"]
-    starts = start_fields(names, slides)
+    starts = _start_fields(names, slides)
     kinds["start"] = Field(_rows(lambda c, p, r: record(c, p, r, starts)), required=False)
     read = record(checker, ("mechanism",), raw, kinds)
     if len(checker.faults) > before:
@@ -146,6 +164,40 @@ def _pair(checker: Checker, path: Path, raw: object, names: Names) -> Pair | Non
     return made(**read)
 
 
+def _driver(checker: Checker, path: Path, raw: object, names: Names) -> Driver | SlidingDriver | None:
+    """Read the only driver; it moves. A key `travel` tells one that slides."""
+    if isinstance(raw, list):
+        checker.fault(path, InputError("driver-twice"))
+        return None
+    before = len(checker.faults)
+    slides = isinstance(raw, dict) and "travel" in raw
+    read = record(checker, path, raw, _driver_fields(names, slides))
+    if read.get("speed") == ZERO:
+        checker.fault((*path, "speed"), InputError("is-zero" if slides else "not-positive", text="0"))
+    if len(checker.faults) > before:
+        return None
+    names.bounds.setdefault(read["speed"], Bound.NOT_ZERO if slides else Bound.POSITIVE)
+    return SlidingDriver(**read) if slides else Driver(**read)
+
+
+def _driver_fields(names: Names, slides: bool) -> dict[str, Field]:
+    fields = {"link": Field(link_number), "point": Field(name)}
+    if slides:
+        fields |= {"travel": Field(names.value(_M)), "speed": Field(names.value(_M_S))}
+        return fields | {"acceleration": Field(names.value(_M_S2), required=False)}
+    fields |= {"pivot": Field(name), "angle": Field(names.value(_RAD)), "speed": Field(names.value(_RAD_S))}
+    balance = one_of("balance-unknown", lambda: (MOMENT, FORCE))
+    fields |= {"sense": Field(names.sign), "acceleration": Field(names.value(_RAD_S2), required=False)}
+    return fields | {"balance": Field(balance, required=False)}
+
+
+def _start_fields(names: Names, slides: bool) -> dict[str, Field]:
+    """Return how a start is read; the driver stands at an angle, or at its travel where it `slides`."""
+    place = {"x": Field(names.value(_M)), "y": Field(names.value(_M)), "angle": Field(names.value(_RAD))}
+    legs = {"legs": Field(array_of(link_number, 2), required=False)}
+    return {"link": Field(link_number), **place, "driver": Field(names.value(_M if slides else _RAD)), **legs}
+
+
 def _joined(checker: Checker, mechanism: Mechanism, names: Names) -> None:
     """Check that links, pairs, driver and loads speak of the same numbers and letters."""
     links: dict[int, Mapping[str, object]] = {}
@@ -157,9 +209,9 @@ def _joined(checker: Checker, mechanism: Mechanism, names: Names) -> None:
     for i, pair in enumerate(mechanism.pairs):
         _pair_joined(checker, ("mechanism", "pair", i), pair, links)
     _places_joined(checker, mechanism)
-    driver_joined(checker, mechanism, links)
+    _driver_joined(checker, mechanism, links)
     loads_joined(checker, mechanism, names, links)
-    starts_joined(checker, mechanism, links)
+    _starts_joined(checker, mechanism, links)
     whole = len(checker.faults) == before
     output_joined(checker, mechanism)
     if whole and len(checker.faults) > before:  # else the reader, which constructs it, finds what is wrong
@@ -202,3 +254,88 @@ def _pair_joined(checker: Checker, path: Path, pair: Pair, links: Mapping[int, M
         on_link(checker, path, "point", pair.point, pair.links[0], links)
         if pair.links[1] != FRAME and pair.links[1] not in links:
             checker.fault((*path, "links"), unknown("link-unknown", str(pair.links[1]), map(str, links)))
+
+
+def _driver_joined(checker: Checker, mechanism: Mechanism, links: Mapping[int, Mapping[str, object]]) -> None:
+    """Check that the driver carries its point, and that a crank turns on the frame about another one, its pivot."""
+    driver = mechanism.driver
+    before, path = len(checker.faults), ("mechanism", "driver")
+    on_link(checker, path, "point", driver.point, driver.link, links)
+    if not isinstance(driver, Driver):
+        return
+    on_link(checker, path, "pivot", driver.pivot, driver.link, links)
+    if len(checker.faults) > before:
+        return
+    joints = [pair for pair in mechanism.pairs if isinstance(pair, Revolute) and pair.point == driver.pivot]
+    if not {FRAME, driver.link} <= {number for pair in joints for number in pair.links}:
+        checker.fault((*path, "pivot"), InputError("driver-pivot", text=driver.pivot, link=driver.link))
+    elif driver.point == driver.pivot:
+        checker.fault((*path, "point"), InputError("driver-point", text=driver.point))
+
+
+def _starts_joined(checker: Checker, mechanism: Mechanism, links: Mapping[int, object]) -> None:
+    """Check that the starts are those of different links."""
+    seen: dict[int, Path] = {}
+    for i, start in enumerate(mechanism.starts):
+        path: Path = ("mechanism", "start", i, "link")
+        if start.link not in links:
+            checker.fault(path, unknown("link-unknown", str(start.link), map(str, links)))
+        elif start.link in seen:
+            checker.twice(path, start.link, seen[start.link])
+        seen.setdefault(start.link, path)
+
+
+def started(checker: Checker, mechanism: Mechanism, structure: Structure) -> None:
+    """Check that only central links have a start."""
+    central = [group.central for group in structure.groups if group.kind == TRIAD]
+    for i, start in enumerate(mechanism.starts):
+        if start.link not in central:
+            known = ", ".join(map(str, central))
+            error = InputError("start-leg" if central else "start-link", link=start.link, known=known)
+            checker.fault(("mechanism", "start", i, "link"), error)
+
+
+def place_of(mechanism: Mechanism, error: InputError) -> Path:
+    """Return where an error of the structure shows: the load or the first link that it names, or the point."""
+    loads: dict[str, Sequence[Load | Couple | Diagram]] = {
+        "load": mechanism.loads,
+        "couple": mechanism.couples,
+        "diagram": mechanism.diagrams,
+    }
+    for kind, acting in loads.items():
+        for i, row in enumerate(acting):
+            timed = getattr(row, "stroke", WORKING) != BOTH  # all diagrams over a stroke are
+            if row.name == error.data.get("name") or (timed and error.key == "stroke-missing"):
+                return "mechanism", kind, i
+    named = re.search("[0-9]+", str(error.data.get("link", error.data.get("links", ""))).replace("0, ", "", 1))
+    for i, link in enumerate(mechanism.links):
+        if named and link.number == int(named[0]):
+            return "mechanism", "link", i
+    point = error.data.get("name", error.data.get("point"))
+    holders = [i for i, link in enumerate(mechanism.links) if point in link.points]
+    return ("mechanism", "link", holders[-1], "points", str(point)) if holders else ("mechanism",)
+
+
+def branched(checker: Checker, mechanism: Mechanism, structure: Structure) -> None:
+    """Check that every dyad of three revolute pairs says on which side its inner pair lies."""
+    for group in structure.groups:
+        if group.kind == "RRR" and group.inner[0].branch is None:
+            point = group.inner[0].point
+            number = next(i for i, p in enumerate(mechanism.pairs) if isinstance(p, Revolute) and p.point == point)
+            ends = sorted(zip(group.links, group.outer, strict=True))
+            data = {"links": ", ".join(map(str, sorted(group.links))), "point": point}
+            error = InputError("branch-missing", start=ends[0][1].point, end=ends[1][1].point, **data)
+            checker.fault(("mechanism", "pair", number), error)
+
+
+def needless_branches(checker: Checker, mechanism: Mechanism, structure: Structure) -> None:
+    """Check that only pairs at which there are two ways to go on say which is meant."""
+    pins = {group.inner[0].point for group in structure.groups if group.kind == "RRR"}
+    two_ways = [group for group in structure.groups if group.kind in ("RRP", "RPR")]
+    triads = {pair.point for group in structure.groups if group.kind == TRIAD for pair in (*group.inner, *group.outer)}
+    guides = [pair for group in two_ways for pair in (*group.inner, *group.outer) if isinstance(pair, Prismatic)]
+    for i, pair in enumerate(mechanism.pairs):
+        meant = pair.point in pins if isinstance(pair, Revolute) else pair in guides
+        if pair.branch is not None and not meant:
+            error = InputError("branch-triad" if pair.point in triads else "branch-needless", point=pair.point)
+            checker.fault(("mechanism", "pair", i, "branch"), error)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from ...plans.cams.cam import DIAGRAMS_PART, PLANS, PLATE, PROFILE_PART, ROCKER, Cam
 from ...plans.check import AT_LEAST, AT_MOST, Check
-from ...scales.choose import Choosers
 from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.names import unknown
@@ -17,7 +16,7 @@ from ...scales.scale import Scale
 from ...scales.units import unit
 from ..checks.cam import NUMBERS, WORDS, impossible, read_cam
 from ..task import Given, Task
-from .kind import Kind, first_of
+from .kind import Sized
 
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
     from ...drawing.words import Words
     from ...plans.cams.profile import PlateProfile, RollerProfile
     from ...plans.cams.solve import SolvedCam
-    from ...plans.condition import Condition
     from ...plans.hands.hand import Tolerance
     from ...plans.hands.shaky import Paper
     from ...plans.marking.key import Question
@@ -42,13 +40,6 @@ PER_MM, MILLI = 1e-3, 1e3
 AXES = ("diagram_a", "diagram_v", "diagram_s")  # the plans of the diagrams on one axis of angles
 # what is not asked: the stroke, which is given, and what should be nothing
 UNASKED = ("s_max", "s_close", "v_close")
-HEADINGS = {  # of the sections of a list of quantities
-    "diagrams": "heading.cam_diagrams",
-    "chords": "heading.cam_chords",
-    "roller": "heading.cam_roller",
-    "plate": "heading.cam_plate",
-    "profile": "heading.cam_profiles",
-}
 # of numbers that hardly any cam has: by SI unit the end of the key of the message, and the unit in it
 UNUSUAL = {
     "": ("part", ""),
@@ -63,10 +54,11 @@ REDUCED_TO = 6  # decimals of the part of their lengths at which diagrams are dr
 RULES = ("roller_of_radius", "roller_of_curvature", "gamma_rise", "gamma_fall")  # checks that are told when they fail
 
 
-class Cams(Kind[Cam, "SolvedCam"]):
+class Cams(Sized[Cam, "SolvedCam"]):
     """Disk cams with translating roller and flat-faced followers, or with a rocker."""
 
     table, plans, choosing = "cam", PLANS, WORDS
+    room, symbols = "cams", SYMBOLS
     display = Display(size="mm", angle="deg")
     names = frozenset((*NUMBERS, *WORDS))
     segments = False
@@ -111,24 +103,6 @@ class Cams(Kind[Cam, "SolvedCam"]):
             for error in impossible({**values, "r_0": solved.values["r_0"]}):
                 raise error
         return solved
-
-    def scale_symbols(self, solved: SolvedCam) -> tuple[str, ...]:
-        """Return the symbols of the scale factors that may be chosen."""
-        return SYMBOLS
-
-    def first_scales(
-        self, solved: SolvedCam, choosers: Choosers, plans: tuple[str, ...]
-    ) -> tuple[Format, dict[str, Scale]]:
-        """Return format and scale factors by plan: those of the diagrams follow from the construction."""
-        from ...drawing.cams.ladders import first_scales
-
-        return first_scales(solved, choosers, plans)
-
-    def conditions(self, case: Case) -> dict[str, Condition]:
-        """Return the condition of every quantity."""
-        from ...plans.cams.conditions import conditions_of
-
-        return conditions_of(cam(case.solved))
 
     def warnings(self, solved: SolvedCam) -> tuple[InputError, ...]:
         """Tell what is unusual, which rules are broken, and where a profile does not give the motion, or cannot."""
@@ -187,13 +161,9 @@ class Cams(Kind[Cam, "SolvedCam"]):
         chosen = (symbol for symbol in SYMBOLS if symbol in solved.scale_of_plan.values())
         return listed((*chosen, *solved.quantities), plans)
 
-    def headings(self, solved: SolvedCam, words: Words) -> dict[str, str]:
-        """Return the headings of diagrams, chords, sizes, profiles."""
-        from ...plans.cams.sections import ROLLER, section_of
-
-        first = first_of(self.listed(solved, self.plans), section_of)
-        keys = HEADINGS | ({ROLLER: "heading.cam_rocker"} if solved.rocker is not None else {})
-        return {name: words[keys[section]] for section, name in first.items()}
+    def _headed(self, solved: SolvedCam, section: str) -> str:
+        named = {"profile": "profiles"} | ({"roller": "rocker"} if solved.rocker is not None else {})
+        return named.get(section, section)
 
     def asks(self, solved: SolvedCam, question: Question) -> bool:
         """Ask for what is found, not for what is given, nor by how much a drawing does not close."""
@@ -219,16 +189,13 @@ class Cams(Kind[Cam, "SolvedCam"]):
         """Return the heading of a plan, as the sheet has it."""
         if plan == PROFILE_PART and solved.rocker is not None:
             return words["heading.cam_rocker_profile"]
-        return words[f"heading.cam_{DIAGRAMS_PART if plan in AXES else plan}"]
+        return super().plan_heading(solved, DIAGRAMS_PART if plan in AXES else plan, words)
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a cam."""
         from ...drawing.cams.sheet import CamFitting
-        from ...drawing.contents import SheetContents
 
-        note = case.task.note_in(words.language)
-        contents = SheetContents(cam(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
-        return CamFitting(contents).draw(paper)
+        return CamFitting(self.contents(case, words, norm)).draw(paper)
 
     def fitted(self, solved: SolvedCam, drawn: Drawn) -> tuple[SolvedCam, tuple[InputError, ...]]:
         """Return the cam with diagrams as small as the format has room for, and with what lengths these are drawn."""
@@ -253,30 +220,17 @@ class Cams(Kind[Cam, "SolvedCam"]):
         from ...drawing.cams.steps import story
         from ...drawing.formats import STYLES
         from ...plans.cams.integration import TRAVEL
-        from ...plans.cams.solve import reduced
+        from ...plans.cams.solve import SolvedCam, reduced
 
-        solved = cam(case.solved)
+        solved = SolvedCam.of(case.solved)
         part = round(float(solved.values["mu_s"]) / scales[TRAVEL].mu, REDUCED_TO)
         mus = {scale.symbol: scale.mu for scale in scales.values() if scale.symbol in SYMBOLS}
         drawn = reduced(solved, part)
         scene = CamScene(drawn, self.lettered(words, solved), STYLES["A4"], case.givens, mus, part)
         return story(scene, texts)
 
-    def lettered(self, words: Words, solved: SolvedCam) -> Words:
-        """Return the words with the letters of a cam's quantities."""
-        from ...drawing.cams.scene import lettered
-
-        return lettered(words)
-
 
 KIND = Cams()
-
-
-def cam(solved: Any) -> SolvedCam:
-    """Return what has been solved as the cam that it is."""
-    from ...plans.cams.solve import SolvedCam
-
-    return SolvedCam.of(solved)
 
 
 def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlateProfile]]:

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from ...plans.check import Check
 from ...plans.gears.checks import rule_of
-from ...plans.gears.gear import MODULES, PLANS, GearPair
+from ...plans.gears.gear import MATERIALS, MODULES, PLANS, ROTATIONS, SHIFTS, STANDARD, VALUES, GearPair
 from ...plans.gears.limits import impossible
-from ...scales.choose import Choosers
 from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.scale import Scale
-from ..checks.gear import KNOWN, read_gear
-from ..task import Given, Task
-from .kind import Kind, check_scales, first_of
+from ..checks.basics import Checker
+from ..checks.names import Names, Number
+from ..task import Bound, Given, Task
+from .kind import Sized
 
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
@@ -25,15 +25,12 @@ if TYPE_CHECKING:
     from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
     from ...drawing.words import Words
-    from ...plans.condition import Condition
     from ...plans.gears.solve import SolvedGear
     from ...plans.hands.hand import Tolerance
     from ...plans.hands.shaky import Paper
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
-    from ..checks.basics import Checker
-    from ..checks.names import Names
 
 RULES = {  # checks that are told when they fail
     "undercut": "gear-rule-undercut",
@@ -44,14 +41,25 @@ RULES = {  # checks that are told when they fail
 }
 BROKEN = {"contact_ratio": "gear-rule-broken", "contact_flanks": "gear-rule-flanks-broken"}  # of less than one pair
 IN_LENGTHS = ("interference", "tip")
-SYMBOLS = ("mu_l",)  # the scale factors of the diagrams are found, or given
+NUMBERS = {
+    "m": Number(),
+    "z_1": Number(),
+    "z_2": Number(),
+    **dict.fromkeys(SHIFTS, Number(Bound.FREE, needed=False)),
+    "a_w": Number(needed=False),
+    **{name: Number(default=usual) for name, usual in STANDARD.items()},
+    "c": Number(Bound.NOT_NEGATIVE, default=STANDARD["c"]),
+}
 
 
-class Gears(Kind[GearPair, "SolvedGear"]):
+class Gears(Sized[GearPair, "SolvedGear"]):
     """External pairs of involute spur gears cut by a standard rack."""
 
     table, plans = "gear", PLANS
-    choosing = tuple(KNOWN)
+    room, made, numbers, units = "gears", GearPair, NUMBERS, VALUES
+    known: ClassVar[Mapping[str, tuple[str, ...]]] = {"rotation": ROTATIONS, "material": MATERIALS}
+    choosing = tuple(known)
+    symbols = ("mu_l",)  # the scale factors of the diagrams are found, or given
     judged = "heading.gear_checks"
     pages = 2  # the meshing at 5:1 fills one
     rows: ClassVar[Mapping[str, tuple[float, ...]]] = {"m": MODULES}
@@ -63,12 +71,12 @@ class Gears(Kind[GearPair, "SolvedGear"]):
     )
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> GearPair | None:
-        """Read `[gear]`."""
-        return read_gear(checker, raw, names, givens)
-
-    def fits(self, checker: Checker, subject: GearPair, head: Mapping[str, Any]) -> None:
-        """Check that the scale factors are those that may be chosen."""
-        check_scales(checker, head, SYMBOLS)
+        """Read `[gear]`; what of the rack is shifted must be said."""
+        pair = super().read(checker, raw, names, givens)
+        if {*SHIFTS}.intersection(names.dimensions):
+            return pair
+        checker.fault(("givens",), InputError("gear-shifts", given="-"))
+        return None
 
     def varies(self, checker: Checker, task: Task) -> None:
         """Check that every variant is one of a pair."""
@@ -98,24 +106,6 @@ class Gears(Kind[GearPair, "SolvedGear"]):
 
         return solve_gear(subject.chosen(words), values, plans)
 
-    def scale_symbols(self, solved: SolvedGear) -> tuple[str, ...]:
-        """Return the symbols of the scale factors that may be chosen."""
-        return SYMBOLS
-
-    def first_scales(
-        self, solved: SolvedGear, choosers: Choosers, plans: tuple[str, ...]
-    ) -> tuple[Format, dict[str, Scale]]:
-        """Return format and scale factors by plan: those of the diagrams are known before."""
-        from ...drawing.gears.ladders import first_scales
-
-        return first_scales(solved, choosers, plans)
-
-    def conditions(self, case: Case) -> dict[str, Condition]:
-        """Return the condition of every quantity."""
-        from ...plans.gears.conditions import conditions_of
-
-        return conditions_of(gear(case.solved))
-
     def warnings(self, solved: SolvedGear) -> tuple[InputError, ...]:
         """Tell which limits are not kept, and of teeth that are pointed."""
         found = []
@@ -135,35 +125,15 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         """Return what the pair is judged by: the compared value, its limit, how they have to stand, SI."""
         return solved.checks
 
-    def headings(self, solved: SolvedGear, words: Words) -> dict[str, str]:
-        """Return the headings of the sections of the note."""
-        from ...plans.gears.sections import section_of
-
-        first = first_of(solved.quantities, section_of)
-        return {name: words[f"heading.gear_{section}"] for section, name in first.items()}
-
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a pair."""
-        from ...drawing.contents import SheetContents
         from ...drawing.gears.sheet import GearFitting
 
-        note = case.task.note_in(words.language)
-        contents = SheetContents(gear(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
-        return GearFitting(contents).draw(paper)
+        return GearFitting(self.contents(case, words, norm)).draw(paper)
 
     def asks(self, solved: SolvedGear, question: Question) -> bool:
         """Ask not for what is given, nor for ordinates that are nothing or PW by construction."""
         return question.name not in solved.givens and question.step.operands != ("_zero",)
-
-    def section(self, solved: SolvedGear, question: Question, current: str) -> str:
-        """Return the section of a question: that of the note."""
-        from ...plans.gears.sections import section_of
-
-        return section_of(question.name)
-
-    def plan_heading(self, solved: SolvedGear, plan: str, words: Words) -> str:
-        """Return the heading of a section, or of a plan, as the sheet has it."""
-        return words[f"heading.gear_{plan}"]
 
     def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what is drawn of the tables; drawings have stages."""
@@ -181,8 +151,9 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         """Return the pair with its letters, for what is said of it: no scale factor counts there."""
         from ...drawing.formats import STYLES
         from ...drawing.gears.scene import GearScene
+        from ...plans.gears.solve import SolvedGear
 
-        solved = gear(case.solved)
+        solved = SolvedGear.of(case.solved)
         return GearScene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, 1.0, 1.0, 1.0)
 
     def limits(self, drawn: SolvedGear, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
@@ -191,21 +162,8 @@ class Gears(Kind[GearPair, "SolvedGear"]):
 
         return tolerances_of(drawn, paper, tolerance)
 
-    def lettered(self, words: Words, solved: SolvedGear) -> Words:
-        """Return the words with the letters of a pair's quantities."""
-        from ...drawing.gears.scene import lettered
-
-        return lettered(words)
-
 
 KIND = Gears()
-
-
-def gear(solved: Any) -> SolvedGear:
-    """Return what has been solved as the pair that it is."""
-    from ...plans.gears.solve import SolvedGear
-
-    return SolvedGear.of(solved)
 
 
 def _millimetres(length: float) -> str:

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, ClassVar
 
 from ...plans.check import Check
-from ...plans.hoist.hoist import DRAWN, PLANS, Hoist
+from ...plans.hoist.hoist import DRAWN, MAY_BE_RIGID, NOT_NEGATIVE, PARTS, PLANS, SIDES, USUAL, VALUES, Hoist
 from ...plans.names import role
-from ...scales.choose import Choosers
 from ...scales.errors import InputError
 from ...scales.scale import Scale
-from ..checks.hoist import KNOWN, read_hoist
-from ..task import Given, Task
-from .kind import Kind, check_scales, first_of
+from ..checks.names import Number
+from ..task import Bound, Task
+from .kind import Sized
 
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
@@ -23,7 +22,6 @@ if TYPE_CHECKING:
     from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
     from ...drawing.words import Words
-    from ...plans.condition import Condition
     from ...plans.hands.hand import Tolerance
     from ...plans.hands.shaky import Paper
     from ...plans.hoist.solve import SolvedHoist
@@ -31,7 +29,6 @@ if TYPE_CHECKING:
     from ...plans.quantities import Quantity
     from ..case import Case
     from ..checks.basics import Checker
-    from ..checks.names import Names
 
 UNASKED = ("s_min", "t_P12_max")
 RULES = {  # what is told of a check that fails
@@ -40,22 +37,23 @@ RULES = {  # what is told of a check that fails
     "support": "hoist-rule-support",
     "strength": "hoist-rule-strength",
 }
-SYMBOLS = ("mu_l", "mu_F_circle")  # scale factors that may be chosen; those of the diagrams are found
+BOUNDS = {
+    **dict.fromkeys(VALUES, Bound.POSITIVE),
+    **dict.fromkeys(NOT_NEGATIVE, Bound.NOT_NEGATIVE),
+    **dict.fromkeys(PARTS, Bound.UP_TO_HALF),
+    **dict.fromkeys(MAY_BE_RIGID, Bound.RIGID),
+}
+NUMBERS = {name: Number(BOUNDS[name], default=USUAL.get(name)) for name in VALUES}
 
 
-class Hoists(Kind[Hoist, "SolvedHoist"]):
+class Hoists(Sized[Hoist, "SolvedHoist"]):
     """Loads that a rope takes off a beam, wound up on another beam."""
 
     table, plans = "hoist", PLANS
-    choosing = tuple(KNOWN)
-
-    def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Hoist | None:
-        """Read `[hoist]`."""
-        return read_hoist(checker, raw, names, givens)
-
-    def fits(self, checker: Checker, subject: Hoist, head: Mapping[str, Any]) -> None:
-        """Check that the scale factors are those that may be chosen."""
-        check_scales(checker, head, SYMBOLS)
+    room, sectioned, made, numbers, units = "hoist", "model", Hoist, NUMBERS, VALUES
+    known: ClassVar[Mapping[str, tuple[str, ...]]] = {"near_0": SIDES, "near_2": SIDES}
+    choosing = tuple(known)
+    symbols = ("mu_l", "mu_F_circle")  # those of the diagrams are found
 
     def varies(self, checker: Checker, task: Task) -> None:
         """Check that every variant moves its load."""
@@ -81,25 +79,6 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
 
         return solve_hoist(subject.chosen(words), values, plans)
 
-    def scale_symbols(self, solved: SolvedHoist) -> tuple[str, ...]:
-        """Return the symbols of the scale factors that may be chosen."""
-        return SYMBOLS
-
-    def first_scales(
-        self, solved: SolvedHoist, choosers: Choosers, plans: tuple[str, ...]
-    ) -> tuple[Format, dict[str, Scale]]:
-        """Return format and scale factors by plan: those of the diagrams are known before."""
-        from ...drawing.hoist.ladders import first_scales
-
-        return first_scales(solved, choosers, plans)
-
-    def conditions(self, case: Case) -> dict[str, Condition]:
-        """Return the condition of every quantity."""
-        from ...plans.hoist.conditions import conditions_of  # needs numpy
-        from ...plans.hoist.solve import SolvedHoist
-
-        return conditions_of(SolvedHoist.of(case.solved))
-
     def warnings(self, solved: SolvedHoist) -> tuple[InputError, ...]:
         """Tell where the formulas are not valid, and of a rope that is not strong enough."""
         found = []
@@ -117,13 +96,6 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         """
         return solved.forces.checks
 
-    def headings(self, solved: SolvedHoist, words: Words) -> dict[str, str]:
-        """Return the headings of the sections of the note."""
-        from ...plans.hoist.model import section_of
-
-        first = first_of(solved.quantities, section_of)
-        return {name: words[f"heading.hoist_{section}"] for section, name in first.items()}
-
     def asks(self, solved: SolvedHoist, question: Question) -> bool:
         """Ask for what is calculated rather than for what a drawing gives in its place, and for no check."""
         return role(question.name).part != DRAWN and question.name not in UNASKED
@@ -133,16 +105,6 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         from ...plans.hoist.conditions import tolerances_of
 
         return tolerances_of(drawn, tolerance)
-
-    def section(self, solved: SolvedHoist, question: Question, current: str) -> str:
-        """Return the section of a question: that of the note."""
-        from ...plans.hoist.model import section_of
-
-        return section_of(question.name)
-
-    def plan_heading(self, solved: SolvedHoist, plan: str, words: Words) -> str:
-        """Return the heading of a section, or of a plan, as the sheet has it."""
-        return words[f"heading.hoist_{plan}"]
 
     def fitted(self, solved: SolvedHoist, drawn: Drawn) -> tuple[SolvedHoist, tuple[InputError, ...]]:
         """Return the hoist with diagrams as small as the format has room for, and tell how small that is."""
@@ -175,25 +137,16 @@ class Hoists(Kind[Hoist, "SolvedHoist"]):
         """Return the hoist with its letters, for what is said of it: no scale factor counts there."""
         from ...drawing.formats import STYLES
         from ...drawing.hoist.scene import HoistScene
+        from ...plans.hoist.solve import SolvedHoist
 
-        solved = hoist(case.solved)
+        solved = SolvedHoist.of(case.solved)
         return HoistScene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, {})
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a hoist."""
-        from ...drawing.contents import SheetContents
         from ...drawing.hoist.sheet import HoistFitting
 
-        note = case.task.note_in(words.language)
-        contents = SheetContents(hoist(case.solved), case.plans, case.choosers, case.givens, words, norm, note=note)
-        return HoistFitting(contents).draw(paper)
+        return HoistFitting(self.contents(case, words, norm)).draw(paper)
 
 
 KIND = Hoists()
-
-
-def hoist(solved: Any) -> SolvedHoist:
-    """Return what has been solved as the hoist that it is."""
-    from ...plans.hoist.solve import SolvedHoist
-
-    return SolvedHoist.of(solved)

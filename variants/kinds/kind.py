@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
@@ -16,11 +16,15 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.scale import Scale
+from ..checks.basics import Checker, Field, record
+from ..checks.givens import word_or_choice
+from ..checks.names import Names, Number, check_numbers
 from ..task import Given, Instead, Task
 from . import MODULES
 
 if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...drawing.compose import Drawn
+    from ...drawing.contents import SheetContents
     from ...drawing.formats import Format
     from ...drawing.handouts import Shown
     from ...drawing.notes.blocks import Story
@@ -33,8 +37,6 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...plans.quantities import Quantity
     from ..case import Case
     from ..charts.data import Gallery
-    from ..checks.basics import Checker
-    from ..checks.names import Names
     from ..sweeps.sweeps import SweepRequest, Swept
 
 TRIED_FOR = 1.3  # seconds of processor time in which a file is read and its variants are tried
@@ -282,20 +284,88 @@ class Kind(ABC, Generic[Subject, Answer]):
         return {}
 
 
-def first_of(names: Iterable[str], section_of: Callable[[str], str]) -> dict[str, str]:
-    """Return the first of the `names` in every section, by section, in their order.
+class Sized(Kind[Subject, Answer]):
+    """A kind whose subjects are described by words, and by numbers that all have names: cams, gear pairs, hoists.
 
-    >>> first_of(("r_0", "s", "r_1"), lambda name: name[0])
-    {'r': 'r_0', 's': 's'}
+    `room` is the folder of its plans and of its drawings, in which modules and functions of one use are called alike.
     """
-    first: dict[str, str] = {}
-    for name in names:
-        first.setdefault(section_of(name), name)
-    return first
 
+    room: ClassVar[str]
+    sectioned: ClassVar[str] = "sections"  # the module of its plans that says in which section a quantity stands
+    symbols: ClassVar[tuple[str, ...]]  # of the scale factors that may be chosen
+    made: ClassVar[type]
+    known: ClassVar[Mapping[str, tuple[str, ...]]]  # what the keys of the table may say, or what choices between may
+    numbers: ClassVar[Mapping[str, Number]]
+    units: ClassVar[Mapping[str, str]]  # of the numbers, SI
 
-def check_scales(checker: Checker, head: Mapping[str, Any], known: tuple[str, ...]) -> None:
-    """Check that a file chooses no scale factors but those that are `known`."""
-    for name in head.get("scales", {}):
-        if name not in known:
-            checker.fault(("scales", name), unknown("scale-unknown", name, known, task=head.get("id", "")))
+    def _in(self, layer: str, module: str) -> Any:
+        """Return a module of this kind's plans or drawings; most need numpy."""
+        return import_module(f"...{layer}.{self.room}.{module}", __package__)
+
+    def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Subject | None:
+        """Read the table, and hold the numbers of the task against those that such a subject has."""
+        before = len(checker.faults)
+        fields = {key: Field(word_or_choice(known, givens), required=False) for key, known in self.known.items()}
+        read = record(checker, (self.table,), raw, fields)
+        check_numbers(checker, names, self.numbers, self.units, f"{self.table}-number-unknown")
+        if len(checker.faults) > before:
+            return None
+        subject: Subject = self.made(**read)
+        return subject
+
+    def fits(self, checker: Checker, subject: Subject, head: Mapping[str, Any]) -> None:
+        """Check that the scale factors are those that may be chosen."""
+        for name in head.get("scales", {}):
+            if name not in self.symbols:
+                checker.fault(("scales", name), unknown("scale-unknown", name, self.symbols, task=head.get("id", "")))
+
+    def scale_symbols(self, solved: Answer) -> tuple[str, ...]:
+        """Return the symbols of the scale factors that may be chosen."""
+        return self.symbols
+
+    def first_scales(
+        self, solved: Answer, choosers: Choosers, plans: tuple[str, ...]
+    ) -> tuple[Format, dict[str, Scale]]:
+        """Return format and scale factors by plan; those of diagrams follow from the construction."""
+        found: tuple[Format, dict[str, Scale]] = self._in("drawing", "ladders").first_scales(solved, choosers, plans)
+        return found
+
+    def conditions(self, case: Case) -> dict[str, Condition]:
+        """Return the condition of every quantity."""
+        found: dict[str, Condition] = self._in("plans", "conditions").conditions_of(case.solved)
+        return found
+
+    def contents(self, case: Case, words: Words, norm: Norm) -> SheetContents[Any]:
+        """Return what stands on the sheet of a case."""
+        from ...drawing.contents import SheetContents
+
+        note = case.task.note_in(words.language)
+        return SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm, note=note)
+
+    def _section_of(self, name: str) -> str:
+        section: str = self._in("plans", self.sectioned).section_of(name)
+        return section
+
+    def headings(self, solved: Answer, words: Words) -> dict[str, str]:
+        """Return the headings of the sections of the note, each by its first quantity."""
+        first: dict[str, str] = {}
+        for name in self.listed(solved, self.plans):
+            first.setdefault(self._section_of(name), name)
+        return {name: words[f"heading.{self.table}_{self._headed(solved, section)}"] for section, name in first.items()}
+
+    def _headed(self, solved: Answer, section: str) -> str:
+        """Return what the heading of a section of the note is called."""
+        return section
+
+    def section(self, solved: Answer, question: Question, current: str) -> str:
+        """Return the section of a question: that of the note."""
+        return self._section_of(question.name)
+
+    def plan_heading(self, solved: Answer, plan: str, words: Words) -> str:
+        """Return the heading of a section, or of a plan, as the sheet has it."""
+        return words[f"heading.{self.table}_{plan}"]
+
+    def lettered(self, words: Words, solved: Answer) -> Words:
+        """Return the words with the letters of the subject's quantities."""
+        found: Words = self._in("drawing", "scene").lettered(words)
+        return found

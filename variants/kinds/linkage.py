@@ -23,9 +23,7 @@ from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.scale import Scale
 from ..checks.loads import diagrams_in_order
-from ..checks.mechanism import read_mechanism
-from ..checks.start import started
-from ..checks.structure import branched, needless_branches, place_of
+from ..checks.mechanism import branched, needless_branches, place_of, read_mechanism, started
 from ..marking.wording import letter, texts
 from ..task import Given, Task
 from .kind import Kind
