@@ -135,8 +135,8 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
     canvas.part("pitch")
     top = division.top
     pivot = scene.mm(f"{PROFILE}.A{top}")
-    swing, low = cam.rocker.motion.h, -solved.cam.sense * float(solved.angles[top])
-    rays = polar(scene.drawn(sizes.l), low), polar(scene.drawn(sizes.l), low + swing)
+    low = -solved.cam.sense * float(solved.angles[top])
+    rays = polar(scene.drawn(sizes.l), low), scene.mm(f"{PROFILE}.B{top}") - pivot
     for ray in rays:
         canvas.add(Line(pivot, pivot + ray, Pen.THIN, role="rocker", name=str(top)))
     angle(canvas, pivot, rays, 0.4 * abs(rays[0]), "psi", words.symbol("psi"), clear=0.8)
@@ -149,11 +149,7 @@ def _sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
 def _lettered(scene: CamScene) -> list[str]:
     """Return the numbers of what has only a letter in the figure."""
     cam, words = needed(scene.solved.rocker), scene.words
-    lengths = {
-        "l_rocker": cam.sizes.l,
-        "R_roller": cam.profile.R,
-        "rho_min": cam.profile.rho_min,
-    }
+    lengths = {"l_rocker": cam.sizes.l, "R_roller": cam.profile.R, "rho_min": cam.profile.rho_min}
     said = [f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size)]
     return [*said, f"{words.symbol('psi')} = {scene.degrees(cam.rocker.motion.h)}"]
 

@@ -66,12 +66,16 @@ def _applied(tree: ast.Module, turns: bool) -> Iterator[str]:
 
 
 def _multiplied(function: ast.FunctionDef) -> Iterator[str]:
-    """Go through products and quotients of two things that are read."""
+    """Go through products and quotients of two things that are read, and through roots of the sum of their squares."""
     names = _read_names(function)
     for node in ast.walk(function):
         product = isinstance(node, ast.BinOp) and isinstance(node.op, PRODUCTS)
         if product and _is_read(node.left, names) and _is_read(node.right, names):
             yield f"{node.lineno}: {ast.unparse(node)}"
+        match node:
+            case ast.Call(func=ast.Name(id="abs"), args=[ast.Call(func=ast.Name(id="complex"), args=[a, b])]):
+                if _is_read(a, names) and _is_read(b, names):
+                    yield f"{node.lineno}: {ast.unparse(node)}"
 
 
 def _read_names(function: ast.FunctionDef) -> set[str]:
@@ -126,6 +130,7 @@ def test_views_compute_nothing_that_is_not_a_mark(path: Path) -> None:
         "from math import hypot",
         "from cmath import phase",
         "def view(scene):\n    return LAWS['ratio'](1.0, 2.0)",
+        "def view(scene):\n    return abs(complex(scene.size('e'), scene.size('s_0')))",
         "def view(scene):\n    return polar(3.0, scene.size('phi'))",
         "def view(scene):\n    return swept(scene.mm('A'), 1j)",
         "def view(scene):\n    return scene.size('L') / scene.scale('mu_l').mu",
