@@ -94,7 +94,7 @@ def _table(shape: Shape, view: View, shown: Shown) -> Shape:
     """Leave out what a table answers: all cells but the head, the first column and that of units, or whole rows."""
     if not isinstance(shape, Group) or shape.role != "table":
         return shape
-    places = [(row, column, end) for row, line in enumerate(view.rows) for column, end, _ in cells(line)]
+    places = [(row, column, end) for row, line in enumerate(view.rows) for column, end, text in cells(line) if text]
     texts = iter(places)
     width = _width(view.rows[0])
     last = -1 if any(NUMBER.match(row[-1] or "") for row in view.rows[1:]) else width

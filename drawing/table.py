@@ -36,18 +36,20 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
         shapes += (Line(complex(x, levels[j]), complex(x, levels[k]), pen) for j, k in _ruled(rows, i))
     for j, (row, (top, bottom)) in enumerate(zip(rows, spans, strict=True)):
         baseline = (levels[j] + levels[j + 1] - top - bottom) / 2
-        for i, end, cell in cells(row):
-            middle = (edges[i] + edges[end]) / 2
-            shapes.append(Text(complex(middle, baseline), cell, h, "middle", role="cell"))
+        shapes += (
+            Text(complex((edges[i] + edges[end]) / 2, baseline), cell, h, "middle", role="cell")
+            for i, end, cell in cells(row)
+            if cell
+        )
     view = _view(name, heading, shapes, (0.0, -height, edges[-1], 0.0), style, role="table")
     return replace(view, rows=tuple(tuple(row) for row in rows))
 
 
 def cells(row: Row) -> Iterator[tuple[int, int, str]]:
-    """Go through the cells of a row with text: the columns where they begin and before which they end."""
+    """Go through the cells of a row: the columns where they begin and before which they end, and their text."""
     for i, cell in enumerate(row):
-        if cell:
-            yield i, next((k for k in range(i + 1, len(row)) if row[k] is not None), len(row)), cell
+        if cell is not None or i == 0:
+            yield i, next((k for k in range(i + 1, len(row)) if row[k] is not None), len(row)), cell or ""
 
 
 def _widths(rows: Sequence[Row], h: float) -> list[float]:

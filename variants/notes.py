@@ -9,9 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..drawing.compose import Drawn
-from ..drawing.notes.blocks import Block, Document, Figure, Heading, Sentences, Steps, TitlePage, blocks_of
+from ..drawing.notes.blocks import Block, Document, Figure, Heading, Sentences, Steps, TitlePage, blocks_of, figure_page
 from ..drawing.notes.docx import docx_bytes
-from ..drawing.notes.figures import figure_page
 from ..drawing.notes.markdown import markdown
 from ..drawing.notes.typst import pdf_bytes
 from ..drawing.text import escape

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from ..page import extent
-from ..shapes import Text
+from ..page import Page, extent
+from ..shapes import Text, shifted
+from ..svg import svg_text
 from ..view import View
 
 FOLDED, FOLDED_ROOM = "A3", (267.0, 340.0)  # the sheet of a figure that is too large, and its room there, mm
@@ -154,3 +155,20 @@ def _bare(view: View) -> View:
     shapes = tuple(shape for shape in view.shapes if not (isinstance(shape, Text) and shape.role == "heading"))
     x0, y0, x1, y1 = extent(shapes)
     return replace(view, shapes=shapes, box=(x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
+
+
+def figure_page(figure: Figure, language: str) -> Page:
+    """Return a page as large as the figure."""
+    x0, y0, x1, y1 = figure.view.box
+    shapes = tuple(shifted(shape, complex(-x0, -y0)) for shape in figure.view.shapes)
+    return Page(x1 - x0, y1 - y0, shapes, figure.caption, language)
+
+
+def figure_svg(figure: Figure, language: str) -> bytes:
+    """Return the figure as SVG for a reader that has its font."""
+    return svg_text(figure_page(figure, language), with_font=False).encode("utf-8", "replace")
+
+
+def reduced(said: dict[str, str], share: float) -> tuple[str, ...]:
+    """Say by how much a figure that has this share of its size is smaller than on the sheet, if it is."""
+    return (said["figure.reduced"].format(part=round(100.0 * share)),) if share < 1.0 else ()

@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Iterable, Sequence
+from functools import cache, lru_cache
 from importlib.util import find_spec
 from io import BytesIO
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...scales.errors import InputError
 from ...scales.packaged import home, packaged
+from ..font import font
 from ..formats import FORMATS
-from .blocks import FOLDED, Block, Document, Figure, Steps
-from .figures import figure_page
+from ..pdf import write_png
+from .blocks import FOLDED, Block, Document, Figure, Steps, figure_page, figure_svg
 from .markup import printable
-from .outlines import outlined
-from .word_blocks import LISTS, Picture, blocks_in_word, folded_in_word, shown_share
-from .word_lines import first_pages, paragraph, words
+from .wordprocessing import LISTS, Picture, blocks_in_word, first_pages, folded_in_word, paragraph, shown_share, words
 
 if TYPE_CHECKING:
     from docx.document import Document as Word
+
 
 LIBRARIES = ("docx", "fontTools", "pypdfium2")  # for the document, the letters and the dots of its pictures
 DPI = 300  # of the pictures for readers that draw no SVG, as large as they are shown
@@ -76,23 +77,17 @@ def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) ->
 def drawings_of(blocks: Iterable[Block], language: str) -> list[Drawing]:
     """Draw the figures of a note; errors as of `docx_bytes`."""
     _needs_libraries()
-    return [_drawn(block, language) for block in blocks if isinstance(block, Figure)]
+    drawings = []
+    for figure in (block for block in blocks if isinstance(block, Figure)):
+        png = BytesIO()
+        write_png([figure_page(figure, language)], png, DPI * shown_share(figure))
+        drawings.append(Drawing(png.getvalue(), outlined(figure_svg(figure, language))))
+    return drawings
 
 
 def _needs_libraries() -> None:
     if any(find_spec(name) is None for name in LIBRARIES):
         raise InputError("extra-missing", extra="docx", suffix=".docx")
-
-
-def _drawn(figure: Figure, language: str) -> Drawing:
-    from ..pdf import write_png
-    from ..svg import write_svg
-
-    page = figure_page(figure, language)
-    png, svg = BytesIO(), BytesIO()
-    write_png([page], png, DPI * shown_share(figure))
-    write_svg(page, svg, with_font=False)
-    return Drawing(png.getvalue(), outlined(svg.getvalue()))
 
 
 def _append(word: Word, inside: str) -> None:
@@ -122,7 +117,10 @@ def _dress(word: Word, document: Document) -> None:
         for name in [name for name, rel in rels.items() if rel.reltype not in kept]:
             del rels[name]
     lists = sum(isinstance(block, Steps) for block in document.blocks)
-    numbers = "".join(map(_list, range(LISTS, LISTS + lists)))
+    first = '<w:lvlOverride w:ilvl="0"><w:startOverride w:val="1"/></w:lvlOverride>'  # every list begins with 1
+    numbers = "".join(
+        f'<w:num w:numId="{LISTS + number}"><w:abstractNumId w:val="2"/>{first}</w:num>' for number in range(lists)
+    )
     for kind, name in dressed.items():
         text = (home(__package__) / "word" / f"{name}.xml").read_text(encoding="utf-8")
         filled = parse_xml(text.format(lang=LANGUAGES[document.language], lists=numbers))
@@ -150,12 +148,6 @@ def _larger_sheets(word: Word) -> None:
     section, sheet = word.add_section(), FORMATS[f"{FOLDED}-portrait"]
     section.page_width, section.page_height = Mm(sheet.width), Mm(sheet.height)
     section.different_first_page_header_footer = False
-
-
-def _list(number: int) -> str:
-    """Return a list of steps that begins with 1."""
-    first = '<w:lvlOverride w:ilvl="0"><w:startOverride w:val="1"/></w:lvlOverride>'
-    return f'<w:num w:numId="{number}"><w:abstractNumId w:val="2"/>{first}</w:num>'
 
 
 def _sign(word: Word, document: Document) -> None:
@@ -193,3 +185,49 @@ def _undated(data: bytes) -> bytes:
         for name in dated.namelist():
             undated.writestr(zipfile.ZipInfo(name, _LONG_AGO), dated.read(name), zipfile.ZIP_DEFLATED)
     return stream.getvalue()
+
+
+_SVG = "{http://www.w3.org/2000/svg}"
+
+
+def outlined(svg: bytes) -> bytes:
+    """Return a drawing whose letters are paths at the same places."""
+    from lxml import etree
+
+    root = etree.fromstring(svg)
+    for text in root.findall(f".//{_SVG}text"):
+        size = float(text.get("font-size")) / font().units
+        place = f"translate({text.get('x')} {text.get('y')}) scale({size:.8f} {-size:.8f})"
+        path = etree.Element(f"{_SVG}path", d=_path(text.text or ""))
+        path.set("transform", f"{text.get('transform', '')} {place}".strip())
+        for name in ("class", "data-name", "fill"):
+            if text.get(name) is not None:
+                path.set(name, text.get(name))
+        path.tail = text.tail
+        text.getparent().replace(text, path)
+    for style in root.findall(f"{_SVG}style"):
+        root.remove(style)
+    return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8"))
+
+
+@cache
+def _glyphs() -> tuple[dict[int, str], Any]:
+    from fontTools.ttLib import TTFont
+
+    found = TTFont(BytesIO(font().data), lazy=True)
+    return found.getBestCmap(), found.getGlyphSet()
+
+
+@lru_cache(maxsize=4096)
+def _path(string: str) -> str:
+    """Return letters as commands of a path, in units of the font, y up."""
+    from fontTools.pens.svgPathPen import SVGPathPen
+    from fontTools.pens.transformPen import TransformPen
+
+    names, glyphs = _glyphs()
+    pen, at = SVGPathPen(glyphs), 0
+    for letter in string:
+        glyph = glyphs[names[ord(letter)]]
+        glyph.draw(TransformPen(pen, (1, 0, 0, 1, at, 0)))
+        at += glyph.width
+    return str(pen.getCommands())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from ...scales.packaged import packaged
 from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
@@ -59,17 +59,11 @@ def _node(node: Node) -> str:
     return _node(node.base) + (f"<sup>{above}</sup>" if above else "") + (f"<sub>{below}</sub>" if below else "")
 
 
-def _twice(text: str) -> str:
-    """Put two lines under the first letter: tags know one line only."""
-    return re.sub(r"(\w\u0305?)", "\\1\u0333", text, count=1)
-
-
-def _barred(text: str) -> str:
-    """Put a bar over every letter."""
-    return re.sub(r"(\w)", "\\1\u0305", text)
-
-
-RULED = {"bar": _barred, "u": "<u>{}</u>".format, "uu": _twice}
+RULED: dict[str, Callable[[str], str]] = {
+    "bar": lambda text: re.sub(r"(\w)", "\\1\u0305", text),  # a bar over every letter
+    "u": "<u>{}</u>".format,
+    "uu": lambda text: re.sub(r"(\w\u0305?)", "\\1\u0333", text, count=1),  # under the first one: tags know one line
+}
 
 
 def _target(name: str) -> str:

@@ -1,11 +1,32 @@
-"""The mathematics of a note in OMML, the equations of word processors: scripts, bars, underlines."""
+"""The mathematics of a note in OMML, the equations of word processors: scripts, bars, and equations built up.
+
+An equation is parted into atoms: numbers, names, functions, signs, brackets, units, words. Then quotients become
+fractions, roots are drawn, brackets are as high as what they hold; not so units. What stands in line, `a·b/c·d`, reads
+from left to right: the product before a stroke is divided by the factor behind.
+"""
 
 from __future__ import annotations
 
-from .markup import Node, Plain, Ruled, Scripted, printable
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import groupby, pairwise
+
+from .markup import Node, Plain, Ruled, Scripted, parse, printable
 
 _ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})
 _EMPTY = "\u200b"  # an argument without a character would be shown as a box to fill in
+_DISPLAYED = re.compile(r"[=≤≥]|\\u{1,2}\{")
+_TOKENS = re.compile(
+    r"(?P<space>\s+)|(?P<number>\d+(?:[.,]\d+)*[°%]?)|(?P<word>[^\W\d_]+(?:[-’'][^\W\d_]+)*[′″]*)"
+    r"|(?P<dot>·)|(?P<stroke>/)|(?P<root>√)|(?P<open>[(\[])|(?P<close>[)\]])|(?P<sign>.)"
+)
+_FUNCTIONS = frozenset(("sin", "cos", "tg", "ctg", "tan", "cot", "arcsin", "arccos", "arctg", "arctan", "inv", "osc"))
+_ROMAN = re.compile(r"[IVX]{2,}")
+PAIRS = {"(": ")", "[": "]"}
+_NAMED = frozenset("ΔΣ")
+_SYMBOL = 2  # letters of a name at most; a longer one is a word, and makes words of its neighbours
+_ENDS = frozenset("=+−<>≤≥≈→⊥∥,;:")  # of a unit
 
 
 def quoted(text: str) -> str:
@@ -19,17 +40,12 @@ def run(text: str, style: str = "") -> str:
     return f'<m:r>{looks}<m:t xml:space="preserve">{quoted(text)}</m:t></m:r>'
 
 
-def letters(text: str) -> str:
-    """Return plain characters of a formula: a letter alone in italics, several plain, words as words."""
-    if len(text) == 1:
-        return run(text)
-    return run(text, "nor" if any(c.isspace() for c in text) else "p")
-
-
 def node(found: Node, upright: bool = False) -> str:
     """Return a part of a formula; a letter alone is slanted, unless it is `upright`."""
     if isinstance(found, Plain):
-        return (run(found.text, "p") if upright else letters(found.text)) if found.text else run(_EMPTY, "p")
+        if upright or not found.text:
+            return run(found.text or _EMPTY, "p")
+        return run(found.text) if len(found.text) == 1 else _script(found)
     if isinstance(found, Ruled):
         inner = "".join(map(node, found.parts)) or run(_EMPTY, "p")
         return {"bar": bar(inner, "top"), "u": bar(inner, "bot"), "uu": bar(bar(inner, "bot"), "bot")}[found.kind]
@@ -43,7 +59,7 @@ def scripts(found: Scripted) -> tuple[str, str]:
 
 
 def _script(found: Node) -> str:
-    """Return a part of a script, whose letters are names, not quantities."""
+    """Return a part of a script, whose letters are names, not quantities: plain, or words as words."""
     if isinstance(found, Plain):
         return run(found.text, "nor" if any(c.isspace() for c in found.text) else "p")
     return node(found)
@@ -84,6 +100,220 @@ def bracketed(inner: str, signs: str) -> str:
     return f"<m:d><m:dPr>{pair}</m:dPr><m:e>{inner}</m:e></m:d>"
 
 
-def formula(inner: str) -> str:
-    """Return a formula that stands among words."""
-    return f"<m:oMath>{inner}</m:oMath>"
+@dataclass(frozen=True, slots=True)
+class Atom:
+    """A part of a line: its kind, its characters, how it is shown, also without its brackets; `above`, `below` it."""
+
+    kind: str
+    text: str
+    shown: str
+    bare: str = ""
+    above: str = ""
+    below: str = ""
+
+    @property
+    def inside(self) -> str:
+        """What is shown where nothing else stands, so that brackets say nothing."""
+        return self.bare or self.shown
+
+
+def atoms_of(markup: str) -> list[Atom]:
+    """Return the atoms of a line of markup."""
+    return _told(_joined(_units(list(_atoms(whole(parse(markup)))))))
+
+
+def whole(parts: Iterable[Node]) -> tuple[Node, ...]:
+    """Give scripts the whole number, function or Roman number before them, not its last sign alone."""
+    found: list[Node] = []
+    for part in parts:
+        before = found[-1] if found else None
+        if isinstance(before, Plain) and isinstance(part, Scripted) and isinstance(part.base, Plain):
+            kept, taken = _split(before.text, part.base.text)
+            found[-1:] = [Plain(kept)] if kept else []
+            part = replace(part, base=Plain(taken + part.base.text))
+        found.append(part)
+    return tuple(found)
+
+
+def _split(text: str, base: str) -> tuple[str, str]:
+    """Split characters into those that stay before a base and those that belong to it."""
+    kind = r"[\d.,]*$" if base.isdigit() else r"[A-Za-z]*$"
+    match = re.search(kind, text)
+    tail = match.group() if match else ""
+    belongs = base.isdigit() or tail + base in _FUNCTIONS or _ROMAN.fullmatch(tail + base)
+    return (text[: len(text) - len(tail)], tail) if belongs else (text, "")
+
+
+def _atoms(parts: Iterable[Node]) -> Iterator[Atom]:
+    for part in parts:
+        match part:
+            case Plain(text=text):
+                yield from (
+                    Atom(str(found.lastgroup), found.group(), _plain(found)) for found in _TOKENS.finditer(text)
+                )
+            case Scripted(base=Plain(text=text)) if text in PAIRS.values():
+                yield Atom("close", text, node(part), "", *scripts(part))
+            case Scripted(base=Plain(text=text)) if text in _FUNCTIONS:
+                yield Atom("function", text, scripted(run(text, "p"), *scripts(part)))
+            case Scripted(base=Plain(text=text)) if text[:1].isdigit():
+                yield Atom("number", text, node(part))
+            case Scripted(base=Plain(text=text)):
+                yield Atom("name", text, node(part), "", *scripts(part))
+            case _:
+                yield Atom("name", "", node(part))
+
+
+def _plain(found: re.Match[str]) -> str:
+    kind, text = found.lastgroup, found.group()
+    if kind == "space":
+        return run(" ", "nor")
+    letter = kind == "word" and len(text.rstrip("′″")) == 1 and text not in _NAMED
+    return run(text, "" if letter or kind == "sign" else "p")
+
+
+def _units(atoms: list[Atom]) -> list[Atom]:
+    """Put what stands behind a number, after a space, into one: its unit."""
+    found: list[Atom] = []
+    at = 0
+    while at < len(atoms):
+        found.append(atoms[at])
+        at += 1
+        starts = [atom.kind for atom in atoms[at - 1 : at + 2]]
+        if starts[:2] == ["number", "space"] and starts[2:] in (["word"], ["name"], ["open"]):
+            end = _unit_end(atoms, at)
+            found.append(Atom("unit", "", "".join(_upright(atom) for atom in atoms[at:end])))
+            at = end
+    return found
+
+
+def _unit_end(atoms: list[Atom], at: int) -> int:
+    depth = 0
+    for place in range(at, len(atoms)):
+        atom = atoms[place]
+        depth += (atom.kind == "open") - (atom.kind == "close")
+        if depth < 0 or (atom.kind == "sign" and atom.text in _ENDS) or (place > at and atom.kind == "space"):
+            return place
+    return len(atoms)
+
+
+def _upright(atom: Atom) -> str:
+    return scripted(run(atom.text, "nor"), atom.above, atom.below) if atom.kind in ("word", "name") else atom.shown
+
+
+def _joined(atoms: list[Atom]) -> list[Atom]:
+    """Set letters upright that stand in one word with others."""
+    found = list(atoms)
+    for place, (one, other) in enumerate(pairwise(atoms)):
+        both = (one, other)
+        if {one.kind, other.kind} == {"word", "name"} and not any(atom.text in ("", *_NAMED) for atom in both):
+            found[place : place + 2] = [
+                replace(atom, shown=scripted(run(atom.text, "p"), atom.above, atom.below)) for atom in both
+            ]
+    return found
+
+
+def _told(atoms: list[Atom]) -> list[Atom]:
+    """Tell symbols from words: what stands between signs is speech if there is a word in it."""
+    found: list[Atom] = []
+    for apart, group in groupby(atoms, lambda atom: atom.kind in ("sign", "dot", "stroke", "open", "close", "root")):
+        some = list(group)
+        if apart:
+            found += some
+            continue
+        speech = any(atom.kind == "word" and _spoken(atom.text) for atom in some)
+        found += [_named(atom, speech) if atom.kind == "word" else atom for atom in some]
+    return found
+
+
+def _spoken(text: str) -> bool:
+    return text not in _FUNCTIONS and (len(text.rstrip("′″")) > _SYMBOL or "а" <= text[0].lower() <= "ґ")
+
+
+def _named(atom: Atom, speech: bool) -> Atom:
+    if atom.text in _FUNCTIONS:
+        return replace(atom, kind="function")
+    return replace(atom, kind="prose", shown=run(atom.text, "nor")) if speech else replace(atom, kind="name")
+
+
+def displayed(markup: str) -> bool:
+    """Whether a line is an equation, and not words with symbols among them."""
+    return _DISPLAYED.search(markup) is not None
+
+
+def built_up(markup: str) -> str:
+    """Return a line of markup as the inside of a formula.
+
+    >>> "<m:f>" in built_up("v = s/t"), "<m:f>" in built_up("2 m/s")
+    (True, False)
+    """
+    found: list[Atom] = []
+    opened: list[int] = []
+    for atom in atoms_of(markup):  # what stands in brackets first
+        if atom.kind == "close" and opened and PAIRS[found[opened[-1]].text] == atom.text:
+            start = opened.pop()
+            inner = _line(found[start + 1 :])
+            whole = bracketed(inner, found[start].text + atom.text)
+            scripted_whole = scripted(whole, atom.above, atom.below)
+            found[start:] = [Atom("name", "", scripted_whole, inner if scripted_whole == whole else "")]
+            continue
+        if atom.kind == "open":
+            opened.append(len(found))
+        found.append(atom)
+    return _line(found)
+
+
+def _line(atoms: list[Atom]) -> str:
+    """Return atoms without brackets to look for, their quotients built up."""
+    found: list[Atom] = []
+    product: list[Atom] = []
+    factors = _factors(_spaced(atoms))
+    for place, atom in enumerate(factors):
+        after = factors[place + 1].kind if place + 1 < len(factors) else ""
+        if product and product[-1].kind == "stroke" and atom.kind == "factor":
+            above = product[0].inside if len(product) == 2 else "".join(part.shown for part in product[:-1])
+            product = [Atom("factor", "", fraction(above, atom.inside))]
+        elif atom.kind == "factor" or (product and atom.kind in ("dot", "stroke") and after == "factor"):
+            product.append(atom)
+        else:
+            found += [*product, atom]
+            product = []
+    return "".join(atom.shown for atom in (*found, *product))
+
+
+def _spaced(atoms: list[Atom]) -> list[Atom]:
+    """Leave out spaces beside signs, which have their own."""
+    found = []
+    for place, atom in enumerate(atoms):
+        beside = [*atoms[max(place - 1, 0) : place], *atoms[place + 1 : place + 2]]
+        idle = len(beside) < 2 or any(near.kind == "sign" and near.text not in ",;:" for near in beside)
+        if atom.kind != "space" or not idle:
+            found.append(atom)
+    return found
+
+
+def _factors(atoms: list[Atom]) -> list[Atom]:
+    """Join what is multiplied by standing side by side, functions with their arguments."""
+    found: list[Atom] = []
+    at = 0
+    while at < len(atoms):
+        start = at
+        while at < len(atoms) and atoms[at].kind in ("function", "root"):
+            at += 1 + (atoms[at].kind == "function" and [a.kind for a in atoms[at + 1 : at + 2]] == ["space"])
+        heads, first = atoms[start:at], at
+        while at < len(atoms) and atoms[at].kind in ("number", "name"):
+            at += 1
+        body = atoms[first:at]
+        if not body:
+            found += heads or [atoms[start]]
+            at = at if heads else start + 1
+            continue
+        found.append(_factor(heads, body))
+    return found
+
+
+def _factor(heads: list[Atom], body: list[Atom]) -> Atom:
+    if heads and heads[-1].kind == "root":
+        body = [Atom("name", "", root(body[0].inside)), *body[1:]]
+        heads = heads[:-1]
+    shown = "".join(atom.shown for atom in (*heads, *body))
+    return Atom("factor", "", shown, body[0].bare if len(body) == 1 and not heads else "")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import io
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,8 +13,21 @@ from typing import Any
 
 from ...scales.errors import InputError
 from ...scales.packaged import packaged
-from .blocks import FOLDED, FOLDED_ROOM, Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
-from .figures import figure_page, reduced
+from ..table import cells
+from .blocks import (
+    FOLDED,
+    FOLDED_ROOM,
+    Block,
+    Document,
+    Equations,
+    Figure,
+    Heading,
+    Sentences,
+    Steps,
+    Table,
+    figure_svg,
+    reduced,
+)
 from .markup import Node, Plain, Ruled, joined, parse, printable, tied
 
 PREAMBLE = """\
@@ -48,7 +60,9 @@ class Body:
         figures = dict(enumerate((block for block in blocks if isinstance(block, Figure)), 1))
         texts = [_block(block, said, numbers) for block in blocks]
         texts += [_sheet(figure, said, number) for number, figure in figures.items() if figure.folded]
-        return cls("\n".join(texts), {f"{number}.svg": _svg(figure, language) for number, figure in figures.items()})
+        return cls(
+            "\n".join(texts), {f"{number}.svg": figure_svg(figure, language) for number, figure in figures.items()}
+        )
 
 
 def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
@@ -83,14 +97,6 @@ def _fonts() -> Any:
     assert found.origin is not None
     folder = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf"
     return typst.Fonts(include_system_fonts=False, include_embedded_fonts=True, font_paths=[str(folder)])
-
-
-def _svg(figure: Figure, language: str) -> bytes:
-    from ..svg import write_svg
-
-    stream = io.BytesIO()
-    write_svg(figure_page(figure, language), stream, with_font=False)
-    return stream.getvalue()
 
 
 def source(document: Document, body: Body) -> str:
@@ -139,7 +145,10 @@ def _block(block: Block, said: dict[str, str], numbers: Iterator[int]) -> str:
             return _table(rows)
         case Figure():
             number = next(numbers)
-            return _announced(said, number) if block.folded else _figure(block, said, number, block.share)
+            if not block.folded:
+                return _figure(block, said, number, block.share)
+            text = _text(said["figure.folded"].format(number=number, format=FOLDED))  # its number counts here
+            return f"#counter(figure.where(kind: image)).step()\n{text}\n"
 
 
 def _figure(figure: Figure, said: dict[str, str], number: int, share: float, more: str = "") -> str:
@@ -153,12 +162,6 @@ def _figure(figure: Figure, said: dict[str, str], number: int, share: float, mor
     )
 
 
-def _announced(said: dict[str, str], number: int) -> str:
-    """Say where a folded figure is; it counts here."""
-    text = _text(said["figure.folded"].format(number=number, format=FOLDED))
-    return f"#counter(figure.where(kind: image)).step()\n{text}\n"
-
-
 def _sheet(figure: Figure, said: dict[str, str], number: int) -> str:
     """Return a folded figure on its sheet, with its number."""
     text = _figure(figure, said, number, figure.share_of(FOLDED_ROOM), f'numbering: _ => "{number}", ')
@@ -166,15 +169,12 @@ def _sheet(figure: Figure, said: dict[str, str], number: int) -> str:
 
 
 def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
-    cells: tuple[list[str], list[str]] = [], []  # of the head, which stands on every page, and of what follows
+    sides: tuple[list[str], list[str]] = [], []  # of the head, which stands on every page, and of what follows
     for number, row in enumerate(rows):
-        for column, cell in enumerate(row):
-            if cell is None and column:
-                continue
-            span = next((k for k in range(column + 1, len(row)) if row[k] is not None), len(row)) - column
-            text = f"*{_line(cell or '')}*" if number == 0 and cell else _line(cell or "")
-            cells[number > 0].append(f"table.cell(colspan: {span})[{text}]")
-    head, body = (", ".join(side) for side in cells)
+        for start, end, cell in cells(row):
+            text = f"*{_line(cell)}*" if number == 0 and cell else _line(cell)
+            sides[number > 0].append(f"table.cell(colspan: {end - start})[{text}]")
+    head, body = (", ".join(side) for side in sides)
     shape = f"columns: {len(rows[0])}, align: center + horizon"
     return f"#align(center)[#table({shape}, table.header({head}),\n{body})]\n"
 

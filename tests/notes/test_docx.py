@@ -22,12 +22,11 @@ from PIL import Image
 
 from kulman import batch, cli, note
 from kulman.drawing.notes.blocks import Document, Equations, Figure, Heading, Sentences, Steps, Table
-from kulman.drawing.notes.built_up import built_up, displayed
 from kulman.drawing.notes.docx import SPACES, docx_bytes
 from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.markup import letters
-from kulman.drawing.notes.word_blocks import Picture, blocks_in_word, folded_in_word
-from kulman.drawing.notes.word_lines import line
+from kulman.drawing.notes.omml import built_up, displayed
+from kulman.drawing.notes.wordprocessing import Picture, blocks_in_word, folded_in_word, line
 from kulman.scales.packaged import packaged
 from kulman.tests.support.word import M, W, disordered, part, said
 
@@ -252,7 +251,7 @@ def test_a_figure_too_large_for_a_page_stands_on_a_larger_one() -> None:
 
 
 def test_letters_of_a_picture_stand_where_they_were() -> None:
-    from kulman.drawing.notes.outlines import outlined
+    from kulman.drawing.notes.docx import outlined
 
     svg = (
         b'<svg xmlns="http://www.w3.org/2000/svg"><text x="10" y="20" font-size="4" fill="#123">HH</text>'

@@ -1,20 +1,22 @@
-"""The blocks of a note in WordprocessingML: headings, lines, lists, equations, tables, pictures with captions."""
+"""A note in WordprocessingML: first pages, headings, lines, lists, equations, tables, pictures with captions."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import count
+from itertools import count, groupby
 
 from ...scales.packaged import packaged
+from ..table import cells as cells_of
 from ..text import lay_out
-from .blocks import FOLDED, FOLDED_ROOM, Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
-from .built_up import built_up, displayed
-from .figures import reduced
-from .markup import letters
-from .omml import quoted
-from .word_lines import HEIGHT, TWIPS, bookmark, headed, line, numbered, paragraph, referred, words
+from .blocks import FOLDED, FOLDED_ROOM, Block, Document, Equations, Figure, Heading, Sentences, Steps, Table, reduced
+from .markup import Node, Plain, Scripted, joined, letters, parse, tied
+from .omml import built_up, displayed, node, quoted, whole
 
+TWIPS = 1440 / 25.4  # of a millimetre
+HEIGHT = 2.8  # mm of a capital of the text: lines are estimated with the font of the sheet, which is wider
+_BEFORE_NAMES, _BEFORE_DATE = 85.0, 30.0  # mm
 EMU = 36000  # of a millimetre
 WIDE = 180.0  # mm of a line
 INDENT = 8.0  # mm before an equation; what goes on in another line stands in twice as far
@@ -23,6 +25,113 @@ LISTS = 3  # the number of the first list of steps
 PAD = 4.0  # mm in a cell beside its text
 _PICTURES = "http://schemas.openxmlformats.org/drawingml/2006"
 _SVG = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
+_UNITS = re.compile(r"(?:\b(?:kg|N|rad|mm|cm|m)[/·]|\bm)$")
+
+
+def paragraph(style: str, inside: str, properties: str = "") -> str:
+    """Return a paragraph; its own properties go before those of its style."""
+    styled = f'<w:pStyle w:val="{style}"/>' if style else ""
+    told = f"<w:pPr>{styled}{properties}</w:pPr>" if styled or properties else ""
+    return f"<w:p>{told}{inside}</w:p>"
+
+
+def words(text: str, properties: str = "") -> str:
+    """Return characters of a paragraph."""
+    looks = f"<w:rPr>{properties}</w:rPr>" if properties else ""
+    return f'<w:r>{looks}<w:t xml:space="preserve">{quoted(text)}</w:t></w:r>' if text else ""
+
+
+def line(markup: str, properties: str = "") -> str:
+    """Return a line of markup: words as text with `properties`, symbols with scripts and bars as formulas."""
+    parts = whole(parse(markup))
+    before = "m/" if len(parts) == 1 else ""  # a power of m alone is a unit
+    told: list[tuple[bool, str]] = []
+    for place, part in enumerate(parts):
+        formula = not isinstance(part, Plain) and not _is_unit(part, before)
+        told.append((formula, node(part, joined(parts, place)) if formula else _text(part, properties)))
+        before = part.text if isinstance(part, Plain) else ""
+    shown = ((formula, "".join(text for _, text in some)) for formula, some in groupby(told, lambda pair: pair[0]))
+    return "".join(f"<m:oMath>{text}</m:oMath>" if formula else text for formula, text in shown)
+
+
+def _is_unit(part: Node, before: str) -> bool:
+    if not isinstance(part, Scripted) or not isinstance(part.base, Plain) or part.below:
+        return False
+    cyrillic = "а" <= part.base.text[:1].lower() <= "ґ"
+    powers = all(isinstance(up, Plain) for up in part.above)
+    return powers and (cyrillic or (part.base.text in ("m", "s") and _UNITS.search(before) is not None))
+
+
+def _text(part: Node, properties: str) -> str:
+    """Return words, or a unit with its power."""
+    if isinstance(part, Plain):
+        return words(tied(part.text), properties)
+    assert isinstance(part, Scripted)
+    assert isinstance(part.base, Plain)
+    power = "".join(up.text for up in part.above if isinstance(up, Plain))
+    raised = words(power, f'{properties}<w:vertAlign w:val="superscript"/>')
+    return words(part.base.text, properties) + raised
+
+
+def _sign(kind: str) -> str:
+    return f'<w:r><w:fldChar w:fldCharType="{kind}"/></w:r>'
+
+
+def _begun(order: str) -> str:
+    told = f'<w:r><w:instrText xml:space="preserve"> {quoted(order)} </w:instrText></w:r>'
+    return f"{_sign('begin')}{told}{_sign('separate')}"
+
+
+def _number_field(order: str, number: int) -> str:
+    """Return a field that shows a number: of a caption, or of what it refers to."""
+    return _begun(order) + words(str(number)) + _sign("end")
+
+
+def _bookmark(inside: str, mark: str, number: int) -> str:
+    """Return what others refer to by a mark."""
+    return f'<w:bookmarkStart w:id="{number}" w:name="{mark}"/>{inside}<w:bookmarkEnd w:id="{number}"/>'
+
+
+def _mark(number: int) -> str:
+    return f"_Toc{number:06d}"
+
+
+def first_pages(document: Document) -> str:
+    """Return the title page and the contents."""
+    return "".join((*_title(document), *_contents(document)))
+
+
+def _title(document: Document) -> Iterator[str]:
+    said, page = packaged(__package__, "texts", document.language), document.title
+    yield paragraph("TitleLine", words(page.department))
+    yield paragraph("Title", words(said["title.note"]))
+    yield paragraph("Subtitle", words(page.title))
+    yield paragraph("TitleLine", words(said["title.variant"].format(variant=page.variant)))
+    down = _down(_BEFORE_NAMES)
+    for name in ("student", "group", "teacher"):
+        value = words(getattr(page, name) or "_" * 24)
+        yield paragraph("TitleName", f"{words(said[f'title.{name}'])}<w:r><w:tab/></w:r>{value}", down)
+        down = ""
+    yield paragraph("TitleLine", words(page.date), _down(_BEFORE_DATE))
+    yield paragraph("TitleLine", words(page.identity, '<w:sz w:val="18"/><w:szCs w:val="18"/>'))
+
+
+def _down(mm: float) -> str:
+    return f'<w:spacing w:before="{round(mm * TWIPS)}"/>'
+
+
+def _contents(document: Document) -> Iterator[str]:
+    """Go through the contents, a field with its entries; their pages are known when it is updated."""
+    yield paragraph("TOCHeading", words(packaged(__package__, "texts", document.language)["contents"]))
+    before = _begun(r'TOC \o "1-2" \h \z \u')
+    entries = [letters(block.text) for block in document.blocks if isinstance(block, Heading)]
+    for number, entry in enumerate(entries, 1):
+        page = _begun(rf"PAGEREF {_mark(number)} \h") + _sign("end")
+        shown = f"{words(f'{number} {entry}')}<w:r><w:tab/></w:r>{page}"
+        linked = f'<w:hyperlink w:anchor="{_mark(number)}" w:history="1">{shown}</w:hyperlink>'
+        yield paragraph("TOC1", before + linked)
+        before = ""
+    yield paragraph("TOC1", f'{before}{_sign("end")}<w:r><w:br w:type="page"/></w:r>')
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +165,7 @@ def folded_in_word(document: Document, pictures: Sequence[Picture]) -> str:
     found = [(figure, picture, number) for figure, picture, number in figures if figure.folded]
     return "".join(
         paragraph("Figure", _drawing(figure, picture, number), "<w:pageBreakBefore/>" if place else "")
-        + paragraph("Caption", _caption(figure, said, referred(_figure_mark(number), number)))
+        + paragraph("Caption", _caption(figure, said, _number_field(rf"REF {_figure_mark(number)} \h", number)))
         for place, (figure, picture, number) in enumerate(found)
     )
 
@@ -64,7 +173,8 @@ def folded_in_word(document: Document, pictures: Sequence[Picture]) -> str:
 def _block(block: Block, said: dict[str, str], counted: _Counted) -> Iterator[str]:
     match block:
         case Heading(text=text):
-            yield paragraph("Heading1", headed(line(text), next(counted.headings)))
+            number = next(counted.headings)
+            yield paragraph("Heading1", _bookmark(line(text), _mark(number), number))  # the contents lead there
         case Sentences(texts=texts):
             yield paragraph("", words(" ").join(map(line, texts)))
         case Steps(texts=texts):
@@ -77,10 +187,10 @@ def _block(block: Block, said: dict[str, str], counted: _Counted) -> Iterator[st
             yield paragraph("Cell", "")
         case Figure():
             number, picture = next(counted.pictures)
-            here = numbered(said["figure"], number)
+            here = _number_field(rf"SEQ {said['figure']} \* ARABIC", number)
             if block.folded:
                 before, _, after = said["figure.folded"].format(number="\0", format=FOLDED).partition("\0")
-                marked = bookmark(here, _figure_mark(number), FIGURES + number)
+                marked = _bookmark(here, _figure_mark(number), FIGURES + number)
                 yield paragraph("", words(before) + marked + words(after))
                 return
             yield paragraph("Figure", _drawing(block, picture, number))
@@ -89,9 +199,9 @@ def _block(block: Block, said: dict[str, str], counted: _Counted) -> Iterator[st
 
 def _equation(chunks: Sequence[str]) -> Iterator[str]:
     """Go through the lines of an equation, which is broken where it may be; words without one are a line of words."""
-    whole = " ".join(chunks)
-    if not displayed(whole):
-        yield paragraph("Equation", line(whole))
+    markup = " ".join(chunks)
+    if not displayed(markup):
+        yield paragraph("Equation", line(markup))
         return
     rows = [""]
     for part in _unbroken(chunks):
@@ -111,7 +221,7 @@ def _unbroken(chunks: Sequence[str]) -> Iterator[str]:
         some.append(chunk)
         depth = sum((c in "([") - (c in ")]") for part in some for c in part)
         if depth <= 0:
-            yield from [joined] if _fits(joined := " ".join(some), 2) else some
+            yield from [unbroken] if _fits(unbroken := " ".join(some), 2) else some
             some = []
     yield from some
 
@@ -122,11 +232,11 @@ def _fits(markup: str, indents: int) -> bool:
 
 def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
     """Return a table whose first row is repeated on every page; no row is parted by the end of a page."""
-    wide = [0.0] * len(rows[0])
+    wide = [PAD] * len(rows[0])
     for row in rows:
-        for column, cell in enumerate(row):
-            alone = column + 1 == len(row) or row[column + 1] is not None
-            wide[column] = max(wide[column], lay_out(cell, HEIGHT).width + PAD if cell and alone else PAD)
+        for start, end, cell in cells_of(row):
+            if end == start + 1:
+                wide[start] = max(wide[start], lay_out(cell, HEIGHT).width + PAD)
     share = min(1.0, WIDE / sum(wide))
     grid = "".join(f'<w:gridCol w:w="{round(mm * share * TWIPS)}"/>' for mm in wide)
     look = '<w:tblLook w:val="0020" w:firstRow="1" w:lastRow="0" w:firstColumn="0" w:lastColumn="0"'
@@ -140,12 +250,9 @@ def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
 def _row(row: tuple[str | None, ...], number: int) -> str:
     head, bold = ("<w:tblHeader/>", "<w:b/><w:bCs/>") if number == 0 else ("", "")
     cells = []
-    for column, cell in enumerate(row):
-        if cell is None and column:
-            continue
-        span = next((k for k in range(column + 1, len(row)) if row[k] is not None), len(row)) - column
-        joined = f'<w:gridSpan w:val="{span}"/>' if span > 1 else ""
-        text = paragraph("Cell", line(cell or "", bold))
+    for start, end, cell in cells_of(row):
+        joined = f'<w:gridSpan w:val="{end - start}"/>' if end - start > 1 else ""
+        text = paragraph("Cell", line(cell, bold))
         cells.append(
             f'<w:tc><w:tcPr><w:tcW w:w="0" w:type="auto"/>{joined}<w:vAlign w:val="center"/></w:tcPr>{text}</w:tc>'
         )
