@@ -12,34 +12,16 @@ SIGNS = {AT_LEAST: "≥", MORE: ">", AT_MOST: "≤", EQUAL: "=", WITHIN: "∈ ±
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Check:
-    """A rule of good design, a condition of validity, or a second route beside the first.
+    """A rule of good design, a condition of validity, or a second route beside the first; in SI."""
 
-    Parameters
-    ----------
-    name : str
-        What is looked at: `undercut_1`, `strength`, `lever`.
-    ok : bool
-        Whether the value stands as it has to; what is undefined does not.
-    value, limit : float
-        In SI.
-    unit : str
-        Of both.
-    relation : str
-        How the value has to stand to its limit, one of `SIGNS`.
-    quantity : str
-        Name of the quantity that is compared, where it is one.
-    of : str
-        Name of the quantity that the limit is, or is a part of, if one.
-    """
-
-    name: str
-    ok: bool
+    name: str  # what is looked at: `undercut_1`, `strength`, `lever`
+    ok: bool  # whether the value stands as it has to; what is undefined does not
     value: float
     limit: float
-    relation: str
-    unit: str
-    quantity: str = ""
-    of: str = ""
+    relation: str  # how the value has to stand to its limit, one of `SIGNS`
+    unit: str  # of both
+    quantity: str = ""  # the quantity that is compared, where it is one
+    of: str = ""  # the quantity that the limit is, or is a part of, if one
 
     @property
     def sign(self) -> str:

@@ -36,36 +36,18 @@ FULL = Effort()
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One method with its setting, for quantities of one kind.
+    """One method with its setting, for quantities of one kind."""
 
-    Parameters
-    ----------
-    method : str
-        `plan`, `plan-single`, `plan-extended`, `newton`, `differences`, `chords` or `hand`.
-    setting : float or str
-        Positions in a batch, tolerance, step (rad), sections of the cycle, or the paper on which a hand draws.
-    error, typical : float or None
-        The worst error over all positions and quantities; the median over positions of the worst quantity.
-    name, place : str, float
-        The quantity and the place of the driver where the error is worst.
-    seconds : float or None
-        Processor time per position; None for a hand.
-    at_once : int
-        Positions in a batch.
-    failed : float
-        Part of the positions where the method gives nothing.
-    """
-
-    method: str
-    setting: float | str
+    method: str  # `plan`, `plan-single`, `plan-extended`, `newton`, `differences`, `chords` or `hand`
+    setting: float | str  # positions in a batch, tolerance, step (rad), sections of the cycle, or a hand's paper
     kind: str
-    error: float | None
-    typical: float | None
-    name: str
-    place: float
-    seconds: float | None
-    at_once: int
-    failed: float
+    error: float | None  # the worst one over all positions and quantities
+    typical: float | None  # the median over positions of the worst quantity
+    name: str  # the quantity whose error is worst
+    place: float  # of the driver, where it is
+    seconds: float | None  # processor time per position; None for a hand
+    at_once: int  # positions in a batch
+    failed: float  # part of the positions where the method gives nothing
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, assert_never
+from typing import Any
 
 from ...scales.errors import InputError
 from ..board import Board
@@ -31,7 +31,7 @@ from .mechanism import (
     Prismatic,
     Revolute,
 )
-from .parts import Bodies, Body, Couples, Forces, Span, local_mark
+from .parts import Bodies, Couples, Forces, Span, local_mark
 
 ROUNDING = 1e-12
 # ends of the working stroke: givens of the board, metres of a slider along its guide, radians of a rocker
@@ -273,15 +273,23 @@ def lay_stroke(board: Board, moving: Moving) -> None:
     stroke, pair = moving.mechanism.stroke, output_pair(moving.mechanism)
     assert stroke is not None
     body = moving.bodies[stroke.link]
-    match pair:
-        case Prismatic():
-            reference = _slides(board, moving, body, pair)
-        case Revolute():
-            reference = _rocks(board, moving, body)
-        case _:
-            assert_never(pair)
+    if isinstance(pair, Prismatic):  # a slider: its travel from the point through which the guide passes
+        board.place("_stroke_origin", *pair.through)
+        board.calc("_stroke_travel", "along_axis", body.direction, "_stroke_origin", pair.point)
+        board.calc(PART, "stroke_part", "_stroke_travel", BEGIN, END)
+        board.calc(RATE, "component", body.direction, f"V_{pair.point}")
+        board.calc(CHANGE, "component", body.direction, f"a_{pair.point}")
+    else:  # a rocker: its angle, counted from the middle of its stroke, so that it may swing by almost a turn
+        board.calc("_stroke_middle", "middle", BEGIN, END)
+        board.turn("_stroke_axis", "_stroke_middle")
+        board.angle("_stroke_swing", "_stroke_axis", body.direction)
+        board.calc("_stroke_angle", "sum", "_stroke_middle", "_stroke_swing")
+        board.calc(PART, "stroke_part", "_stroke_angle", BEGIN, END)
+        board.calc(RATE, "same_turning", body.omega or ZERO)
+        board.calc(CHANGE, "same_turning", body.epsilon or ZERO)
     for name in (RATE, CHANGE):
         board.calc(f"{name}_working", "signed", name, stroke.sense)
+    reference = moving.speed if isinstance(pair, Prismatic) else moving.turning
     board.calc("_working", "working", f"{RATE}_working", reference, f"{CHANGE}_working")
 
 
@@ -300,25 +308,3 @@ def output_pair(mechanism: Mechanism) -> Pair:
     if not found or link == mechanism.driver.link:
         raise InputError("stroke-link", link=link)
     return found[0]
-
-
-def _slides(board: Board, moving: Moving, body: Body, pair: Prismatic) -> str:
-    """A slider: its travel from the point through which the guide passes."""
-    board.place("_stroke_origin", *pair.through)
-    board.calc("_stroke_travel", "along_axis", body.direction, "_stroke_origin", pair.point)
-    board.calc(PART, "stroke_part", "_stroke_travel", BEGIN, END)
-    board.calc(RATE, "component", body.direction, f"V_{pair.point}")
-    board.calc(CHANGE, "component", body.direction, f"a_{pair.point}")
-    return moving.speed
-
-
-def _rocks(board: Board, moving: Moving, body: Body) -> str:
-    """A rocker: its angle, counted from the middle of its stroke, so that it may swing by almost a turn."""
-    board.calc("_stroke_middle", "middle", BEGIN, END)
-    board.turn("_stroke_axis", "_stroke_middle")
-    board.angle("_stroke_swing", "_stroke_axis", body.direction)
-    board.calc("_stroke_angle", "sum", "_stroke_middle", "_stroke_swing")
-    board.calc(PART, "stroke_part", "_stroke_angle", BEGIN, END)
-    board.calc(RATE, "same_turning", body.omega or ZERO)
-    board.calc(CHANGE, "same_turning", body.epsilon or ZERO)
-    return moving.turning

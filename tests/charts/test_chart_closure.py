@@ -99,7 +99,7 @@ def test_newton_agrees_with_plans_of_dyads_on_links_that_move(kind: str, carries
         points = {point: np.array([exact[point]]) for link in mechanism.links for point in link.points}
         turns = {link.number: np.exp(1j * places[i, k, 2:]) for k, link in enumerate(mechanism.links)}
         start = closure.contours.pose(turns, points)
-        pose = closure.solve(Pose(start.angles + 1e-3, start.ways), at, 1e-6).pose
+        pose = closure.solve(Pose(start.angles + 1e-3, start.ways), at, 1e-6)
         speed = exact[f"omega_{mechanism.driver.link}"]
         rates = closure.rates(pose, speed)
         epsilon = exact.get(f"epsilon_{mechanism.driver.link}", 0.0)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle, stroke_of
-from kulman.plans.linkages.cycles.limits import Arc, limiting_places, reach, reach_of
+from kulman.plans.linkages.cycles.limits import Arc, limiting_places, reach_of
 from kulman.plans.linkages.cycles.strokes import OutputMotion, output_motions
 from kulman.plans.linkages.cycles.swept import swept
 from kulman.plans.linkages.mechanism import Mechanism, Stroke
@@ -22,6 +22,7 @@ from kulman.tests.support.linkages import (
     random_crank_rockers,
     random_four_bars,
     random_slider_cranks,
+    reach,
     slider_crank,
     slider_crank_values,
 )

@@ -9,10 +9,10 @@ import pytest
 from mpmath import mp, mpc, mpf
 
 from kulman.plans.linkages.cycles.cycle import cycle
-from kulman.plans.linkages.cycles.limits import reach
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Mechanism, Prismatic, Revolute, Start, Stroke
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.scales.errors import InputError
+from kulman.tests.support.linkages import reach
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from kulman.plans.linkages.cycles.limits import Reach, reach_of
+from kulman.plans.linkages.cycles.swept import swept
 from kulman.plans.linkages.mechanism import (
     ZERO,
     Driver,
@@ -137,3 +139,7 @@ def random_slider_cranks(seed: int, count: int) -> Iterator[dict[str, float]]:
         rod = (crank + abs(offset)) * random.uniform(1.05, 4.0)
         side, sense = random.choice([-1.0, 1.0], 2)
         yield slider_crank_values(crank, rod, offset, float(side), random.uniform(-7, 7), float(sense))
+
+
+def reach(mechanism: Mechanism, values: Mapping[str, float]) -> Reach:
+    return reach_of(swept(mechanism, values), values)

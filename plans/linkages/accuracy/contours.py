@@ -227,14 +227,6 @@ class Contours:
         return found
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Found:
-    """Poses by Newton's method; `held` tells where its corrections came to an end."""
-
-    pose: Pose
-    held: NDArray[np.bool_]
-
-
 class Closure:
     """A mechanism's closure equations, ready to be solved at any places of its driver.
 
@@ -260,7 +252,7 @@ class Closure:
             ways[self._way] = places
         return Pose(angles, ways)
 
-    def solve(self, near: Pose, places: Array, tolerance: float) -> Found:
+    def solve(self, near: Pose, places: Array, tolerance: float) -> Pose:
         """Find poses by Newton's method.
 
         Parameters
@@ -274,7 +266,7 @@ class Closure:
 
         Returns
         -------
-        Found
+        Pose
             NaN where the corrections have no end.
         """
         contours, pose = self.contours, self.driven(near, places)
@@ -286,7 +278,7 @@ class Closure:
             held = sizes.max(axis=0) < tolerance
             if held.all():
                 break
-        return Found(Pose(np.where(held, pose.angles, NAN), np.where(held, pose.ways, NAN)), held)
+        return Pose(np.where(held, pose.angles, NAN), np.where(held, pose.ways, NAN))
 
     def rates(self, pose: Pose, speed: float) -> Pose:
         """Return velocities at a speed of the driver, by a linear system."""

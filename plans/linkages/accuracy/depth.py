@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....scales.errors import InputError
-from ...board import Program, Step
+from ...board import Program
 from ...boards.exact import STATUSES
 from ...laws import dot
 from ...names import role
@@ -29,27 +29,15 @@ KINDS = {"inertia_force": FORCES, "inertia_moment": MOMENTS, "weight": WEIGHTS}
 
 @dataclass(frozen=True, slots=True)
 class Cost:
-    """What leaving out `parts` changes, in per cent of the largest value over the cycle.
+    """What leaving out `parts` changes, in per cent of the largest value over the cycle."""
 
-    Parameters
-    ----------
-    key : str
-        The part alone, or `inertia_forces`, `inertia_moments`, `weights`, `inertia`, `all` for all of a kind.
-    balance, balance_rms : float
-        The largest change of what balances the driver, and its root of the mean square.
-    reaction, reaction_rms : float or None
-        The same for the reaction that changes most, beside the largest reaction; None where none is wanted.
-    place : float
-        Where the driver stands at the largest of these changes.
-    """
-
-    key: str
+    key: str  # the part alone, or `inertia_forces`, `inertia_moments`, `weights`, `inertia`, `all` of a kind
     parts: tuple[str, ...]
-    balance: float
-    balance_rms: float
-    reaction: float | None
+    balance: float  # the largest change of what balances the driver
+    balance_rms: float  # and its root of the mean square
+    reaction: float | None  # of the reaction that changes most, beside the largest one; None where none is wanted
     reaction_rms: float | None
-    place: float
+    place: float  # of the driver at the largest of these changes
 
     @property
     def worst(self) -> float:
@@ -79,11 +67,8 @@ def parts_of(program: Program) -> dict[str, str]:
 
 def without(program: Program, parts: Collection[str]) -> Program:
     """Return a program that lays down these forces and moments with a size of zero; loads may be among them."""
-    return Program(tuple(_nothing(step) if step.name in parts else step for step in program))
-
-
-def _nothing(step: Step) -> Step:
-    return replace(step, operands=(ZERO, *step.operands[1:]))
+    nothing = {step: replace(step, operands=(ZERO, *step.operands[1:])) for step in program if step.name in parts}
+    return Program(tuple(nothing.get(step, step) for step in program))
 
 
 class Model:

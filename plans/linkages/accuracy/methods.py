@@ -46,17 +46,14 @@ def kinds_of(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Kind, ...]:
     known = [name for name in cycle.quantities if not chosen or name in chosen]
     points = {point for link in cycle.mechanism.links for point in link.points}
     links = {str(link.number) for link in cycle.mechanism.links}
-    rates = {"velocity": ("V", "omega"), "acceleration": ("a", "epsilon")}
-    found = {
-        kind: tuple(
-            name
-            for name in known
-            for quantity in [role(name)]
-            if not quantity.about + quantity.part
-            and quantity.of in {letters[0]: points, letters[1]: links}.get(quantity.kind, ())
-        )
-        for kind, letters in rates.items()
-    }
+    known_of = {"V": points, "omega": links, "a": points, "epsilon": links}
+    rates = [
+        name
+        for name in known
+        if not role(name).about + role(name).part and role(name).of in known_of.get(role(name).kind, ())
+    ]
+    orders = {"velocity": 1, "acceleration": 2}
+    found = {kind: tuple(name for name in rates if _order(name) == order) for kind, order in orders.items()}
     found["forces"] = tuple(name for name in known if role(name).kind == "R" or name in PLANNED)
     return tuple(Kind(kind, names) for kind, names in found.items() if names)
 
@@ -119,7 +116,13 @@ class Rivals:
         section = abs(self.cycle.range.high - self.cycle.range.low) / sections
 
         def found(places: Array, names: Sequence[str]) -> Values:
-            return {name: value for order in (1, 2) for name, value in self._by_chords(places, names, order, section)}
+            slopes: Values = {}
+            for order, offsets in ((1, (-0.5, 0.5)), (2, (-1.0, 0.0, 1.0))):
+                wanted = [name for name in names if _order(name) == order]
+                laid = [self._laid(places + offset * section, wanted) for offset in offsets] if wanted else []
+                for name in wanted:
+                    slopes[name] = self._sloped(name, np.stack([one[name] for one in laid]), section)[0]
+            return slopes
 
         return found
 
@@ -129,26 +132,15 @@ class Rivals:
         ends = low + (high - low) * (np.arange(-1, sections + 2) / sections)
         laid = self._laid(ends, names)
         section = abs(high - low) / sections
-        return {name: self._sloped(name, laid[name], _order(name), section) for name in names}
+        return {name: self._sloped(name, laid[name], section) for name in names}
 
-    def _by_chords(
-        self, places: Array, names: Sequence[str], order: int, section: float
-    ) -> Iterable[tuple[str, Array]]:
-        wanted = [name for name in names if _order(name) == order]
-        if wanted:
-            offsets = (-0.5 * section, 0.5 * section) if order == 1 else (-section, 0.0, section)
-            laid = [self._laid(places + offset, wanted) for offset in offsets]
-            for name in wanted:
-                curve = np.stack([one[name] for one in laid])
-                yield name, self._sloped(name, curve, order, section)[0]
-
-    def _sloped(self, name: str, curve: Array, order: int, section: float) -> Array:
+    def _sloped(self, name: str, curve: Array, section: float) -> Array:
         """Return rates of a curve by chords, along its first axis."""
         if _turns(name):
             curve = _unwound(curve)
         slopes = chords(curve, section)
         found: Array = slopes * self.speed
-        if order == 2:
+        if _order(name) == 2:
             middles = (slopes[1:] + slopes[:-1]) * 0.5
             found = chords(slopes, section) * self.speed**2 + middles * self.acceleration
         return found
@@ -164,16 +156,13 @@ class Rivals:
 
     def _laid(self, places: Array, names: Sequence[str]) -> Values:
         """Return where the point of each quantity stands, or the direction of its link."""
-        marks = {name: self._mark(name) for name in names}
+        marks = {name: role(name).of for name in names}
+        marks |= {name: self.bodies[int(of)].direction for name, of in marks.items() if _turns(name)}
         givens = self.cycle.drive.givens(self.cycle.givens, places)
         wanted = tuple(dict.fromkeys(marks.values()))
         values, codes = batch(self.bare, givens, wanted)
         fails = codes == STATUSES.index("no-assembly")
         return {name: np.where(fails, np.nan, values[mark]) for name, mark in marks.items()}
-
-    def _mark(self, name: str) -> str:
-        of = role(name).of
-        return self.bodies[int(of)].direction if _turns(name) else of
 
 
 def _order(name: str) -> int:
@@ -222,7 +211,7 @@ class Newton:
 
         def found(places: Array, names: Sequence[str]) -> Values:
             closure, rivals = self._closure, self._rivals
-            pose = closure.solve(self.near(places), places, tolerance).pose
+            pose = closure.solve(self.near(places), places, tolerance)
             rates = closure.rates(pose, rivals.speed)
             changes = None
             if any(_order(name) == 2 for name in names):
@@ -238,8 +227,7 @@ class Newton:
             assert poses is not None
             row: Array = poses.angles[contours.angle(int(of))]
             return row
-        form = contours.point(of)
         if _order(name) == 1:
-            return contours.rate(form, pose, rates)
+            return contours.rate(contours.point(of), pose, rates)
         assert changes is not None
-        return contours.change(form, pose, rates, changes)
+        return contours.change(contours.point(of), pose, rates, changes)

@@ -40,26 +40,15 @@ class Spot:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stability:
-    """What is lost over the cycle; all arrays of shape (N,), NaN where a position has no plan.
+    """What is lost over the cycle; all arrays are float64 of shape (N,), NaN where a position has no plan."""
 
-    Attributes
-    ----------
-    places : float64 array
-        Of the driver, rad or m.
-    sines : float64 array
-        Of the worst intersection on which the chosen quantities hang; `worst` names its marks.
-    conditions : mapping of str to float64 array
-        K of every quantity.
-    misses : mapping of str to float64 array
-        What most drawings of a hand keep, in millimetres where a plan shows the quantity, otherwise in per cent of its
-        largest value over the cycle, where lines do not meet flatly; `in_mm` tells which.
-    """
-
-    places: Array
+    places: Array  # of the driver, rad or m
     statuses: tuple[str, ...]
-    sines: Array
-    worst: tuple[str, ...]
-    conditions: Mapping[str, Array]
+    sines: Array  # of the worst intersection on which the chosen quantities hang
+    worst: tuple[str, ...]  # its mark
+    conditions: Mapping[str, Array]  # K of every quantity
+    # What most drawings of a hand keep, in millimetres where a plan shows the quantity, otherwise in per cent of its
+    # largest value over the cycle, where lines do not meet flatly; and which of both.
     misses: Mapping[str, Array]
     in_mm: Mapping[str, bool]
     spots: tuple[Spot, ...]

@@ -37,38 +37,20 @@ FEWEST, MOST = 3, 100_000  # positions of a cycle
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cycle:
-    """N positions of a mechanism over its cycle.
-
-    Attributes
-    ----------
-    angles : float64 array of shape (N,)
-        Angles of the crank, rad, or travels of a sliding driver, m, in the sense in which it moves.
-    times : float64 array of shape (N,)
-        Seconds from the first position, at constant speed of the driver.
-    values : mapping of str to array of shape (N,)
-        Every quantity and every lettered point; float64 scalars, complex128 vectors and points, NaN where a position
-        fails.
-    codes : int8 array of shape (N,)
-        Index into `STATUSES`.
-    reach : Reach
-        Where the mechanism can be assembled: arcs apart with their limiting positions, change points.
-    motions : tuple of OutputMotion
-        Dead positions, strokes and ratios of times of the links on the frame.
-    zero : float
-        The driver's place at the zero position, where the working stroke begins.
-    """
+    """N positions of a mechanism over its cycle; arrays have the shape (N,)."""
 
     drive: Swept
     structure: Structure
     program: Program
     givens: Mapping[str, float]
-    angles: Array
-    times: Array
+    angles: Array  # of the crank, rad, or travels of a sliding driver, m, in the sense in which it moves
+    times: Array  # seconds from the first position, at constant speed of the driver
+    # every quantity and lettered point: float64 scalars, complex128 vectors and points, NaN where a position fails
     values: Mapping[str, Array]
-    codes: NDArray[np.int8]
+    codes: NDArray[np.int8]  # of `STATUSES`
     reach: Reach
-    motions: tuple[OutputMotion, ...]
-    zero: float
+    motions: tuple[OutputMotion, ...]  # of the links on the frame
+    zero: float  # the driver's place at the zero position, where the working stroke begins
 
     @property
     def mechanism(self) -> Mechanism:

@@ -58,17 +58,9 @@ def pole_distance(mu: float, mu_t: float, derived: float) -> float:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Curve:
-    """A curve by plans, and the same by chords where chords give it; `difference` is chords less plans.
+    """A curve by plans, and the same by chords where chords give it: SI, shape (n,), complex for a vector."""
 
-    Attributes
-    ----------
-    times : float64 array of shape (n,)
-        Seconds.
-    plans, chords : array of shape (n,)
-        SI; complex for a vector.
-    """
-
-    times: Array
+    times: Array  # seconds
     plans: Array
     chords: Array
 
@@ -90,26 +82,17 @@ class Curve:
 class Diagrams:
     """Diagrams of travel, velocity and acceleration over n sections of the cycle.
 
-    Attributes
-    ----------
-    unit : str
-        `m` for a point, `rad` for a link; velocities and accelerations in it per second and per second squared.
-    times : float64 array of shape (n + 1,)
-        Ends of the sections, seconds.
-    s, v, a : array of shape (n + 1,)
-        By plans: signed along a guide and for angles, complex for a point without a guide, whose travel is its place.
-    velocity, acceleration : Curve
-        By chords beside plans, at the middles: velocities of the sections, accelerations of the sections of the
-        velocity curve, which are the ends of the first ones.
+    By plans they are signed along a guide and for angles, complex for a point without a guide, whose travel is its
+    place; shape (n + 1,).
     """
 
-    unit: str
-    times: Array
+    unit: str  # `m` for a point, `rad` for a link; of velocities per second, of accelerations per second squared
+    times: Array  # ends of the sections, seconds
     s: Array
     v: Array
     a: Array
-    velocity: Curve
-    acceleration: Curve
+    velocity: Curve  # by chords beside plans, at the middles of the sections
+    acceleration: Curve  # by chords of the velocity curve, at the ends of the sections
 
 
 def differentiate(s: Array, section: float, closed: bool) -> tuple[Array, Array]:

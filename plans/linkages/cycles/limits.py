@@ -139,7 +139,7 @@ class MarginBoard(ArrayBoard):
         return super()._lines_sine(sine)
 
 
-def reach(mechanism: Mechanism, values: Mapping[str, float], between: Arc | None = None) -> Reach:
+def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = None) -> Reach:
     """Find where in its driver's range a mechanism can be assembled.
 
     Parameters
@@ -156,11 +156,6 @@ def reach(mechanism: Mechanism, values: Mapping[str, float], between: Arc | None
         Limits and change points to the rounding of the margins: better than 1e-12 rad; limits near a change point,
         which are nearly double zeros, than 1e-9 rad.
     """
-    return reach_of(swept(mechanism, values), values, between)
-
-
-def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = None) -> Reach:
-    """Find the reach of a mechanism that is ready for a sweep."""
     free = drive.mechanism.without_loads
     _, program = constructed(free, ("position",))
     position = drive.along(program, values, program.names, MarginBoard, free)
@@ -241,11 +236,8 @@ def _split(margins: Margins, name: str, lines: bool, stretch: Stretch) -> tuple[
     middles = np.array([0.5 * (piece.low + piece.high) for piece in pieces])
     held = margin(middles) >= 0.0
     pieces = [piece for piece, holds in zip(pieces, held, strict=True) if holds]
-    return pieces, [x for x in touches.tolist() if any(_touches(piece, x) for piece in pieces)]
-
-
-def _touches(piece: Stretch, place: float) -> bool:
-    return place in (piece.low, piece.high) or place + TURN == piece.high
+    ends = {end for piece in pieces for end in (piece.low, piece.high)}
+    return pieces, [x for x in touches.tolist() if not ends.isdisjoint((x, x + TURN))]
 
 
 def _between(stretch: Stretch, cuts: list[float]) -> list[Stretch]:
