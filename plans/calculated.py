@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TypeVar
 
 from .board import Board, RecordingBoard
+
+T = TypeVar("T")
 
 
 def calculated(programs: Mapping[str, Iterable[Callable[[Board], None]]]) -> dict[str, str]:
@@ -20,3 +23,8 @@ def calculated(programs: Mapping[str, Iterable[Callable[[Board], None]]]) -> dic
             part(board)
         found |= dict.fromkeys((step.name for step in board.steps), section)
     return found
+
+
+def in_sections(results: Mapping[str, T], sections: Sequence[str], section_of: Callable[[str], str]) -> dict[str, T]:
+    """Return results by name section by section, in each in the order that they have."""
+    return {name: results[name] for name in sorted(results, key=lambda name: sections.index(section_of(name)))}

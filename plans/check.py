@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from .names import role
+
 # how a value has to stand to its limit; within: by its magnitude
 AT_LEAST, MORE, AT_MOST, EQUAL, WITHIN = ("at-least", "more-than", "at-most", "equal", "within")
 SIGNS = {AT_LEAST: "≥", MORE: ">", AT_MOST: "≤", EQUAL: "=", WITHIN: "∈ ±"}
@@ -33,3 +35,9 @@ class Check:
         compared = {"quantity": self.quantity} if self.quantity else {}
         sides = {"value": self.value, "limit": self.limit, "relation": self.relation, "unit": self.unit}
         return {"ok": self.ok, **compared, **sides}
+
+
+def rule_of(check: Check) -> tuple[str, str]:
+    """Return the rule that a check of a gear pair is of, and the wheel, if it is that of one."""
+    name = role(check.name)
+    return (name.kind, name.of) if name.of.isdigit() else (check.name, "")

@@ -88,7 +88,7 @@ class Solved:
 
     def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
         """Return what a millimetre of every plan is worth to the board, SI, by the scale factors of the plans."""
-        return dict(mus)
+        return {plan: PAPER_MM if plan in self.on_paper else mu for plan, mu in mus.items()}
 
     @property
     def on_paper(self) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...plans.gears.wheels import CIRCLES, SHOWN, Wheel
+from ...plans.gears.meshing import CIRCLES, SHOWN, Wheel
 from ...plans.names import role
 from ..dimensions import angle, linear, turning
 from ..figure import ANSWERS

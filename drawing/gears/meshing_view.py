@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from ...plans.gears.construction import MESHING
-from ...plans.gears.wheels import Wheel
+from ...plans.gears.meshing import Wheel
 from ..figure import ANSWERS, Figure, stages
 from ..page import extent
 from ..shapes import Group, Line, Pen, Polyline

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...plans.gears.dense import Rack
+from ...plans.gears.course import Rack
 from ..dimensions import angle, linear
 from ..page import extent
 from ..shapes import Arc, Group, Head, Line, Pen, Polyline

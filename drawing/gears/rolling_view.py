@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...plans.gears.wheels import Wheel
+from ...plans.gears.meshing import Wheel
 from ..figure import ANSWERS, Figure, stages
 from ..shapes import Arc, Circle, Group, Line, Pen, Polyline
 from ..symbols import right_angle, unit

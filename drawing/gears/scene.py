@@ -6,12 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ...plans.gears.checks import SAME
 from ...plans.gears.construction import MESHING
 from ...plans.gears.geometry import POINTS
-from ...plans.gears.meshing import Meshing
-from ...plans.gears.solve import SolvedGear
-from ...plans.gears.wheels import Wheel, wheels
+from ...plans.gears.meshing import Meshing, Wheel, wheels
+from ...plans.gears.solve import SAME, SolvedGear
 from ...scales.scale import Scale
 from ..contents import SubjectScene
 from ..words import Words

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from ...plans.gears.dense import active_area, sliding_curve
+from ...plans.gears.course import active_area, sliding_curve
 from ...plans.gears.gear import WHEELS
 from ...plans.gears.geometry import POINTS
 from ...scales.scale import Scale

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from ...plans.check import AT_LEAST, AT_MOST, Check
-from ...plans.gears.checks import rule_of
+from ...plans.check import AT_LEAST, AT_MOST, Check, rule_of
 from ...plans.gears.construction import MESHING, THETA
 from ...plans.gears.gear import WHEELS
 from ...scales.scale import Scale

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
-from ...plans.check import Check
-from ...plans.gears.checks import rule_of
+from ...plans.check import Check, rule_of
 from ...plans.gears.gear import SHIFTS, WHEELS
 from ...plans.gears.geometry import POINTS
 from ...plans.names import role

@@ -9,8 +9,8 @@ import math
 from collections.abc import Iterable
 
 from ...plans.board import Step
-from ...plans.gears.checks import CENTRES
 from ...plans.gears.gear import VALUES, unit_of
+from ...plans.gears.solve import SAME_CENTRES
 from ...plans.names import role
 from ..formulas import prints
 from ..printed import DEGREES, Input, Shown, worked
@@ -31,7 +31,7 @@ NOISE = 1e-9  # by which it may differ
 
 def sizes_block(scene: GearScene, width: float) -> View:
     """Return the calculation of the main sizes and its checks, sections I and II of the note."""
-    lines = [*_lines(scene, SIZES.split()), *_lines(scene, CENTRES, "a_w")]
+    lines = [*_lines(scene, SIZES.split()), *_lines(scene, SAME_CENTRES, "a_w")]
     return text_block("equations_sizes", scene.words["heading.gear_sizes"], lines, scene.style, width)
 
 

@@ -1,4 +1,4 @@
-"""An external spur gear pair as data; all numbers by name.
+"""An external spur gear pair as data, all numbers by name, and what cannot be, seen at these alone.
 
 The numbers come separately, in SI, under the names of `VALUES`, so that one pair serves a variant, a sweep and a batch.
 A field may also hold the name of a given that is a choice between words: `chosen` puts the word of a variant there.
@@ -7,9 +7,10 @@ A field may also hold the name of a given that is a choice between words: `chose
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from ...scales.errors import InputError
 from ..names import Name, role
 
 CCW, CW = ROTATIONS = ("ccw", "cw")
@@ -88,3 +89,53 @@ def unit_of(name: str) -> str:
     if name in NUMBERS or role(name).kind in PLAIN:
         return "1"
     return "rad" if role(name).kind in ANGLES else "m"
+
+
+FEWEST = 3  # teeth
+MOST = 10_000
+ALPHA = math.radians(10.0), math.radians(35.0)
+NEAR = 1e-12  # by which a limit may be passed: rounding
+FIXED_BY = (
+    *(("x_1", "x_2"), ("x_1", "x_sum"), ("x_1", "a_w"), ("x_2", "x_sum"), ("x_2", "a_w")),
+    *(("x_sum",), ("a_w",)),
+)
+
+
+def impossible(values: Mapping[str, float]) -> Iterator[tuple[str, InputError]]:
+    """Go through what cannot be, each with the name of the number that is told of.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        In SI; what `STANDARD` has may be left out.
+    """
+    found = {**STANDARD, **values}
+    m = found["m"]
+    if not (math.isfinite(m) and m > 0.0):
+        yield "m", InputError("gear-module", text=f"{m * 1e3:.7g}")
+    for name in ("z_1", "z_2"):
+        z = found[name]
+        if not (math.isfinite(z) and FEWEST <= z <= MOST and z == round(z)):
+            yield name, InputError("gear-teeth", name=name, text=f"{z:.7g}", least=FEWEST, most=MOST)
+    yield from _rack(found)
+    given = tuple(name for name in SHIFTS if name in found)
+    if given not in FIXED_BY:
+        yield (given or SHIFTS)[0], InputError("gear-shifts", given=", ".join(given) or "-")
+    for name in given:
+        if not math.isfinite(found[name]):
+            yield name, InputError("gear-shifts", given=", ".join(given))
+
+
+def _rack(values: Mapping[str, float]) -> Iterator[tuple[str, InputError]]:
+    """Look at the rack: its angle, and that its tooth has a tip, a straight edge and room for a corner."""
+    alpha, h_a, h_l, c = (values[name] for name in ("alpha", "h_a", "h_l", "c"))
+    if not ALPHA[0] - NEAR <= alpha <= ALPHA[1] + NEAR:
+        low, high = (f"{math.degrees(angle):.0f}" for angle in ALPHA)
+        yield "alpha", InputError("gear-alpha", text=f"{math.degrees(alpha):.7g}", low=low, high=high)
+        return
+    depth = h_a + c
+    widest = 0.25 * math.pi / math.tan(alpha)
+    holds = {"c": c >= 0.0, "h_a": h_a > 0.0 and depth <= widest + NEAR, "h_l": h_a < h_l <= h_a + depth + NEAR}
+    if wrong := next((name for name, right in holds.items() if not right), ""):
+        said = {"h_a": f"{h_a:.6g}", "h_l": f"{h_l:.6g}", "c": f"{c:.6g}", "most": f"{widest:.4g}"}
+        yield wrong, InputError("gear-rack", **said)

@@ -16,9 +16,8 @@ import numpy as np
 from ...scales.errors import InputError
 from ..laws import LAWS
 from . import formulas as formulas  # its laws of calculation
-from .gear import SHIFTS, STANDARD, WHEELS
+from .gear import SHIFTS, STANDARD, WHEELS, impossible
 from .geometry import geometry
-from .limits import impossible
 from .profile import tooth_of
 
 HALVINGS = 200
@@ -124,9 +123,8 @@ def _meshes(values: Mapping[str, float], given: str) -> None:
     for i in WHEELS:
         if not tooth_of(values, i).whole:
             said = {"name": f"x_{i}", "text": f"{values[f'x_{i}']:.6g}", "wheel": i}
-            raise (
-                InputError("gear-no-tooth-found", given=given, **said) if given else InputError("gear-no-tooth", **said)
-            )
+            found_by = {"given": given} if given else {}
+            raise InputError("gear-no-tooth-found" if given else "gear-no-tooth", **found_by, **said)
     line = geometry(values, ("g_alpha",))["g_alpha"]
     if not line > 0.0:
         raise InputError("gear-no-contact", gap=f"{-line * 1e3:.4g}")

@@ -24,8 +24,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .formulas import tangent_of_involute, unrolled
 from .geometry import geometry
-from .involute import tangent_of_involute, unrolled
 
 Array = NDArray[np.float64]
 Points = NDArray[Any]  # complex

@@ -17,8 +17,7 @@ from ..hands.hand import Hand
 from ..hands.shaky import draw, drawing_of
 from ..hands.spread import kept
 from .construction import MESHING
-from .sections import DRAWN, section_of
-from .solve import SolvedGear
+from .solve import DRAWN, SolvedGear, section_of
 
 Array = NDArray[np.float64]
 RATIOS = (1.0, 2.0, 2.5, 4.0, 5.0, 10.0, 20.0)  # millimetres of paper for one of the wheels, GOST 2.302

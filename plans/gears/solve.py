@@ -1,19 +1,32 @@
-"""A gear pair solved: its construction, values and quantities together, and its teeth when they are asked for."""
+"""A gear pair solved: its construction, values and quantities in sections, its teeth, and what it is judged by.
+
+K is that of `plans.condition`, over Q; lengths that are drawn count beside the module at least. Numbers of teeth do not
+err. Source of the checks: GOST 16532-70, appendix on quality by geometry.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
+
+import numpy as np
 
 from ...scales.scale import steps
 from ..boards.exact import run
-from ..check import Check
+from ..calculated import calculated, in_sections
+from ..check import AT_LEAST, AT_MOST, EQUAL, Check
+from ..condition import Condition, derivatives, ratio
+from ..hands.hand import Tolerance
+from ..hands.sensitivities import added_up
+from ..hands.shaky import Paper
+from ..marking.key import rounded
+from ..names import role
 from ..quantities import Quantity, quantities, shown_on
+from ..references import worst_behind
 from ..solved import PAPER_MM, Solved
-from .checks import checks, cut, on_flanks
 from .construction import (
     CENTRES,
     DIAGRAMS,
@@ -29,11 +42,84 @@ from .construction import (
     construct,
     rolling,
 )
-from .gear import PLANS, WHEELS, GearPair, unit_of
-from .geometry import DIVISIONS, NOTHING, PARTS, POINTS, geometry
+from .gear import PLANS, VALUES, WHEELS, GearPair, unit_of
+from .geometry import DIVISIONS, NOTHING, PARTS, POINTS, SIZES, geometry
 from .givens import complete
 from .meshing import Meshing, meshing_of
-from .sections import place_of
+
+# of the calculated quantities, each the steps of one part of the geometry
+CALCULATED = ("sizes", "centres", "auxiliary", "quality", "engagement", "measures")
+DRAWN = "drawn"
+SECTIONS = (*CALCULATED, DRAWN, SLIDING)
+
+
+@cache
+def _calculated() -> Mapping[str, str]:
+    """Return the section of every calculated quantity."""
+    parts = {section: (part,) for section, part in zip(CALCULATED, SIZES, strict=True)}
+    return dict.fromkeys(("x_1", "x_2"), CALCULATED[0]) | calculated(parts)  # shifts that are found
+
+
+def section_of(name: str) -> str:
+    """Return the section of a quantity, of `SECTIONS`: what is not calculated is drawn, and of sliding what has points.
+
+    >>> section_of("d_a1"), section_of("g_alpha_drawn"), section_of("theta_12_03")
+    ('sizes', 'drawn', 'sliding')
+    """
+    if name in _calculated():
+        return _calculated()[name]
+    return SLIDING if role(name).kind in ("y", "theta") or name in ("PW", "mu_rho", "mu_theta") else DRAWN
+
+
+SAME_CENTRES = ("a_w_rolling", "a_w_shift", "a_w_tip1", "a_w_tip2")  # the distance of the centres in other ways
+EPSILON = 1.2  # the least contact ratio advised for spur gears
+ROUNDING = 1e-12  # part of a length by which two ways to it may differ, and a limit may be missed
+SAME = 1e-9  # part of the active line: flanks that touch along all of it
+
+
+def judged(name: str, quantity: str, value: float, limit: float, relation: str, of: str = "") -> Check:
+    """Return the check of a quantity, SI, against its limit, rounding apart; `of` is the quantity that the limit is.
+
+    Names are `undercut_1`, `interference_1`, `contact_ratio`, `contact_flanks`, `tip_1`, `centre_a_w_shift`, ...
+    """
+    room = ROUNDING * max(abs(value), abs(limit))
+    if relation == EQUAL:
+        ok = math.isclose(value, limit, rel_tol=ROUNDING)
+    else:
+        ok = value >= limit - room if relation == AT_LEAST else value <= limit + room
+    return Check(
+        name=name, ok=ok, value=value, unit=unit_of(quantity), limit=limit, relation=relation, quantity=quantity, of=of
+    )
+
+
+def checks(pair: GearPair, found: Mapping[str, float]) -> list[Check]:
+    """Return the checks of a pair with its quantities by name, in the order of the note.
+
+    Interference is looked for where the rack has cut: the curvature at the lower point of contact must not be less than
+    at the boundary point. Of an undercut tooth that is negative, and the check of undercutting tells it.
+    """
+    least_tip = pair.least_tip * found["m"]
+    return [
+        *(judged(f"centre_{name}", name, found[name], found["a_w"], EQUAL, "a_w") for name in SAME_CENTRES),
+        *_roots(found),
+        judged("contact_ratio", "epsilon_alpha", found["epsilon_alpha"], EPSILON, AT_LEAST),
+        *(judged(f"tip_{i}", f"s_a{i}", found[f"s_a{i}"], least_tip, AT_LEAST) for i in WHEELS),
+    ]
+
+
+def _roots(found: Mapping[str, float]) -> list[Check]:
+    undercut, interference = [], []
+    for i in WHEELS:
+        x, least, rho_l, rho_p = (f"{name}{i}" for name in ("x_", "x_min", "rho_l", "rho_p"))
+        undercut.append(judged(f"undercut_{i}", x, found[x], found[least], AT_LEAST, least))
+        interference.append(judged(f"interference_{i}", rho_l, found[rho_l], found[rho_p], AT_MOST, rho_p))
+    return undercut + interference
+
+
+def cut(found: Mapping[str, float]) -> bool:
+    """Tell whether teeth may lack a part of their active flanks: undercut, met at the fillet, or pointed."""
+    return not all(check.ok for check in _roots(found)) or any(found[f"s_a{i}"] < 0.0 for i in WHEELS)
+
 
 SCALES = {MESHING: "mu_l", SLIDING: "mu_rho", THETA: "mu_theta"}
 # the plan that shows a quantity as a segment, beside those that are read from one
@@ -66,11 +152,15 @@ class SolvedGear(Solved):
     @property
     def checks(self) -> tuple[Check, ...]:
         """What the pair is judged by; the teeth are made where they may have lost a part of their flanks."""
-        found = checks(self.pair, self.sizes)
-        if not cut(self.sizes):
-            return tuple(found)
-        place = 1 + [check.name for check in found].index("contact_ratio")
-        return (*found[:place], *on_flanks(self.sizes, self.meshing.touching), *found[place:])
+        found, sizes = checks(self.pair, self.sizes), self.sizes
+        if cut(sizes):
+            first, last = self.meshing.touching
+            length = max(last - first, 0.0)
+            if length < sizes["g_alpha"] * (1.0 - SAME):  # the formula of the contact ratio counts what is cut away
+                place = 1 + [check.name for check in found].index("contact_ratio")
+                ratio_left = length / sizes["p_b"]
+                found.insert(place, judged("contact_flanks", "epsilon_flanks", ratio_left, EPSILON, AT_LEAST))
+        return tuple(found)
 
     @property
     def edges(self) -> tuple[str, ...]:
@@ -81,10 +171,6 @@ class SolvedGear(Solved):
     def on_paper(self) -> tuple[str, ...]:
         """The diagrams of sliding, which are drawn in millimetres of paper."""
         return tuple(plan for plan in DIAGRAMS if plan in self.scale_of_plan)
-
-    def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
-        """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""
-        return {plan: PAPER_MM if plan in DIAGRAMS else mu for plan, mu in mus.items()}
 
 
 def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> SolvedGear:
@@ -111,13 +197,14 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
     givens = {**found, **board_givens(pair, sizes)}
     board = run(program, givens)
     drawn = {*program.plans}
-    results = quantities(program, board.values, _lengths(givens, drawn), unit_of)
+    given_lengths = {"PW": givens["PW"]} if SLIDING in drawn else {}
+    results = quantities(program, board.values, given_lengths, unit_of)
     if SLIDING in drawn:
         results = _with_ends(results)
     return SolvedGear(
         program=program,
         values={**board.values, **(dict.fromkeys(ENDLESS, -math.inf) if SLIDING in drawn else {})},
-        quantities=_in_sections(_stated(givens, drawn, values) | results),
+        quantities=in_sections(_stated(givens, drawn, values) | results, SECTIONS, section_of),
         sines=board.sines,
         status=board.status,
         trouble=board.trouble,
@@ -131,15 +218,13 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
 
 
 def layout_of(pair: GearPair, sizes: Mapping[str, float]) -> Layout:
-    """Return what the construction of a pair with these sizes depends on."""
-    first, second = (rolling(sizes[f"rho_w{i}"], sizes[f"rho_a{i}"]) for i in WHEELS)
-    return Layout((first, second), pair.sense, point_at_pole(sizes))
+    """Return what the construction of a pair with these sizes depends on.
 
-
-def point_at_pole(sizes: Mapping[str, float]) -> str:
-    """Return the point of the table of sliding that stands in P: the second of three, unless A1 or A2 is beyond it."""
+    Of three points of the table of sliding the second stands in P, unless A1 or A2 is beyond it.
+    """
     before = sum(min(max(sizes[name], 0.0), sizes["l_N1N2"]) < sizes["rho_w1"] for name in ("rho_p1", "rho_a1"))
-    return MARKS[before]
+    first, second = (rolling(sizes[f"rho_w{i}"], sizes[f"rho_a{i}"]) for i in WHEELS)
+    return Layout((first, second), pair.sense, MARKS[before])
 
 
 def board_givens(pair: GearPair, sizes: Mapping[str, float]) -> dict[str, float]:
@@ -157,11 +242,6 @@ def _stated(givens: Mapping[str, Any], drawn: set[str], values: Mapping[str, flo
     return found | {name: Quantity(name, givens[name], "1") for name in ("x_1", "x_2") if name not in values}
 
 
-def _in_sections(results: Mapping[str, Quantity]) -> dict[str, Quantity]:
-    """Return the quantities section by section, in each in the order of construction."""
-    return {name: results[name] for name in sorted(results, key=place_of)}
-
-
 def _with_ends(results: Mapping[str, Quantity]) -> dict[str, Quantity]:
     """Return the quantities with those of the table that are undefined, each beside the other one of its point."""
     found: dict[str, Quantity] = {}
@@ -171,6 +251,55 @@ def _with_ends(results: Mapping[str, Quantity]) -> dict[str, Quantity]:
     return found
 
 
-def _lengths(givens: Mapping[str, Any], drawn: set[str]) -> dict[str, float]:
-    """Return the given lengths that are results, too."""
-    return {"PW": givens["PW"]} if SLIDING in drawn else {}
+WHOLE = ("z_1", "z_2")
+
+
+def conditions_of(solved: SolvedGear) -> dict[str, Condition]:
+    """Return the condition of every quantity; what is given has that of a number alone."""
+    varied = [name for name in VALUES if solved.givens.get(name) and name not in WHOLE]
+    slopes = derivatives(solved.program, solved.givens, varied)
+    slopes |= {name: solved.givens[name] * np.eye(len(varied))[i] for i, name in enumerate(varied)}
+    worst = worst_behind(solved.program, solved.sines)
+    found = {}
+    for name in solved.quantities:
+        slope = slopes.get(name, 0.0 if name in solved.givens else np.nan)
+        total = float(np.abs(slope).sum())
+        found[name] = Condition(ratio(total, _size(solved, name)), worst.get(name, 1.0))
+    return found
+
+
+def _size(solved: SolvedGear, name: str) -> float:
+    """Return the size beside which an error of a quantity counts, SI."""
+    own = float(abs(solved.values[name]))
+    drawn = name in solved.shown_on and solved.quantities[name].unit == "m"
+    return max(own, float(solved.givens["m"])) if drawn else own
+
+
+ANGULAR = tuple(f"{name}{i}{end}" for name, end in (("phi_alpha", "_drawn"), ("epsilon_alpha_arc", "")) for i in WHEELS)
+# curvatures of both flanks at the ends of the active line
+ENDS = {"A1": ("rho_p1", "rho_a2"), "A2": ("rho_a1", "rho_p2")}
+
+
+def tolerances_of(solved: SolvedGear, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
+    """Return by how much quantities that hang on angles or diagrams of the drawing may differ, SI.
+
+    A flank at the start of engagement stands as its mark on the line of action does, and as it is turned: such an angle
+    may miss what all these errors add up to. Sliding at the ends of the active line can be calculated, but is taken
+    from the diagram: it may miss what comes of both ordinates.
+    """
+    names = [name for name in ANGULAR if name in solved.quantities]
+    found = added_up(paper, tolerance, names)
+    found = {name: max(found[name], rounded(solved.values[name], tolerance)) for name in names}
+    return found | dict(_extremes(solved, tolerance))
+
+
+def _extremes(solved: SolvedGear, tolerance: Tolerance) -> Iterator[tuple[str, float]]:
+    """Go through the extremes of sliding: theta = 1 - y / y_own errs by what either segment may miss."""
+    sizes = solved.sizes
+    for end, rhos in ENDS.items():
+        y = [sizes["PW"] / PAPER_MM * sizes[rho] / sizes[f"rho_w{i}"] for i, rho in zip(WHEELS, rhos, strict=True)]
+        for i in WHEELS:
+            name, own, mate = f"theta_{i}{3 - i}_{end}", y[i - 1], y[2 - i]
+            if own > 0.0:
+                missed = (tolerance.of_segment(mate) + mate / own * tolerance.of_segment(own)) / own
+                yield name, max(float(missed), rounded(sizes[name], tolerance))

@@ -7,9 +7,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from kulman.plans.gears.blocking import BLOCKING, CURVES, Plane, plane_of
+from kulman.plans.gears.blocking import BLOCKING, CURVES, Plane, crossings, grid, near_crossings, plane_of, traced
 from kulman.plans.gears.givens import complete
-from kulman.plans.gears.tracing import crossings, grid, near_crossings, traced
 from kulman.tests.support.gears import SEED, madi, second_route
 
 WHEELS = [

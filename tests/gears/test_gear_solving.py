@@ -9,11 +9,9 @@ import numpy as np
 import pytest
 
 from kulman import cli, solve
-from kulman.plans.gears.conditions import WHOLE, conditions_of
 from kulman.plans.gears.gear import PLANS, GearPair
 from kulman.plans.gears.geometry import geometry_program
-from kulman.plans.gears.sections import SECTIONS, section_of
-from kulman.plans.gears.solve import solve_gear
+from kulman.plans.gears.solve import SECTIONS, WHOLE, conditions_of, section_of, solve_gear
 from kulman.plans.hands.hand import preset
 from kulman.plans.hands.shaky import paper_of
 from kulman.scales.errors import LANGUAGES, InputError

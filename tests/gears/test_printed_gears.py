@@ -10,8 +10,8 @@ import math
 
 import pytest
 
+from kulman.plans.gears.formulas import angle_of_involute
 from kulman.plans.gears.geometry import POINTS, geometry
-from kulman.plans.gears.involute import angle_of_involute
 from kulman.tests.support.gears import madi
 
 FOUND = geometry(madi())

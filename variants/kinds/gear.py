@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar
 
-from ...plans.check import Check
-from ...plans.gears.checks import rule_of
-from ...plans.gears.gear import MATERIALS, MODULES, PLANS, ROTATIONS, SHIFTS, STANDARD, VALUES, GearPair
-from ...plans.gears.limits import impossible
+from ...plans.check import Check, rule_of
+from ...plans.gears.gear import MATERIALS, MODULES, PLANS, ROTATIONS, SHIFTS, STANDARD, VALUES, GearPair, impossible
 from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.scale import Scale
@@ -158,7 +156,7 @@ class Gears(Sized[GearPair, "SolvedGear"]):
 
     def limits(self, drawn: SolvedGear, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let pass of angles what the errors of the marks they hang on add up to."""
-        from ...plans.gears.conditions import tolerances_of
+        from ...plans.gears.solve import tolerances_of
 
         return tolerances_of(drawn, paper, tolerance)
 
