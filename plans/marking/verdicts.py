@@ -17,8 +17,7 @@ from ...scales.names import unknown
 from ..board import Step
 from ..names import role
 from .allowance import Allowance
-from .answers import Answer, Said, known, measured, nearest, readings, values_of
-from .comparing import NEVER, SIZE, Miss, miss, ratio
+from .answers import NEVER, SIZE, Answer, Miss, Said, known, measured, miss, nearest, ratio, readings, values_of
 from .key import Key, Question, behind, hanging_on
 from .lines import Line, Marking, Verdict
 from .student import StudentBoard, Take, settled, settled_in

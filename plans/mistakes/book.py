@@ -21,10 +21,10 @@ from ..boards.exact import SMALL, ExactBoard
 from ..hands.shaky import Paper
 from ..hands.tolerances import tolerances
 from ..marking.key import Key
-from . import acceleration, cam_sizes, cams, forces, gears, inputs, lever, reading, velocity
+from . import acceleration, cams, forces, gears, inputs, lever, reading, velocity
 from .rules import Broken, Change, Mistake, Scene, breaks, put_together
 
-CHAPTERS = (inputs, reading, velocity, acceleration, forces, lever, cams, cam_sizes, gears)
+CHAPTERS = (inputs, reading, velocity, acceleration, forces, lever, cams, gears)
 MISTAKES: dict[str, Mistake] = put_together(chapter.MISTAKES for chapter in CHAPTERS)
 NOTHING = 1e-9  # part of a tolerance that is rounding
 FLATTER = 0.7  # of the flattest angle of the right construction: lines meet more flatly than they should

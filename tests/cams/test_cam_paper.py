@@ -12,7 +12,7 @@ from kulman.scales.errors import InputError
 from kulman.tests.support.cam_cases import MU_D2S, MU_DS, MU_S, MU_S_D2S, MU_S_DS, measured, printed_scales
 from kulman.tests.support.printed_numbers import lines_of
 from kulman.tests.support.readback import read
-from kulman.variants.marking.report_json import to_json
+from kulman.variants.marking.reports import to_json
 from kulman.variants.sheets import Sheet
 from kulman.variants.solution import Solution
 

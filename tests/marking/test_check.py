@@ -17,9 +17,7 @@ from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.marking.checks import Check
 from kulman.variants.marking.keyed import asked_of
 from kulman.variants.marking.reading import read_answers
-from kulman.variants.marking.report_html import report_html
-from kulman.variants.marking.report_json import to_json
-from kulman.variants.marking.report_text import report_text
+from kulman.variants.marking.reports import report_html, report_text, to_json
 from kulman.variants.marking.rubric import read_rubric
 from kulman.variants.record_book import variant_of_book
 from kulman.variants.roster import read_roster

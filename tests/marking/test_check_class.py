@@ -26,8 +26,7 @@ from kulman.variants import crew
 from kulman.variants.marking import class_run
 from kulman.variants.marking.answers import Answers, Line
 from kulman.variants.marking.class_run import Job, mark_class, slug
-from kulman.variants.marking.flags import Measured, measured, shared, too_exact
-from kulman.variants.marking.result import Result
+from kulman.variants.marking.result import Measured, Result, measured, shared, too_exact
 from kulman.variants.roster import Entry, Roster, Who
 
 TASK = "nau-slider-crank"

@@ -11,8 +11,7 @@ import pytest
 
 from kulman import check
 from kulman.tests.support.mechanisms import SEED
-from kulman.variants.marking.beside import Box, boxes
-from kulman.variants.marking.figures import plan_figures
+from kulman.variants.marking.figures import Box, boxes, plan_figures
 
 TASK = "madi-four-bar"
 

@@ -19,10 +19,9 @@ from kulman.tests.support.students import SEED, SLIPS
 from kulman.tests.support.students_marked import marked, population
 from kulman.variants.marking.answers import Answers, Line
 from kulman.variants.marking.cells import rounded
-from kulman.variants.marking.class_table import class_rows
 from kulman.variants.marking.marked import Desk, Marked
 from kulman.variants.marking.report import Report
-from kulman.variants.marking.result import result_of
+from kulman.variants.marking.result import class_rows, result_of
 from kulman.variants.roster import Who
 from kulman.variants.shelf import bundled_text
 

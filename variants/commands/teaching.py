@@ -257,9 +257,7 @@ def _mark(
 
 def _mark_one(asked: Check, answers: Answers, files: tuple[Path, ...], as_json: bool) -> None:
     """Mark one student: the report to files, else to the console."""
-    from ..marking.filing import write_reports
-    from ..marking.report_json import to_json
-    from ..marking.report_text import report_text
+    from ..marking.reports import report_text, to_json, write_reports
 
     told = asked.mark(answers)
     if as_json:
@@ -279,8 +277,8 @@ def _print_class(
     asked: Check, found: list[Answers], results: list[Result], files: tuple[Path, ...], moodle: Path | None
 ) -> None:
     """Write the tables of a class, and print a line per student."""
-    from ..marking.class_table import class_lines
-    from ..marking.filing import write_tables
+    from ..marking.class_run import write_tables
+    from ..marking.result import class_lines
 
     write_tables(asked, results, found, files, moodle)
     absent = asked.roster.missing(one.who for one in found) if asked.roster else []

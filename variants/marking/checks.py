@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ...drawing.formats import format_named
+from ...drawing.writers import folder_for, save_all
 from ...scales.errors import KulmanError
 from ..arguments import by_name, plans_wanted
 from ..case import Settings
@@ -17,14 +17,18 @@ from ..kinds import kind_of
 from ..reader import load_task
 from ..record_book import Digits
 from ..roster import Roster, read_roster
+from ..spreadsheets.cells_out import table_bytes
+from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..task import Task
 from .answers import Answers, Asked
-from .keyed import Request, asked_of
+from .class_run import Job, mark_class
+from .keyed import Request, asked_of, class_header, form_rows
+from .marked import Desk
+from .reading import read_all
+from .report import Report, report
+from .result import Result, result_of
 from .rubric import Rubric, read_rubric
-
-if TYPE_CHECKING:
-    from .report import Report
-    from .result import Result
+from .wording import texts
 
 PathLike = str | os.PathLike[str]
 
@@ -48,9 +52,24 @@ class Check:
         InputError
             A kind of file that is no form, or a place where none can be written.
         """
-        from .filing import write_form
+        task, language = self.request.task, self.request.language
+        key = Desk(self).keyed(self.request.variant or next(iter(task.variants)), {})
+        if self.roster is not None:
+            rows = [class_header(key.parts, language, self.rubric.directions != "ignored"), *self._students()]
+            bold, frozen = [0], 1
+        else:
+            rows = list(form_rows(key, {"task": task.id, "variant": self.request.variant}))
+            columns = texts(language)["column.name"]
+            frozen = next(number for number, row in enumerate(rows) if row[0] == columns) + 1
+            bold = [n for n, row in enumerate(rows) if n >= frozen - 1 and (len(row) == 1 or row[0] == columns)]
+        looks = rows, language, task.id, bold, frozen
+        return save_all((file,), TABLES, lambda path: [(path, table_bytes(path, *looks))])[0]
 
-        return write_form(self, file)
+    def _students(self) -> Iterator[tuple[str, ...]]:
+        """Go through the rows of a class's form: who they are, which variant; the sheet id is for them to copy."""
+        for entry in self.roster.entries if self.roster else ():
+            variant = entry.variant_of(self.request.task, self.digits)
+            yield entry.who.student, entry.who.group, entry.who.book, entry.who.number, variant, ""
 
     def read(self, *names: str, warn: Callable[[KulmanError], None] | None = None) -> list[Answers]:
         """Read the answers in files, folders, patterns.
@@ -66,8 +85,6 @@ class Check:
         InputError
             Nothing can be read.
         """
-        from .intake import read_all
-
         return read_all(names, self.request.task.id, self.asked, _refuse if warn is None else warn)
 
     def mark(self, answers: Answers) -> Report:
@@ -78,9 +95,8 @@ class Check:
         InputError, PositionError
             The variant or its data have no answer key.
         """
-        from .filing import mark_alone
-
-        return mark_alone(self, answers)
+        marked, language = Desk(self).mark(answers), self.request.language
+        return report(marked, self.rubric, language, self.own, result_of(marked, language).flags(language))
 
     def mark_all(
         self,
@@ -105,9 +121,8 @@ class Check:
         InputError
             A report cannot be written.
         """
-        from .filing import mark_all
-
-        return mark_all(self, answers, folder, advance or (lambda done, whole: None), jobs)
+        place = None if folder is None else str(folder_for(folder))
+        return mark_class(Job(self, place), answers, advance or (lambda done, whole: None), jobs)
 
 
 def _refuse(error: KulmanError) -> None:

@@ -9,18 +9,23 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ... import __version__
-from ...drawing.writers import slug, write_whole
+from ...drawing.writers import Files, save_all, slug, write_whole
 from ...scales.errors import InputError, KulmanError
 from ..crew import Advance, shared_out
 from ..journal import Journal, digest_of, remove_stale
+from ..spreadsheets.cells_out import csv_table, table_bytes
+from ..spreadsheets.grid import SUFFIXES
 from .answers import Answers
-from .checks import Check
 from .marked import Desk, variant_of
 from .report import report
 from .reports import REPORTS, report_bytes
-from .result import Result, failed, result_of
+from .result import Result, class_rows, failed, moodle_rows, result_of
+
+if TYPE_CHECKING:
+    from .checks import Check
 
 JOURNAL = ".kulman-check.jsonl"
 REPORTS_NOTED = ".kulman-reports.json"  # which reports of a folder are the program's own
@@ -171,3 +176,19 @@ class _Marked:
         if self.journal is not None and self.folder is not None:
             self.journal.finish()
             tidy(self.folder, results)
+
+
+def write_tables(
+    check: Check, results: Sequence[Result], answers: Sequence[Answers], files: Sequence[Path], moodle: Path | None
+) -> None:
+    """Write the tables of a class."""
+    language = check.request.language
+    absent = check.roster.missing(one.who for one in answers) if check.roster else []
+    rows = list(class_rows(results, absent, language))
+
+    def table(path: Path) -> Files:
+        if path == moodle:
+            return [(path, csv_table(list(moodle_rows(results, language)), language, ","))]
+        return [(path, table_bytes(path, rows, language, check.request.task.id, [0], 1))]
+
+    save_all((*files, *filter(None, (moodle,))), SUFFIXES, table)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from statistics import median
+from typing import TYPE_CHECKING
 
 from ...plans.marking.answers import Answer
-from ...plans.marking.verdicts import CLEAR, Line, Marking, Verdict, bounded, mark
+from ...plans.marking.key import Key
+from ...plans.marking.verdicts import CLEAR, Line, Marking, Verdict, behind, bounded, count_right, first_wrong, mark
 from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError
 from ...scales.kept import Kept
@@ -16,12 +20,122 @@ from ..record_book import variant_of_book
 from ..roster import Entry
 from ..sheet_id import same_id, variant_of_id
 from ..solution import Solution
-from .answers import Answers
+from .answers import Answers, Mu
 from .answers import Line as Written
-from .checks import Check
-from .elsewhere import fits_other
 from .keyed import Keyed, keyed
-from .misfits import NEAR, Misfit, counted_once, misfits
+
+if TYPE_CHECKING:
+    from .checks import Check
+
+NEAR = 0.05  # part by which values over segments may differ from one another
+TELLING = 3  # lines that must tell that a scale factor is not theirs
+SHORT = 2.0  # mm; shorter segments are read too coarsely to tell
+FEWEST = 4  # answers that must be right under the key of another variant
+MANY, MOST = 0.5, 0.8  # parts of the answers: not right under one's own key; that agree, or are right under the other
+
+
+@dataclass(frozen=True, slots=True)
+class Misfit:
+    """A scale factor as written and the one that segments and values fit, SI per mm; `names` are their quantities."""
+
+    symbol: str
+    written: float
+    fits: float
+    names: tuple[str, ...]
+
+
+def misfits(answers: Answers, key: Key, scale_of_plan: Mapping[str, str]) -> Iterator[Misfit]:
+    """Go through the scale factors in rows of their own that do not fit what stands under them.
+
+    The values must be nearer to the right ones than the segments times the factor: where the values are wrong, it is
+    they that were calculated wrongly.
+    """
+    by_symbol: dict[str, list[Written]] = {}
+    for line in answers.lines.values():
+        question = key.questions.get(line.name)
+        symbol = "" if question is None else scale_of_plan.get(question.plan, "")
+        if symbol in answers.scales and line.mu is None and (line.mm or 0.0) >= SHORT and line.value:
+            by_symbol.setdefault(symbol, []).append(line)
+    for symbol, lines in by_symbol.items():
+        found = _misfit(symbol, lines, answers.scales[symbol], key)
+        if found is not None:
+            yield found
+
+
+def _misfit(symbol: str, lines: list[Written], mu: Mu, key: Key) -> Misfit | None:
+    """Return what one scale factor should have been, if it is not what is written."""
+    shown = [abs(line.value or 0.0) / (line.mm or 1.0) for line in lines]
+    fits = median(shown)
+    agree = sum(abs(one - fits) <= NEAR * fits for one in shown)
+    if agree < max(TELLING, MOST * len(lines)) or any(abs(way - fits) <= 2.0 * NEAR * fits for way in mu.ways):
+        return None
+    written = mu.nearest(fits)
+    nearer = [_values_are_nearer(line, written, key) for line in lines]
+    if sum(nearer) < MOST * len(lines):
+        return None
+    return Misfit(symbol, written, fits, tuple(line.name for line in lines))
+
+
+def _values_are_nearer(line: Written, mu: float, key: Key) -> bool:
+    right = abs(key[line.name])
+    if not right:
+        return True
+    value, by_mm = (abs(math.log(abs(one) / right)) for one in (line.value or right, (line.mm or 1.0) * mu))
+    return value < by_mm
+
+
+def counted_once(
+    marking: Marking, found: Iterable[Misfit], counted: Collection[str]
+) -> tuple[Marking, dict[str, Misfit]]:
+    """Return the marking with each misfit as an error of the first line that it concerns; and the misfits by lines.
+
+    Parameters
+    ----------
+    counted : collection of str
+        The lines that the mark is made of: one of them must bear the error.
+    """
+    bearers: dict[str, Misfit] = {}
+    for misfit in found:
+        names = [line.name for line in marking.lines if line.name in misfit.names]
+        bearers[next((name for name in names if name in counted), names[0])] = misfit
+    if not bearers:
+        return marking, {}
+    lines = tuple(
+        replace(line, verdict=Verdict.SCALE, about="size") if line.name in bearers and line.verdict.passed else line
+        for line in marking.lines
+    )
+    first = first_wrong(lines)
+    return replace(marking, lines=lines, first_wrong=first, step=behind(marking.key, first) if first else None), bearers
+
+
+def fits_other(marking: Marking, given: Sequence[Answer], others: Iterable[str], key: Callable[[str], Key]) -> str:
+    """Return the variant that the answers fit, if it is not the student's own; nothing where most are right.
+
+    Parameters
+    ----------
+    others : iterable of str
+        Variants to look at; a key costs as much as a solution, so they are looked at only where many answers fail.
+    key : callable
+        Makes the answer key of a variant, or raises KulmanError where it has none.
+    """
+    answered = marking.answered
+    right = sum(line.verdict is Verdict.RIGHT for line in answered)  # by themselves, not as what follows from an error
+    if len(answered) < FEWEST or right > (1.0 - MANY) * len(answered):
+        return ""
+    least = max(FEWEST, MOST * len(answered))
+    found = {variant: _under(variant, given, key, least) for variant in others}
+    best = max(found, key=lambda variant: found[variant], default="")
+    return best if found.get(best) else ""
+
+
+def _under(variant: str, given: Sequence[Answer], key: Callable[[str], Key], least: float) -> int:
+    """Return how many answers are right under the key of a variant, nothing where that is less than `least`."""
+    try:
+        of = key(variant)
+    except KulmanError:
+        return 0  # this variant has no plan with the student's data
+    return count_right(of, [answer for answer in given if answer.name in of.questions], least)
+
 
 KEPT = 32  # answer keys
 

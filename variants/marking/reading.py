@@ -1,24 +1,25 @@
-"""What stands in a file of answers: one student's form, a row per quantity, or a class, a row per student."""
+"""Which files hold answers, and what stands in them: one student's form, or a class, a row per student."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import glob
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from importlib.resources import files
 from pathlib import Path
 
 from ...plans.marking.answers import FREE
-from ...scales.errors import InputError, Written
+from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
 from ..roster import Who
 from ..spreadsheets.cells_in import read_grid
-from ..spreadsheets.grid import Grid
+from ..spreadsheets.grid import SUFFIXES, Grid
 from ..spreadsheets.headers import LOOKED_AT, about_kind, column_kind, quantity_part, split_unit, tidy
 from ..task import LocatedError
 from . import cells
-from .answers import Answers, Asked, Line, Mu
+from .answers import Answers, Asked, Line, Mu, put_back
 from .calculations import result_of, slip_in
-from .swapped import put_back
 
 NUMBERS = ("mm", "mu", "value")
 
@@ -321,3 +322,82 @@ def _part(asked: Asked, name: str, part: str, written: str) -> str:
     if part or name in asked.scales:
         return "direction" if part in ("dir", "sense") else part
     return "mm" if cells.of_paper(written) and asked.quantities[name].unit != "m" else "value"
+
+
+PRINTED = "printed"
+
+
+def found_files(names: Sequence[str], task: str = "") -> list[str]:
+    """Return the files that are meant: files as they are, all answers in a folder, all that a pattern fits.
+
+    The word `printed` means the answers that the source of a bundled task prints.
+
+    Raises
+    ------
+    InputError
+        A folder or a pattern without answers.
+    """
+    found: list[str] = []
+    for name in names:
+        path = Path(name)
+        if name == PRINTED and not path.exists():
+            inside = [_printed(task)]
+        elif path.is_dir():
+            inside = sorted(str(file) for file in path.iterdir() if _is_answers(file))
+        elif not path.exists() and glob.has_magic(name):
+            inside = sorted(file for file in glob.glob(name) if _is_answers(Path(file)))
+        else:
+            inside = [name]
+        if not inside:
+            raise InputError("answers-nowhere", file=quote(name, SHOWN), known=", ".join(SUFFIXES))
+        found += inside
+    return list(dict.fromkeys(found))
+
+
+def _printed(task: str) -> str:
+    """Return the file of the answers that the source of a task prints.
+
+    Raises
+    ------
+    InputError
+        It prints none.
+    """
+    if not (file := _file_of(task)).is_file():
+        raise InputError("answers-none-printed", task=quote(task))
+    return str(file)
+
+
+def _file_of(task: str) -> Path:
+    return Path(str(files(__package__) / "printed" / f"{task}.csv"))
+
+
+def _is_answers(path: Path) -> bool:
+    return path.suffix.lower() in SUFFIXES and path.is_file() and not path.name.startswith((".", "~$"))
+
+
+def read_all(names: Sequence[str], task: str, asked: Asked, warn: Callable[[KulmanError], None]) -> list[Answers]:
+    """Read all answers; a file that cannot be read is told of and has its place, and those beside it are marked.
+
+    Raises
+    ------
+    InputError
+        The only file there is cannot be read.
+    """
+    inside, found = found_files(names, task), list[Answers]()
+    for file in inside:
+        try:
+            of_source = file == str(_file_of(task))
+            read = read_answers(file, asked, PRINTED if of_source else "")
+        except InputError as error:
+            if len(inside) == 1:
+                raise
+            warn(error)
+            found.append(Answers(file, Who(), {}, {}, {}, unread=error))
+            continue
+        found += map(_of_source, read) if of_source else read
+    return found
+
+
+def _of_source(printed: Answers) -> Answers:
+    """Return the answers of a source: what it does not print is not missing."""
+    return replace(printed, source=PRINTED, columns=tuple(printed.lines))

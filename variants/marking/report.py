@@ -14,8 +14,7 @@ from ...plans.mistakes.rules import Broken
 from ...plans.names import role
 from ...scales.units import format_unit
 from ..roster import WHO
-from .marked import Marked
-from .misfits import Misfit
+from .marked import Marked, Misfit
 from .rubric import Rubric
 from .wording import letter, mistake_texts, plain, texts
 
