@@ -15,7 +15,18 @@ from .scales.choices import HANDS, SIZES
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import VARIABLE, of_environment, speaking, system_language
 from .scales.numbers import SHOWN, quote
-from .variants.commands.console import flush, hand_over, lost_output, note_of, print_json, refuse, warn
+from .variants.commands.console import (
+    Group,
+    flush,
+    hand_over,
+    lost_output,
+    note_of,
+    print_json,
+    refuse,
+    refuse_long,
+    usage_error,
+    warn,
+)
 from .variants.commands.options import (
     BLOCK,
     Word,
@@ -30,7 +41,6 @@ from .variants.commands.options import (
     titled,
 )
 from .variants.commands.teaching import all_variants, batch, check, handout
-from .variants.commands.usage import Group, refuse_long, usage_error
 from .variants.kinds import KINDS
 
 INTERRUPTED = 130
@@ -293,7 +303,7 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 @of_language
 def new(file: str, kind: str, lang: str | None) -> None:
     """Write FILE, a task file with comments, ready to solve: a four-bar linkage, a cam, a gear pair or a hoist."""
-    from .variants.starter import start
+    from .variants.shelf import start
 
     click.echo(str(start(file, lang or system_language(), kind)))
 

@@ -20,8 +20,7 @@ from ..scales.names import unknown
 from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import packaged
 from .case import Case, Settings, solve_case
-from .sheet_id import sheet_id
-from .sheets import Sheet, draw_case, said_of
+from .sheets import Sheet, draw_case, said_of, sheet_id
 from .task import Task
 
 TEXTS = "kulman.drawing.notes"

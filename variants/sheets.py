@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import io
+import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -20,14 +22,16 @@ from ..drawing.writers import write_pages
 from ..scales.arguments import of_kind
 from ..scales.choose import Fixed
 from ..scales.errors import InputError
-from ..scales.names import legible, unknown
+from ..scales.names import latin, legible, unknown
 from ..scales.scale import Scale
 from .case import Case, Settings, solve_case
-from .sheet_id import sheet_id
 from .task import Task
 
 # what a title block says beside what the task does
 BLOCK = ("student", "group", "teacher", "department", "designation", "date")
+LETTERS = "0123456789ABCDEFGHJKMNPQRSTVWXYZ"  # of base 32 without I, L, O, U, which are misread
+LENGTH = 6
+_MISREAD = str.maketrans({"O": "0", "I": "1", "L": "1", "І": "1", " ": None, "-": None, "–": None, "−": None})
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -253,3 +257,38 @@ def _others(case: Case, drawn: Drawn) -> Iterator[InputError]:
     said = {"format": drawn.sheet.letters, "usual": paper.name}
     if changed:
         yield InputError("scales-changed", changes=", ".join(changed.values()), **said)
+
+
+def sheet_id(task: Task, variant: str, settings: Mapping[str, str | float] | None = None) -> str:
+    """Return the id of the sheet of a variant with its data, such as `3F7-K2M`; the same data give the same id.
+
+    Raises
+    ------
+    InputError
+        An unknown variant or given.
+    """
+    data = {
+        name: value if isinstance(value, str) else f"{value:.9e}"
+        for name, value in task.resolve(variant, settings).items()
+    }
+    text = json.dumps([task.id, variant, data], ensure_ascii=True, sort_keys=True)
+    number = int.from_bytes(hashlib.blake2s(text.encode("ascii"), digest_size=8).digest(), "big")
+    letters = ""
+    for _ in range(LENGTH):
+        number, at = divmod(number, len(LETTERS))
+        letters += LETTERS[at]
+    return f"{letters[:3]}-{letters[3:]}"
+
+
+def same_id(written: str, right: str) -> bool:
+    """Tell whether a student has copied an id, letters that are easily misread counting as one."""
+    return _plain(written) == _plain(right)
+
+
+def _plain(text: str) -> str:
+    return latin(text.strip().upper()).translate(_MISREAD)
+
+
+def variant_of_id(task: Task, written: str) -> str | None:
+    """Return the variant of a task, with its own data, to which an id belongs."""
+    return next((name for name in task.variants if same_id(written, sheet_id(task, name))), None)

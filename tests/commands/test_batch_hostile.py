@@ -14,10 +14,9 @@ import pytest
 from openpyxl.utils.escape import unescape
 
 from kulman import all_variants, batch, check, cli, load_task
-from kulman.variants.making.moodle import Question, gift_bytes, xml_bytes
+from kulman.variants.making.all_variants import Question, gift_bytes, xml_bytes
 from kulman.variants.spreadsheets.cells_in import read_grid
-from kulman.variants.spreadsheets.csv_write import csv_text, harmless
-from kulman.variants.spreadsheets.xlsx_write import xlsx_bytes
+from kulman.variants.spreadsheets.cells_out import csv_text, harmless, xlsx_bytes
 
 TASK = "nau-slider-crank"
 PATHS = (

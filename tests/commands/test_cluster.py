@@ -19,7 +19,7 @@ import pytest
 
 from kulman import batch
 from kulman.scales.errors import InputError
-from kulman.variants.cluster import on_cluster
+from kulman.variants.crew import on_cluster
 
 pytestmark = [pytest.mark.soak, pytest.mark.filterwarnings("ignore")]  # what Dask warns of is not ours
 
@@ -122,14 +122,14 @@ def test_a_scheduler_that_goes_is_told_in_a_line(idle: tuple[str, subprocess.Pop
 def test_a_scheduler_without_workers_is_told_in_a_line(
     idle: tuple[str, subprocess.Popen[bytes]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("kulman.variants.cluster.ROUND", "0.2s")
+    monkeypatch.setattr("kulman.variants.crew.ROUND", "0.2s")
 
     with pytest.raises(InputError, match=f"{idle[0]} has no workers"):
         list(on_cluster(Squares(), [1, 2, 3], idle[0]))
 
 
 def test_a_scheduler_that_is_not_there_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kulman.variants.cluster.PATIENCE", "1s")
+    monkeypatch.setattr("kulman.variants.crew.ANSWERS", "1s")
 
     with pytest.raises(InputError, match=r"tcp://127\.0\.0\.1:9"):
         next(on_cluster(Squares(), [1], "tcp://127.0.0.1:9"))

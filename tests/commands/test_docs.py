@@ -27,9 +27,8 @@ from kulman.variants.checks import givens as checks_givens
 from kulman.variants.checks import loads as checks_loads
 from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.kinds import gear, kind
-from kulman.variants.shelf import bundled_text
+from kulman.variants.shelf import bundled_text, template
 from kulman.variants.solution import solve
-from kulman.variants.starter import template
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 TASK_FILE = (DOCS / "task-file.md").read_text(encoding="utf-8")

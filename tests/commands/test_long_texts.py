@@ -23,18 +23,15 @@ from kulman.scales.units import parse as value_in
 from kulman.scales.units import unit
 from kulman.tests.support.answer_files import ASKED
 from kulman.variants.hands import hand_of
-from kulman.variants.making.ranges import ranges_of
-from kulman.variants.making.task_text import with_variants
+from kulman.variants.making.new_variants import ranges_of, with_variants
 from kulman.variants.marking import cells
 from kulman.variants.marking.wording import plain
-from kulman.variants.record_book import variant_of_book
-from kulman.variants.roster import _folded
-from kulman.variants.sheet_id import variant_of_id
-from kulman.variants.shelf import bundled_text
+from kulman.variants.roster import _folded, variant_of_book
+from kulman.variants.sheets import variant_of_id
+from kulman.variants.shelf import _label, bundled_text
 from kulman.variants.solution import solve
 from kulman.variants.spreadsheets import headers
-from kulman.variants.spreadsheets.csv_write import harmless
-from kulman.variants.starter import _label
+from kulman.variants.spreadsheets.cells_out import harmless
 from kulman.variants.toml_places import Places
 
 _OF_LINE = dict.fromkeys(map(ord, "'\n"))

@@ -10,8 +10,7 @@ import pytest
 from kulman.docs import refresh
 from kulman.tests.support.documents import run_here
 from kulman.variants.reader import read_text
-from kulman.variants.shelf import bundled_text
-from kulman.variants.starter import template
+from kulman.variants.shelf import bundled_text, template
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "docs" / "own-mechanism.md").read_text(encoding="utf-8")

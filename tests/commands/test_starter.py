@@ -12,7 +12,7 @@ from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants import load_task, solve
 from kulman.variants.kinds import KINDS, MODULES
 from kulman.variants.reader import read_text
-from kulman.variants.starter import start, template
+from kulman.variants.shelf import start, template
 
 
 @pytest.fixture(autouse=True)

@@ -13,7 +13,7 @@ from kulman.plans.gears.gear import STANDARD, VALUES, GearPair
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.kinds.gear import NUMBERS
-from kulman.variants.making.ranges import ranges_of
+from kulman.variants.making.new_variants import ranges_of
 from kulman.variants.reader import check_text, load_task, read_text
 from kulman.variants.shelf import bundled_text
 

@@ -19,9 +19,8 @@ from kulman.variants.marking.keyed import asked_of
 from kulman.variants.marking.reading import read_answers
 from kulman.variants.marking.reports import report_html, report_text, to_json
 from kulman.variants.marking.rubric import read_rubric
-from kulman.variants.record_book import variant_of_book
-from kulman.variants.roster import read_roster
-from kulman.variants.sheet_id import same_id, sheet_id, variant_of_id
+from kulman.variants.roster import read_roster, variant_of_book
+from kulman.variants.sheets import same_id, sheet_id, variant_of_id
 
 TASK = "nau-slider-crank"
 HEAD = "task;nau-slider-crank\nvariant;example\n{about}quantity;mm;mu;value;unit;direction\n"

@@ -16,8 +16,7 @@ from kulman.variants.case import Case
 from kulman.variants.marking.answers import Answers
 from kulman.variants.marking.reports import report_html
 from kulman.variants.marking.result import result_of
-from kulman.variants.sheet_id import sheet_id
-from kulman.variants.sheets import drawn_on
+from kulman.variants.sheets import drawn_on, sheet_id
 
 TASK = "nau-slider-crank"
 HEAD = "величина;відрізок, мм;масштаб;значення;одиниця;напрям\n"

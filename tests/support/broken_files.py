@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kulman.variants.shelf import bundled_text
-from kulman.variants.starter import template
+from kulman.variants.shelf import bundled_text, template
 
 GOOD = template("en")
 AT_C = 'point = "C"\nlinks = [3, 0]\nat = ["280 mm", "0 mm"]\n'

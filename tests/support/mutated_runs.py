@@ -37,7 +37,7 @@ from kulman import cli
 from kulman.plans.contest import FULL
 from kulman.tests.support import mutated_classes
 from kulman.tests.support.mutated import Case, lay_out, made
-from kulman.variants.making import ranges
+from kulman.variants.making import new_variants
 
 SECONDS = 5.0  # of processor time
 MEMORY = 500_000_000  # bytes
@@ -141,7 +141,7 @@ def _chunk(numbers: range, family: str, seconds: float) -> list[Fault]:
     resource.setrlimit(resource.RLIMIT_DATA, (most_data, most_data))
     most = int(seconds * (len(numbers) + 2) + time.process_time())
     resource.setrlimit(resource.RLIMIT_CPU, (most, most))  # of what does not even hear the alarm
-    ranges.TRIES = TRIES
+    new_variants.TRIES = TRIES
     object.__setattr__(FULL, "batches", (1, 10, 100))  # races are run at length, to measure times
     object.__setattr__(FULL, "at_once", 100)
     return [fault for n in numbers if (fault := tried(n, family, seconds)) is not None]
@@ -155,7 +155,9 @@ def faults(
     A plain fork of a process that has written a note waits for ever: the threads of typst are not in the copy.
     """
     context = multiprocessing.get_context(method)
-    context.set_forkserver_preload(["kulman.cli", mutated_classes.__name__, ranges.__name__])  # not this: it may be run
+    context.set_forkserver_preload(
+        ["kulman.cli", mutated_classes.__name__, new_variants.__name__]
+    )  # not this: it may be run
     size = CHUNK if family == "solved" else CHUNK // 5
     for start in range(numbers.start, numbers.stop, size):
         with ProcessPoolExecutor(1, mp_context=context) as pool:

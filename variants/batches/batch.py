@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from ...drawing.formats import format_named
 from ...drawing.pens import Norm
@@ -14,25 +14,30 @@ from ...drawing.writers import folder_for, save_all, slug
 from ...scales.errors import InputError, Written
 from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote
+from ...scales.packaged import packaged
 from ..arguments import by_name, plans_wanted
 from ..case import Settings
 from ..crew import Advance, shared_out
 from ..kinds import kind_of
+from ..marking.wording import texts
 from ..reader import load_task
-from ..record_book import SCHEME, VARIANT, Digits, Schemes
-from ..roster import read_roster
+from ..roster import SCHEME, VARIANT, WHO, Digits, Schemes, read_roster
 from ..sheets import said_of
-from ..spreadsheets.cells_out import csv_table, table_bytes
+from ..spreadsheets.cells_out import Cell, csv_table, table_bytes
 from ..spreadsheets.grid import SUFFIXES
 from ..task import Task
-from .outcome import Batch
 from .student import FORMS, NOTE, Making, Student
-from .tables import Rows, key_rows, manifest_rows, roster_rows
-from .work import Crew, put, run
+from .work import Batch, Crew, put, run
+
+if TYPE_CHECKING:
+    from ..task import Task
+    from .student import Student
+    from .work import Batch, Outcome
 
 MANIFEST, KEY = "manifest.csv", "key.csv"
 One: TypeAlias = str | os.PathLike[str] | Task
 Tasks: TypeAlias = One | Sequence[One]
+Rows = Iterator[tuple[Cell, ...]]
 
 
 def batch(
@@ -199,6 +204,48 @@ def _crew(jobs: int | None, dask: str | None) -> Crew:
         return lambda making, students: shared_out(
             making, students, jobs or os.cpu_count() or 1, 0 if jobs != 1 else None, making.afresh
         )
-    from ..cluster import on_cluster
+    from ..crew import on_cluster
 
     return lambda making, students: on_cluster(making, students, dask)
+
+
+def roster_rows(tasks: Sequence[Task], language: str) -> Rows:
+    """Go through the rows of a roster to fill in: a header, and a row for each variant of each task."""
+    said, alone = texts(language), len(tasks) == 1
+    yield tuple(said[f"about.{key}"] for key in ("student", "group", *(() if alone else ("task",)), "variant"))
+    for task in tasks:
+        for variant in task.variants:
+            yield "", "", *(() if alone else (task.id,)), variant
+
+
+def manifest_rows(batch: Batch, tasks: Sequence[Task], language: str) -> Rows:
+    """Go through the rows of the list: a header; who, which variant and sheet, which files, or what the problem is."""
+    said = packaged(__package__, "texts", language)
+    yield (*_about(tasks, language), said["files"], said["notes"])
+    for student, outcome in zip(batch.students, batch.outcomes, strict=True):
+        told = outcome.problem or "; ".join(outcome.notes)
+        yield (*_who(student, outcome, tasks), ", ".join(outcome.files), told)
+
+
+def key_rows(batch: Batch, task: Task, tasks: Sequence[Task], language: str) -> Rows:
+    """Go through the rows of the key of a task: a header; who, which variant and sheet, and every right value.
+
+    The columns are those of a class that hands in its answers; of several `tasks` only those who have this one are in.
+    """
+    rows = zip(batch.students, batch.outcomes, strict=True)
+    own = [row for row in rows if len(tasks) == 1 or row[0].entry.task == task.id]
+    names = tuple(dict.fromkeys(name for _, outcome in own for name in outcome.key))
+    yield (*_about(tasks, language), *names)
+    for student, outcome in own:
+        yield (*_who(student, outcome, tasks), *(outcome.key.get(name) for name in names))
+
+
+def _about(tasks: Sequence[Task], language: str) -> tuple[str, ...]:
+    """Return what stands over who a student is; the task only where there are several."""
+    said = texts(language)
+    return tuple(said[f"about.{key}"] for key in (*WHO, *(("task",) if len(tasks) > 1 else ()), "variant", "sheet"))
+
+
+def _who(student: Student, outcome: Outcome, tasks: Sequence[Task]) -> tuple[Cell, ...]:
+    who = (getattr(student.entry.who, key) for key in WHO)
+    return (*who, *((student.entry.task,) if len(tasks) > 1 else ()), outcome.variant, outcome.sheet)

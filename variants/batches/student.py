@@ -25,8 +25,7 @@ from ..handouts import begun_of_case, drawing_for_print
 from ..journal import digest_of
 from ..notes import body_of, title_page
 from ..roster import Entry
-from ..sheet_id import sheet_id
-from ..sheets import Sheet, drawing_of, sheet_of, stamp_of
+from ..sheets import Sheet, drawing_of, sheet_id, sheet_of, stamp_of
 from ..task import Task
 
 NOTE, HANDOUT = "note", "handout"

@@ -14,7 +14,7 @@ from ... import __version__
 from ...drawing.charts.accuracy import accuracy_page
 from ...drawing.words import Words
 from ...plans.contest import Contest, Entry
-from ..spreadsheets.csv_write import Cell
+from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
 from .data import Chart, finite, place_column, place_si, place_value, short, wrapped
 

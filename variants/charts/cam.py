@@ -15,7 +15,7 @@ from ...plans.cams.rivals import rivals
 from ...plans.cams.robustness import Robustness, robustness
 from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.contest import FULL, Effort
-from ..spreadsheets.csv_write import Cell
+from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
 from .accuracy import AccuracyChart
 from .data import (

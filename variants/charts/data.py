@@ -19,7 +19,7 @@ from ...scales.numbers import quote
 from ...scales.units import unit
 from ..case import Case
 from ..hands import is_own
-from ..spreadsheets.csv_write import Cell, csv_bytes, csv_text
+from ..spreadsheets.cells_out import Cell, csv_bytes, csv_text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -13,7 +13,7 @@ from ...plans.gears.gear import unit_of
 from ...plans.gears.scale_errors import DRAWINGS, MILLI, ScaleErrors, compared, scale_errors
 from ...plans.gears.solve import SolvedGear
 from ...plans.hands.hand import PRESETS
-from ..spreadsheets.csv_write import Cell
+from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
 from .data import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, check_known, error_rows, finite, wrapped
 

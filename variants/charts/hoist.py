@@ -26,7 +26,7 @@ from ...plans.hoist.step_limits import StepLimits, step_limits
 from ...plans.hoist.steppers import ORDERS
 from ...scales.errors import InputError
 from ...scales.units import format_unit, unit
-from ..spreadsheets.csv_write import Cell
+from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
 from .accuracy import AccuracyChart
 from .data import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, finite, per_cent, short, wrapped

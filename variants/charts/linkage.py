@@ -29,7 +29,7 @@ from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit
 from ..case import Case
-from ..spreadsheets.csv_write import Cell
+from ..spreadsheets.cells_out import Cell
 from ..sweeps.cycles import driver_name
 from ..tables import aligned
 from .accuracy import AccuracyChart

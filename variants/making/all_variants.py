@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from xml.sax.saxutils import escape
 
 from ...drawing.writers import Files, save_all
 from ...plans.quantities import unit_of
@@ -22,16 +24,15 @@ from ..marking.checks import Check, check
 from ..marking.keyed import Keyed, keyed
 from ..marking.rubric import SIGNED
 from ..marking.wording import texts
-from ..spreadsheets.cells_out import table_bytes
-from ..spreadsheets.csv_write import Cell
+from ..spreadsheets.cells_out import Cell, table_bytes
 from ..spreadsheets.grid import SUFFIXES as CELLS
 from ..tables import aligned
 from ..task import Task
-from .moodle import Question, gift_bytes, xml_bytes
 from .new_variants import NewVariants, import_variants, make_variants
 
 TASK_FILE = ".toml"
 SUFFIXES = (*CELLS, ".xml", ".gift", TASK_FILE)
+HALF = 2.0  # how many tolerances off an answer still gets half
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,3 +225,56 @@ def _new(
     if make is None:
         return None
     return make_variants(task, make, ranges, set=settings, seed=1 if seed is None else seed, advance=advance)
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A numerical question: a name, the text, the right value and by how much an answer may miss."""
+
+    name: str
+    text: str
+    value: float
+    tolerance: float
+
+
+def gift_bytes(category: str, questions: Iterable[Question]) -> bytes:
+    """Return questions as GIFT: an answer that misses by up to twice the tolerance gets half."""
+    lines = [f"$CATEGORY: {_gift(category)}", ""]
+    for asked in questions:
+        right = f"={asked.value:.10g}:{asked.tolerance:.3g}"
+        half = f"=%50%{asked.value:.10g}:{HALF * asked.tolerance:.3g}"
+        lines += [f"::{_gift(asked.name)}::[plain]{_gift(asked.text)} {{#{right} {half}}}", ""]
+    return "\n".join(lines).encode("utf-8")
+
+
+def _gift(text: str) -> str:
+    """Return a text on one line in which nothing is taken for a sign of GIFT."""
+    return re.sub(r"([~=#{}:\\])", r"\\\1", " ".join(text.split()))
+
+
+def xml_bytes(category: str, questions: Iterable[Question]) -> bytes:
+    """Return questions as Moodle's XML: an answer that misses by up to twice the tolerance gets half."""
+    parts = [
+        '<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n',
+        f'<question type="category"><category><text>$course$/{_xml(category)}</text></category></question>\n',
+        *map(_question, questions),
+        "</quiz>\n",
+    ]
+    return "".join(parts).encode("utf-8")
+
+
+def _question(asked: Question) -> str:
+    answers = "".join(
+        f'<answer fraction="{fraction}"><text>{asked.value:.10g}</text>'
+        f"<tolerance>{times * asked.tolerance:.3g}</tolerance></answer>"
+        for fraction, times in ((100, 1.0), (50, HALF))
+    )
+    return (
+        f'<question type="numerical"><name><text>{_xml(asked.name)}</text></name>'
+        f'<questiontext format="plain_text"><text>{_xml(asked.text)}</text></questiontext>{answers}</question>\n'
+    )
+
+
+def _xml(text: str) -> str:
+    """Return a text for XML, without characters that it cannot hold."""
+    return escape("".join(sign if sign.isprintable() else " " for sign in text))

@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
+import json
+import math
 import os
-from collections.abc import Callable, Mapping
+import random
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from decimal import Decimal
+from functools import cache
 
 from ...scales.arguments import of_kind
-from ...scales.errors import InputError, KulmanError
+from ...scales.errors import InputError, KulmanError, messages
 from ...scales.numbers import quote
 from ..arguments import by_name
-from ..case import Settings
+from ..case import Settings, solve_case
 from ..crew import Advance
+from ..kinds import kind_of
 from ..reader import TaskFileError, load_task, read_text
-from ..task import LocatedError, Task
-from .ranges import looked_at, made, most_pages, ranges_of
+from ..sheets import draw_case
+from ..task import Given, LocatedError, Task
 from .table_in import Read, read_variants
-from .task_text import with_variants
 
 MOST = 1000  # variants that are made at once
+AROUND = 0.2  # a given that all variants have alike is varied by so much to either side, if there is one variant alone
+STEPS = 20  # into how many steps such a range is divided, at most
+TRIES = 50  # sets looked at for each variant that is wanted
+Judgement = tuple[KulmanError | None, KulmanError | None]
+_BETWEEN = re.compile(r"\.\.\.?|…|–")  # the first and the last value of a range
+_HEADER = re.compile(r"\s*\[")
+_VARIANT = re.compile(r"\s*\[\[\s*variant\s*\]\]|\s*\[\s*variant\s*\.")
+_ARRAY = re.compile(r"\s*variant\s*=\s*\[")
+_STRING = re.compile(r'"(?:\\.|[^"\\])*"|\'[^\']*\'')
+_ID = re.compile(r"^id\s*=.*$", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,3 +159,243 @@ def _task_with(task: Task, rows: Mapping[str, Mapping[str, str]]) -> NewVariants
     if found is None:
         raise TaskFileError(file, faults)
     return NewVariants(found, text)
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """A given's values: from `low` to `high` in steps, in its own unit; exact decimals.
+
+    Where a standard has a `row` of values, only these.
+    """
+
+    unit: str
+    low: Decimal
+    high: Decimal
+    step: Decimal
+    row: tuple[Decimal, ...] = ()
+
+    def pick(self, luck: random.Random) -> str:
+        """Return one of the values as it is written."""
+        row = [value for value in self.row if self.low <= value <= self.high]
+        if row:
+            return f"{luck.choice(row).normalize():f} {self.unit}".strip()
+        count = int((self.high - self.low) / self.step) if self.step else 0
+        value = self.low + luck.randint(0, count) * self.step
+        return f"{value.normalize():f} {self.unit}".strip()
+
+
+def ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, Range]:
+    """Return the range of every given: as `asked`, such as `25..60/5 mm`, else what the task's variants span.
+
+    Raises
+    ------
+    InputError
+        No range, or a given that is none of the task's.
+    """
+    found = {name: _spanned(task, name, given) for name, given in task.givens.items() if given.unit is not None}
+    for name, row in kind_of(task.kind).rows.items():
+        one, given = found.get(name), task.givens.get(name)
+        if one is not None and given is not None and given.unit is not None:
+            found[name] = replace(one, row=tuple(_decimal(given.unit.from_si(value)) for value in row))
+    for name, text in asked.items():
+        given = task.givens.get(name)
+        if given is None or given.unit is None:
+            raise LocatedError(name, InputError("range-given", known=", ".join(found)))
+        try:
+            found[name] = _read(given, text, found.get(name))
+        except InputError as error:
+            raise LocatedError(name, error) from error
+    return {name: one for name, one in found.items() if one is not None}
+
+
+def _read(given: Given, text: str, usual: Range | None) -> Range:
+    """Read a range."""
+    assert given.unit is not None
+    between = _BETWEEN.search(text.strip(), 1)
+    if between is None:
+        raise InputError("range-bad", text=quote(text))
+    first, (last, slash, by) = text.strip()[: between.start()], text.strip()[between.end() :].partition("/")
+    if not first.strip() or not last.strip() or bool(slash) != bool(by.strip()):
+        raise InputError("range-bad", text=quote(text))
+    unit = given.unit
+    low, high, step = (
+        _decimal(unit.from_si(_number(given, _with(part.strip(), text)))) if part else None
+        for part in (first, last, by)
+    )
+    assert low is not None
+    assert high is not None
+    if low > high or (step is not None and step <= 0):
+        raise InputError("range-bad", text=quote(text))
+    row = usual.row if usual is not None and step is None else ()
+    if step is None:
+        step = usual.step if usual is not None and 0 < usual.step <= high - low else _round_step(high - low)
+    return Range(unit.behind, low, high, step, row)
+
+
+def _with(part: str, whole: str) -> str:
+    """Return a part of a range with the unit that stands at the end of the whole."""
+    unit = re.search(r"[^\s.,/+\-eE].*", re.split(r"\d", whole)[-1], re.DOTALL)
+    return part if unit is None or re.search(r"[^\W\d]|°", part) else f"{part} {unit[0]}"
+
+
+def _number(given: Given, text: str) -> float:
+    value = given.read(text)
+    assert isinstance(value, float)
+    return value
+
+
+def _spanned(task: Task, name: str, given: Given) -> Range | None:
+    """Return what a given's values span in the variants of a task; None where no variant states it."""
+    assert given.unit is not None
+    stated = [row.values[name] for row in task.variants.values() if name in row.values]
+    values = sorted(
+        {_decimal(given.unit.from_si(value)) for value in stated if isinstance(value, float) and math.isfinite(value)}
+    )
+    if not values:
+        return None
+    low, high = values[0], values[-1]
+    if len(task.variants) == 1:
+        spread = abs(low) * Decimal(str(AROUND))
+        step = _round_step(2 * spread)
+        low, high = (math.ceil(low / step - spread / step) * step, high + spread) if step else (low, high)
+        return Range(given.unit.behind, low, high, step)
+    return Range(given.unit.behind, low, high, _common_step([value - low for value in values]))
+
+
+def _decimal(value: float) -> Decimal:
+    return Decimal(f"{value:.12g}")
+
+
+def _common_step(values: Sequence[Decimal]) -> Decimal:
+    """Return the largest step in which all values are whole; 0 for one value."""
+    places = max((max(-int(value.as_tuple().exponent), 0) for value in values), default=0)
+    whole = math.gcd(*(int(value.scaleb(places)) for value in values))
+    return Decimal(whole).scaleb(-places)
+
+
+def _round_step(width: Decimal) -> Decimal:
+    """Return a step of 1, 2 or 5 that divides a width into some twenty."""
+    if width == 0:
+        return Decimal(0)
+    rough = width / STEPS
+    power = Decimal(10) ** rough.adjusted()
+    return next(step * power for step in map(Decimal, (1, 2, 5, 10)) if step * power >= rough)
+
+
+class FruitlessError(LocatedError):
+    """So many sets in a row were no good exercise; what was wrong with the last."""
+
+    def __init__(self, place: str, cause: KulmanError, found: int) -> None:
+        super().__init__(place, cause)
+        self.found = found
+
+    def text(self, language: str = "en") -> str:
+        """Return what has been found and what was wrong last as one line in `language`."""
+        said = messages(language)["variants-hard"]
+        return f"{self.place}: {said.format(found=self.found, tries=TRIES, reason=self.cause.text(language))}"
+
+
+def _given_up(place: str, reason: KulmanError, found: int) -> LocatedError:
+    return LocatedError(place, reason) if reason.key == "variants-few" else FruitlessError(place, reason, found)
+
+
+def made(
+    task: Task, ranges: Mapping[str, Range], count: int, seed: int, fixed: Mapping[str, str]
+) -> Iterator[dict[str, str]]:
+    """Go through new variants that differ, each a good exercise; `fixed` are givens that all have alike.
+
+    Each is solved, looked at as its kind looks at exercises, and drawn: its plans must fit one sheet at the scale
+    factors that the task wants.
+
+    Raises
+    ------
+    InputError
+        So few of the sets are good, or there are so few, that the wanted number is not found: what was wrong last.
+    """
+    luck, seen = random.Random(seed), set[tuple[str, ...]]()
+    first, pages = next(iter(task.variants)), most_pages(task)
+    for number in range(count):
+        reason: KulmanError | None = InputError("variants-few", found=number)
+        for _ in range(TRIES):
+            row = {name: one.pick(luck) for name, one in ranges.items()}
+            if tuple(row.values()) in seen:
+                continue
+            seen.add(tuple(row.values()))
+            row |= fixed
+            reason = next(filter(None, looked_at(task, first, row, pages, through=False)), None)
+            if reason is None:
+                yield row
+                break
+        else:
+            assert reason is not None
+            raise _given_up(f"--make {count}", reason, number)
+
+
+def looked_at(
+    task: Task, variant: str, settings: Settings, pages: Callable[[], int], through: bool = True
+) -> Judgement:
+    """Return why data have no solution or no sheet, and what makes them a poor exercise; None where nothing does.
+
+    A sheet may have so many `pages`. Unless `through`, what makes a poor exercise is not drawn.
+    """
+    try:
+        case = solve_case(task, variant, settings, None, None)
+        remark = next(case.kind.unfit(case), None)
+        if remark is not None and not through:
+            return None, remark
+        drawn = draw_case(case, {})
+    except KulmanError as error:
+        return error, None
+    if remark is None and len(drawn.pages) > case.kind.pages:
+        most = pages()
+        if len(drawn.pages) > most:
+            remark = InputError("variant-pages", n=len(drawn.pages), most=most)
+    return None, remark or next(iter(drawn.warnings), None)
+
+
+def most_pages(task: Task) -> Callable[[], int]:
+    """Return what says how many pages a good sheet has at most: as many as that of the task's own first variant."""
+
+    @cache
+    def own() -> int:
+        least = kind_of(task.kind).pages
+        try:
+            return max(least, len(draw_case(solve_case(task, None, None, None, None), {}).pages))
+        except KulmanError:
+            return least
+
+    return own
+
+
+def with_variants(text: str, rows: Iterable[tuple[str, Mapping[str, str]]], name: str | None = None) -> str:
+    """Return the text of a task file with `rows` in the place of its variants: ids, and givens as they are written.
+
+    Parameters
+    ----------
+    name : str, optional
+        Another id of the task.
+    """
+    kept, inside, depth = [], False, 0
+    for line in text.splitlines():
+        if depth or _ARRAY.match(line):  # variant = [ ... ]
+            plain = _STRING.sub("", line).partition("#")[0]
+            depth += plain.count("[") - plain.count("]")
+            continue
+        if _HEADER.match(line):
+            inside = _VARIANT.match(line) is not None
+        if not inside:
+            kept.append(line)
+    whole = "\n".join(kept).rstrip("\n")
+    if name is not None:
+        whole = _ID.sub(lambda found: f"id = {_quoted(name)}", whole, count=1)
+    tables = ("\n".join(("[[variant]]", *_lines({"id": number, **row}))) for number, row in rows)
+    return "\n\n".join((whole, *tables)) + "\n"
+
+
+def _lines(row: Mapping[str, str]) -> Iterable[str]:
+    return (f"{name} = {_quoted(text)}" for name, text in row.items())
+
+
+def _quoted(text: str) -> str:
+    """Return a text as a basic string of TOML."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007F")

@@ -15,8 +15,7 @@ from ..case import Settings
 from ..crew import Advance
 from ..kinds import kind_of
 from ..reader import load_task
-from ..record_book import Digits
-from ..roster import Roster, read_roster
+from ..roster import Digits, Roster, read_roster
 from ..spreadsheets.cells_out import table_bytes
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..task import Task

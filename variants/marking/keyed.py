@@ -15,7 +15,7 @@ from ...plans.mistakes.book import Book, book
 from ...plans.names import COUPLE, LEVER, role
 from ...scales.units import format_unit
 from ..case import Settings
-from ..sheet_id import sheet_id
+from ..sheets import sheet_id
 from ..solution import Solution, solve
 from ..task import Task
 from .answers import Asked

@@ -16,9 +16,8 @@ from ...scales.errors import InputError, KulmanError
 from ...scales.kept import Kept
 from ...scales.numbers import SHOWN, quote
 from ..case import Settings
-from ..record_book import variant_of_book
-from ..roster import Entry
-from ..sheet_id import same_id, variant_of_id
+from ..roster import Entry, variant_of_book
+from ..sheets import same_id, variant_of_id
 from ..solution import Solution
 from .answers import Answers, Mu
 from .answers import Line as Written

@@ -1,14 +1,23 @@
-"""A file of cells read as a grid, CSV or XLSX, with bounds on what it may hold."""
+"""A file of cells read as a grid, within bounds: CSV as spreadsheets write it, or XLSX."""
 
 from __future__ import annotations
 
+import codecs
+import csv
+import io
+from collections import Counter
+from itertools import islice
 from pathlib import Path
 
 from ...scales.errors import InputError
 from ...scales.numbers import SHOWN, quote
-from .csv_read import grid_of_csv
+from . import grid
 from .grid import LARGEST, SUFFIXES, Grid
+from .headers import LOOKED_AT, recognised
 from .xlsx_read import grid_of_xlsx
+
+SEPARATORS = (";", "\t", ",")
+_ZIP = b"PK\x03\x04"
 
 
 def read_grid(file: str | Path) -> Grid:
@@ -50,3 +59,74 @@ def _bytes(path: Path, shown: str) -> bytes:
     if not data.strip():
         raise InputError("answers-empty", file=shown)
     return data
+
+
+def grid_of_csv(file: str, data: bytes) -> grid.Grid:
+    """Return the cells of a CSV file; the separator is the one at which most header words are found.
+
+    Where hardly any are, it is the one that cuts most rows into as many cells.
+
+    Raises
+    ------
+    InputError
+        A file that is no text, or that no separator cuts into cells.
+    """
+    if data.startswith(_ZIP):
+        raise InputError("answers-is-xlsx", file=quote(file, SHOWN))
+    text = _decoded(file, data)
+    if len(text) > grid.MOST_LETTERS:
+        raise grid.too_many_texts(file)
+    first, _, rest = text.partition("\n")
+    if first.strip().lower().startswith("sep=") and len(first.strip()) == 5 and not first.strip().endswith('"'):
+        return grid.Grid(file, grid.bounded(file, _rows(file, rest, first.strip()[-1])))
+    head = "".join(islice(io.StringIO(text, newline=""), LOOKED_AT))
+    best = max(SEPARATORS, key=lambda separator: _told(_rows(file, head, separator)))
+    return grid.Grid(file, grid.bounded(file, _rows(file, text, best)))
+
+
+def _told(rows: list[tuple[str, ...]]) -> tuple[int, int, int]:
+    """Return how well a separator tells cells apart: by header words, by rows of one width."""
+    widths = Counter(len(row) for row in rows if len(row) > 1)
+    words = recognised(rows)
+    return max(words, 1), max(widths.values(), default=0), words
+
+
+def _decoded(file: str, data: bytes) -> str:
+    """Return the text: UTF-8 if it can be, else the encoding of Cyrillic Windows; none has a NUL."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        encodings: tuple[str, ...] = ("utf-16",)
+    else:
+        encodings = ("utf-8-sig", "cp1251")
+    for encoding in encodings:
+        try:
+            text = data.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+        if "\0" not in text:
+            return text
+    raise InputError("answers-encoding", file=quote(file, SHOWN))
+
+
+def _rows(file: str, text: str, separator: str) -> list[tuple[str, ...]]:
+    """Cut a text into cells."""
+    rows: list[tuple[str, ...]] = []
+    cells = 0
+    try:
+        for row in csv.reader(io.StringIO(text, newline=""), delimiter=separator):
+            cells += len(row)
+            if cells > grid.MOST_CELLS or len(rows) > 2 * grid.MOST_ROWS:
+                places = len(row) > grid.MOST_COLUMNS or len(rows) > grid.MOST_ROWS
+                raise grid.too_many_cells(file) if places else grid.too_many_texts(file)
+            long = next((at for at, cell in enumerate(row) if len(cell) > grid.LONGEST), None)
+            if long is not None:
+                raise grid.too_long(file, len(rows), long)
+            rows.append(tuple(map(_cell, row)))
+    except csv.Error:
+        raise InputError("answers-quotes", file=quote(file, SHOWN), row=len(rows) + 1) from None
+    return rows
+
+
+def _cell(text: str) -> str:
+    """Return a cell without the spaces round it, and without the apostrophe that keeps a text from being a formula."""
+    text = text.strip()
+    return text[1:] if text.startswith("'") and text[1:2] in {"=", "+", "-", "@", "'"} else text

@@ -20,7 +20,7 @@ from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
 from ...scales.display import Display
 from ...scales.units import format_unit, unit
-from ..spreadsheets.csv_write import csv_text
+from ..spreadsheets.cells_out import csv_text
 from ..tables import aligned
 from .sweeps import numbers
 

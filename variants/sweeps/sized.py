@@ -20,7 +20,7 @@ from ...scales.errors import InputError
 from ...scales.numbers import quote
 from ...scales.units import format_unit, unit
 from ..case import Case
-from ..spreadsheets.csv_write import csv_text
+from ..spreadsheets.cells_out import csv_text
 from ..tables import aligned
 from .sweeps import CSV, SweepRequest, Swept, numbers
 

@@ -17,7 +17,7 @@ from ...drawing.writers import WRITERS
 from ...scales.errors import PositionError
 from ..arguments import positions_of
 from ..case import Case, Settings, solve_case
-from ..spreadsheets.csv_write import csv_bytes
+from ..spreadsheets.cells_out import csv_bytes
 from ..task import Task
 
 CSV = ".csv"
