@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from ...plans.cams.integration import DIAGRAMS
-from ...plans.cams.sections import EXACT_OF
-from ...plans.cams.solve import SCALES, SolvedCam
+from ...plans.cams.solve import EXACT_OF, SCALES, SolvedCam
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
 from ...scales.scale import Scale

@@ -14,8 +14,7 @@ from dataclasses import replace
 from ..board import Program, Step
 from ..boards.exact import run
 from .formulas import SHARPEST
-from .sections import EXACT_OF
-from .solve import SolvedCam
+from .solve import EXACT_OF, SolvedCam
 
 HEIGHTS = {"_S_max": "S_max_chord", "_V_max": "V_max_chord"}  # ordinates that only a drawing shows keep its name
 TANGENTS = {"r_0": "r_0_tangents", "e": "e_tangents", "r_0_flat_min": "r_0_flat_tangent"}

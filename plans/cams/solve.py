@@ -1,7 +1,12 @@
-"""A cam solved: motion, sizes, construction, values and quantities together."""
+"""A cam solved: motion, sizes, construction, values and quantities in sections, and what comes through of errors.
+
+K is that of `plans.condition`, over Q, or over the size that Q is a part of (of e that is r_0). Much of a cam is found
+beside the board, by closed forms of its law, so that the derivatives are central differences of all of it.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -9,17 +14,69 @@ from typing import Any
 from ...scales.errors import InputError
 from ..board import Program, with_needs
 from ..boards.exact import run
+from ..condition import Condition, by_solving_again, ratio
+from ..hands.hand import Tolerance
+from ..hands.sensitivities import added_up
+from ..hands.shaky import Paper
 from ..laws import LAWS
+from ..marking.key import rounded
+from ..names import role
 from ..quantities import Quantity, quantities, shown_on
-from ..solved import PAPER_MM, Solved
-from .cam import PLANS, PLATE, ROCKER, ROLLER, SIZES_PART, Cam
+from ..references import results, worst_behind
+from ..solved import Solved
+from .cam import DIAGRAMS_PART, PLANS, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART, VALUES, Cam
 from .construction import NEEDS, PLATE_PROFILE, PLATE_SIZES, PROFILE, ROCKER_SIZES, SIZES, Layout, construct
 from .followers import PlateCam, RockerCam, RollerCam, limits_of, plate_cam, rocker_cam, roller_cam
 from .formulas import ARC
 from .givens import diagram_givens, profile_givens
 from .integration import ACCELERATION, DIAGRAMS, RIGHT, TRAVEL, UP, VELOCITY, Division
 from .motion import Array, Motion, motion_of
-from .sections import EXACT_OF
+
+CHORDS = "chords"
+SECTIONS = (DIAGRAMS_PART, CHORDS, ROLLER, PLATE, PROFILE)
+PRESSURES = ("gamma_rise_min", "gamma_fall_min")  # also what the plan of pressure angles shows
+NAMES = {
+    CHORDS: ("s_close", "v_close"),
+    ROLLER: (
+        "mu_s_ds",
+        "r_0",
+        "e",
+        "s_0",
+        "e_least",
+        "e_most",
+        "r_0_tangents",
+        "e_tangents",
+        "l_rocker",
+        "l_OC",
+        "psi_0",
+        *PRESSURES,
+    ),
+    PLATE: ("mu_s_d2s", "r_0_flat_tangent", "r_0_flat_min", "r_0_flat", "rho_flat_min", "R_plate"),
+    PROFILE: ("mu_l", "R_roller", "rho_min"),
+}
+OF_PLAN = {
+    DIAGRAMS_PART: (DIAGRAMS_PART, CHORDS),
+    SIZES_PART: (ROLLER, PLATE),
+    PROFILE_PART: (PROFILE,),
+    PRESSURE_PART: (),
+}
+BY_CHORDS = ("mu_s", "mu_ds", "mu_d2s", "mu_v", "mu_a", "S_max", "V_max", "ds_max", "nu", "nu_a")
+EXACT_OF = {f"{name}_chord": name for name in BY_CHORDS}  # what is found from curves of chords, and what it stands for
+_SECTION = {name: section for section, names in NAMES.items() for name in names}
+
+
+def section_of(name: str) -> str:
+    """Return the section of a quantity or a scale factor: what belongs to nothing else belongs to the diagrams."""
+    return _SECTION.get(name, CHORDS if name in EXACT_OF else DIAGRAMS_PART)
+
+
+def listed(names: Iterable[str], plans: Iterable[str]) -> tuple[str, ...]:
+    """Return those of the names that belong to the plans wanted, not only to what these need, section by section."""
+    wanted = [*plans]
+    sections = {section for plan in wanted for section in OF_PLAN[plan]}
+    kept = [name for name in names if section_of(name) in sections or (PRESSURE_PART in wanted and name in PRESSURES)]
+    return tuple(sorted(kept, key=lambda name: SECTIONS.index(section_of(name))))
+
 
 # the scale factor in which each plan shows values; on the diagrams that of the axis of ordinates
 SCALES = {
@@ -95,10 +152,6 @@ class SolvedCam(Solved):
     def draws_profiles(self) -> bool:
         """Whether the profiles are constructed, not only the sizes."""
         return any(plan in (PROFILE, PLATE_PROFILE) for plan in self.program.plans)
-
-    def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
-        """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""
-        return {plan: PAPER_MM if plan in DIAGRAMS else mu for plan, mu in mus.items()}
 
 
 def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> SolvedCam:
@@ -247,3 +300,60 @@ def _stated(values: Mapping[str, Any]) -> dict[str, Quantity]:
 def _lengths(values: Mapping[str, Any]) -> dict[str, float]:
     """Return the given lengths that are results, too."""
     return {name: values[name] for name in ("H_a", "H_v", "R_roller", "l_rocker", "r_0_flat") if name in values}
+
+
+# numbers that neither the motion nor the smallest sizes depend on
+ON_BOARD = {"l_A1", "H_a", "H_v", "mu_phi", "omega", "R_roller", "rho_flat", "margin"}
+# sizes beside which others count, that may be nothing
+BESIDE = {
+    **dict.fromkeys(("e", "e_least", "e_most"), "r_0"),
+    "e_tangents": "r_0_tangents",
+    "s_close": "S_max_chord",
+    "v_close": "V_max_chord",
+}
+
+
+def conditions_of(solved: SolvedCam) -> dict[str, Condition]:
+    """Return the condition of every quantity, given ones among them."""
+    numbers = {name: float(solved.givens[name]) for name in VALUES if name in solved.givens}
+
+    def solve_with(others: Mapping[str, float]) -> Mapping[str, Any]:
+        changed = {name for name, value in others.items() if value != numbers[name]}
+        on_board = changed <= ON_BOARD
+        values = run(solved.program, {**solved.givens, **others}).values if on_board else again(solved, others)
+        return {name: values[name] for name in solved.quantities}
+
+    totals = by_solving_again(solve_with, numbers)
+    worst = worst_behind(solved.program, solved.sines)
+    sizes = {name: float(abs(solved.values[BESIDE.get(name, name)])) for name in totals}
+    return {name: Condition(ratio(total, sizes[name]), worst.get(name, 1.0)) for name, total in totals.items()}
+
+
+MEASURED = ("distance", "read")
+
+
+def tolerances_of(drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
+    """Return by how much the quantities of a cam that is drawn may differ, SI.
+
+    Each may miss what all errors of the hand add up to; a length that the sheet shows as a segment, also what is let
+    pass of such a segment; an angle, what is let pass of a direction where a protractor may have found it. What is
+    only calculated from exact numbers, such as the inclination of the line of transfer, is rounded.
+    """
+    names = [step.name for step in results(paper.program)]
+    found = added_up(paper, tolerance, names)
+    return {name: max(found[name], _alone(name, drawn, paper, tolerance)) for name in names}
+
+
+def _alone(name: str, drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> float:
+    """Return what a quantity may miss by itself."""
+    value = float(abs(drawn.values[name]))
+    least = rounded(value, tolerance)
+    if drawn.quantities[name].unit == "rad":
+        return max(least, math.radians(tolerance.degrees))
+    step = paper.program.by_name[name]
+    plan = role(step.operands[0]).plan if step.verb in MEASURED else drawn.shown_on.get(name, "")
+    if not plan:
+        return least
+    calculated_there = plan in paper.unscaled and step.verb not in MEASURED
+    mu = drawn.values[drawn.scale_of_plan[plan]] if calculated_there else paper.mus[plan]
+    return max(least, float(tolerance.of_segment(value / mu) * mu))

@@ -301,8 +301,3 @@ def section_of(name: str) -> str:
     ('reduced', 'resting', 'hanging', 'drawn')
     """
     return _calculated().get(name, DRAWN)
-
-
-def place_of(name: str) -> int:
-    """Return the place of a quantity's section among all."""
-    return SECTIONS.index(section_of(name))

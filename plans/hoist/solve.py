@@ -1,8 +1,13 @@
-"""A hoist solved: its construction, values and quantities together, and what formulas and rope are judged by."""
+"""A hoist solved: its construction, values and quantities together, and what a teacher should let pass of them.
+
+K is that of `plans.condition`, over Q. Roots are found beside the board, so that the derivatives are central
+differences of all of it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,15 +15,21 @@ import numpy as np
 
 from ..board import Program
 from ..boards.exact import run
+from ..calculated import in_sections
+from ..condition import Condition, by_solving_again, ratio
+from ..hands.hand import Tolerance
+from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, shown_on
+from ..references import worst_behind
 from ..solved import PAPER_MM, Solved
+from . import root_plans
 from .beam_plans import BENT, SCHEME
 from .construction import Layout, construct, layout_of
 from .diagram_plan import FORCES, UP
 from .forces import Forces, forces
 from .hoist import PLANS, VALUES, Hoist, complete
-from .model import CIRCLE, HORIZONTAL, place_of
+from .model import CIRCLE, HORIZONTAL, SECTIONS, section_of
 from .paper import SCALED, board_givens
 from .root_plans import EXTREMES, LIFT_OFF
 
@@ -111,10 +122,12 @@ def solve_hoist(
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         board = run(program, {name: np.float64(value) for name, value in given.items()})  # where 1/0 is inf
     drawn = {*program.plans}
+    results = _scales(given, drawn)  # marks of plans are no results
+    results |= {name: q for name, q in quantities(program, board.values, {}, unit_of).items() if q.kind == "scalar"}
     return SolvedHoist(
         program=program,
         values=board.values,
-        quantities=_in_sections(_scales(given, drawn) | _scalars(quantities(program, board.values, {}, unit_of))),
+        quantities=in_sections(results, SECTIONS, section_of),
         sines=board.sines,
         status=board.status,
         trouble=board.trouble,
@@ -131,16 +144,6 @@ def solve_hoist(
 def reduced(solved: SolvedHoist, part_of: float) -> SolvedHoist:
     """Return a hoist with diagrams of about a part of their usual size."""
     return solve_hoist(solved.hoist, {name: solved.givens[name] for name in VALUES}, solved.plans, part_of)
-
-
-def _scalars(found: Mapping[str, Quantity]) -> dict[str, Quantity]:
-    """Return the quantities without marks of plans."""
-    return {name: quantity for name, quantity in found.items() if quantity.kind == "scalar"}
-
-
-def _in_sections(results: Mapping[str, Quantity]) -> dict[str, Quantity]:
-    """Return the quantities section by section, in each in the order of construction."""
-    return {name: results[name] for name in sorted(results, key=place_of)}
 
 
 def _scales(given: Mapping[str, Any], drawn: set[str]) -> dict[str, Quantity]:
@@ -161,3 +164,33 @@ def _bracketed(unit: str) -> str:
 def _shown_on(program: Program, drawn: set[str]) -> dict[str, str]:
     shown = {name: next((plan for plan in plans if plan in drawn), "") for name, plans in SHOWN_ON.items()}
     return shown_on(program) | {name: plan for name, plan in shown.items() if plan}
+
+
+def conditions_of(solved: SolvedHoist) -> dict[str, Condition]:
+    """Return the condition of every quantity."""
+    numbers = {name: float(solved.givens[name]) for name in VALUES}
+
+    def solve_with(others: Mapping[str, float]) -> dict[str, float]:
+        there = solve_hoist(solved.hoist, others, solved.plans).quantities
+        values = ((name, there[name].value if name in there else None) for name in solved.quantities)
+        return {name: math.nan if value is None else value for name, value in values}
+
+    totals, own = by_solving_again(solve_with, numbers), solve_with(numbers)
+    worst = worst_behind(solved.program, solved.sines)
+    return {name: Condition(ratio(total, abs(own[name])), worst.get(name, 1.0)) for name, total in totals.items()}
+
+
+def tolerances_of(solved: SolvedHoist, tolerance: Tolerance) -> dict[str, float]:
+    """Return by how much times may miss, SI: what chords err by, and the error of a segment of the drawing."""
+    return dict(_times(solved, tolerance))
+
+
+def _times(solved: SolvedHoist, tolerance: Tolerance) -> Iterator[tuple[str, float]]:
+    for name, quantity in solved.quantities.items():
+        drawn = solved.quantities.get(root_plans.drawn(name))
+        if drawn is None or quantity.value is None or drawn.value is None or not math.isfinite(drawn.value):
+            continue
+        mu = float(solved.values["mu_t1"]) * PAPER_MM
+        of_segment = tolerance.of_segment(abs(drawn.value) / mu) * mu
+        yield name, max(abs(drawn.value - quantity.value) + of_segment, rounded(quantity.value, tolerance))
+        yield root_plans.drawn(name), max(of_segment, rounded(quantity.value, tolerance))

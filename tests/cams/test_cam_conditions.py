@@ -9,7 +9,7 @@ from itertools import cycle
 import pytest
 
 from kulman import solve
-from kulman.plans.cams.conditions import BESIDE
+from kulman.plans.cams.solve import BESIDE
 from kulman.tests.support.cam_students import ROCKER
 from kulman.variants.solution import Solution
 

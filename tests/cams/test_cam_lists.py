@@ -10,8 +10,7 @@ import pytest
 from kulman import solve
 from kulman.plans.cams.cam import PLANS
 from kulman.plans.cams.construction import construct
-from kulman.plans.cams.sections import OF_PLAN, PRESSURES, section_of
-from kulman.plans.cams.solve import SolvedCam
+from kulman.plans.cams.solve import OF_PLAN, PRESSURES, SolvedCam, section_of
 
 TASKS = ("madi-cam", str(Path(__file__).parents[2] / "docs" / "examples" / "rocker-cam.toml"))
 GIVEN = {"mu_phi", "H_a", "H_v", "R_roller", "l_rocker"}

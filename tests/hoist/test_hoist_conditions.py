@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from kulman import solve
-from kulman.plans.hoist.conditions import conditions_of
 from kulman.plans.hoist.hoist import PARTS, VALUES
-from kulman.plans.hoist.solve import SolvedHoist, solve_hoist
+from kulman.plans.hoist.solve import SolvedHoist, conditions_of, solve_hoist
 from kulman.variants import load_task
 
 TASK, ERR = "karpenko-hoist", 1e-7

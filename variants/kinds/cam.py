@@ -156,7 +156,7 @@ class Cams(Sized[Cam, "SolvedCam"]):
 
     def listed(self, solved: SolvedCam, plans: tuple[str, ...]) -> tuple[str, ...]:
         """Return what belongs to the plans, section by section, the chosen scale factors among it."""
-        from ...plans.cams.sections import listed
+        from ...plans.cams.solve import listed
 
         chosen = (symbol for symbol in SYMBOLS if symbol in solved.scale_of_plan.values())
         return listed((*chosen, *solved.quantities), plans)
@@ -173,7 +173,7 @@ class Cams(Sized[Cam, "SolvedCam"]):
 
     def limits(self, drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let pass what the errors of all chords add up to."""
-        from ...plans.cams.conditions import tolerances_of
+        from ...plans.cams.solve import tolerances_of
 
         return tolerances_of(drawn, paper, tolerance)
 

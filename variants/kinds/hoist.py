@@ -50,7 +50,7 @@ class Hoists(Sized[Hoist, "SolvedHoist"]):
     """Loads that a rope takes off a beam, wound up on another beam."""
 
     table, plans = "hoist", PLANS
-    room, sectioned, made, numbers, units = "hoist", "model", Hoist, NUMBERS, VALUES
+    room, made, numbers, units = "hoist", Hoist, NUMBERS, VALUES
     known: ClassVar[Mapping[str, tuple[str, ...]]] = {"near_0": SIDES, "near_2": SIDES}
     choosing = tuple(known)
     symbols = ("mu_l", "mu_F_circle")  # those of the diagrams are found
@@ -102,7 +102,7 @@ class Hoists(Sized[Hoist, "SolvedHoist"]):
 
     def limits(self, drawn: SolvedHoist, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let pass of the times that solve equations what is read off their drawings."""
-        from ...plans.hoist.conditions import tolerances_of
+        from ...plans.hoist.solve import tolerances_of
 
         return tolerances_of(drawn, tolerance)
 

@@ -291,7 +291,6 @@ class Sized(Kind[Subject, Answer]):
     """
 
     room: ClassVar[str]
-    sectioned: ClassVar[str] = "sections"  # the module of its plans that says in which section a quantity stands
     symbols: ClassVar[tuple[str, ...]]  # of the scale factors that may be chosen
     made: ClassVar[type]
     known: ClassVar[Mapping[str, tuple[str, ...]]]  # what the keys of the table may say, or what choices between may
@@ -332,7 +331,7 @@ class Sized(Kind[Subject, Answer]):
 
     def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity."""
-        found: dict[str, Condition] = self._in("plans", "conditions").conditions_of(case.solved)
+        found: dict[str, Condition] = self._in("plans", "solve").conditions_of(case.solved)
         return found
 
     def contents(self, case: Case, words: Words, norm: Norm) -> SheetContents[Any]:
@@ -343,7 +342,7 @@ class Sized(Kind[Subject, Answer]):
         return SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm, note=note)
 
     def _section_of(self, name: str) -> str:
-        section: str = self._in("plans", self.sectioned).section_of(name)
+        section: str = self._in("plans", "solve").section_of(name)
         return section
 
     def headings(self, solved: Answer, words: Words) -> dict[str, str]:
