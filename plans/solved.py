@@ -1,11 +1,11 @@
-"""What every subject of the drafting machine is once it is solved: its construction, values and quantities together."""
+"""What every subject is once it is solved: its construction, values and quantities; columns over its motion."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from ..scales.errors import PositionError
 from .board import Board, Program, RecordingBoard
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+T = TypeVar("T")
 PAPER_MM = 1e-3  # metres of paper in a millimetre: diagrams are drawn in these
 
 
@@ -107,3 +108,44 @@ class Solved:
     def reason(self, trouble: Trouble) -> PositionError:
         """Return why a step of the construction cannot be done."""
         return PositionError("singular-step", status_word=trouble.status, point=role(trouble.name).of)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Columned:
+    """One column: its name, its SI unit, its values."""
+
+    name: str
+    unit: str
+    values: NDArray[Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """The largest and the smallest value of a column, SI, with the angles of what drives where they are, rad."""
+
+    name: str
+    unit: str
+    most: float
+    most_at: float
+    least: float
+    least_at: float
+
+
+def calculated(programs: Mapping[str, Iterable[Callable[[Board], None]]]) -> dict[str, str]:
+    """Return in which section of a note every calculated quantity stands: that whose `programs` have its step.
+
+    >>> calculated({"speeds": (lambda board: board.calc("v", "product", "omega", "r"),)})
+    {'v': 'speeds'}
+    """
+    found: dict[str, str] = {}
+    for section, parts in programs.items():
+        board = RecordingBoard()
+        for part in parts:
+            part(board)
+        found |= dict.fromkeys((step.name for step in board.steps), section)
+    return found
+
+
+def in_sections(results: Mapping[str, T], sections: Sequence[str], section_of: Callable[[str], str]) -> dict[str, T]:
+    """Return results by name section by section, in each in the order that they have."""
+    return {name: results[name] for name in sorted(results, key=lambda name: sections.index(section_of(name)))}

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..columned import Columned, Ends
+from ..solved import Columned, Ends
 from .cam import PLATE, ROCKER, ROLLER
 from .envelopes import Undercut
 from .motion import TURN, Array, Jump

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..columned import Columned, Ends
 from ..laws import LAWS
+from ..solved import Columned, Ends
 from .meshing import Array
 from .profile import Tooth
 from .solve import SolvedGear

@@ -16,7 +16,6 @@ import numpy as np
 
 from ...scales.scale import steps
 from ..boards.exact import run
-from ..calculated import calculated, in_sections
 from ..check import AT_LEAST, AT_MOST, EQUAL, Check
 from ..condition import Condition, derivatives, ratio
 from ..hands.hand import Tolerance
@@ -26,7 +25,7 @@ from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, shown_on
 from ..references import worst_behind
-from ..solved import PAPER_MM, Solved
+from ..solved import PAPER_MM, Solved, calculated, in_sections
 from .construction import (
     CENTRES,
     DIAGRAMS,

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ..board import Board, Program, RecordingBoard
 from ..boards.exact import ExactBoard
-from ..columned import Columned
 from ..laws import LAWS, TURN
+from ..solved import Columned
 from . import formulas as formulas
 from .model import rope_force
 from .onesided import OneSided, Piece

@@ -22,9 +22,9 @@ from ..board import Board, Program, RecordingBoard
 from ..boards.arrays import ArrayBoard
 from ..boards.exact import ExactBoard
 from ..boards.fifty_digits import DIGITS, fifty_digits
-from ..calculated import calculated
 from ..laws import define
 from ..names import is_shown, role
+from ..solved import calculated
 from . import formulas as formulas
 from .hoist import DRAWN, VALUES
 from .roots import lag_rate

@@ -15,14 +15,13 @@ import numpy as np
 
 from ..board import Program
 from ..boards.exact import run
-from ..calculated import in_sections
 from ..condition import Condition, by_solving_again, ratio
 from ..hands.hand import Tolerance
 from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, shown_on
 from ..references import worst_behind
-from ..solved import PAPER_MM, Solved
+from ..solved import PAPER_MM, Solved, in_sections
 from . import root_plans
 from .beam_plans import BENT, SCHEME
 from .construction import Layout, construct, layout_of

@@ -52,7 +52,7 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Struc
     for opposite, length in mechanism.opposites.items():
         board.calc(opposite, "opposite", length)
     plans = with_needs(plans, NEEDS)
-    groups, bodies = _named(mechanism, structure)
+    groups, bodies = named(mechanism, structure)
     for plan in ("position", "velocity", "acceleration"):
         if plan in plans:
             getattr(driver_of(mechanism), plan)(board)
@@ -97,17 +97,12 @@ def _statics(
 
 def hinged(mechanism: Mechanism, structure: Structure) -> tuple[compound.Coupler, ...]:
     """Return the couplers whose motion the plan `compound` splits."""
-    return compound.couplers(mechanism, *_named(mechanism, structure))
-
-
-def named_groups(mechanism: Mechanism) -> tuple[AssurGroup, ...]:
-    """Return the groups with the names that their constructions use, in order of attachment."""
-    return _named(mechanism, analyse(mechanism))[0]
+    return compound.couplers(mechanism, *named(mechanism, structure))
 
 
 def moving_bodies(mechanism: Mechanism, structure: Structure) -> Bodies:
     """Return how every moving link is known: a direction that turns with it, its angular velocity, by number."""
-    return _named(mechanism, structure)[1]
+    return named(mechanism, structure)[1]
 
 
 def require_couplers(mechanism: Mechanism, structure: Structure) -> None:
@@ -122,7 +117,7 @@ def require_couplers(mechanism: Mechanism, structure: Structure) -> None:
         raise InputError("no-coupler")
 
 
-def _named(mechanism: Mechanism, structure: Structure) -> tuple[tuple[AssurGroup, ...], Bodies]:
+def named(mechanism: Mechanism, structure: Structure) -> tuple[tuple[AssurGroup, ...], Bodies]:
     """Name the parts of all groups, each for those attached to it."""
     for group in structure.groups:
         if group.kind not in CONSTRUCTIONS:

@@ -13,7 +13,7 @@ from ..boards.exact import SMALL, Trouble, run
 from ..laws import cross
 from ..names import Name, role, scale_factor, spelled
 from ..quantities import quantities, shown_on
-from ..references import extent, plans_of
+from ..references import extent, plans_of, point_of
 from ..solved import Solved
 from . import compound
 from .chain import USUAL, constructed, hinged
@@ -69,39 +69,39 @@ class SolvedLinkage(Solved):
     def _template_error(self, trouble: Trouble) -> PositionError:
         """Return why the central link of a group of class III is not where its legs would hold it."""
         group = next(g for g in self.structure.groups if g.kind == TRIAD and trouble.name in g.joints)
-        link = group.central
         if trouble.status == "singular":
             legs = ", ".join(map(str, group.legs))
-            return PositionError("singular-triad", status_word="singular", link=link, legs=legs)
-        given = {name: value for name, value in self.values.items() if isinstance(value, float)}
-        gap = f"{trouble.gap * 1e3:.4g}"
+            return PositionError("singular-triad", status_word="singular", link=group.central, legs=legs)
         from .triads.following import Follower
 
-        limits = Follower(self.mechanism, given).limits()
+        limits = Follower(self.mechanism, self._numbers).limits()
+        slides = isinstance(self.mechanism.driver, SlidingDriver)
+        data = {"link": group.central, "gap": f"{trouble.gap * 1e3:.4g}"}
         if limits is None:
-            return PositionError("start-far", status_word="no-assembly", link=link, gap=gap)
+            return PositionError("start-far", status_word="no-assembly", **data)
         slides = isinstance(self.mechanism.driver, SlidingDriver)
         low, high = (f"{x * 1e3:.7g}" if slides else f"{math.degrees(x):.7g}" for x in limits)
         key = "no-way-slide" if slides else "no-way"
-        return PositionError(key, status_word="no-assembly", link=link, gap=gap, low=low, high=high)
+        return PositionError(key, status_word="no-assembly", low=low, high=high, **data)
 
     def _apart(self, trouble: Trouble) -> PositionError:
         """Return by how much the links miss each other, and the places of the driver at which they just meet."""
-        given = {name: value for name, value in self.values.items() if isinstance(value, float)}
         from .cycles.limits import limiting_places
 
-        limits = limiting_places(self.mechanism, given)
-        gap = f"{trouble.gap * 1e3:.4g}"
-        step = next(step for step in self.program if step.name == trouble.name)
-        point = step.operands[1] if step.verb == "tangent" else trouble.name
-        if limits is None:
-            return PositionError("no-assembly", status_word="no-assembly", point=point, gap=gap)
-        found = [place for place in limits if place is not None]
-        if isinstance(self.mechanism.driver, SlidingDriver):
-            places = ", ".join(f"{place * 1e3:.7g}" for place in found)
-            return PositionError("no-assembly-slide", status_word="no-assembly", point=point, gap=gap, places=places)
-        low, high = (f"{math.degrees(angle) % 360.0:.7g}" for angle in found)
-        return PositionError("no-assembly-here", status_word="no-assembly", point=point, gap=gap, low=low, high=high)
+        limits = limiting_places(self.mechanism, self._numbers)
+        found = [place for place in limits or () if place is not None]
+        data = {"point": point_of(self.program, trouble.name), "gap": f"{trouble.gap * 1e3:.4g}"}
+        key = "no-assembly"
+        if limits is not None and isinstance(self.mechanism.driver, SlidingDriver):
+            key, data["places"] = "no-assembly-slide", ", ".join(f"{place * 1e3:.7g}" for place in found)
+        elif limits is not None:
+            key = "no-assembly-here"
+            data["low"], data["high"] = (f"{math.degrees(angle) % 360.0:.7g}" for angle in found)
+        return PositionError(key, status_word="no-assembly", **data)
+
+    @property
+    def _numbers(self) -> dict[str, float]:
+        return {name: value for name, value in self.values.items() if isinstance(value, float)}
 
 
 def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:

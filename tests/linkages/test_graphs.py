@@ -8,8 +8,14 @@ import numpy as np
 import pytest
 
 from kulman.plans.linkages.cycles.cycle import cycle
-from kulman.plans.linkages.cycles.diagrams import chords, diagrams, differentiate, pole_distance
-from kulman.plans.linkages.field import velocities, velocity_field
+from kulman.plans.linkages.cycles.diagrams import (
+    chords,
+    diagrams,
+    differentiate,
+    pole_distance,
+    velocities,
+    velocity_field,
+)
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.scales.errors import InputError

@@ -12,7 +12,7 @@ from ...drawing.words import Words
 from ...plans.cams.course import columns, cut_at, extremes, lines, sharpest, undercuts
 from ...plans.cams.motion import TURN
 from ...plans.cams.solve import SolvedCam
-from ...plans.columned import Columned
+from ...plans.solved import Columned
 from .sized import (
     SizedSweep,
     column_table,

@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...drawing.words import Words
-from ...plans.columned import Columned
-from ...plans.extremes import Extreme
 from ...plans.linkages.cycles.cycle import Cycle
 from ...plans.linkages.cycles.diagrams import Curve, Diagrams
 from ...plans.linkages.cycles.strokes import Output, OutputMotion
 from ...plans.linkages.mechanism import Mechanism
 from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
+from ...plans.solved import Columned
+from ...plans.zeros import Extreme
 from ...scales.display import Display
 from ...scales.units import format_unit, unit
 from ..spreadsheets.cells_out import csv_text

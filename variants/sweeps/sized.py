@@ -15,7 +15,7 @@ import numpy as np
 
 from ...drawing.words import Words
 from ...drawing.writers import save_all
-from ...plans.columned import Columned, Ends
+from ...plans.solved import Columned, Ends
 from ...scales.errors import InputError
 from ...scales.numbers import quote
 from ...scales.units import format_unit, unit

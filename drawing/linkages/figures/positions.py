@@ -11,8 +11,8 @@ import numpy as np
 from ....plans.board import POSITION
 from ....plans.laws import dot
 from ....plans.linkages.cycles.cycle import Cycle
+from ....plans.linkages.cycles.diagrams import MARGIN, velocity_field
 from ....plans.linkages.cycles.strokes import Dead, OutputMotion
-from ....plans.linkages.field import MARGIN, velocity_field
 from ....plans.linkages.mechanism import FRAME, Driver, Prismatic
 from ....plans.linkages.solved import SolvedLinkage, solve_linkage
 from ....plans.names import role

@@ -66,11 +66,10 @@ def places_of(cycle: Cycle, count: int) -> Array:
 def truth(cycle: Cycle, places: Array, names: Sequence[str]) -> Truth:
     """Run a program with fifty digits at all places that have plans; elsewhere there are NaN."""
     program = cycle.program.needed_for(names)
-    givens = cycle.drive.givens(cycle.givens, places, cycle.program)
-    shape = len(places)
-    high, low, sizes = ({name: np.full(shape, np.nan, kind) for name in names} for kind in (complex, complex, float))
-    for i in range(shape):
-        here = one_of(givens, i)
+    high, low, sizes = (
+        {name: np.full(len(places), np.nan, kind) for name in names} for kind in (complex, complex, float)
+    )
+    for i, here in enumerate(cycle.each(places)):
         board = run(cycle.program, here)
         if board.trouble is not None:
             continue
@@ -88,11 +87,6 @@ def beside(cycle: Cycle, name: str, sizes: Array) -> Array:
         sizes = np.where(np.isnan(sizes), np.nan, np.nanmax(sizes, initial=0.0))
     found: Array = np.where(sizes > 0.0, sizes, np.nan)
     return found
-
-
-def one_of(givens: Mapping[str, Any], position: int) -> dict[str, float]:
-    """Return the givens of one of many positions."""
-    return {name: float(value[position] if np.ndim(value) else value) for name, value in givens.items()}
 
 
 def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (), effort: Effort = FULL) -> Contest:
@@ -184,8 +178,7 @@ class _Race:
         """Return the time of one position on Python numbers."""
         cycle = self.rivals.cycle
         program = cycle.program.needed_for(self.kind.names)
-        givens = cycle.drive.givens(cycle.givens, self.places, cycle.program)
-        each = [one_of(givens, i) for i in range(len(self.places))]
+        each = cycle.each(self.places)
         return timed(lambda: [run(program, here) for here in each], self.clock) / len(each)
 
     def entry(
@@ -240,7 +233,7 @@ def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Kind]) 
     places, kinds = _not_dead(cycle, places_of(cycle, DRAWN)), tuple(kinds)
     names = tuple(name for kind in kinds for name in kind.names)
     program, givens = cycle.program.needed_for(names), cycle.drive.givens(cycle.givens, places, cycle.program)
-    runs = [run(cycle.program, one_of(givens, i)) for i in range(len(places))]
+    runs = [run(cycle.program, here) for here in cycle.each(places)]
     column = {name: value[:, None] if np.ndim(value) else value for name, value in givens.items()}
     on_paper = Paper(program, column, _as_long(cycle.program, runs, sheet))
     board = draw(on_paper, hand, np.random.default_rng(SEED), (len(places), DRAWINGS))

@@ -19,7 +19,6 @@ from ...laws import TURN
 from ...references import plans_of, worst_behind
 from ..cycles.cycle import Cycle
 from ..solved import signs
-from .comparison import one_of
 
 Array = NDArray[Any]
 DIGITS = 16.0  # of double precision
@@ -97,9 +96,9 @@ def _conditions(
     count, fixed = len(cycle.angles), signs(cycle.mechanism)
     sines, worst = np.full(count, np.nan), [""] * count
     found = {name: np.full(count, np.nan) for name in names}
-    givens = cycle.drive.givens(cycle.givens, _within(cycle, cycle.angles), cycle.program)
-    for i in range(count):
-        values = one_of(givens, i)
+    # angles of a crank within a turn: of an angle its radians count as a given
+    places = cycle.angles % TURN if cycle.drive.turns else cycle.angles
+    for i, values in enumerate(cycle.each(places)):
         board = run(cycle.program, values)
         if board.trouble is not None or lost[i]:
             sines[i] = 0.0 if board.status == "singular" or lost[i] else np.nan
@@ -111,12 +110,6 @@ def _conditions(
             value = known[name].value
             found[name][i] = value if value is not None and value < NOTHING_LEFT else np.nan
     return sines, tuple(worst), found
-
-
-def _within(cycle: Cycle, places: Array) -> Array:
-    """Return angles of a crank within a turn: of an angle its radians count as a given."""
-    found: Array = places % TURN if cycle.drive.turns else places
-    return found
 
 
 def _worst(program: Program, sines: Mapping[str, float], names: Sequence[str]) -> tuple[float, str]:

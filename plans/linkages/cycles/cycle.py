@@ -18,9 +18,9 @@ from ....scales.errors import InputError
 from ...board import POSITION, Program
 from ...boards.batch import FEW, batch
 from ...boards.exact import STATUSES
-from ...extremes import Extreme, extremes
 from ...laws import TURN, dot
 from ...quantities import quantities
+from ...zeros import Extreme, extremes
 from ..chain import USUAL, constructed
 from ..mechanism import Mechanism
 from ..structure import Structure
@@ -88,6 +88,14 @@ class Cycle:
     def at(self, places: Array, names: Sequence[str]) -> dict[str, Array]:
         """Return values by name for other places of the driver."""
         return self.drive.along(self.program, self.givens, names)(places)
+
+    def each(self, places: Array) -> list[dict[str, float]]:
+        """Return the board's givens for places of the driver, one after the other."""
+        givens = self.drive.givens(self.givens, places, self.program)
+        return [
+            {name: float(value[i] if np.ndim(value) else value) for name, value in givens.items()}
+            for i in range(len(places))
+        ]
 
     def extremes(self, names: Iterable[str] | None = None) -> dict[str, tuple[Extreme, Extreme]]:
         """Return the largest and the smallest value of quantities, with the driver's places where they are.

@@ -30,7 +30,7 @@ from ...board import Program, RecordingBoard
 from ...boards.batch import batch
 from ...boards.exact import ILL, SMALL, run
 from ...laws import TURN
-from ..chain import construct, named_groups
+from ..chain import construct, named
 from ..mechanism import Driver, Mechanism
 from ..structure import TRIAD, analyse
 from .courses import Course, Poses
@@ -178,19 +178,19 @@ def _sines(
     if not any(start.legs is None for start in mechanism.starts):
         return {}
     free = mechanism.without_loads
-    triads = [group for group in named_groups(free) if isinstance(group, Triad)]
-    board, named = RecordingBoard(), {}
+    triads = [group for group in named(free, analyse(free))[0] if isinstance(group, Triad)]
+    board, by_triad = RecordingBoard(), {}
     for triad in triads:
         start = mechanism.start(triad.central.number)
         if start is not None and start.legs is None:
-            named[triad.central.number] = dict(_pairs(board, triad))
-    if not named:
+            by_triad[triad.central.number] = dict(_pairs(board, triad))
+    if not by_triad:
         return {}
     _, position = construct(free, ("position",))
     program = Program((*position.steps, *board.steps))
-    wanted = [name for pairs in named.values() for names in pairs.values() for name in names]
+    wanted = [name for pairs in by_triad.values() for names in pairs.values() for name in names]
     found = _run(program.needed_for(wanted), {**values, **(near or followed(mechanism, values))}, wanted)
-    return {number: (list(pairs), _rows(found, pairs.values())) for number, pairs in named.items()}
+    return {number: (list(pairs), _rows(found, pairs.values())) for number, pairs in by_triad.items()}
 
 
 def _rows(found: Mapping[str, Any], pairs: Iterable[tuple[str, str]]) -> Array:
