@@ -16,8 +16,8 @@ from ..board import Program, with_needs
 from ..boards.exact import run
 from ..condition import Condition, by_solving_again, ratio
 from ..hands.hand import Tolerance
-from ..hands.sensitivities import added_up
 from ..hands.shaky import Paper
+from ..hands.spread import added_up
 from ..laws import LAWS
 from ..marking.key import rounded
 from ..names import role

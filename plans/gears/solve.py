@@ -19,8 +19,8 @@ from ..boards.exact import run
 from ..check import AT_LEAST, AT_MOST, EQUAL, Check
 from ..condition import Condition, derivatives, ratio
 from ..hands.hand import Tolerance
-from ..hands.sensitivities import added_up
 from ..hands.shaky import Paper
+from ..hands.spread import added_up
 from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, shown_on

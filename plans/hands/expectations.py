@@ -13,9 +13,8 @@ from ..marking.key import Key, answer_key
 from ..names import role
 from ..references import plans_of
 from .hand import Hand, Tolerance
-from .sensitivities import Sensitivities, sensitivities
 from .shaky import Paper
-from .spread import NOTHING, SHARE, Spread, drawn
+from .spread import NOTHING, SHARE, Sensitivities, Spread, drawn, sensitivities
 from .tolerances import failing
 
 DRAWINGS = 4000

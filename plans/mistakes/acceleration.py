@@ -69,26 +69,8 @@ def _normals(scene: Scene, *kinds: str) -> Iterator[Step]:
     return (step for step, kind in normals(scene) if kind in kinds)
 
 
-@mistake("M38")
-def away_from_centre(scene: Scene) -> Iterator[Change]:
-    """The normal part is drawn from A to B."""
-    yield from (instead(step, verb="lay") for step in _normals(scene, "link", "rocker"))
-
-
 def _forgotten(step: Step) -> Change:
     return instead(step, "none", operands=operand(step, 2, "zero"))
-
-
-@mistake("M39")
-def normal_forgotten(scene: Scene) -> Iterator[Change]:
-    """The normal part is forgotten."""
-    yield from map(_forgotten, _normals(scene, "link"))
-
-
-@mistake("M47")
-def second_normal_forgotten(scene: Scene) -> Iterator[Change]:
-    """The normal part of the rocker is forgotten."""
-    yield from map(_forgotten, _normals(scene, "rocker"))
 
 
 @mistake("M54")
@@ -187,18 +169,6 @@ def length_lost(scene: Scene) -> Iterator[Change]:
         yield Change(step.name, {step.name: (*found, square)}, _signs())
 
 
-@mistake("M121")
-def lines_from_swapped_points(scene: Scene) -> Iterator[Change]:
-    """Each of two lines is drawn through the mark of the other."""
-    yield from from_swapped_points(scene, ACCELERATION)
-
-
-@mistake("M42")
-def tangential_along_link(scene: Scene) -> Iterator[Change]:
-    """The line of the tangential part is drawn along the link."""
-    yield from along_links(scene, ACCELERATION)
-
-
 @mistake("M43")
 def rate_from_full(scene: Scene) -> Iterator[Change]:
     """The angular acceleration is calculated from the full relative acceleration."""
@@ -215,12 +185,6 @@ def rate_from_absolute(scene: Scene) -> Iterator[Change]:
         absolute = absolute_reading(scene, reading)
         if absolute is not None and absolute.name != role(reading.name).whole:
             yield rate_from(scene, step, absolute.name)
-
-
-@mistake("M45")
-def sense_of_acceleration(scene: Scene) -> Iterator[Change]:
-    """The sense of an angular acceleration is wrong: the tangential part stands at the wrong end of the link."""
-    yield from (opposed(step) for step, _ in rates(scene, ACCELERATION))
 
 
 @mistake("M46")
@@ -242,18 +206,6 @@ def coriolis_forgotten(scene: Scene) -> Iterator[Change]:
     """The acceleration of Coriolis is forgotten."""
     for step in coriolis(scene):
         yield instead(step, operands=("zero", step.operands[1]), law="along")
-
-
-@mistake("M49")
-def coriolis_reversed(scene: Scene) -> Iterator[Change]:
-    """The acceleration of Coriolis is turned against the rotation."""
-    yield from map(opposed, coriolis(scene))
-
-
-@mistake("M50")
-def coriolis_halved(scene: Scene) -> Iterator[Change]:
-    """The acceleration of Coriolis without its factor two."""
-    yield from (scaled(step, 0.5) for step in coriolis(scene))
 
 
 @mistake("M51")
@@ -326,3 +278,21 @@ def read_from_velocity_plan(scene: Scene) -> Iterator[Change]:
             factor = scene.mu(ACCELERATION) / scene.mu("velocity")
             made, givens = times(Step("calc", step.name, (speed,), "given"), factor)
             yield Change(step.name, {step.name: made}, givens)
+
+
+# the normal part is drawn from A to B
+mistake("M38")(lambda scene: (instead(step, verb="lay") for step in _normals(scene, "link", "rocker")))
+# the normal part is forgotten
+mistake("M39")(lambda scene: map(_forgotten, _normals(scene, "link")))
+# the normal part of the rocker is forgotten
+mistake("M47")(lambda scene: map(_forgotten, _normals(scene, "rocker")))
+# each of two lines is drawn through the mark of the other
+mistake("M121")(lambda scene: from_swapped_points(scene, ACCELERATION))
+# the line of the tangential part is drawn along the link
+mistake("M42")(lambda scene: along_links(scene, ACCELERATION))
+# the sense of an angular acceleration is wrong: the tangential part stands at the wrong end of the link
+mistake("M45")(lambda scene: (opposed(step) for step, _ in rates(scene, ACCELERATION)))
+# the acceleration of Coriolis is turned against the rotation
+mistake("M49")(lambda scene: map(opposed, coriolis(scene)))
+# the acceleration of Coriolis without its factor two
+mistake("M50")(lambda scene: (scaled(step, 0.5) for step in coriolis(scene)))

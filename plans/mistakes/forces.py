@@ -253,12 +253,6 @@ def to_point(scene: Scene, step: Step) -> Change:
     return with_sign(step, (*size, way, product), scene.values[step.name])
 
 
-@mistake("M66")
-def arm_to_point(scene: Scene) -> Iterator[Change]:
-    """The arm is measured to the point of application instead of the line of action."""
-    yield from (to_point(scene, step) for step in moments(scene))
-
-
 def equations(scene: Scene) -> Iterator[tuple[Step, list[Step]]]:
     """Go through the moment equations of the force plans, with the moments of forces in them."""
     for step in scene.made_by("calc", law="moment_equation"):
@@ -305,12 +299,6 @@ def arms_in_millimetres(scene: Scene) -> Iterator[Change]:
                 yield Change(equation.name, {equation.name: steps}, {constant(factor): factor}, how)
 
 
-@mistake("M69")
-def minus_lost(scene: Scene) -> Iterator[Change]:
-    """The minus of a tangential part is lost: it is drawn the other way."""
-    yield from (opposed(equation) for equation, _ in equations(scene))
-
-
 @mistake("M70")
 def component_for_whole(scene: Scene) -> Iterator[Change]:
     """A component is taken for the full reaction; in all that follows, or in the inner reaction the right one."""
@@ -326,12 +314,6 @@ def passed(scene: Scene) -> list[Step]:
     """Return the reactions that links before get from the groups, each with its opposite."""
     used = {name for step in scene.program if step.verb in ("chain", "moment") for name in step.operands[:2]}
     return [s for s in scene.made_by("calc", law="opposite") if role(s.name).kind == "R" and s.name in used]
-
-
-@mistake("M71")
-def not_reversed(scene: Scene) -> Iterator[Change]:
-    """A reaction is carried to the next link without being reversed."""
-    yield from (instead(step, law="given") for step in passed(scene))
 
 
 @mistake("M72")
@@ -427,3 +409,11 @@ def _inner(scene: Scene) -> Iterator[tuple[Step, str]]:
             for names in outer.values():
                 if hung & set(names):
                     yield from ((step, name) for name in names if name not in hung)
+
+
+# the arm is measured to the point of application instead of the line of action
+mistake("M66")(lambda scene: (to_point(scene, step) for step in moments(scene)))
+# the minus of a tangential part is lost: it is drawn the other way
+mistake("M69")(lambda scene: (opposed(equation) for equation, _ in equations(scene)))
+# a reaction is carried to the next link without being reversed
+mistake("M71")(lambda scene: (instead(step, law="given") for step in passed(scene)))

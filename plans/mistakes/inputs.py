@@ -66,19 +66,6 @@ def lengths(scene: Scene) -> list[str]:
     return [name for name in found if isinstance(scene.paper.givens[name], float)]
 
 
-@mistake("M06")
-def millimetres_for_metres(scene: Scene) -> Iterator[Change]:
-    """Lengths stay in millimetres."""
-    yield Change("l", {}, {name: scene.paper.givens[name] * 1000.0 for name in lengths(scene)})
-
-
-@mistake("M06")
-def arm_in_millimetres(scene: Scene) -> Iterator[Change]:
-    """One arm is left in millimetres."""
-    for step in scene.made_by("arm"):
-        yield scaled(step, 1000.0, "arm")
-
-
 @mistake("M05")
 def rates_in_degrees(scene: Scene) -> Iterator[Change]:
     """Angular velocities and accelerations of links are given in degrees."""
@@ -114,12 +101,6 @@ def _angle(scene: Scene) -> float:
     return float(scene.paper.givens.get(angle_of_driver(scene) or "", 0.0))
 
 
-@mistake("M08")
-def degrees_for_radians(scene: Scene) -> Iterator[Change]:
-    """Degrees are given to a function of radians."""
-    yield from _turned(scene, "", math.degrees(_angle(scene)))
-
-
 @mistake("M09")
 def clockwise(scene: Scene) -> Iterator[Change]:
     """The angle is laid off clockwise; or the crank turns the other way."""
@@ -144,12 +125,6 @@ def another_position(scene: Scene) -> Iterator[Change]:
     """The positions are numbered from another one: the whole plan is that of another position."""
     for number in (1, -1, 2, -2, 4, -4, 5, -5):
         yield from _turned(scene, f"{30 * number:+}", _angle(scene) + number * TWELFTH)
-
-
-@mistake("M10")
-def other_side(scene: Scene) -> Iterator[Change]:
-    """The angle is laid off from the other end of the axis."""
-    yield from _turned(scene, "180-", math.pi - _angle(scene))
 
 
 @mistake("M11")
@@ -189,3 +164,13 @@ def lengths_exchanged(scene: Scene) -> Iterator[Change]:
     names = [name for name in lengths(scene) if name in whole]
     for first, second in combinations(names, 2):
         yield Change(first, {}, {first: given[second], second: given[first]}, second)
+
+
+# lengths stay in millimetres
+mistake("M06")(lambda scene: [Change("l", {}, {name: scene.paper.givens[name] * 1000.0 for name in lengths(scene)})])
+# one arm is left in millimetres
+mistake("M06")(lambda scene: (scaled(step, 1000.0, "arm") for step in scene.made_by("arm")))
+# degrees are given to a function of radians
+mistake("M08")(lambda scene: _turned(scene, "", math.degrees(_angle(scene))))
+# the angle is laid off from the other end of the axis
+mistake("M10")(lambda scene: _turned(scene, "180-", math.pi - _angle(scene)))

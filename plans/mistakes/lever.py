@@ -91,12 +91,6 @@ def _relative(scene: Scene, couple: Step) -> float:
     return float(abs(scene.values.get(omega, 0.0)) * abs(scene.values[couple.operands[1]]))
 
 
-@mistake("M80")
-def sense_of_moment(scene: Scene) -> Iterator[Change]:
-    """The sense of a moment on the lever is not checked against the direction of ab."""
-    yield from map(opposed, couples(scene))
-
-
 @mistake("M81")
 def reactions_on_lever(scene: Scene) -> Iterator[Change]:
     """A reaction hangs on the lever."""
@@ -117,3 +111,7 @@ def force_for_moment(scene: Scene) -> Iterator[Change]:
     """The balancing moment is the force, its arm being lost."""
     for step in scene.made_by("calc", law="crank_moment"):
         yield instead(step, operands=step.operands[:1], law="given")
+
+
+# the sense of a moment on the lever is not checked against the direction of ab
+mistake("M80")(lambda scene: map(opposed, couples(scene)))

@@ -94,12 +94,6 @@ def scale_rounded(scene: Scene) -> Iterator[Change]:
             yield all_scaled(plans[0], _on(scene, plans), factor, f"{factor}")
 
 
-@mistake("M19")
-def printed_smaller(scene: Scene) -> Iterator[Change]:
-    """The sheet was not printed at 100 per cent."""
-    yield all_scaled("", readings(scene), PRINTED)
-
-
 @mistake("M20")
 def centimetres(scene: Scene) -> Iterator[Change]:
     """Centimetres for millimetres, on a plan or in one reading."""
@@ -175,3 +169,7 @@ def other_orders(number: float) -> Iterator[float]:
         if digits[i] != digits[i + 1]:
             swapped = digits[:i] + digits[i + 1] + digits[i] + digits[i + 2 :]
             yield float(f"{swapped[0]}.{swapped[1:]}e{power}")
+
+
+# the sheet was not printed at 100 per cent
+mistake("M19")(lambda scene: [all_scaled("", readings(scene), PRINTED)])

@@ -74,7 +74,7 @@ class Change:
     how: str = ""
 
 
-Rule = Callable[[Scene], Iterator[Change]]
+Rule = Callable[[Scene], Iterable[Change]]
 
 
 @dataclass(frozen=True, slots=True)

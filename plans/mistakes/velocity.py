@@ -61,12 +61,6 @@ def along_links(scene: Scene, plan: str) -> Iterator[Change]:
             yield from of_either_sense(scene, instead(step, direction, operands=operand(step, place, along)), direction)
 
 
-@mistake("M25")
-def relative_along_link(scene: Scene) -> Iterator[Change]:
-    """The relative velocity is drawn along the link."""
-    yield from along_links(scene, VELOCITY)
-
-
 def _slotted(step: Step) -> bool:
     """Whether a slotted pair meets here: one line goes through the mark of its pin, the other is normal to the link."""
     lines = [(role(start), role(u)) for start, u in zip(step.operands[0::2], step.operands[1::2], strict=True)]
@@ -83,12 +77,6 @@ def _exchanged(scene: Scene, step: Step) -> Change:
 def from_swapped_points(scene: Scene, plan: str) -> Iterator[Change]:
     """Draw each of two lines through the mark of the other."""
     yield from (_exchanged(scene, step) for step in scene.made_by("meet", plan=plan) if not _slotted(step))
-
-
-@mistake("M26")
-def lines_from_swapped_points(scene: Scene) -> Iterator[Change]:
-    """Each of two lines is drawn through the mark of the other."""
-    yield from from_swapped_points(scene, VELOCITY)
 
 
 @mistake("M27")
@@ -170,12 +158,6 @@ def rate_from_absolute(scene: Scene) -> Iterator[Change]:
             yield rate_from(scene, step, f"V_{scene.pin}", "of the driver")
 
 
-@mistake("M29")
-def sense_of_rotation(scene: Scene) -> Iterator[Change]:
-    """The sense of an angular velocity is wrong: the vector stands at the wrong end of the link."""
-    yield from (opposed(step) for step, _ in rates(scene, VELOCITY))
-
-
 def other_end(scene: Scene, plan: str) -> Iterator[Change]:
     """Count a point of a link from the other end of its segment."""
     for step in scene.made_by("divide", "similar", plan=plan):
@@ -195,24 +177,6 @@ def middle(scene: Scene, plan: str) -> Iterator[Change]:
 def other_side(scene: Scene, plan: str) -> Iterator[Change]:
     """Draw a similar figure on the other side: against the order of the letters."""
     yield from (mirrored(step, 3) for step in scene.made_by("similar", plan=plan))
-
-
-@mistake("M30")
-def point_from_other_end(scene: Scene) -> Iterator[Change]:
-    """A point of a link is counted from the other end of ab."""
-    yield from other_end(scene, VELOCITY)
-
-
-@mistake("M31")
-def point_in_middle(scene: Scene) -> Iterator[Change]:
-    """A point of a link is always put in the middle of ab."""
-    yield from middle(scene, VELOCITY)
-
-
-@mistake("M32")
-def triangle_mirrored(scene: Scene) -> Iterator[Change]:
-    """The similar triangle is mirrored."""
-    yield from other_side(scene, VELOCITY)
 
 
 @mistake("M33")
@@ -260,3 +224,17 @@ def same_side(scene: Scene) -> Iterator[Change]:
     for step in scene.made_by("similar", plan=VELOCITY):
         if role(step.operands[0]).kind == POLE and scene.values[step.operands[2]] < 0.0:
             yield mirrored(step, 2)
+
+
+# the relative velocity is drawn along the link
+mistake("M25")(lambda scene: along_links(scene, VELOCITY))
+# each of two lines is drawn through the mark of the other
+mistake("M26")(lambda scene: from_swapped_points(scene, VELOCITY))
+# the sense of an angular velocity is wrong: the vector stands at the wrong end of the link
+mistake("M29")(lambda scene: (opposed(step) for step, _ in rates(scene, VELOCITY)))
+# a point of a link is counted from the other end of ab
+mistake("M30")(lambda scene: other_end(scene, VELOCITY))
+# a point of a link is always put in the middle of ab
+mistake("M31")(lambda scene: middle(scene, VELOCITY))
+# the similar triangle is mirrored
+mistake("M32")(lambda scene: other_side(scene, VELOCITY))

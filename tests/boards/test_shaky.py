@@ -16,9 +16,8 @@ from kulman import solve
 from kulman.plans.board import Program
 from kulman.plans.boards.exact import run
 from kulman.plans.hands.hand import PRESETS, Hand, preset
-from kulman.plans.hands.sensitivities import sensitivities
 from kulman.plans.hands.shaky import Paper, draw, paper_of
-from kulman.plans.hands.spread import drawn
+from kulman.plans.hands.spread import drawn, sensitivities
 from kulman.plans.hands.tolerances import failing
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
