@@ -76,7 +76,7 @@ def place(requests: Sequence[Request], obstacles: Obstacles, gap: float = 0.6, b
     if not requests:
         return Labels()
     wanted = Wanted.of(requests, circle_table(obstacles.circles), max(gap, 0.01))
-    scene = _Scene(requests, wanted, Bodies.of(obstacles, wanted), bounds)
+    scene = _Scene(requests, wanted, Bodies.of(obstacles, wanted.a, wanted.b), bounds)
     grid = Grid.around(wanted, scene.bodies, NEAR, bounds)
     best, first = scene.placed(grid, ()), tuple[int, ...]()
     for _ in range(AGAIN):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -14,6 +14,7 @@ Segment: TypeAlias = tuple[complex, complex]
 Points: TypeAlias = NDArray[np.complex128]
 Reals: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
+NONE: Points = np.empty(0, dtype=complex)
 
 # Costs. Only their order matters: covering something is worse than any sum of the rest.
 COVER, AMBIGUOUS, THIN, CROWDED, STEP, TURN, SLIDE, CROSSING = 1e4, 30.0, 300.0, 1.5, 1.0, 1.5, 4.0, 40.0
@@ -181,31 +182,33 @@ class Bodies:
     rival: Flags  # something with a name of its own
 
     @classmethod
-    def of(cls, obstacles: Obstacles, wanted: Wanted) -> Bodies:
-        """Gather the obstacles, and the nodes and the segments that are to be labelled."""
+    def of(cls, obstacles: Obstacles, a: Points = NONE, b: Points = NONE) -> Bodies:
+        """Gather the obstacles, and what is to be labelled: segments from `a` to `b`, nodes where these are equal."""
         main = np.asarray(obstacles.segments, dtype=complex).reshape(-1, 2)
         thin = np.asarray(obstacles.thin, dtype=complex).reshape(-1, 2)
         centres, radii = circle_table(obstacles.circles)
-        is_point = wanted.a == wanted.b
-        nodes = wanted.a[is_point]
+        is_point = a == b
         edges = np.array(obstacles.boxes, dtype=float).reshape(-1, 4)
         # The first body lies far away: so every label has a neighbour, and sums over neighbours are never empty.
         far = np.array([1e9 + 1e9j])
         starts, ends = edges[:, 0] + 1j * edges[:, 1], edges[:, 2] + 1j * edges[:, 3]
-        a = np.concatenate((far, main[:, 0], thin[:, 0], centres, nodes, starts, wanted.a[~is_point]))
-        b = np.concatenate((far, main[:, 1], thin[:, 1], centres, nodes, ends, wanted.b[~is_point]))
-        half = (b - a) / 2
-        counts = (1, len(main), len(thin), len(centres), len(nodes), len(edges), len(wanted.a) - len(nodes))
-        is_main, is_thin, is_circle, is_node, is_box, is_named = (
-            np.repeat(np.arange(7), counts) == kind for kind in range(1, 7)
+        kinds = (
+            (far, far),
+            (main[:, 0], main[:, 1]),
+            (thin[:, 0], thin[:, 1]),
+            (centres, centres),
+            (a[is_point], a[is_point]),
+            (starts, ends),
+            (a[~is_point], b[~is_point]),
         )
-        radius = np.zeros(len(a))
-        radius[is_circle] = radii
-        length = abs(half)
-        normal = np.where(is_box | (length == 0), 0, 1j * half / np.where(length == 0, 1, length))
-        along = np.where(is_box, 0, half)
+        is_main, is_thin, is_circle, is_node, is_box, is_named = (
+            np.repeat(np.arange(7), [len(begins) for begins, _ in kinds]) == kind for kind in range(1, 7)
+        )
+        bodies = cls.strokes(*(np.concatenate(points) for points in zip(*kinds, strict=True)))
+        bodies.radius[is_circle] = radii
+        bodies.along[is_box] = bodies.normal[is_box] = 0.0
         rival = is_main | is_circle | is_node | is_named
-        return cls((a + b) / 2, along, abs(half.real), abs(half.imag), normal, radius, ~(is_thin | is_named), rival)
+        return replace(bodies, hard=~(is_thin | is_named), rival=rival)
 
     @classmethod
     def strokes(cls, a: Points, b: Points) -> Bodies:
@@ -361,19 +364,6 @@ def first_clear(
 ) -> complex | None:
     """Return the first place about which a box of this width and height is at least `gap` from everything, mm."""
     at, (wide, high) = np.array(places, dtype=complex), 0.5 * np.array(size)
-    clear = np.ones(len(at), dtype=bool)
-    for bodies in _bodies(obstacles):
-        away = bodies.distance(at.real[:, None], at.imag[:, None], wide, high, slice(None))
-        clear &= (away >= gap).all(axis=1)
+    away = Bodies.of(obstacles).distance(at.real[:, None], at.imag[:, None], wide, high, slice(None))
+    clear = (away >= gap).all(axis=1)
     return complex(at[int(np.argmax(clear))]) if clear.any() else None
-
-
-def _bodies(obstacles: Obstacles) -> Iterator[Bodies]:
-    """Go through strokes, circles and boxes."""
-    lines = [np.asarray(ends, dtype=complex).reshape(-1, 2) for ends in (obstacles.segments, obstacles.thin)]
-    yield Bodies.strokes(*np.concatenate(lines).T)
-    centres, radii = circle_table(obstacles.circles)
-    yield replace(Bodies.strokes(centres, centres), radius=radii)
-    edges = np.array(obstacles.boxes, dtype=float).reshape(-1, 4)
-    boxes = Bodies.strokes(edges[:, 0] + 1j * edges[:, 1], edges[:, 2] + 1j * edges[:, 3])
-    yield replace(boxes, along=0.0 * boxes.along, normal=0.0 * boxes.normal)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from itertools import accumulate, pairwise
 from typing import TypeAlias
 
@@ -11,10 +13,11 @@ from .formats import Style
 from .shapes import Group, Line, Pen, Shape, Text
 from .text import Box, lay_out
 from .view import View, heading_shapes
-from .words import Words
+from .words import Given, Words
 
 Row: TypeAlias = Sequence[str | None]
 INDENT = "    "
+LONG, DENOMINATOR, ROUNDING = 10, 100, 1e-11  # characters of a number that may be a simple fraction
 
 
 def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
@@ -73,6 +76,31 @@ def _span(row: Row, h: float) -> tuple[float, float]:
     """Return how far a row of cells reaches above and below its baseline, at least as far as a capital letter."""
     layouts = [lay_out(cell or "", h) for cell in row]
     return max(h, *(layout.top for layout in layouts)), min(0.0, *(layout.bottom for layout in layouts))
+
+
+def givens_view(
+    givens: Mapping[str, Given], words: Words, style: Style, more: Sequence[tuple[str, str, str]] = ()
+) -> View:
+    """Return the table of the givens in the task's own units; `more` rows of the same columns follow."""
+    rows = [[words["table.symbol"], words["table.value"], words["table.unit"]]]
+    for name, given in givens.items():
+        if isinstance(given.value, str):
+            rows.append([*words.choice(name, given.value), ""])
+        else:
+            rows.append([words.symbol(name), _number(words, given.value), words.unit(given.unit)])
+    rows += map(list, more)
+    return table("givens", words["heading.givens"], rows, style)
+
+
+def _number(words: Words, value: float) -> str:
+    """Return a number as short as it is: a third as a fraction."""
+    if math.isinf(value):
+        return "∞"
+    simple = Fraction(value).limit_denominator(DENOMINATOR)
+    whole = simple.denominator == 1
+    if len(text := words.short(value)) > LONG and not whole and abs(value - simple) < ROUNDING * abs(value):
+        return f"{simple.numerator}/{simple.denominator}"
+    return text
 
 
 def text_block(name: str, heading: str, lines: Sequence[Sequence[str]], style: Style, width: float) -> View:

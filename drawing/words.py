@@ -227,6 +227,10 @@ class Words:
             return "h", f"{above}_{{{self._links('h', _joined(name.of))}{name.about}}}"
         return "h", f"_{{{re.sub(r'[_^{}]', '', self.symbol(name.of))}{name.about}}}"
 
+    def choice(self, name: str, value: str) -> tuple[str, str]:
+        """Return what a given that is a choice is about, and the word chosen."""
+        return self.texts.get(f"given.{name}", name), self.texts.get(f"choice.{value}", value)
+
     def mark(self, mark: str) -> str:
         """Return the letter of a mark: `velocity.S2` is s_2, `forces_23.1` is a, `A` is A."""
         if mark in self.letters:
@@ -251,6 +255,14 @@ class Words:
         letters = ascii_lowercase.replace(pole, "")
         turn, at = divmod(number - 1, len(letters))
         return letters[at] + (f"_{{{turn}}}" if turn else "")
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A given as the task states it: a number in its own unit, or a chosen word (without unit)."""
+
+    value: float | str
+    unit: str = ""
 
 
 def indexed(letter: str) -> str:

@@ -8,6 +8,7 @@ import re
 import time
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO, TypeAlias
@@ -16,50 +17,23 @@ from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.numbers import SHOWN, quote
 from .page import Page
+from .pdf import write_pdf, write_png, write_tiles
+from .svg import write_svg
 
 Writer: TypeAlias = Callable[[Sequence[Page], BinaryIO], None]
 Files: TypeAlias = Iterable[tuple[Path, bytes]]
 
-
-def _svg(pages: Sequence[Page], stream: BinaryIO) -> None:
-    from .svg import write_svg
-
-    write_svg(pages[0], stream)
-
-
-def _pdf(pages: Sequence[Page], stream: BinaryIO) -> None:
-    from .pdf import write_pdf
-
-    write_pdf(pages, stream)
-
-
-def _png(pages: Sequence[Page], stream: BinaryIO) -> None:
-    from .pdf import write_png
-
-    write_png(pages, stream)
-
-
-WRITERS: dict[str, Writer] = {".svg": _svg, ".pdf": _pdf, ".png": _png}
+WRITERS: dict[str, Writer] = {
+    ".svg": lambda pages, stream: write_svg(pages[0], stream),
+    ".pdf": write_pdf,
+    ".png": write_png,
+}
 SUFFIXES = tuple(WRITERS)
 ONE_PAGE = {".svg", ".png"}  # several pages become x-1.svg, x-2.svg, ...
 PART = ".part"  # ends the names of files that are not whole yet
 PAUSES = (0.05, 0.1, 0.2, 0.4) if os.name == "nt" else ()  # seconds between attempts
 _LEFT = re.compile(r"\.(.+)\.\d+\.part")
 LONGEST = 120  # bytes of a name within that of a file: systems take 255 for the whole
-
-
-def writer_for(path: Path) -> Writer:
-    """Return the writer that the suffix of `path` picks.
-
-    Raises
-    ------
-    InputError
-        Nothing writes such files.
-    """
-    writer = WRITERS.get(path.suffix.lower())
-    if writer is None:
-        raise InputError("output-suffix", file=quote(path, SHOWN), known=", ".join(WRITERS))
-    return writer
 
 
 def check_outputs(*paths: Path, known: Collection[str] = WRITERS) -> None:
@@ -151,7 +125,11 @@ def write_pages(pages: Sequence[Page], *paths: str | os.PathLike[str], tile: str
 
 def page_files(pages: Sequence[Page], path: Path, tile: str | None = None) -> Iterator[tuple[Path, bytes]]:
     """Make the files of pages that `path` stands for: their names and what they hold."""
-    writer = writer_for(path) if tile is None else _tiled(path, tile)
+    writer = WRITERS[path.suffix.lower()]
+    if tile is not None:
+        if path.suffix.lower() != ".pdf":
+            raise InputError("tile-suffix", file=quote(path, SHOWN))
+        writer = partial(write_tiles, paper=tile)
     parts: list[tuple[Path, Sequence[Page]]] = [(path, pages)]
     if path.suffix.lower() in ONE_PAGE and len(pages) > 1:
         numbered = enumerate(pages, start=1)
@@ -160,18 +138,6 @@ def page_files(pages: Sequence[Page], path: Path, tile: str | None = None) -> It
         stream = BytesIO()
         writer(some, stream)
         yield target, stream.getvalue()
-
-
-def _tiled(path: Path, paper: str) -> Writer:
-    if path.suffix.lower() != ".pdf":
-        raise InputError("tile-suffix", file=quote(path, SHOWN))
-
-    def write(pages: Sequence[Page], stream: BinaryIO) -> None:
-        from .pdf import write_tiles
-
-        write_tiles(pages, stream, paper)
-
-    return write
 
 
 def slug(name: str) -> str:

@@ -1,6 +1,6 @@
 """The laws by which a plan's segments become quantities, and quantities segments.
 
-Each law takes and gives floats, complex vectors, or arrays of them; called with symbols (`drawing.formulas`) it prints
+Each law takes and gives floats, complex vectors, or arrays of them; called with symbols (`drawing.printed`) it prints
 itself, with numbers of a trace it is written down, with dual numbers it gives derivatives. A sheet, a note and a page
 name a law by its key.
 """

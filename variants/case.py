@@ -7,8 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..drawing.givens import Given
-from ..drawing.words import Words
+from ..drawing.words import Given, Words
 from ..plans.names import role
 from ..plans.solved import Solved
 from ..scales.arguments import of_kind

@@ -10,13 +10,11 @@ from ...plans.cams.cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_
 from ...plans.cams.solve import EQUAL, SolvedCam, reduced
 from ...scales.choose import Choosers, Fixed
 from ...scales.scale import Scale
-from ..compose import arrange
-from ..contents import SheetContents
+from ..compose import BLOCK, TURNED, arrange, column, row, zoned
 from ..figure import Figure
 from ..formats import STYLES, Format, room
-from ..givens import givens_view
-from ..nesting import BLOCK, TURNED, column, row, zoned
-from ..rungs import Fitting, Found, may_fit
+from ..rungs import Fitting, Found, SheetContents, may_fit
+from ..table import givens_view
 from ..view import View
 from .ladders import SYMBOLS, first_scales, ladder, size_of
 from .scene import CamScene, lettered

@@ -12,7 +12,6 @@ from ...plans.cams.formulas import ARC
 from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.rules import Rule, rules_of
 from ...plans.cams.solve import SCALES
-from ..givens import choice
 from ..handouts import NOTHING
 from ..handouts import Shown as Begun
 from ..printed import DEGREES, Input, Shown, calculation, worked
@@ -40,7 +39,7 @@ def choices_block(scene: CamScene, note: str, width: float) -> View:
     """Return the choices that the task makes in words, what the lines of the diagrams are, and the task's note."""
     words = scene.words
     words_given = ((name, given.value) for name, given in scene.givens.items() if isinstance(given.value, str))
-    chosen = ((name, choice(words, name, value)) for name, value in words_given)
+    chosen = ((name, words.choice(name, value)) for name, value in words_given)
     lines: Lines = [(f"{words.texts.get(f'given.cam_{name}', about)}:", said) for name, (about, said) in chosen]
     lines += _about(scene)
     lines += [_smaller(scene)] if scene.reduction != 1.0 else []

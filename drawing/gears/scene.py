@@ -11,7 +11,7 @@ from ...plans.gears.geometry import POINTS
 from ...plans.gears.meshing import Meshing, Wheel, wheels
 from ...plans.gears.solve import SAME, SolvedGear
 from ...scales.scale import Scale
-from ..contents import SubjectScene
+from ..rungs import SubjectScene
 from ..words import Words
 
 TALL = 7.0  # heights of letters that a tooth must have for what is measured on it

@@ -12,14 +12,12 @@ from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
 from ...plans.gears.solve import SolvedGear
 from ...scales.errors import InputError
 from ...scales.scale import Scale
-from ..compose import arrange, arrange_rest
-from ..contents import SheetContents
+from ..compose import BLOCK, TURNED, Nest, arrange, arrange_rest, column, names, row, zoned
 from ..figure import Figure
 from ..formats import STYLES, Format, room
-from ..nesting import BLOCK, TURNED, Nest, column, names, row, zoned
 from ..packing import Placement
 from ..pens import Norm
-from ..rungs import Fitting, Found, may_fit, pages
+from ..rungs import Fitting, Found, SheetContents, may_fit, pages
 from ..table import note_block
 from ..view import View
 from .ladders import first_scales, mu_ladder, near_ladder, parts_of, rolled_ladder

@@ -12,8 +12,7 @@ from ...plans.board import Step
 from ...plans.gears.gear import VALUES, unit_of
 from ...plans.gears.solve import SAME_CENTRES
 from ...plans.names import role
-from ..formulas import prints
-from ..printed import DEGREES, Input, Shown, worked
+from ..printed import DEGREES, Input, Shown, prints, worked
 from ..table import text_block
 from ..view import View
 from .scene import GearScene

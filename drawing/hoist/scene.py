@@ -12,7 +12,7 @@ from ...plans.hoist.solve import ON_PAPER, SCALES, SolvedHoist
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
 from ...scales.scale import Scale
-from ..contents import SubjectScene
+from ..rungs import SubjectScene
 from ..words import Words
 from .ladders import scale_of
 

@@ -9,10 +9,9 @@ from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PAR
 from ...plans.hoist.solve import SCALES, SolvedHoist, reduced
 from ...scales.scale import Scale
 from ..compose import arrange
-from ..contents import SheetContents
 from ..figure import Figure
 from ..formats import STYLES, Format
-from ..rungs import Fitting, Found
+from ..rungs import Fitting, Found, SheetContents
 from ..table import note_block, text_block
 from ..view import View
 from .ladders import UNITS, first_scales, ladder

@@ -14,8 +14,8 @@ from ...plans.hoist.model import CIRCLE
 from ...plans.laws import form_of
 from ...plans.names import role
 from ...scales.scale import Scale
-from ..formulas import Symbol
 from ..notes.blocks import Story
+from ..printed import Symbol
 from .scene import HoistScene
 
 MM = 1e3

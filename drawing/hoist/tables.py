@@ -10,11 +10,11 @@ from ...plans.hoist.hoist import DRAWN
 from ...plans.hoist.model import section_of
 from ...plans.hoist.paper import SCALED
 from ...plans.hoist.solve import unit_of
-from ..givens import Given, givens_view
 from ..handouts import NOTHING, Shown
 from ..printed import Input, calculation
-from ..table import table
+from ..table import givens_view, table
 from ..view import View
+from ..words import Given
 from .scene import HoistScene
 
 USUAL = {"Pa": (1e-6, "MPa"), "m^2": (1e6, "mm^2")}

@@ -14,9 +14,9 @@ from ...plans.names import inertia, rate, role
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
 from ..formats import Style
-from ..givens import Given as Given
 from ..printed import segment_decimals
 from ..shapes import Vector
+from ..words import Given as Given
 from ..words import Words
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from ...plans.linkages.compound import Coupler
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group
 from ...plans.names import scale_factor
-from ..contents import SheetContents
 from ..figure import Figure
+from ..rungs import SheetContents
 from ..table import note_block, text_block
 from ..view import View
 from .calculations.equations import Lines

@@ -15,7 +15,7 @@ import pytest
 import kulman.plans.cams.formulas
 import kulman.plans.gears.formulas
 import kulman.plans.hoist.formulas  # noqa: F401
-from kulman.drawing.formulas import Symbol, prints
+from kulman.drawing.printed import Symbol, prints
 from kulman.plans.gears.formulas import involute
 from kulman.plans.laws import FORMS, LAWS, Sign, bracketed, form_of
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kulman.drawing.formulas import Symbol
+from kulman.drawing.printed import Symbol
 from kulman.drawing.words import Words
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import run

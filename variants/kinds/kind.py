@@ -24,11 +24,11 @@ from . import MODULES
 
 if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...drawing.compose import Drawn
-    from ...drawing.contents import SheetContents
     from ...drawing.formats import Format
     from ...drawing.handouts import Shown
     from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
+    from ...drawing.rungs import SheetContents
     from ...drawing.words import Words
     from ...plans.condition import Condition
     from ...plans.hands.hand import Tolerance
@@ -336,7 +336,7 @@ class Sized(Kind[Subject, Answer]):
 
     def contents(self, case: Case, words: Words, norm: Norm) -> SheetContents[Any]:
         """Return what stands on the sheet of a case."""
-        from ...drawing.contents import SheetContents
+        from ...drawing.rungs import SheetContents
 
         note = case.task.note_in(words.language)
         return SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm, note=note)

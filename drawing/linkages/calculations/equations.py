@@ -14,8 +14,7 @@ from ....plans.linkages.parts import SYMBOLS
 from ....plans.names import CORIOLIS, NORMAL, POLE, role, vector
 from ....plans.quantities import unit_of
 from ....scales.scale import Scale
-from ...formulas import Symbol
-from ...printed import POINT, Input, calculation, ruler_decimals, value_text
+from ...printed import POINT, Input, Symbol, calculation, ruler_decimals, value_text
 from ...words import Words
 from ..reading import Edge, Reading, read
 from ..scene import Scene

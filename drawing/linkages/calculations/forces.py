@@ -12,8 +12,7 @@ from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.structure import Group
 from ....plans.names import FORCES, role
 from ....scales.display import AS_INSIDE
-from ...formulas import Symbol
-from ...printed import POINT, value_text
+from ...printed import POINT, Symbol, value_text
 from ..reading import read
 from ..scene import Scene
 from .equations import (

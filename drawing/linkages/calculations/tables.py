@@ -17,9 +17,8 @@ from ....plans.linkages.structure import Group, Structure
 from ....plans.names import COUPLE, role
 from ....plans.quantities import Quantity
 from ....scales.scale import Scale
-from ...givens import givens_view
 from ...printed import ruler_decimals, segment_decimals, value_text
-from ...table import table
+from ...table import givens_view, table
 from ...view import View
 from ..figures.inset import enlarged
 from ..reading import read

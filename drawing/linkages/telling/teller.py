@@ -11,8 +11,7 @@ from ....plans.board import POSITION, Step
 from ....plans.names import role
 from ....scales.packaged import packaged
 from ... import notes
-from ...formulas import Symbol
-from ...printed import HUNDREDTHS, POINT, Input, calculation
+from ...printed import HUNDREDTHS, POINT, Input, Symbol, calculation
 from ..at_point import At, figures_of
 from ..calculations.equations import Product, ends_of, factor, is_given, line_of, paper, size_of
 from ..reading import Reading, read
