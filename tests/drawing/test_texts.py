@@ -15,6 +15,7 @@ from kulman.drawing.words import Words, notations
 from kulman.scales.errors import LANGUAGES, messages
 from kulman.scales.packaged import packaged
 from kulman.tests.support.sources import trees
+from kulman.variants.kinds import KINDS
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
 
@@ -58,11 +59,16 @@ def words_of(stem: str) -> frozenset[str]:
 
 
 def used(key: str) -> bool:
-    """Whether the code names a text, whole or composed of a beginning and a word."""
-    if key in patterns():
+    """Whether the code names a text, whole or composed of a beginning and a word, or of the name of a subject, too."""
+    if key in patterns() or any(key.replace(table, "*", 1) in patterns() for table in KINDS):
         return True
     cuts = [at for at in range(1, len(key)) if key[at - 1] in "._-"]
-    return any(f"{key[:at]}*" in patterns() and key[at:] in words_of(key[:at]) for at in cuts)
+    stems = [(key[:at], key[at:]) for at in cuts]
+    return any(
+        word in words_of(stem)
+        and not {f"{stem}*", *(f"{stem.replace(kind, '*')}*" for kind in KINDS)}.isdisjoint(patterns())
+        for stem, word in stems
+    )
 
 
 @pytest.mark.parametrize("kind", ["", "titleblock."])
