@@ -366,17 +366,12 @@ def across_guide(board: Board, pair: Prismatic, link: Link, point: str) -> str:
     """Return the name of the distance of a point of the guide link to the left of its guide."""
     if link.points[point] == pair.through:
         return ZERO
-    number, name = link.number, f"_{link.number}_{point}_aside_{pair.links[0]}"
-    board.turn(f"_guide_{number}_{pair.links[0]}", pair.direction)
-    board.place(f"_through_{number}_{pair.links[0]}", *pair.through)
-    board.calc(
-        name,
-        "across_axis",
-        f"_guide_{number}_{pair.links[0]}",
-        f"_through_{number}_{pair.links[0]}",
-        local_mark(board, link, point),
-    )
-    return name
+    pair_of = f"{link.number}_{pair.links[0]}"
+    guide, through, aside = f"_guide_{pair_of}", f"_through_{pair_of}", f"_{link.number}_{point}_aside_{pair.links[0]}"
+    board.turn(guide, pair.direction)
+    board.place(through, *pair.through)
+    board.calc(aside, "across_axis", guide, through, local_mark(board, link, point))
+    return aside
 
 
 def _with_height(board: Board, pair: Prismatic, slider: Link, point: str, size: str) -> str:

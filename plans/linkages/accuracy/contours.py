@@ -76,9 +76,10 @@ class Contours:
         self._v = {name: float(x) for name, x in values.items() if not np.ndim(x)} | {ZERO: 0.0}
         self._v |= {opposite: -self._v[length] for opposite, length in mechanism.opposites.items()}
         self.guides = tuple(pair for pair in mechanism.pairs if isinstance(pair, Prismatic))
-        self._angle_of, self._ahead = self._alike()
-        self.count = len(set(self._angle_of.values()))
-        self.turner = tuple(self._angle_of[pair.links[1]] for pair in self.guides)
+        # by link the number of its angle, zero for the frame, and by how much it lies ahead of it
+        self.angle_of, self._ahead = self._alike()
+        self.count = len(set(self.angle_of.values()))
+        self.turner = tuple(self.angle_of[pair.links[1]] for pair in self.guides)
         self._origins: dict[int, Form] = {FRAME: Form({})}
         self.closed = tuple(self._walk())
         self.size = max((abs(x) for form in self.closed for x in form.parts.values()), default=1.0) or 1.0
@@ -119,45 +120,41 @@ class Contours:
         if isinstance(pair, Revolute):
             return self._arm(first, self._joint(pair, first)) - self._arm(second, self._joint(pair, second))
         on_slider = self._arm(first, self._place(first, pair.point))
-        through = self._arm(second, complex(self._v[pair.through[0]], self._v[pair.through[1]]))
+        through = self._arm(second, self._at(pair.through))
         along = cmath.rect(1.0, self._ahead[second] + self._v[pair.direction])
-        aside = Form({self._angle_of[second]: along * 1j * self._v[pair.offset]})
+        aside = Form({self.angle_of[second]: along * 1j * self._v[pair.offset]})
         return on_slider - through - aside - Form({}, {self.guides.index(pair): along})
 
     def _joint(self, pair: Revolute, link: int) -> complex:
         if link != FRAME:
             return self._place(link, pair.point)
-        x, y = pair.at or (ZERO, ZERO)
-        return complex(self._v[x], self._v[y])
+        return self._at(pair.at or (ZERO, ZERO))
 
     def _place(self, link: int, point: str) -> complex:
-        x, y = self._m.link(link).points[point]
-        return complex(self._v[x], self._v[y])
+        return self._at(self._m.link(link).points[point])
+
+    def _at(self, place: tuple[str, str]) -> complex:
+        return complex(self._v[place[0]], self._v[place[1]])
 
     def _arm(self, link: int, place: complex) -> Form:
         """Return the vector from a link's origin to a place on it."""
-        return Form({self._angle_of[link]: cmath.rect(1.0, self._ahead[link]) * place})
+        return Form({self.angle_of[link]: cmath.rect(1.0, self._ahead[link]) * place})
 
     # What the user asks for.
 
     def point(self, letter: str) -> Form:
         """Return the place of a lettered point."""
         if letter in self._m.frame_points:
-            x, y = self._m.frame_points[letter]
-            return Form({0: complex(self._v[x], self._v[y])})
+            return Form({0: self._at(self._m.frame_points[letter])})
         link = next(link.number for link in self._m.links if letter in link.points)
         return self._origins[link] + self._arm(link, self._place(link, letter))
-
-    def angle(self, link: int) -> int:
-        """Return the number of a link's angle."""
-        return self._angle_of[link]
 
     def driving(self) -> tuple[int | None, int | None, float]:
         """Return the number of the driver's angle or of its way, and the variable's value at which that is zero."""
         driver = self._m.driver
         if isinstance(driver, Driver):
             arm = self._place(driver.link, driver.point) - self._place(driver.link, driver.pivot)
-            return self._angle_of[driver.link], None, cmath.phase(arm) + self._ahead[driver.link]
+            return self.angle_of[driver.link], None, cmath.phase(arm) + self._ahead[driver.link]
         ends = {FRAME, driver.link}
         return None, next(i for i, pair in enumerate(self.guides) if {*pair.links} == ends), 0.0
 
@@ -174,8 +171,8 @@ class Contours:
         n = len(next(iter(directions.values())))
         angles, ways = np.zeros((self.count, n)), np.zeros((len(self.guides), n))
         for link, direction in directions.items():
-            if self._angle_of[link]:
-                angles[self._angle_of[link]] = np.angle(direction) - self._ahead[link]
+            if self.angle_of[link]:
+                angles[self.angle_of[link]] = np.angle(direction) - self._ahead[link]
         for j, pair in enumerate(self.guides):
             ways[j] = self._way(pair, angles, places)
         return Pose(angles, ways)
@@ -183,11 +180,11 @@ class Contours:
     def _way(self, pair: Prismatic, angles: Array, places: Mapping[str, Array]) -> Array:
         """Return how far the slider's point stands from the place through which the guide passes."""
         _, guide = pair.links
-        turn = np.exp(1j * (angles[self._angle_of[guide]] + self._ahead[guide]))
-        through = complex(self._v[pair.through[0]], self._v[pair.through[1]])
+        turn = np.exp(1j * (angles[self.angle_of[guide]] + self._ahead[guide]))
+        through = self._at(pair.through)
         if guide != FRAME:
-            letter, (x, y) = next(iter(self._m.link(guide).points.items()))
-            through = places[letter] + turn * (through - complex(self._v[x], self._v[y]))
+            letter, origin = next(iter(self._m.link(guide).points.items()))
+            through = places[letter] + turn * (through - self._at(origin))
         along = turn * cmath.rect(1.0, self._v[pair.direction])
         return np.real((places[pair.point] - through) * np.conj(along))
 

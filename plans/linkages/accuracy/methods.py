@@ -225,7 +225,7 @@ class Newton:
         if _turns(name):
             poses = rates if _order(name) == 1 else changes
             assert poses is not None
-            row: Array = poses.angles[contours.angle(int(of))]
+            row: Array = poses.angles[contours.angle_of[int(of)]]
             return row
         if _order(name) == 1:
             return contours.rate(contours.point(of), pose, rates)

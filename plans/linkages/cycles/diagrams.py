@@ -31,19 +31,9 @@ MARGIN = 0.15  # how far a field reaches beyond the link's points, in parts of i
 
 
 def chords(values: Array, section: float) -> Array:
-    """Return the mean slope of every section of a curve.
+    """Return the mean slope of every section of a curve, which belongs to its middle.
 
-    Parameters
-    ----------
-    values : float64 or complex128 array of shape (n + 1,)
-        Values at the ends of the sections: of a vector the differences of its ends.
-    section : float
-        Length of a section along the axis.
-
-    Returns
-    -------
-    array of shape (n,)
-        Slopes, at the middles of the sections.
+    `values`, float64 or complex128 of shape (n + 1,), stand at the ends of sections so long along the axis.
 
     >>> chords(np.array([0.0, 1.0, 4.0]), 0.5).tolist()
     [2.0, 6.0]
@@ -100,19 +90,10 @@ class Diagrams:
 
 
 def differentiate(s: Array, section: float, closed: bool) -> tuple[Array, Array]:
-    """Return velocities and accelerations by chords of travels at the ends of n sections.
+    """Return velocities and accelerations by chords of travels `s` at the ends of n sections, shape (n + 1,).
 
-    Parameters
-    ----------
-    s : array of shape (n + 1,)
-        Travels; on a closed curve the last section runs into the first one.
-
-    Returns
-    -------
-    v : array of shape (n,)
-        At the middles of the sections.
-    a : array of shape (n,) or (n - 1,)
-        At the beginnings of the sections; on an open curve not at the first one.
+    The velocities stand at the middles, shape (n,), the accelerations at the beginnings of the sections; on a closed
+    curve the last section runs into the first one, on an open one no acceleration stands at the first.
     """
     v = chords(s, section)
     return v, chords(np.concatenate((v[-1:], v)) if closed else v, section)
@@ -186,14 +167,7 @@ def diagrams(cycle: Cycle, of: str, sections: int = 12) -> Diagrams:
 def velocities(at: Array, pin: complex, velocity: complex, omega: float) -> Array:
     """Return the velocities of points of a link: v = v_A + omega x (P - A).
 
-    Parameters
-    ----------
-    at : complex128 array
-        Places P of the points, m.
-    pin, velocity : complex
-        Place and velocity of a point A of the link.
-    omega : float
-        Angular velocity of the link, rad/s.
+    Places P and A, the `pin`, are in metres, complex128; `velocity` is that of A, `omega` in rad/s.
     """
     found: Array = LAWS["transport_speed"](omega, at - pin) + velocity
     return found

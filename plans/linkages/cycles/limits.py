@@ -103,10 +103,8 @@ class Reach:
         return found
 
     def _changes_at(self, place: float) -> bool:
-        offs = (abs(place - change) for change in self.changes)
-        if self.whole.closed:
-            return any(min(off, abs(off - TURN)) < SAME for off in offs)
-        return any(off < SAME * self.whole.length for off in offs)
+        turn, same = (TURN, SAME) if self.whole.closed else (0.0, SAME * self.whole.length)
+        return any(min(off, abs(off - turn)) < same for off in (abs(place - change) for change in self.changes))
 
     def _holds(self, stretch: Stretch, place: float) -> bool:
         if self.whole.closed:
@@ -117,9 +115,7 @@ class Reach:
 class MarginBoard(ArrayBoard):
     """An array board that notes what every arc has to spare, and the sine of every two lines that meet."""
 
-    def __init__(self, givens: Mapping[str, Any], size: int) -> None:
-        super().__init__(givens, size)
-        self.margins: dict[str, Any] = {}
+    margins: dict[str, Any]
 
     def restart(self, givens: Mapping[str, Any], codes: NDArray[np.int8]) -> None:
         """Begin with other positions and a new list of margins."""

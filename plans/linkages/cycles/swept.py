@@ -19,7 +19,7 @@ from ...laws import TURN, dot
 from ...names import role
 from ..chain import constructed
 from ..givens import board_givens
-from ..mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic
+from ..mechanism import ZERO, Driver, Mechanism, Prismatic
 from ..solved import SolvedLinkage
 
 if TYPE_CHECKING:
@@ -109,27 +109,17 @@ def slider_runs(solved: SolvedLinkage) -> Runs:
     drive = swept(solved.mechanism, solved.givens)
     free = drive.mechanism.without_loads
     _, program = constructed(free, ("position",))
-    marks = {solved.guide_name(pair): (pair.point, _beside(solved, pair)) for pair in pairs}
+    # a slider's way is measured from a point of the guide's link, from none on the frame
+    first = {link.number: next(iter(link.points)) for link in solved.mechanism.links}
+    marks = {solved.guide_name(pair): (pair.point, first.get(pair.links[1], "")) for pair in pairs}
     wanted = sorted({mark for u, (point, at) in marks.items() for mark in (u, point, at) if mark})
     steps = np.arange(-POSITIONS // 2, POSITIONS // 2 + 1) * (1.0 / POSITIONS)
     size = solved.extent
     whole = TURN if isinstance(solved.mechanism.driver, Driver) else 2.0 * SWAY * size
     places: Array = drive.start + steps * whole
     moved = drive.along(program, solved.givens, wanted, mechanism=free)(places)
-    return {u: _run(_along(moved, u, point, at), LEAP * size) for u, (point, at) in marks.items()}
-
-
-def _beside(solved: SolvedLinkage, pair: Prismatic) -> str:
-    """Return a point of the guide's link, from which the slider's way is measured; "" on the frame."""
-    number = pair.links[1]
-    return "" if number == FRAME else next(iter(solved.mechanism.link(number).points))
-
-
-def _along(moved: Mapping[str, Array], u: str, point: str, at: str) -> Array:
-    """Return where the slider's point stands along the guide."""
-    way = moved[point] - moved[at] if at else moved[point]
-    along: Array = dot(way, moved[u])
-    return along
+    ways = {u: moved[point] - moved[at] if at else moved[point] for u, (point, at) in marks.items()}
+    return {u: _run(dot(way, moved[u]), LEAP * size) for u, way in ways.items()}
 
 
 def _run(along: Array, leap: float) -> tuple[float, float]:

@@ -263,14 +263,8 @@ class Triad(AssurGroup):
         first, second, third = self.legs
         plan, number = spelled("forces", self.name), self.central.number
         own = [[force for force, _ in loads[link]] for link in (first.number, number, third.number, second.number)]
-        parts: list[list[str]] = [
-            [*_tangential(first), *own[0]],
-            own[1],
-            own[2],
-            [*_tangential(third), _normal(third)],
-            own[3],
-            [*_tangential(second)],
-        ]
+        parts: list[list[str]] = [[*_tangential(first), *own[0]], own[1], own[2]]
+        parts += [[*_tangential(third), _normal(third)], own[3], [*_tangential(second)]]
         board.pole(f"{plan}.0")
         ends, count = [], 0
         for hung in parts:
