@@ -17,10 +17,7 @@ INERTIA, LEVER, COUPLE = "i", "lever", "couple"  # parts of forces, moments and 
 FORCES = "forces"  # kind of the plans of forces
 # Parts of vectors: normal, tangential, Coriolis, sliding; in compound motion those of transport (e) and relative
 # rotation (r).
-PARTS = {
-    **dict.fromkeys(("V", "a"), ("n", "t", "k", "r", "e", "en", "et", "rn", "rt")),
-    "R": ("n", "t", "m", "p"),
-}
+PARTS = {**dict.fromkeys(("V", "a"), ("n", "t", "k", "r", "e", "en", "et", "rn", "rt")), "R": ("n", "t", "m", "p")}
 # How names are written behind their kinds.
 _WRITTEN = {
     **{kind: (re.compile(f"(?P<of>.+)_(?P<part>{'|'.join(parts)})"),) for kind, parts in PARTS.items()},

@@ -14,7 +14,7 @@ from ..names import NORMAL, Name, by_lever, mark, spelled, vector
 from ..quantities import F_BAL, M_BAL
 from .legs import Slide, slide_of
 from .mechanism import FRAME, MOMENT, ZERO, Driver, Mechanism, Prismatic, SlidingDriver
-from .parts import Body, Couples, Forces, Span, hang, measure_link, moments_about, move_link, move_points, place_link
+from .parts import Body, Couples, Forces, Span, hang, moments_about
 
 
 def driver_of(mechanism: Mechanism) -> Crank | SlidingBlock:
@@ -66,9 +66,9 @@ class Crank:
         driver, crank = self.driver, self.span
         board.place(driver.pivot, *self.mechanism.frame_points[driver.pivot])
         board.turn(crank.e, driver.angle)
-        measure_link(board, crank)
+        crank.measure(board)
         board.lay(driver.point, driver.pivot, crank.e, crank.length)
-        place_link(board, crank, turned=True)
+        crank.place(board, turned=True)
 
     def velocity(self, board: Board) -> None:
         """v_A = omega_1 * l_OA is normal to the crank in the sense of omega_1."""
@@ -78,7 +78,7 @@ class Crank:
         board.pole("velocity.p")
         board.lay(mark("velocity", crank.end), "velocity.p", crank.n, v.size)
         board.read(v, "velocity.p", mark("velocity", crank.end))
-        move_link(board, self.mechanism, crank, "velocity")
+        crank.mark_others(board, self.mechanism, "velocity")
 
     def acceleration(self, board: Board) -> None:
         """a_A = omega_1^2 * l_OA points from A to O, and epsilon_1 * l_OA across unless the crank turns steadily."""
@@ -96,7 +96,7 @@ class Crank:
             board.read(vector("a", driver.point, part="n"), "acceleration.p", normal)
             board.read(across, normal, tip)
         board.read(a, "acceleration.p", tip)
-        move_link(board, self.mechanism, crank, "acceleration")
+        crank.mark_others(board, self.mechanism, "acceleration")
 
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
         """Balance the crank by the moments about its pivot; R_01 closes the plan of its loads.
@@ -170,7 +170,7 @@ class SlidingBlock:
         board.pole(f"{plan}.p")
         board.lay(mark(plan, self.driver.point), f"{plan}.p", self.slide.u, moves.size)
         board.read(moves, f"{plan}.p", mark(plan, self.driver.point))
-        move_points(board, self.mechanism, self.slide.body, plan, (self.driver.point,))
+        self.slide.body.move_points(board, self.mechanism, plan)
 
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
         """Balance the slider: through the ends of its loads the guide and the normal to it, F_bal along u, R_01 across.

@@ -27,17 +27,9 @@ from .parts import (
     Forces,
     Passed,
     Span,
-    carry,
-    coordinates,
     lay_off,
     local_mark,
-    measure_link,
-    move_link,
-    move_points,
     normal_of,
-    place_link,
-    place_points,
-    settle,
 )
 from .structure import TRIAD, Group
 
@@ -85,12 +77,8 @@ class Hinged(Span):
 
     def path(self, board: Board) -> tuple[str, str, str]:
         """Lay down what it leaves to its joint: centre and radius of an arc, no line."""
-        measure_link(board, self)
+        self.measure(board)
         return self.start, self.length, ZERO
-
-    def place(self, board: Board) -> None:
-        """Mark its direction and its other points."""
-        place_link(board, self)
 
     def about(self, point: str) -> tuple[str, str]:
         """Letters of a point's motion about the start: B and A, or B alone about a pivot of the frame."""
@@ -116,7 +104,7 @@ class Hinged(Span):
 
     def move(self, board: Board, plan: str) -> None:
         """Mark its other points by similarity."""
-        move_link(board, self.mechanism, self, plan)
+        self.mark_others(board, self.mechanism, plan)
 
     def turn(self, board: Board, plan: str) -> None:
         """Calculate omega or epsilon from the motion of the joint about the start."""
@@ -216,7 +204,7 @@ class Slide:
                 slope = f"{slope}_{self.before}"
             board.incline(self.u, self.known.direction, slope)
         board.normal(normal_of(self.u), self.u)
-        settle(board, self.body, self.slope)
+        self.body.settle(board, self.slope)
 
     def path(self, board: Board) -> tuple[str, str, str]:
         """Lay down the guide's direction and the line along which the pin runs: a mark of it, no arc, direction."""
@@ -235,7 +223,7 @@ class Slide:
         if self.known is None:
             board.place(start, *self.pair.through)
         else:
-            along, across = coordinates(board, self.known, f"through_{self.u}", *self.pair.through)
+            along, across = self.known.coordinates(board, f"through_{self.u}", *self.pair.through)
             board.normal(normal_of(self.known.direction), self.known.direction)
             lay_off(board, start, self.known.pin, self.known.direction, along, across)
         return start
@@ -250,7 +238,7 @@ class Slide:
 
     def place(self, board: Board) -> None:
         """Mark the other points of the sliding link."""
-        place_points(board, self.body, (self.pin,))
+        self.body.place_points(board)
 
     def about(self, point: str) -> tuple[str, str]:
         """Letters of a point's motion about the guide: B and B4, or B alone when the guide stands."""
@@ -259,7 +247,7 @@ class Slide:
     def begin(self, board: Board, plan: str) -> str:
         """Mark the known link's point under the pin, and hang on it the acceleration of Coriolis; return the end."""
         if self.known is not None:
-            carry(board, self.mechanism, self.known, plan, self.under, self.pin)
+            self.known.carry(board, self.mechanism, plan, self.under, self.pin)
             if plan == "acceleration" and self.known.omega is not None:
                 return coriolis(board, self.known.omega, self.own, self.under, self.mark(plan))
         return self.mark(plan)
@@ -273,8 +261,8 @@ class Slide:
     def move(self, board: Board, plan: str) -> None:
         """Mark the other points of the slider, which turns like the guide."""
         if self.known is not None:
-            turn_with(board, self.body, self.known, plan)
-        move_points(board, self.mechanism, self.body, plan, (self.pin,))
+            self.body.turn_with(board, self.known, plan)
+        self.body.move_points(board, self.mechanism, plan)
 
     def turn(self, board: Board, plan: str) -> None:
         """Do nothing: it turns like the guide."""
@@ -397,13 +385,6 @@ def _excess(board: Board, name: str, whole: str, part: str) -> str:
         return whole
     board.calc(name, "excess", whole, part)
     return name
-
-
-def turn_with(board: Board, body: Body, other: Body, plan: str) -> None:
-    """Note that a link turns like the one on which it slides."""
-    rates = (body.omega, other.omega) if plan == "velocity" else (body.epsilon, other.epsilon)
-    if rates[0] and rates[1]:
-        board.calc(rates[0], "same_turning", rates[1])
 
 
 def coriolis(board: Board, omega: str, tip: str, tail: str, start: str) -> str:

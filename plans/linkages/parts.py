@@ -34,6 +34,72 @@ class Body:
     omega: str | None
     epsilon: str | None
 
+    def turn_with(self, board: Board, other: Body, plan: str) -> None:
+        """Note that the link turns like the one on which it slides."""
+        rates = (self.omega, other.omega) if plan == "velocity" else (self.epsilon, other.epsilon)
+        if rates[0] and rates[1]:
+            board.calc(rates[0], "same_turning", rates[1])
+
+    def settle(self, board: Board, direction: str = ZERO) -> None:
+        """Lay down the link's own direction on a drawing of the link: at the angle `direction` to its x axis."""
+        if self.local:
+            board.turn(self.local, direction)
+            local_mark(board, self.link, self.pin)
+
+    def coordinates(self, board: Board, key: str, x: str, y: str) -> tuple[str, str]:
+        """Return the names of a place on the link along and across its direction, counted from its pin."""
+        if self.local is None:
+            return x, y
+        number = self.link.number
+        board.place(f"_{number}_{key}", x, y)
+        along, across = f"_{number}_{key}_along", f"_{number}_{key}_across"
+        board.calc(along, "along_axis", self.local, f"_{number}_{self.pin}", f"_{number}_{key}")
+        board.calc(across, "across_axis", self.local, f"_{number}_{self.pin}", f"_{number}_{key}")
+        return along, across
+
+    def place_points(self, board: Board) -> None:
+        """Mark the other points of a link with one joint, its pin."""
+        for point, place in self.link.points.items():
+            if point != self.pin:
+                lay_off(board, point, self.pin, self.direction, *self.coordinates(board, point, *place))
+
+    def move_points(self, board: Board, mechanism: Mechanism, plan: str) -> None:
+        """Mark the other points of a link with one joint on a plan."""
+        for point in self.link.points:
+            if point != self.pin:
+                self.carry(board, mechanism, plan, point, point)
+
+    def carry(
+        self, board: Board, mechanism: Mechanism, plan: str, letter: str, at: str, pin_at: str | None = None
+    ) -> None:
+        """Mark on a plan the point `letter` of a link that now stands at the mark `at`: it turns about the link's pin.
+
+        `pin_at` is the mark at which the pin stands if it has another letter.
+        """
+        tip, start = mark(plan, letter), mechanism.mark(plan, self.pin)
+        if self.omega is None:
+            board.same(tip, start)
+        else:
+            radius = f"_r_{letter}_{self.pin}"
+            if plan == "velocity":
+                board.read(radius, pin_at or self.pin, at)
+            for law, turning, part, end in self._parts(plan, letter):
+                board.calc(part, law, turning, radius)
+                board.chain(end, start, part)
+                start = end
+        board.read(vector(SYMBOLS[plan], letter), f"{plan}.p", tip)
+
+    def _parts(self, plan: str, letter: str) -> Iterator[tuple[str, str, Name, Name]]:
+        """Go through the vectors of a turn about the pin: law, rate, name, mark at its tip."""
+        tip = mark(plan, letter)
+        if plan == "velocity":
+            yield "transport_speed", str(self.omega), vector("V", letter, self.pin), tip
+            return
+        normal = tip if self.epsilon is None else mark(plan, letter, NORMAL, self.pin)
+        yield "transport_normal", str(self.omega), vector("a", letter, self.pin, "n"), normal
+        if self.epsilon is not None:
+            yield "transport_tangential", self.epsilon, vector("a", letter, self.pin, "t"), tip
+
 
 Bodies = Mapping[int, Body]
 
@@ -114,6 +180,43 @@ class Span:
         local = f"_g_{self.number}" if self.measured else None
         return Body(self.link, self.start, self.e, local, self.omega, self.epsilon)
 
+    def measure(self, board: Board) -> None:
+        """Measure a link on a drawing of its own, where its length is not given."""
+        if self.measured:
+            start, end = (local_mark(board, self.link, point) for point in (self.start, self.end))
+            board.measure(self.length, start, end)
+            board.direction(f"_g_{self.number}", start, end, self.length)
+
+    def place(self, board: Board, turned: bool = False) -> None:
+        """Mark the direction of a link between its joints, which are placed, and its other points.
+
+        Its direction is there already when it was `turned` to it.
+        """
+        if not turned:
+            board.direction(self.e, self.start, self.end, self.length)
+        board.normal(self.n, self.e)
+        if not self.straight:
+            start, end = (local_mark(board, self.link, point) for point in (self.start, self.end))
+            for point in self.others:
+                local = local_mark(board, self.link, point)
+                board.calc(f"_along_{point}", "part_along", start, end, local)
+                board.calc(f"_across_{point}", "part_across", start, end, local)
+        for point in self.others:
+            self._third(board, point, point, self.start, self.end)
+
+    def mark_others(self, board: Board, mechanism: Mechanism, plan: str) -> None:
+        """Mark the other points of a link on a plan: its figure there is similar to the link."""
+        start, end = (mechanism.mark(plan, point) for point in (self.start, self.end))
+        for point in self.others:
+            self._third(board, point, f"{plan}.{point}", start, end)
+            board.read(vector(SYMBOLS[plan], point), f"{plan}.p", f"{plan}.{point}")
+
+    def _third(self, board: Board, point: str, mark: str, start: str, end: str) -> None:
+        if self.straight:
+            board.divide(mark, start, end, self.link.points[point][0], self.length)
+        else:
+            board.similar(mark, start, end, f"_along_{point}", f"_across_{point}")
+
 
 @dataclass(frozen=True, slots=True)
 class Ends:
@@ -146,66 +249,6 @@ def local_mark(board: Board, link: Link, point: str) -> str:
     return name
 
 
-def measure_link(board: Board, span: Span) -> None:
-    """Measure a link on a drawing of its own, where its length is not given."""
-    if span.measured:
-        start, end = (local_mark(board, span.link, point) for point in (span.start, span.end))
-        board.measure(span.length, start, end)
-        board.direction(f"_g_{span.link.number}", start, end, span.length)
-
-
-def place_link(board: Board, span: Span, turned: bool = False) -> None:
-    """Mark the direction of a link between its joints, which are placed, and its other points.
-
-    Its direction is there already when it was `turned` to it.
-    """
-    if not turned:
-        board.direction(span.e, span.start, span.end, span.length)
-    board.normal(span.n, span.e)
-    if not span.straight:
-        start, end = (local_mark(board, span.link, point) for point in (span.start, span.end))
-        for point in span.others:
-            local = local_mark(board, span.link, point)
-            board.calc(f"_along_{point}", "part_along", start, end, local)
-            board.calc(f"_across_{point}", "part_across", start, end, local)
-    for point in span.others:
-        _third(board, span, point, point, span.start, span.end)
-
-
-def move_link(board: Board, mechanism: Mechanism, span: Span, plan: str) -> None:
-    """Mark the other points of a link on a plan: its figure there is similar to the link."""
-    start, end = (mechanism.mark(plan, point) for point in (span.start, span.end))
-    for point in span.others:
-        _third(board, span, point, f"{plan}.{point}", start, end)
-        board.read(vector(SYMBOLS[plan], point), f"{plan}.p", f"{plan}.{point}")
-
-
-def _third(board: Board, span: Span, point: str, mark: str, start: str, end: str) -> None:
-    if span.straight:
-        board.divide(mark, start, end, span.link.points[point][0], span.length)
-    else:
-        board.similar(mark, start, end, f"_along_{point}", f"_across_{point}")
-
-
-def settle(board: Board, body: Body, direction: str = ZERO) -> None:
-    """Lay down the link's own direction on a drawing of the link: at the angle `direction` to its x axis."""
-    if body.local:
-        board.turn(body.local, direction)
-        local_mark(board, body.link, body.pin)
-
-
-def coordinates(board: Board, body: Body, key: str, x: str, y: str) -> tuple[str, str]:
-    """Return the names of a place on the link along and across its direction, counted from its pin."""
-    if body.local is None:
-        return x, y
-    number = body.link.number
-    board.place(f"_{number}_{key}", x, y)
-    along, across = f"_{number}_{key}_along", f"_{number}_{key}_across"
-    board.calc(along, "along_axis", body.local, f"_{number}_{body.pin}", f"_{number}_{key}")
-    board.calc(across, "across_axis", body.local, f"_{number}_{body.pin}", f"_{number}_{key}")
-    return along, across
-
-
 def lay_off(board: Board, name: str, start: str, direction: str, along: str, across: str) -> None:
     """Mark the point at `along` and `across` from `start`."""
     if (along, across) == (ZERO, ZERO):
@@ -217,53 +260,6 @@ def lay_off(board: Board, name: str, start: str, direction: str, along: str, acr
         start = foot
     if across != ZERO:
         board.lay(name, start, normal_of(direction), across)
-
-
-def place_points(board: Board, body: Body, placed: Iterable[str]) -> None:
-    """Mark the points of a link with one joint, those `placed` apart."""
-    for point, place in body.link.points.items():
-        if point not in placed:
-            lay_off(board, point, body.pin, body.direction, *coordinates(board, body, point, *place))
-
-
-def move_points(board: Board, mechanism: Mechanism, body: Body, plan: str, placed: Iterable[str]) -> None:
-    """Mark the points of a link with one joint on a plan, those `placed` apart."""
-    for point in body.link.points:
-        if point not in placed:
-            carry(board, mechanism, body, plan, point, point)
-
-
-def carry(
-    board: Board, mechanism: Mechanism, body: Body, plan: str, letter: str, at: str, pin_at: str | None = None
-) -> None:
-    """Mark on a plan the point `letter` of a link that now stands at the mark `at`: it turns about the link's pin.
-
-    `pin_at` is the mark at which the pin stands if it has another letter.
-    """
-    tip, start = mark(plan, letter), mechanism.mark(plan, body.pin)
-    if body.omega is None:
-        board.same(tip, start)
-    else:
-        radius = f"_r_{letter}_{body.pin}"
-        if plan == "velocity":
-            board.read(radius, pin_at or body.pin, at)
-        for law, turning, part, end in _parts(body, plan, letter):
-            board.calc(part, law, turning, radius)
-            board.chain(end, start, part)
-            start = end
-    board.read(vector(SYMBOLS[plan], letter), f"{plan}.p", tip)
-
-
-def _parts(body: Body, plan: str, letter: str) -> Iterator[tuple[str, str, Name, Name]]:
-    """Go through the vectors of a turn about the pin: law, rate, name, mark at its tip."""
-    tip = mark(plan, letter)
-    if plan == "velocity":
-        yield "transport_speed", str(body.omega), vector("V", letter, body.pin), tip
-        return
-    normal = tip if body.epsilon is None else mark(plan, letter, NORMAL, body.pin)
-    yield "transport_normal", str(body.omega), vector("a", letter, body.pin, "n"), normal
-    if body.epsilon is not None:
-        yield "transport_tangential", body.epsilon, vector("a", letter, body.pin, "t"), tip
 
 
 def moments_about(

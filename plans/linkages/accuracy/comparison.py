@@ -189,13 +189,7 @@ class _Race:
         return replace(found, seconds=seconds, at_once=at_once)
 
 
-def summed(
-    method: str,
-    setting: float | str,
-    kind: Kind,
-    places: Array,
-    errors: Mapping[str, Array],
-) -> Entry:
+def summed(method: str, setting: float | str, kind: Kind, places: Array, errors: Mapping[str, Array]) -> Entry:
     """Return the worst and the typical error of a method, whose time is not known."""
     table = np.stack([errors[name] for name in kind.names])
     filled = np.where(np.isnan(table), -1.0, table)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from ....scales.errors import InputError
 from ...board import Board
 from ...names import NORMAL, Name, between, mark, rate, spelled, vector
-from ..legs import AssurGroup, Slide, coriolis, pin_offset, slide_of, slider_body, turn_with
+from ..legs import AssurGroup, Slide, coriolis, pin_offset, slide_of, slider_body
 from ..mechanism import ZERO, Link, Mechanism, Prismatic
 from ..parts import (
     SYMBOLS,
@@ -24,13 +24,9 @@ from ..parts import (
     Forces,
     Passed,
     answer,
-    carry,
     hang,
     moments_about,
-    move_points,
     normal_of,
-    place_points,
-    settle,
     size_of,
 )
 from ..structure import Group
@@ -115,10 +111,10 @@ class RPR(AssurGroup):
         board.measure(length, self.C, self.A)
         board.direction(e, self.C, self.A, length)
         board.normal(n, e)
-        settle(board, slider)
-        settle(board, guide, self.pair.direction)
-        place_points(board, guide, (self.C,))
-        place_points(board, slider, (self.A,))
+        slider.settle(board)
+        guide.settle(board, self.pair.direction)
+        guide.place_points(board)
+        slider.place_points(board)
 
     def velocity(self, board: Board) -> None:
         """Through c the normal to CA (not to u), through a the parallel to u: a3. Other points turn about the pins."""
@@ -149,9 +145,9 @@ class RPR(AssurGroup):
         """Find how both links turn, from what A3 does about C; mark their other points."""
         slider, guide = self.bodies
         board.calc(rate(kind, self.guide.number), "turning", *turning)
-        turn_with(board, slider, guide, plan)
-        move_points(board, self.mechanism, guide, plan, (self.C,))
-        move_points(board, self.mechanism, slider, plan, (self.A,))
+        slider.turn_with(board, guide, plan)
+        guide.move_points(board, self.mechanism, plan)
+        slider.move_points(board, self.mechanism, plan)
 
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
         """Force plans of the slider and of the group.
@@ -264,11 +260,11 @@ class RPP(AssurGroup):
         """Both links turn like the last one; points of link 3 turn about A3, then about Q, those of link 2 about A."""
         first, second = self.bodies
         if self.outer.known is not None:
-            turn_with(board, second, self.outer.known, plan)
-            turn_with(board, first, second, plan)
-        carry(board, self.mechanism, replace(second, pin=self.under), plan, self.Q, self.Q, self.A)
-        move_points(board, self.mechanism, second, plan, (self.Q,))
-        move_points(board, self.mechanism, first, plan, (self.A,))
+            second.turn_with(board, self.outer.known, plan)
+            first.turn_with(board, second, plan)
+        replace(second, pin=self.under).carry(board, self.mechanism, plan, self.Q, self.Q, self.A)
+        second.move_points(board, self.mechanism, plan)
+        first.move_points(board, self.mechanism, plan)
 
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
         """Force plans of link 3 and of link 2.

@@ -34,10 +34,7 @@ from ..parts import (
     answer,
     hang,
     local_mark,
-    measure_link,
     moments_about,
-    move_link,
-    place_link,
 )
 from ..structure import Group
 
@@ -127,8 +124,8 @@ class Triad(AssurGroup):
             where += [local_mark(board, link, leg.end), *leg.path(board)]
         for leg in self.by_number:
             board.template(leg.end, local_mark(board, link, leg.end), *where)
-        measure_link(board, self.central)
-        place_link(board, self.central)
+        self.central.measure(board)
+        self.central.place(board)
         for leg in self.by_number:
             leg.place(board)
 
@@ -171,7 +168,7 @@ class Triad(AssurGroup):
         for joint, along, across in self._figure():
             board.similar(f"{plan}.{joint}", f"{plan}.{self.X}", f"{plan}.{self.legs[2].end}", along, across)
             board.read(vector(SYMBOLS[plan], joint), f"{plan}.p", f"{plan}.{joint}")
-        move_link(board, self.mechanism, self.central, plan)
+        self.central.mark_others(board, self.mechanism, plan)
         for leg, end in zip(self.legs, ends, strict=True):
             leg.read(board, plan, end)
             leg.move(board, plan)
