@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from ...plans.cams.rivals import BOARD, BOARDS, CLOSED, MIDPOINT, MISSED, SIMPSON, TRAVELS, VELOCITIES
 from ...plans.contest import Contest, Entry
-from ...plans.hoist.finders import BISECTION, BRENT, ILLINOIS, SECANT
-from ...plans.hoist.finders import NEWTON as NEWTON_ROOT
+from ...plans.hoist.integrators import EXPLICIT, RK4, SYMPLECTIC, TRAPEZOID, VERLET
 from ...plans.hoist.rivals import COURSE, DRAWN, FORMULAS, LIFT_OFF, PEAK
 from ...plans.hoist.rivals import MISSED as MISSED_LIFT_OFF
-from ...plans.hoist.steppers import EXPLICIT, RK4, SYMPLECTIC, TRAPEZOID, VERLET
+from ...plans.hoist.roots import BISECTION, BRENT, ILLINOIS, SECANT
+from ...plans.hoist.roots import NEWTON as NEWTON_ROOT
 from ...plans.linkages.accuracy.comparison import (
     CHORDS,
     DIFFERENCES,

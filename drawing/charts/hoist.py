@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...plans.hoist.choice import Choice, Trial
 from ...plans.hoist.depth import MANY, HoistDepth, Simplification
-from ...plans.hoist.finders import BISECTION, BRENT, ILLINOIS, NEWTON, SECANT
-from ...plans.hoist.root_race import RootRace, Ways
-from ...plans.hoist.step_limits import StepLimits
-from ...plans.hoist.steppers import EXPLICIT, RK4, SYMPLECTIC, TRAPEZOID, VERLET, growth
+from ...plans.hoist.forces import Choice, Trial
+from ...plans.hoist.integrators import EXPLICIT, RK4, SYMPLECTIC, TRAPEZOID, VERLET, growth
+from ...plans.hoist.rivals import RootRace, StepLimits, Ways
+from ...plans.hoist.roots import BISECTION, BRENT, ILLINOIS, NEWTON, SECANT
 from ...scales.units import format_unit
 from ..words import Words
 from .paper import (

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...plans.hoist.beam_plans import BENT, FORCE, LETTERS, SECTIONS
-from ...plans.hoist.dense import OF_BEAM, bent
+from ...plans.hoist.construction import BENT, FORCE, LETTERS, SECTIONS
+from ...plans.hoist.solve import OF_BEAM, bent
 from ..dimensions import linear
 from ..figure import Figure, stages
 from ..shapes import Group, Line, Pen, Polyline

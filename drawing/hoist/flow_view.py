@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from ...plans.hoist.checks import STRENGTH
+from ...plans.hoist.forces import STRENGTH
 from ..shapes import Group, Head, Pen, Polyline, Text
 from ..text import lay_out
 from ..view import Canvas, View

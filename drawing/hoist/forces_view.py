@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from ...plans.hoist.construction import FORCES
 from ...plans.hoist.course import end_of
-from ...plans.hoist.dense import POINTS, forces_over
-from ...plans.hoist.diagram_plan import FORCES
+from ...plans.hoist.solve import POINTS, forces_over
 from ...plans.solved import PAPER_MM
 from ..diagram import Axis, Field, divisions, drawn_through
 from ..figure import Figure, Stage, stages

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ...plans.hoist.beam_plans import BENT, SCHEME
+from ...plans.hoist.construction import BENT, SCHEME
 from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PART, SCHEME_PART
 from ...plans.hoist.model import CIRCLE
-from ...plans.hoist.paper import SCALED
-from ...plans.hoist.solve import SCALES, SolvedHoist
+from ...plans.hoist.solve import SCALED, SCALES, SolvedHoist
 from ...plans.solved import PAPER_MM
 from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, steps

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from ...plans.hoist.construction import Roots
-from ...plans.hoist.dense import POINTS, equation
-from ...plans.hoist.root_plans import EXTREMES, LIFT_OFF
+from ...plans.hoist.construction import EXTREMES, LIFT_OFF, Roots
+from ...plans.hoist.solve import POINTS, equation
 from ..areas import clipped
 from ..diagram import Axis, Field, divisions, drawn_through
 from ..figure import Figure, stages

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...plans.hoist.beam_plans import SCHEME
+from ...plans.hoist.construction import SCHEME
 from ..dimensions import linear
 from ..figure import Figure, stages
 from ..hardware import COILS, coils

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from ...plans.hoist.checks import STRENGTH
+from ...plans.hoist.forces import STRENGTH
 from ...plans.hoist.model import CIRCLE
 from ...plans.laws import form_of
 from ...plans.names import role

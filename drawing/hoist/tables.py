@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...plans.check import Check
-from ...plans.hoist.checks import STRENGTH, strength
+from ...plans.hoist.forces import STRENGTH, strength
 from ...plans.hoist.hoist import DRAWN
 from ...plans.hoist.model import section_of
-from ...plans.hoist.paper import SCALED
-from ...plans.hoist.solve import unit_of
+from ...plans.hoist.solve import SCALED, unit_of
 from ..handouts import NOTHING, Shown
 from ..printed import Input, calculation
 from ..table import givens_view, table

@@ -1,4 +1,23 @@
-"""The whole construction of a hoist: its numbers with the circle of phase 2, and the drawings that are wanted."""
+"""The whole construction of a hoist: its numbers with the circle of phase 2, and the drawings that are wanted.
+
+The forces over time are drawn in millimetres of paper, F_01 and F_12 until the lift-off, P_12 for a swing after it.
+Abscissas have the scale factor mu_t, ordinates mu_F. On `forces` section lines stand at `f0` .. `f12` and, after the
+lift-off, at `g0` .. `g12`; on them are `S0` .. of the support's force, `R0` .. of the rope's, and `P0` .. of the rope's
+with the whole load. Ordinates of phase 2 are the abscissas of points `1`, `2`, .. of the circle, which turns by equal
+angles; `T` stands where the force is greatest, `L` where it is least, `M` where it is greatest before the lift-off.
+
+The equations (11) and (12) are solved by drawing: where two curves cross, joined from section line to section line. On
+`lift_off` points `Y0` .. lie on the parabola y - m g / C, `O0` .. on the sinusoid osc; `X` is where their chords cross,
+and its abscissa is the time of the lift-off as it is drawn. On `extremes` points `W0` .. lie on the sinusoid V cos k t
++ (a/k) sin k t, the straight line -(C_01/C_12) (V + a t) runs from `L0` to `L1`; `X1` .. are their crossings, at which
+the force of the rope is greatest and least in turn. Abscissas have the scale factor mu_t1, ordinates mu_y and mu_v;
+where the load swings too often before the lift-off only the last swings are drawn.
+
+On `scheme` the load stands in `A0` on the support beam from `O1` to `O2`, the drum above it in `A2` on the bridge beam
+from `B1` to `B2`, left end first; in metres. On `beam_0` and `beam_2`, drawn in millimetres of paper, places run from
+the nearer end with the scale factor mu_x, deflections downwards with mu_w: `f0` .. the axis, `w0` .. the beam under its
+greatest force, `A` under the load, `M` where it bends most; on `beam_2` `v0` .. is the beam under the weight alone.
+"""
 
 from __future__ import annotations
 
@@ -9,17 +28,257 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..board import Program, RecordingBoard
+from ..board import Board, Program, RecordingBoard
 from ..laws import TURN
+from ..names import Name, role
 from . import formulas as formulas  # its laws of calculation
-from .beam_plans import BENT, beam, scheme
-from .checks import ROPE_1
-from .diagram_plan import SECTIONS, axes, diameter, extreme_points, hanging, moving, resting
-from .forces import Forces
-from .hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, PLANS, ROOTS_PART, SCHEME_PART, Hoist
-from .model import ONE_SIDED, TWO_SIDED
-from .root_plans import extremes_plan, lift_off_plan
+from .forces import ROPE_1, Forces
+from .hoist import BEAMS_PART, CIRCLE_PART, DRAWN, FORCES_PART, LEFT, PLANS, ROOTS_PART, SCHEME_PART, Hoist
+from .model import CIRCLE, HORIZONTAL, ONE_SIDED, TWO_SIDED, rope_force
 from .roots import extremes
+
+FORCES = "forces"
+UP = "_up"
+SECTIONS = 12  # of either phase, at least
+RESTING, HANGING = "f", "g"  # section lines of the phases
+
+
+def axes(board: Board) -> None:
+    """Take the directions of the axes of all diagrams."""
+    board.turn(HORIZONTAL, "zero")
+    board.normal(UP, HORIZONTAL)
+
+
+def point(board: Board, plan: str, mark: str, abscissa: str, value: str, mu: str) -> None:
+    """Mark on a section line, whose abscissa on paper is known, a value to its scale."""
+    board.calc(f"_paper_{plan}_{mark}", "ratio", value, mu)
+    board.place(f"{plan}.{mark}", abscissa, f"_paper_{plan}_{mark}")
+
+
+def line(board: Board, plan: str, mark: str, time: str, mu: str = "mu_t") -> str:
+    """Mark where a section line stands on the axis of times; return the name of its abscissa on paper."""
+    abscissa = f"_abscissa_{plan}_{mark}"
+    board.calc(abscissa, "ratio", time, mu)
+    board.place(f"{plan}.{mark}", abscissa, "zero")
+    return abscissa
+
+
+def part(i: int, sections: int) -> str:
+    """Return the name of the given that is i / sections."""
+    return f"_part_{i}_{sections}"
+
+
+def resting(board: Board, sections: int) -> None:
+    """Draw both forces until the lift-off by the formulas (9) and (10)."""
+    for i in range(sections + 1):
+        time = f"_t_{RESTING}{i}"
+        board.calc(time, "product", "t_1", part(i, sections))
+        board.calc(f"_lag_{RESTING}{i}", "lagging", "V_t", "a", "k", time)
+        board.calc(f"_F_01_{i}", "support_force", "C", f"_lag_{RESTING}{i}", "P_st")
+        rope_force(board, f"_F_12_{i}", time)
+        _rest_points(board, i, time)
+
+
+def _rest_points(board: Board, i: int, time: str) -> None:
+    abscissa = line(board, FORCES, f"{RESTING}{i}", time)
+    point(board, FORCES, f"S{i}", abscissa, f"_F_01_{i}", "mu_F")
+    point(board, FORCES, f"R{i}", abscissa, f"_F_12_{i}", "mu_F")
+
+
+def hanging(board: Board, sections: int) -> None:
+    """Draw the force of the rope over one swing, from the points of the circle, and where it is greatest."""
+    board.calc("_period", "period", "k_1")
+    for i in range(sections + 1):
+        at, time = f"{CIRCLE}.{i + 1}" if i else f"{CIRCLE}.1", f"_T_{HANGING}{i}"
+        board.calc(time, "product", "_period", part(i, sections))
+        if i:
+            board.calc(f"_run{i}", "product", "_turn", part(i, sections))
+            board.calc(f"_angle{i}", "excess", "phi_1", f"_run{i}")
+            board.turn(f"_ray{i}", f"_angle{i}")
+            board.lay(at, f"{CIRCLE}.C", f"_ray{i}", "R")
+        board.read(f"_from_C{i}", f"{CIRCLE}.C", at)
+        board.calc(f"_swing{i}", "component", f"_from_C{i}", HORIZONTAL)
+        board.calc(f"_P_12_{i}", "suspended_force", "P_m", f"_swing{i}")
+        _hang_point(board, i, time)
+    board.calc("t_P12_max", "later", "t_1", "T_1")
+    point(board, FORCES, "T", line(board, FORCES, "fT", "t_P12_max"), "P_12_max", "mu_F")
+
+
+def _hang_point(board: Board, i: int, time: str) -> None:
+    board.calc(f"_t_{HANGING}{i}", "later", "t_1", time)
+    abscissa = line(board, FORCES, f"{HANGING}{i}", f"_t_{HANGING}{i}")
+    point(board, FORCES, f"P{i}", abscissa, f"_P_12_{i}", "mu_F")
+
+
+def extreme_points(board: Board, least: str) -> None:
+    """Mark the greatest force before the lift-off, and the least one after it, whose time is a given.
+
+    The force of the support is the deflection of its beam, too, to a scale factor of its own.
+    """
+    board.calc("_mu_w_0", "ratio", "mu_F", "C_01")
+    point(board, FORCES, "M", line(board, FORCES, "fM", "t_F12_max"), "F_12_max", "mu_F")
+    point(board, FORCES, "L", line(board, FORCES, "fL", least), "P_12_min", "mu_F")
+
+
+def moving(board: Board, before: int, after: int) -> None:
+    """Draw the forces of a motion that the formulas are not valid for, with the ordinates that it gives."""
+    for i in range(before + 1):
+        for name in (f"_t_{RESTING}{i}", f"_F_01_{i}", f"_F_12_{i}"):
+            board.calc(name, "given", f"{name}_motion")
+        _rest_points(board, i, f"_t_{RESTING}{i}")
+    for i in range(after + 1):
+        for name in (f"_T_{HANGING}{i}", f"_P_12_{i}"):
+            board.calc(name, "given", f"{name}_motion")
+        _hang_point(board, i, f"_T_{HANGING}{i}")
+    board.calc("t_P12_max", "later", "t_1", "T_1")
+    point(board, FORCES, "T", line(board, FORCES, "fT", "t_P12_max"), "P_12_max", "mu_F")
+
+
+def diameter(board: Board, slack: bool) -> None:
+    """Mark on the circle the greatest and the least force, and at its sides those of a rope that goes slack."""
+    board.turn(HORIZONTAL, "zero")
+    board.lay(f"{CIRCLE}.max", f"{CIRCLE}.C", HORIZONTAL, "R")
+    board.back(f"{CIRCLE}.min", f"{CIRCLE}.C", HORIZONTAL, "R")
+    if slack:
+        board.calc("_slack_high", "other_leg", "R", "P_m")
+        board.calc("_slack_low", "opposite", "_slack_high")
+        for side in ("high", "low"):
+            board.place(f"{CIRCLE}.{side}", "zero", f"_slack_{side}")
+
+
+LIFT_OFF, EXTREMES = "lift_off", "extremes"
+
+
+def lift_off_plan(board: Board, sections: int, crossed: int) -> None:
+    """Draw parabola and sinusoid of (11); they cross in the section after the line `crossed`."""
+    for i in range(sections + 1):
+        board.calc(seen(i), "product", "_section", part(i, 1))
+        lift_off_points(board, i)
+    for curve in "YO":
+        chord(board, LIFT_OFF, curve, crossed)
+    board.meet(f"{LIFT_OFF}.X", *_on(LIFT_OFF, "Y", crossed), *_on(LIFT_OFF, "O", crossed))
+    read_time(board, drawn_name("t_1"), LIFT_OFF, "X")
+
+
+def drawn_name(name: str) -> Name:
+    """Return the name of a quantity as a drawing gives it."""
+    return Name(f"{name}_{DRAWN}", role(name).kind, role(name).of, part=DRAWN)
+
+
+def seen(i: int | str) -> str:
+    """Return the name of the time of a section line, counted from the first one."""
+    return f"_t_{i}_{LIFT_OFF}_seen"
+
+
+def lift_off_points(board: Board, i: int | str) -> None:
+    """Mark parabola and sinusoid on the line `i`, or on any of its own time."""
+    time = f"_t_{i}_{LIFT_OFF}"
+    board.calc(time, "later", "_begin", seen(i))
+    abscissa = line(board, LIFT_OFF, f"f{i}", seen(i), "mu_t1")
+    board.calc(f"_y_{i}", "wound", "V_t", "a", time)
+    board.calc(f"_parabola{i}", "excess", f"_y_{i}", "_height")
+    board.calc(f"_sinusoid{i}", "oscillation", "V_t", "a", "k", time)
+    point(board, LIFT_OFF, f"Y{i}", abscissa, f"_parabola{i}", "mu_y")
+    point(board, LIFT_OFF, f"O{i}", abscissa, f"_sinusoid{i}", "mu_y")
+
+
+def extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
+    """Draw sinusoid and straight line of (12), which cross in the sections after the lines `crossed`."""
+    for i in range(sections + 1):
+        extremes_point(board, i)
+    for k, i in enumerate((0, sections)):
+        board.calc(f"_winding{k}", "winding_speed", "V_t", "a", f"_t_{i}_{LIFT_OFF}")
+        board.calc(f"_share{k}", "product", "_ratio", f"_winding{k}")
+        board.calc(f"_line{k}", "opposite", f"_share{k}")
+        point(board, EXTREMES, f"L{k}", f"_abscissa_{EXTREMES}_f{i}", f"_line{k}", "mu_v")
+    chord(board, EXTREMES, "L", 0)
+    for n, i in enumerate(crossed, 1):
+        chord(board, EXTREMES, "W", i)
+        board.meet(f"{EXTREMES}.X{n}", *_on(EXTREMES, "W", i), *_on(EXTREMES, "L", 0))
+        board.calc(f"t_2_{n}", "given", f"_t_2_{n}_exact")
+        read_time(board, drawn_name(f"t_2_{n}"), EXTREMES, f"X{n}")
+
+
+def extremes_point(board: Board, i: int | str) -> None:
+    """Mark the sinusoid of (12) on the line `i`, or on any of its own time, when (11) is drawn there."""
+    abscissa = line(board, EXTREMES, f"f{i}", seen(i), "mu_t1")
+    board.calc(f"_wave{i}", "oscillation_rate", "V_t", "a", "k", f"_t_{i}_{LIFT_OFF}")
+    point(board, EXTREMES, f"W{i}", abscissa, f"_wave{i}", "mu_v")
+
+
+def chord(board: Board, plan: str, curve: str, i: int) -> None:
+    """Join the points of a curve on the section line `i` and the next one."""
+    ends = f"{plan}.{curve}{i}", f"{plan}.{curve}{i + 1}"
+    board.measure(f"_{plan}_{curve}{i}_length", *ends)
+    board.direction(f"_{plan}_{curve}{i}", *ends, f"_{plan}_{curve}{i}_length")
+
+
+def _on(plan: str, curve: str, i: int) -> tuple[str, str]:
+    """Return a point of a chord, and its direction."""
+    return f"{plan}.{curve}{i}", f"_{plan}_{curve}{i}"
+
+
+def read_time(board: Board, name: str, plan: str, mark: str) -> None:
+    """Read the abscissa of a mark as a time, beginning with that of the first section line."""
+    board.read(f"_{name}_segment", f"{plan}.f0", f"{plan}.{mark}")
+    board.calc(f"_{name}_length", "component", f"_{name}_segment", HORIZONTAL)
+    board.calc(f"_{name}_seen", "product", f"_{name}_length", "mu_t1")
+    board.calc(name, "later", "_begin", f"_{name}_seen")
+
+
+SCHEME = "scheme"
+BENT = {0: "beam_0", 2: "beam_2"}
+FORCE = {0: ("P_st",), 2: ("P_12_max", "P_st")}  # what bends a beam
+LETTERS = ("w", "v")
+ENDS = {0: ("O1", "O2"), 2: ("B1", "B2")}
+
+
+def scheme(board: Board, near: dict[int, str]) -> None:
+    """Draw beams and rope; `near` says of either beam whether its left or its right end is the nearer one."""
+    board.turn(HORIZONTAL, "zero")
+    board.normal(UP, HORIZONTAL)
+    board.pole(f"{SCHEME}.A0")
+    board.lay(f"{SCHEME}.A2", f"{SCHEME}.A0", UP, "L")
+    for i, (left, right) in ENDS.items():
+        board.calc(f"_far_{i}", "excess", f"l_{i}", f"b_{i}")
+        sides = (f"b_{i}", f"_far_{i}") if near[i] == LEFT else (f"_far_{i}", f"b_{i}")
+        board.back(f"{SCHEME}.{left}", f"{SCHEME}.A{i}", HORIZONTAL, sides[0])
+        board.lay(f"{SCHEME}.{right}", f"{SCHEME}.A{i}", HORIZONTAL, sides[1])
+
+
+def beam(board: Board, i: int) -> None:
+    """Draw a beam bent by its forces."""
+    plan = BENT[i]
+    board.calc(f"_x_M_{i}", "excess", f"l_{i}", f"x_w{i}")
+    places = {str(k): f"_x_{k}_{i}" for k in range(SECTIONS + 1)}
+    for k in range(SECTIONS + 1):
+        board.calc(f"_x_{k}_{i}", "product", f"l_{i}", part(k, SECTIONS))
+    feet = {f"f{n}": place for n, place in places.items()} | {"fA": f"b_{i}", "fM": f"_x_M_{i}"}
+    for mark, place in feet.items():
+        line(board, plan, mark, place, "mu_x")
+    for letter, force in zip(LETTERS, FORCE[i], strict=False):
+        for n, place in places.items():
+            _bent(board, i, f"{letter}{n}", (place, f"f{n}"), force)
+    _bent(board, i, "A", (f"b_{i}", "fA"), FORCE[i][0])
+    board.calc(f"w_{i}", "given", f"_w_A_{i}")
+    _bent(board, i, "M", (f"_x_M_{i}", "fM"), FORCE[i][0])
+
+
+def bent_beam(board: Board, i: int, letter: str, force: str) -> None:
+    """Draw a beam bent by a force: its point at the place `_x`."""
+    line(board, BENT[i], "f", "_x", "mu_x")
+    _bent(board, i, letter, ("_x", "f"), force)
+
+
+def _bent(board: Board, i: int, mark: str, place: tuple[str, str], force: str) -> None:
+    """Mark a point of the bent beam at a place, under its foot."""
+    at, foot = place
+    plan, name = BENT[i], f"_w_{mark}_{i}"
+    board.calc(f"{name}_unit", "deflection_of_unit", at, f"b_{i}", f"l_{i}", f"I_{i}", f"E_{i}")
+    board.calc(name, "product", force, f"{name}_unit")
+    board.calc(f"{name}_paper", "ratio", name, "mu_w")
+    board.back(f"{plan}.{mark}", f"{plan}.{foot}", UP, f"{name}_paper")
+
 
 PER_TURN = 16  # section lines in a swing, on the drawings of the equations; and at least so many in all
 FEWEST = 10

@@ -16,13 +16,14 @@ from ..laws import LAWS, TURN
 from ..solved import Columned
 from . import formulas as formulas
 from .model import rope_force
-from .onesided import OneSided, Piece
+from .onesided import OneSided
 
 Array = NDArray[np.float64]
 # what is known over time, and in what; the forces of both phases are one
 COLUMN_UNITS = {"t": "s", "y": "m", "s": "m", "F_01": "N", "F_12": "N", "sigma": "Pa", "w_0": "m", "w_2": "m"}
 EMPTY: Mapping[str, Array] = {}
 BOTH, ROPE, SUPPORT, NEITHER = ("both", "rope", "support", "neither")  # what bears the load
+BEARS = {(True, True): BOTH, (True, False): ROPE, (False, True): SUPPORT, (False, False): NEITHER}  # rope, support
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -109,14 +110,11 @@ def course(found: Mapping[str, Any], motion: OneSided | None, t: Array) -> Cours
     F_12, height = (np.array([of(at) for at in t.tolist()]) for of in (motion.force, motion.height))
     last = len(motion.pieces) - 1
     index = np.minimum(np.searchsorted([piece.end for piece in motion.pieces], t, side="right"), last).tolist()
-    states = tuple(_state(motion.pieces[i]) for i in index)
-    pressed = np.array([motion.pieces[i].support for i in index])
+    bearing = [(motion.pieces[i].rope, motion.pieces[i].support) for i in index]
+    states = tuple(BEARS[bears] for bears in bearing)
+    pressed = np.array([support for _, support in bearing])
     F_01 = np.where(pressed, height, 0.0) * (found["C_01"] if np.isfinite(found["C_01"]) else 0.0)
     return _course(found, {"t": t, "F_01": F_01, "F_12": F_12}, states, {"s": height})
-
-
-def _state(piece: Piece) -> str:
-    return {(True, True): BOTH, (True, False): ROPE, (False, True): SUPPORT}.get((piece.rope, piece.support), NEITHER)
 
 
 def _course(

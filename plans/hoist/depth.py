@@ -1,18 +1,270 @@
-"""How deep the model of a hoist must be: what simplifications change, and whether one mass is enough."""
+"""How deep the model of a hoist must be: what simplifications change, and whether one mass is enough.
+
+One reduced mass stands for the load and n masses of the rope in a row. The rope is cut into n equal parts, each a mass
+in its middle; its stiffness lies between, that of the bridge in series with the uppermost half part. At the beginning
+the rope hangs from the drum and only just touches the load, and its parts move as formula (4) takes them to: the faster
+the nearer to the drum. In such a motion n masses count as the part (1 - 1/(4 n^2)) / 3 of the rope's mass, which tends
+to the third of the formula.
+
+The forces of the links of such a row are found without their deformations. Masses 1..n stand between two ends, 0 and
+n+1, whose motions are given; link i joins mass i to mass i+1. With the forces Q_i on the masses and
+Q_(i,i+1) = c_(i,i+1) (q_i - q_(i+1)) in the links,
+
+    a_i q''_i = Q_i + Q_(i-1,i) - Q_(i,i+1)                                                    (1)
+    Q''_(i,i+1) = c_(i,i+1) (q''_i - q''_(i+1))                                                (2)
+    -c/a_i Q_(i-1,i) + (p^2 + k^2) Q_(i,i+1) - c/a_(i+1) Q_(i+1,i+2) = c (Q_i/a_i - Q_(i+1)/a_(i+1))   (3)
+
+with c = c_(i,i+1), k^2 = c (1/a_i + 1/a_(i+1)), p = d/dt. At an end the acceleration of that end stands for Q/a, and
+1/a = 0. A link of no stiffness carries no force: an end that is free has such a link.
+
+Source: Karpenko, Muzyka, Gudym, formulas (1) to (3).
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from .checks import valid
-from .forces import forces
+from .forces import forces, valid
 from .model import model
-from .rope import Heavy, TremblingError, rope_of
+
+Array = NDArray[np.float64]
+SAMPLES = 10  # of the shortest period
+MOST_SAMPLES = 60_000  # beyond, the rope trembles too fast to be followed
+ENOUGH = 1.05  # times a period of the swing, within which the greatest force is looked for
+ROUNDS = 60
+NAMES = ("G_1", "G_2", "g", "C_01", "C_k", "C_2", "V_t", "a")
+
+
+class TremblingError(ArithmeticError):
+    """A rope whose parts tremble so fast beside the swing of the load that nobody waits until it is followed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Heavy:
+    """What a rope of n masses gives: the greatest forces at its lower end, on the load, and at the drum, SI.
+
+    Parameters
+    ----------
+    F_12_max, P_12_max : float
+        At the load, in both phases.
+    F_drum_max : float
+        At the drum, in both phases.
+    """
+
+    n: int
+    t_1: float
+    F_12_max: float
+    P_12_max: float
+    F_drum_max: float
+
+
+def rope_row(found: Mapping[str, float], n: int, lifted: bool) -> Row:
+    """Return the row of the load and the rope's masses, from below upwards; `lifted` off its support."""
+    G_1, G_2, g, C_01, C_k, C_2, _, a = (found[name] for name in NAMES)
+    masses = np.array([G_1 / g] + [G_2 / (g * n)] * n)
+    top = 1.0 / (1.0 / (2.0 * n * C_k) + 1.0 / C_2)
+    links = np.array([0.0 if lifted else C_01, 2.0 * n * C_k, *[n * C_k] * (n - 1), top])
+    return Row(masses, links, -g * masses, np.array([0.0, a]))
+
+
+def rope_of(found: Mapping[str, float], n: int) -> Heavy:
+    """Lift a load by a rope of n masses.
+
+    Parameters
+    ----------
+    found : mapping of str to float
+        Quantities `G_1 G_2 g C_01 C_k C_2 V_t a k k_1 t_1`, SI: of a rope with weight, on a support that yields.
+
+    Raises
+    ------
+    TremblingError
+        It takes too long.
+    """
+    G_1, G_2, _, _, C_k, C_2, V_t, _ = (found[name] for name in NAMES)
+    row = rope_row(found, n, False)
+    hanging = np.concatenate(([G_1, 0.0], -G_2 / n * np.arange(1, n + 1)))
+    stretched = np.concatenate(([0.0], np.full(n + 1, -V_t / (1.0 / C_k + 1.0 / C_2))))
+    first = row.motion(hanging, stretched)
+    t_1 = _lift_off(first, found)
+    there = np.arange(n + 2) > 0  # what the support has is lost
+    after = rope_row(found, n, True).motion(first.forces(t_1) * there, first.rates_of_forces(t_1) * there)
+    F_12, F_drum = _greatest(first.of(1, n + 1), t_1)
+    P_12, P_drum = _greatest(after.of(1, n + 1), ENOUGH * 2.0 * math.pi / found["k_1"])
+    return Heavy(n, t_1, F_12, P_12, max(F_drum, P_drum))
+
+
+def _lift_off(motion: RowMotion, found: Mapping[str, float]) -> float:
+    """Return when the support is free: the first time between two samples, then by halving."""
+    support = motion.of(0)
+    end = found["t_1"] + 2.0 * math.pi / found["k"]
+    while True:
+        t = _samples(motion, end)
+        free = -support.forces(t)[:, 0] >= 0.0
+        if free.any():
+            break
+        end *= 1.5
+    at = int(free.argmax())
+    low, high = float(t[at - 1]), float(t[at])
+    for _ in range(ROUNDS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if -support.forces(middle)[0] >= 0.0 else (middle, high)
+    return high
+
+
+def _greatest(motion: RowMotion, end: float) -> tuple[float, float]:
+    """Return the greatest forces of two links, between samples by parabolas."""
+    forces = -motion.forces(_samples(motion, end))
+    lower, upper = (_top(forces[:, i]) for i in range(2))
+    return lower, upper
+
+
+def _samples(motion: RowMotion, end: float) -> Array:
+    fastest = float(motion.frequencies.max())
+    count = end * fastest * SAMPLES / (2.0 * math.pi) + 2000.0
+    if not count <= MOST_SAMPLES:
+        raise TremblingError
+    return np.linspace(0.0, end, int(count))
+
+
+def _top(values: Array) -> float:
+    at = int(values.argmax())
+    if not 0 < at < len(values) - 1:
+        return float(values[at])
+    before, here, after = values[at - 1 : at + 2].tolist()
+    bend = 2.0 * here - before - after
+    return float(here + (after - before) ** 2 / (8.0 * bend)) if bend > 0.0 else float(here)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Row:
+    """Masses in a row; leading axes hold many rows at once.
+
+    Parameters
+    ----------
+    masses : array of shape (..., n)
+        a_1..a_n, kg.
+    stiffnesses : array of shape (..., n + 1)
+        c_(0,1)..c_(n,n+1), N/m; zero where there is no link.
+    forces : array of shape (..., n)
+        Q_1..Q_n, constant, N.
+    ends : array of shape (..., 2)
+        Accelerations of both ends, constant, m/s^2.
+    """
+
+    masses: Array
+    stiffnesses: Array
+    forces: Array
+    ends: Array
+
+    @property
+    def matrix(self) -> Array:
+        """Coefficients of the forces in (3), rad^2/s^2, of shape (..., n + 1, n + 1): three diagonals."""
+        yielding, c = _yielding(self.masses), self.stiffnesses
+        links = c.shape[-1]
+        found = np.zeros((*c.shape, links))
+        at = np.arange(links)
+        found[..., at, at] = c * (yielding[..., :-1] + yielding[..., 1:])
+        found[..., at[1:], at[:-1]] = -c[..., 1:] * yielding[..., 1:-1]
+        found[..., at[:-1], at[1:]] = -c[..., :-1] * yielding[..., 1:-1]
+        return found
+
+    @property
+    def drive(self) -> Array:
+        """Right-hand sides of (3), N/s^2, of shape (..., n + 1)."""
+        own = self.forces * _yielding(self.masses)[..., 1:-1]
+        along = np.concatenate((self.ends[..., :1], own, self.ends[..., 1:]), axis=-1)
+        driven: Array = self.stiffnesses * (along[..., :-1] - along[..., 1:])
+        return driven
+
+    def motion(self, start: ArrayLike, rates: ArrayLike) -> RowMotion:
+        """Solve (3) from the forces of the links, N, and their rates, N/s, at t = 0.
+
+        The matrix is that of M^(-1/2) D c^(1/2), multiplied by its transpose, between square roots of stiffnesses: the
+        singular values of the one are the frequencies. Slow modes keep digits so that eigenvalues of the product lose
+        beside stiff links.
+        """
+        c, heavy = np.sqrt(self.stiffnesses), 1.0 / np.sqrt(self.masses)
+        links = c.shape[-1]
+        halves = np.zeros((*np.broadcast_shapes(c.shape[:-1], heavy.shape[:-1]), links - 1, links))
+        at = np.arange(links - 1)
+        halves[..., at, at], halves[..., at, at + 1] = -heavy * c[..., :-1], heavy * c[..., 1:]
+        _, frequencies, modes = np.linalg.svd(halves)
+        still = np.zeros((*frequencies.shape[:-1], 1))  # one mode more than there are masses
+        present = c > 0.0
+        relaxed = np.where(present, 1.0 / np.where(present, c, 1.0), 0.0)
+        parts = (_in_modes(modes, np.asarray(value, float) * relaxed) for value in (start, rates, self.drive))
+        return RowMotion(np.concatenate((frequencies, still), axis=-1), modes, c, *parts)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RowMotion:
+    """The forces of the links over time: oscillations of the modes, one of which may be still.
+
+    Parameters
+    ----------
+    frequencies : array of shape (..., n + 1)
+        Of the modes, rad/s, falling; the last is zero.
+    modes : array of shape (..., n + 1, links)
+        A mode a row, in forces divided by the square roots of the stiffnesses.
+    scale : array of shape (..., links)
+        Square roots of the stiffnesses.
+    start, rates, drive : array of shape (..., n + 1)
+        Forces, their rates at t = 0 and right-hand sides, in modes.
+    """
+
+    frequencies: Array
+    modes: Array
+    scale: Array
+    start: Array
+    rates: Array
+    drive: Array
+
+    def of(self, *links: int) -> RowMotion:
+        """Return the same motion, of which only some links are looked at."""
+        chosen = list(links)
+        return replace(self, modes=self.modes[..., chosen], scale=self.scale[..., chosen])
+
+    def forces(self, t: ArrayLike) -> Array:
+        """Return the forces, N, at times (of the shape of the leading axes, or of axes before them), s."""
+        x = np.asarray(t, float)[..., None]
+        w = self.frequencies
+        late = 0.5 * x * _sinc(0.5 * w * x)
+        found = self.start * np.cos(w * x) + self.rates * (x * _sinc(w * x)) + self.drive * (2.0 * late * late)
+        return self._of_links(found)
+
+    def rates_of_forces(self, t: ArrayLike) -> Array:
+        """Return the first derivatives of the forces, N/s."""
+        x = np.asarray(t, float)[..., None]
+        w = self.frequencies
+        found = self.rates * np.cos(w * x) + (self.drive - self.start * (w * w)) * (x * _sinc(w * x))
+        return self._of_links(found)
+
+    def _of_links(self, found: Array) -> Array:
+        mixed: Array = (self.modes * found[..., :, None]).sum(axis=-2) * self.scale
+        return mixed
+
+
+def _yielding(masses: Array) -> Array:
+    """Return 1/a of the masses, with the ends, which do not yield."""
+    none = np.zeros((*masses.shape[:-1], 1))
+    return np.concatenate((none, 1.0 / masses, none), axis=-1)
+
+
+def _in_modes(modes: Array, values: Array) -> Array:
+    found: Array = (modes * values[..., None, :]).sum(axis=-1)
+    return found
+
+
+def _sinc(x: Array) -> Array:
+    """Return sin(x) / x, 1 at 0."""
+    return np.sinc(x * (1.0 / math.pi))
+
 
 Known = TypeVar("Known")
 COMPARED = ("t_1", "F_12_max", "P_12_max", "F_max")

@@ -49,15 +49,6 @@ def _load_rate(V: Any, a: Any, k: Any, t: Any) -> Any:
     return np.where(np.isinf(k), V + a * t, roots.lag_rate(V, a * period, x))
 
 
-def _larger_of(first: Any, second: Any) -> Any:
-    """Return the larger value; one that is undefined, because nothing is there, counts for nothing."""
-    return np.fmax(first, second)
-
-
-def _swing(swing: Any, rate: Any, k: Any, t: Any) -> Any:
-    return swing * np.cos(k * t) + rate * np.sin(k * t)
-
-
 def _greatest_deflection(force: Any, b: Any, l: Any, I: Any, E: Any) -> Any:
     square = (l - b) * (l + b)
     return 1.0 / NINE_ROOTS * force * b * square * np.sqrt(square) / (l * E * I)
@@ -110,13 +101,14 @@ define(
     # (12), and its solutions: when the force of the rope was last greatest, and when first least
     last_maximum=roots.last_maximum,
     first_minimum=roots.first_minimum,
-    larger_of=_larger_of,
+    # of two forces, of which one may be undefined because nothing is there
+    larger_of=lambda first, second: np.fmax(first, second),
     smaller_of=lambda first, second: np.fmin(first, second),
     time_of_larger=lambda first, second, t_first, t_second: np.where(first > second, t_first, t_second),
     # (13) P_m = m (g + a)
     mean_force=lambda m, g, a: m * (g + a),
     # (14') P_12 = P_m + D_0 cos k_1 T + D_1 sin k_1 T
-    swing=_swing,
+    swing=lambda swing, rate, k, t: swing * np.cos(k * t) + rate * np.sin(k * t),
     suspended_force=lambda mean, swing: mean + swing,
     # (15') R and k_1 T_1 are read from the circle; the angle is one from 0 to 2 pi
     whole_angle=lambda angle: angle + TURN * (angle < 0.0),

@@ -2,12 +2,20 @@
 
 Errors are those of the lift-off, of the force over time (the worst until one period after the lift-off) and of the
 greatest force, in parts of the exact values; these are found with longer numbers than float64.
+
+Ways to the lift-off are looked at evaluation by evaluation, too, at the root of a hoist and at one that is nearly
+triple: there a load without acceleration stands still as it lifts off. How far steps may reach is told by errors of
+integrators over the step, and by where runs are refused.
+
+The graphical solution stands beside these: the crossing of parabola and sinusoid, the circle, the diagram of forces.
+Curves are joined by chords from section line to section line, which errs as the square of a section; a hand errs
+besides, in the lift-off, in ordinates of the diagram and in the radius of the circle.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import Any
 
@@ -15,14 +23,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..board import Program
-from ..boards.exact import ExactBoard
+from ..boards.exact import ExactBoard, run
 from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, ran, timed
+from ..hands.hand import Hand
+from ..hands.shaky import Paper, draw
+from ..hands.spread import kept
 from ..laws import LAWS, TURN
+from .construction import FORCES, Roots, construct, drawn_name
 from .course import rope_forces
-from .finders import FINDERS, find, lift_off_equation
-from .integrators import integrate
+from .hoist import CIRCLE_PART, FORCES_PART, ROOTS_PART
+from .integrators import EXPLICIT, ORDERS, RK4, STEPPERS, Run, integrate, stability_limit
 from .model import model, model_program
-from .steppers import EXPLICIT, RK4, STEPPERS
+from .roots import FINDERS, Equation, Found, approximations, find, lift_off_equation, sine_rest
+from .solve import SolvedHoist, board_givens
 
 Array = NDArray[np.float64]
 LIFT_OFF, COURSE, PEAK = "lift_off", "course", "peak"
@@ -74,11 +87,7 @@ class _Race:
     right: Mapping[str, Any]
     clock: Clock
     effort: Effort
-
-    @property
-    def places(self) -> Array:
-        """Times that are compared, from the beginning to one period after the lift-off."""
-        return _places(self.right)
+    places: Array  # times that are compared, from the beginning to one period after the lift-off
 
     def closed(self) -> Iterator[Entry]:
         """Go through closed forms of so many hoists at once."""
@@ -165,12 +174,6 @@ class _Race:
         yield Entry(method, setting, PEAK, peak, peak, "F_max", float(self.right["t_1"]), seconds[1], at_once, 0.0)
 
 
-def _places(found: Mapping[str, Any]) -> Array:
-    end = float(found["t_1"] + TURN / found["k_1"])
-    places: Array = end * ((np.arange(PLACES) + 0.5) / PLACES)
-    return places
-
-
 def rivals(values: Mapping[str, float], clock: Clock, effort: Effort = FULL) -> Contest:
     """Let closed forms and integrators compete.
 
@@ -181,6 +184,202 @@ def rivals(values: Mapping[str, float], clock: Clock, effort: Effort = FULL) -> 
     clock : function
         Returns seconds, best those of the processor: `time.process_time`.
     """
-    race = _Race(values, exact(values), clock, effort)
+    right = exact(values)
+    places = float(right["t_1"] + TURN / right["k_1"]) * ((np.arange(PLACES) + 0.5) / PLACES)
+    race = _Race(values, right, clock, effort, places)
     entries = (*race.closed(), *race.finders(), *race.steps())
     return Contest(KINDS, race.places, entries, effort)
+
+
+EVALUATIONS = 60
+AWAY = 1e-3  # rad by which the nearly triple root is from a whole turn
+LEAST = 1e-17  # part of a root that is no error
+TOLERANCE = 1e-14  # at which evaluations are counted
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ways:
+    """Ways to one root.
+
+    Parameters
+    ----------
+    root : float
+        x = k t_1, rad.
+    errors : mapping of str to array of shape (N,)
+        By method: of the approximation after each evaluation, in parts of the root; NaN where there is none.
+    found : mapping of str to Found
+        Where each method stops; the root is NaN where it fails.
+    """
+
+    root: float
+    errors: Mapping[str, Array]
+    found: Mapping[str, Found]
+
+    def error(self, method: str) -> float:
+        """Return the error where a method stops, in parts of the root."""
+        return abs(self.found[method].root / self.root - 1.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RootRace:
+    """Ways to the root of the hoist itself, and to the nearly triple one."""
+
+    own: Ways
+    triple: Ways
+
+
+def root_race(values: Mapping[str, float]) -> RootRace:
+    """Follow all ways to both roots.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        The complete givens of a hoist on a support that yields, SI.
+    """
+    right = exact(values)
+    k, height = float(right["k"]), float(right["P_st"] / right["C"])
+    V = float(right["V_t"])
+    own = lift_off_equation(V, values["a"], k, height)
+    speed = V if V > 0.0 else values["a"] / k  # of a rope that starts from rest: what it has soon after
+    x = TURN + AWAY
+    triple = lift_off_equation(speed, 0.0, k, speed / k * float(sine_rest(x)))
+    return RootRace(_ways(own, float(right["k"] * right["t_1"])), _ways(triple, x))
+
+
+def _ways(equation: Equation, root: float) -> Ways:
+    errors = {}
+    for method in FINDERS:
+        with np.errstate(invalid="ignore", over="ignore"):
+            guesses = np.array(approximations(method, equation, EVALUATIONS))
+            away = np.abs(guesses / root - 1.0)
+        errors[method] = np.where(np.isfinite(away), np.maximum(away, LEAST), np.nan)
+    return Ways(root, errors, {method: find(method, equation, TOLERANCE) for method in FINDERS})
+
+
+TRIED = tuple(4.0 * 2.0 ** (-0.5 * i) for i in range(15))  # k h, rad: from 4 to 0.03
+TRIED_TINY = tuple(
+    2.0 ** (-0.5 * i) / 64.0 for i in range(6)
+)  # beside these for explicit Euler, which is refused early
+SHOWING = 0.35  # k h up to which an error shows its order
+ROUNDING = 1e-12  # error that is none
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StepLimits:
+    """Errors of the rope's force, the worst until one period after lift-off, in parts of the greatest force.
+
+    Parameters
+    ----------
+    steps : mapping of str to array of shape (N,)
+        k h, rad, by method.
+    ratio : float
+        k_1 / k: in phase 2 steps are so much smaller beside the period.
+    errors : mapping of str to array of shape (N,)
+        By method; NaN where a run is refused.
+    grown : mapping of str to array of shape (N,)
+        By what a method makes oscillations grow over the run.
+    """
+
+    steps: Mapping[str, Array]
+    ratio: float
+    errors: Mapping[str, Array]
+    grown: Mapping[str, Array]
+
+    def order(self, method: str) -> float | None:
+        """Return the power of the step as which the error falls; None where too few runs show it."""
+        steps, error = self.steps[method], self.errors[method]
+        shown = (steps <= SHOWING) & (error > ROUNDING)
+        if shown.sum() < 2:
+            return None
+        return float(np.polyfit(np.log(steps[shown]), np.log(error[shown]), 1)[0])
+
+    def refused_from(self, method: str) -> float | None:
+        """Return the smallest step of those tried that is refused; None where none is."""
+        refused = self.steps[method][np.isnan(self.errors[method])]
+        return float(refused.min()) if refused.size else None
+
+    @staticmethod
+    def limit(method: str) -> float:
+        """Return the largest k h at which a method is stable."""
+        return stability_limit(method)
+
+
+def step_limits(
+    values: Mapping[str, float], steps: tuple[float, ...] = TRIED, tiny: tuple[float, ...] = TRIED_TINY
+) -> StepLimits:
+    """Integrate a hoist with larger and larger steps, all of them at once.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        The complete givens of a hoist on a support that yields, whose formulas are valid, SI.
+    """
+    right = exact(values)
+    hoist = {name: float(right[name]) for name in COMPARED} | {"a": values["a"]}
+    taken = {method: np.array((*steps, *(tiny if method == EXPLICIT else ()))) for method in ORDERS}
+    runs = {method: integrate(hoist, method, z) for method, z in taken.items()}
+    errors = {method: _worst(run, right) for method, run in runs.items()}
+    return StepLimits(taken, hoist["k_1"] / hoist["k"], errors, {method: run.grown for method, run in runs.items()})
+
+
+def _worst(run: Run, right: Mapping[str, Any]) -> Array:
+    """Return the worst error of every run, NaN of those that are refused."""
+    known = ~np.isnan(run.t)
+    forces = rope_forces(right, np.where(known, run.t, 0.0).astype(np.longdouble))[1]
+    away = np.abs((run.F_12 - forces) * (1.0 / right["F_max"])).astype(float)
+    return np.where(run.refused, np.nan, np.max(away, axis=0, initial=0.0, where=known))
+
+
+SECTIONS = (10, 20, 40, 80, 160)  # before the lift-off
+DRAWINGS, SEED = 400, 1
+T_1, TOP = drawn_name("t_1"), "F_max"
+ENDS = {"R": "F_12", "P": "P_12"}  # forces by the letters of the marks at their ends
+
+
+def sectioned(solved: SolvedHoist, before: int) -> tuple[Program, dict[str, Any]]:
+    """Return the construction with so many sections before the lift-off, and what it begins with."""
+    assert solved.layout.roots is not None
+    begin = solved.layout.roots.begin
+    section = (solved.forces.found["t_1"] - begin) / (before + 0.5)
+    layout = replace(solved.layout, roots=Roots(begin, section, before, (), (), False))
+    program = construct(layout, (ROOTS_PART, CIRCLE_PART, FORCES_PART))
+    return program, {**solved.givens, **board_givens(solved.forces, layout)}
+
+
+def by_board(solved: SolvedHoist, clock: Clock) -> Iterator[Entry]:
+    """Go through lift-offs on exact boards with more and more sections: the crossing errs as chords do."""
+    t_1 = solved.forces.found["t_1"]
+    for before in SECTIONS:
+        program, givens = sectioned(solved, before)
+        part = program.needed_for((T_1,))
+        error = abs(float(run(part, givens).values[T_1]) / t_1 - 1.0)
+        spent = timed(partial(run, part, givens), clock)
+        yield Entry(DRAWN, before, LIFT_OFF, error, error, T_1, t_1, spent, 1, 0.0)
+
+
+def by_hand(solved: SolvedHoist, mus: Mapping[str, float], hand: Hand) -> Iterator[Entry]:
+    """Go through what 95 % of the drawings of a hand keep, on the sections that the sheet has.
+
+    Parameters
+    ----------
+    mus : mapping of str to float
+        Scale factors by plan, SI per mm.
+    """
+    assert solved.layout.roots is not None
+    found, before = solved.forces.found, solved.layout.roots.lift_off
+    program, givens = sectioned(solved, before)
+    paper = Paper(program, givens, solved.worth(mus), solved.edges, solved.on_paper)
+    values = draw(paper, hand, np.random.default_rng(SEED), DRAWINGS).values
+    exact = run(program, givens).values
+    setting, t_1 = f"n = {before}", found["t_1"]
+    for kind, name, right in ((LIFT_OFF, T_1, t_1), (PEAK, TOP, found["F_max"])):
+        errors = np.broadcast_to(np.abs(values[name] - right), DRAWINGS) * (1.0 / right)
+        most, middle = float(kept(errors, 0.0)), float(np.median(errors))
+        yield Entry(HAND, setting, kind, most, middle, name, t_1, None, 1, 0.0)
+    ends = {f"{FORCES}.{letter}{i}": force for letter, force in ENDS.items() for i in range(len(exact))}
+    marks = [mark for mark in exact if mark in ends]
+    worth = givens["mu_F"] * (1.0 / found["F_max"])
+    lines = np.array([float(kept(worth * np.abs(values[m].imag - exact[m].imag), 0.0)) for m in marks])
+    at = marks[int(lines.argmax())]
+    time = float(exact[at].real) * givens["mu_t"]
+    yield Entry(HAND, setting, COURSE, float(lines.max()), float(np.median(lines)), ends[at], time, None, 1, 0.0)

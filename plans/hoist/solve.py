@@ -1,7 +1,9 @@
-"""A hoist solved: its construction, values and quantities together, and what a teacher should let pass of them.
+"""A hoist solved: what its board begins with, values and quantities, tolerances, and its curves densely.
 
 K is that of `plans.condition`, over Q. Roots are found beside the board, so that the derivatives are central
 differences of all of it.
+
+Curves are constructions that are done for many places at once, in metres of paper.
 """
 
 from __future__ import annotations
@@ -12,25 +14,130 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..board import Program
+from ...scales.scale import steps
+from ..board import Board, Program
 from ..boards.exact import run
 from ..condition import Condition, by_solving_again, ratio
 from ..hands.hand import Tolerance
+from ..laws import TURN
 from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, shown_on
 from ..references import worst_behind
 from ..solved import PAPER_MM, Solved, in_sections
-from . import root_plans
-from .beam_plans import BENT, SCHEME
-from .construction import Layout, construct, layout_of
-from .diagram_plan import FORCES, UP
-from .forces import Forces, forces
+from .construction import (
+    BENT,
+    EXTREMES,
+    FORCES,
+    HANGING,
+    LIFT_OFF,
+    RESTING,
+    SCHEME,
+    UP,
+    Layout,
+    Roots,
+    bent_beam,
+    construct,
+    drawn_name,
+    extremes_point,
+    layout_of,
+    lift_off_points,
+    line,
+    part,
+    point,
+    seen,
+)
+from .construction import SECTIONS as BEAM_SECTIONS
+from .course import article_force, course, end_of, marks
+from .forces import Forces, forces, motion_givens
 from .hoist import PLANS, VALUES, Hoist, complete
-from .model import CIRCLE, HORIZONTAL, SECTIONS, section_of
-from .paper import SCALED, board_givens
-from .root_plans import EXTREMES, LIFT_OFF
+from .model import CIRCLE, HORIZONTAL, SECTIONS, rest_of_root, section_of
+
+TIMES, ORDINATES, SPAN, BEND = 180.0, 120.0, 160.0, 40.0  # mm of paper that axes should take
+WIDEST = 2.0  # ratio of neighbours in the series of scale factors
+TALLEST = 1.05  # of the greatest force, the axis of forces
+SWINGS = 1.1  # of T_1, the axis of times beyond the lift-off
+# units of the scale factors of diagrams
+SCALED = {"mu_t": "s", "mu_F": "N", "mu_t1": "s", "mu_y": "m", "mu_v": "m/s", "mu_x": "m", "mu_w": "m"}
+
+
+def board_givens(forces: Forces, layout: Layout, part_of: float = 1.0) -> dict[str, Any]:
+    """Return the complete givens of the construction, beside the numbers of the hoist.
+
+    Diagrams have about `part_of` their usual size.
+    """
+    found, motion = forces.found, forces.motion
+    given: dict[str, Any] = {"_turn": TURN, "_t_P12_min": marks(found, motion)["P_12_min"]}
+    parts = {(i, n) for n in (layout.resting, layout.hanging, BEAM_SECTIONS) for i in range(n + 1)}
+    if layout.roots is not None:
+        parts |= {(i, 1) for i in range(layout.roots.sections + 1)}
+        given |= {"_begin": layout.roots.begin, "_section": layout.roots.section}
+        given |= {f"_t_2_{n}_exact": time for n, time in enumerate(layout.roots.times, 1)}
+    given |= {part(i, n): i / n for i, n in parts}
+    given |= {name: mu / PAPER_MM for name, mu in scale_factors(found, layout, drawn_until(forces), part_of).items()}
+    if motion is None:
+        return given | {"_rest": rest_of_root(found)}
+    return given | motion_givens(motion) | _ordinates(forces, layout)
+
+
+def drawn_until(forces: Forces) -> float:
+    """Return until when the forces are drawn."""
+    found, motion = forces.found, forces.motion
+    if motion is not None:
+        return motion.pieces[-1].end
+    return found["t_1"] + max(TURN / found["k_1"], SWINGS * found["T_1"])
+
+
+def _ordinates(forces: Forces, layout: Layout) -> dict[str, float]:
+    """Return times and forces of a motion on the section lines."""
+    found, end = forces.found, drawn_until(forces)
+    t_1 = found["t_1"]
+    before = np.linspace(0.0, t_1, layout.resting + 1)
+    after = np.linspace(t_1, end, layout.hanging + 1)
+    columns = course(found, forces.motion, np.concatenate((before, after))).columns
+    given: dict[str, float] = {}
+    for i, t in enumerate(before.tolist()):
+        values = t, float(columns["F_01"][i]), float(columns["F_12"][i])
+        names = f"_t_{RESTING}{i}", f"_F_01_{i}", f"_F_12_{i}"
+        given |= {f"{name}_motion": value for name, value in zip(names, values, strict=True)}
+    for i, t in enumerate(after.tolist()):
+        force = float(columns["F_12"][layout.resting + 1 + i])
+        given |= {f"_T_{HANGING}{i}_motion": t - t_1, f"_P_12_{i}_motion": force}
+    return given
+
+
+def scale_factors(found: Mapping[str, float], layout: Layout, end: float, part_of: float = 1.0) -> dict[str, float]:
+    """Return the scale factors of the diagrams, SI per millimetre, by which they fill their axes."""
+    wanted = {
+        "mu_t": end / TIMES,
+        "mu_F": (TALLEST * found["F_max"] + found["P_st"]) / ORDINATES,
+    }
+    if layout.roots is not None:
+        wanted |= _of_roots(found, layout.roots)
+    if layout.bent:
+        wanted["mu_x"] = max(found[f"l_{i}"] for i in BENT) / SPAN
+        wanted["mu_w"] = max(found[f"w_{i}_max"] for i in layout.bent) / BEND
+    return {name: _nearest(mu / part_of) for name, mu in wanted.items()}
+
+
+def _nearest(mu: float) -> float:
+    """Return the scale factor of the customary series that is nearest to one, by their ratio."""
+    return min(steps(mu / WIDEST), key=lambda step: abs(math.log(step / mu)))
+
+
+def _of_roots(found: Mapping[str, float], roots: Roots) -> dict[str, float]:
+    V, a, k = (found[name] for name in ("V_t", "a", "k"))
+    seen = roots.sections * roots.section
+    end = roots.begin + seen
+    wound = V * end + 0.5 * a * end * end
+    known = {"mu_t1": seen / TIMES, "mu_y": wound / ORDINATES}
+    if roots.waves:
+        swing = math.hypot(V, a / k)
+        known["mu_v"] = (swing + max(swing, found["C_01"] / found["C_12"] * (V + a * end))) / ORDINATES
+    return known
+
 
 # the scale factor in which each plan shows values; on the diagrams that of the axis of ordinates
 SCALES = {
@@ -148,16 +255,13 @@ def reduced(solved: SolvedHoist, part_of: float) -> SolvedHoist:
 def _scales(given: Mapping[str, Any], drawn: set[str]) -> dict[str, Quantity]:
     """Return the scale factors of the diagrams that are drawn: they are found, and so are results."""
     of_plan = {"mu_t": FORCES, "mu_t1": LIFT_OFF, "mu_x": "", **{SCALES[plan]: plan for plan in ON_PAPER}}
-    names = (name for name in SCALED if name in given and (of_plan[name] in drawn or _bends(name, drawn)))
-    return {name: Quantity(name, float(given[name]) * PAPER_MM, f"{_bracketed(SCALED[name])}/mm") for name in names}
-
-
-def _bends(name: str, drawn: set[str]) -> bool:
-    return name in ("mu_x", "mu_w") and not drawn.isdisjoint(BENT.values())
-
-
-def _bracketed(unit: str) -> str:
-    return f"({unit})" if "/" in unit else unit
+    found = {}
+    for name, unit in SCALED.items():
+        bends = name in ("mu_x", "mu_w") and not drawn.isdisjoint(BENT.values())
+        if name in given and (of_plan[name] in drawn or bends):
+            per_mm = f"({unit})/mm" if "/" in unit else f"{unit}/mm"
+            found[name] = Quantity(name, float(given[name]) * PAPER_MM, per_mm)
+    return found
 
 
 def _shown_on(program: Program, drawn: set[str]) -> dict[str, str]:
@@ -186,10 +290,54 @@ def tolerances_of(solved: SolvedHoist, tolerance: Tolerance) -> dict[str, float]
 
 def _times(solved: SolvedHoist, tolerance: Tolerance) -> Iterator[tuple[str, float]]:
     for name, quantity in solved.quantities.items():
-        drawn = solved.quantities.get(root_plans.drawn(name))
+        drawn = solved.quantities.get(drawn_name(name))
         if drawn is None or quantity.value is None or drawn.value is None or not math.isfinite(drawn.value):
             continue
         mu = float(solved.values["mu_t1"]) * PAPER_MM
         of_segment = tolerance.of_segment(abs(drawn.value) / mu) * mu
         yield name, max(abs(drawn.value - quantity.value) + of_segment, rounded(quantity.value, tolerance))
-        yield root_plans.drawn(name), max(of_segment, rounded(quantity.value, tolerance))
+        yield drawn_name(name), max(of_segment, rounded(quantity.value, tolerance))
+
+
+POINTS, OF_BEAM, MAGNIFIED = 300, 121, 81  # of a curve
+INSIDE = 1.0 - 1e-12  # of an interval at whose end the phase is another one
+Places = NDArray[np.complex128]
+
+
+def bent(solved: SolvedHoist, i: int, letter: str, force: str) -> Places:
+    """Return a beam bent by a force, the load's place among the points."""
+    found = solved.forces.found
+    x = np.unique(np.append(np.linspace(0.0, found[f"l_{i}"], OF_BEAM), found[f"b_{i}"]))
+    return solved.dense(lambda board: bent_beam(board, i, letter, force), f"{BENT[i]}.{letter}", _x=x)
+
+
+def equation(solved: SolvedHoist, curve: str, about: float | None = None, half: float = 0.0) -> Places:
+    """Return a curve of an equation: `Y` and `O` of (11), `W` of (12); all of it, or `half` about an abscissa, mm."""
+    roots = solved.layout.roots
+    assert roots is not None
+    times = np.linspace(0.0, roots.sections * roots.section, POINTS)
+    if about is not None:
+        times = np.linspace(about - half, about + half, MAGNIFIED) * (solved.values["mu_t1"] * PAPER_MM)
+
+    def draw(board: Board) -> None:
+        lift_off_points(board, "x")
+        extremes_point(board, "x")
+
+    plan = EXTREMES if curve == "W" else LIFT_OFF
+    return solved.dense(draw, f"{plan}.{curve}x", **{seen("x"): times})
+
+
+def forces_over(solved: SolvedHoist) -> dict[str, Places]:
+    """Return the forces until the lift-off and the rope's after it, with the article's over one swing."""
+    forces, found = solved.forces, solved.forces.found
+    t_1, end = found["t_1"], end_of(found, forces.motion)
+    before, after = np.linspace(0.0, t_1 * INSIDE, POINTS), np.linspace(t_1, end * INSIDE, POINTS)
+    first, second = (course(found, forces.motion, t).columns for t in (before, after))
+    swing = after[after <= t_1 + TURN / found["k_1"]]
+    curves = {"F_01": (before, first["F_01"]), "F_12": (before, first["F_12"]), "P_12": (after, second["F_12"])}
+    curves["printed"] = swing, np.asarray(article_force(found, swing - t_1))
+
+    def draw(board: Board) -> None:
+        point(board, FORCES, "x", line(board, FORCES, "fx", "_t"), "_F", "mu_F")
+
+    return {name: solved.dense(draw, f"{FORCES}.x", _t=t, _F=F) for name, (t, F) in curves.items()}

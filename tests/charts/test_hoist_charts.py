@@ -15,10 +15,10 @@ from kulman import cli
 from kulman.plans import contest as contests
 from kulman.plans.contest import Effort
 from kulman.plans.hoist import rivals as races
-from kulman.plans.hoist.choice import choose
 from kulman.plans.hoist.depth import depth
-from kulman.plans.hoist.step_limits import step_limits
-from kulman.plans.hoist.steppers import ORDERS
+from kulman.plans.hoist.forces import choose
+from kulman.plans.hoist.integrators import ORDERS
+from kulman.plans.hoist.rivals import step_limits
 from kulman.scales.errors import InputError
 from kulman.variants.charts import hoist as charts
 from kulman.variants.charts.charts import Charts, chart

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.hoist import roots
-from kulman.plans.hoist.finders import (
+from kulman.plans.hoist.roots import (
     BISECTION,
     BRENT,
     FINDERS,

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from kulman.plans.hoist.choice import LEAST, MOST, Choice, choose, spectrum
+from kulman.plans.hoist.forces import LEAST, MOST, Choice, choose, spectrum
 from kulman.plans.hoist.model import model
 
 # 3.2 t, load and drum off the middle: V03 of hoist-variants.json, not safe with K = 5.5
@@ -98,8 +98,8 @@ def test_where_the_rope_would_push_the_force_is_that_of_a_one_sided_rope() -> No
 
 
 def test_where_many_motions_have_to_be_followed_fewer_places_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kulman.plans.hoist.choice.FEWER", 4)
-    monkeypatch.setattr("kulman.plans.hoist.choice.ROUNDS", 1)
+    monkeypatch.setattr("kulman.plans.hoist.forces.FEWER", 4)
+    monkeypatch.setattr("kulman.plans.hoist.forces.ROUNDS", 1)
 
     found = choose(OFF_MIDDLE | {"V_0": 5.0}, 46).spectrum
 

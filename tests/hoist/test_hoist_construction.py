@@ -9,13 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kulman.plans.hoist.beam_plans import BENT, SCHEME
+from kulman.plans.hoist.construction import BENT, EXTREMES, FORCES, LIFT_OFF, SCHEME
 from kulman.plans.hoist.course import course
-from kulman.plans.hoist.diagram_plan import FORCES
 from kulman.plans.hoist.forces import forces
 from kulman.plans.hoist.hoist import PLANS, Hoist
 from kulman.plans.hoist.model import CIRCLE
-from kulman.plans.hoist.root_plans import EXTREMES, LIFT_OFF
 from kulman.plans.hoist.solve import SolvedHoist, solve_hoist
 from kulman.tests.support.hoists import VARIANTS
 

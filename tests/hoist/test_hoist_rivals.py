@@ -15,14 +15,23 @@ from kulman.plans.contest import Contest, Effort
 from kulman.plans.hands.hand import preset
 from kulman.plans.hoist import rivals as races
 from kulman.plans.hoist.course import BOTH, COLUMN_UNITS, NEITHER, ROPE, SUPPORT, course, end_of, marks
-from kulman.plans.hoist.drawn import by_board, by_hand
-from kulman.plans.hoist.finders import FINDERS, NEWTON
 from kulman.plans.hoist.forces import forces
 from kulman.plans.hoist.hoist import Hoist
-from kulman.plans.hoist.rivals import COURSE, FORMULAS, LIFT_OFF, PEAK, exact, rivals
+from kulman.plans.hoist.integrators import EXPLICIT, ORDERS, RK4, SYMPLECTIC, TRAPEZOID, VERLET
+from kulman.plans.hoist.rivals import (
+    COURSE,
+    FORMULAS,
+    LIFT_OFF,
+    PEAK,
+    StepLimits,
+    by_board,
+    by_hand,
+    exact,
+    rivals,
+    step_limits,
+)
+from kulman.plans.hoist.roots import FINDERS, NEWTON
 from kulman.plans.hoist.solve import SolvedHoist, solve_hoist
-from kulman.plans.hoist.step_limits import StepLimits, step_limits
-from kulman.plans.hoist.steppers import EXPLICIT, ORDERS, RK4, SYMPLECTIC, TRAPEZOID, VERLET
 
 # 2.5 t on a soft support, no acceleration: V10 of hoist-variants.json
 STEADY = {

@@ -7,16 +7,18 @@ from functools import cache
 import numpy as np
 import pytest
 
-from kulman.plans.hoist.integrators import GROWN, Run, integrate
-from kulman.plans.hoist.steppers import (
+from kulman.plans.hoist.integrators import (
     EXPLICIT,
+    GROWN,
     RK4,
     STEPPERS,
     SYMPLECTIC,
     TRAPEZOID,
     VERLET,
     Motion,
+    Run,
     growth,
+    integrate,
     one_step,
     stability_limit,
 )

@@ -13,17 +13,13 @@ import numpy as np
 from ...drawing.charts.hoist import choice_page, choice_said, depth_page, depth_verdict, roots_page, steps_page
 from ...drawing.words import Words
 from ...plans.contest import FULL, Effort
-from ...plans.hoist.choice import Choice, choose
 from ...plans.hoist.depth import COMPARED, MANY, HoistDepth, depth
-from ...plans.hoist.drawn import by_board, by_hand
-from ...plans.hoist.finders import FINDERS
+from ...plans.hoist.forces import Choice, choose
 from ...plans.hoist.hoist import complete
-from ...plans.hoist.integrators import GROWN
-from ...plans.hoist.rivals import rivals
-from ...plans.hoist.root_race import RootRace, Ways, root_race
+from ...plans.hoist.integrators import GROWN, ORDERS
+from ...plans.hoist.rivals import RootRace, StepLimits, Ways, by_board, by_hand, rivals, root_race, step_limits
+from ...plans.hoist.roots import FINDERS
 from ...plans.hoist.solve import SolvedHoist
-from ...plans.hoist.step_limits import StepLimits, step_limits
-from ...plans.hoist.steppers import ORDERS
 from ...scales.errors import InputError
 from ...scales.units import format_unit, unit
 from ..spreadsheets.cells_out import Cell
