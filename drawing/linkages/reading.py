@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import combinations
 
@@ -22,7 +22,7 @@ class Edge:
     name: str
     tail: str
     tip: str
-    at: int
+    at: int = field(default=0, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,8 +179,9 @@ def _link_of(reading: Reading, mark: str) -> str:
     return role(rates[0]).of if rates else ""
 
 
-def vectors_of(steps: tuple[Step, ...]) -> list[tuple[str, str, str]]:
-    """Return (quantity, tail, tip) of the vectors that the steps draw."""
-    drawn = (step for step in steps if step.verb in ("read", "chain"))
-    ends = ((step.name, *step.operands) if step.verb == "read" else (*step.operands[::-1], step.name) for step in drawn)
-    return [(quantity, tail, tip) for quantity, tail, tip in ends]
+def meetings(steps: Iterable[Step]) -> Iterator[tuple[Step, int, str, str]]:
+    """Go through the lines that meet: the step, which of its two lines, the mark where it begins, its direction."""
+    for step in steps:
+        if step.verb == "meet":
+            p, u, q, w = step.operands
+            yield from ((step, 1, p, u), (step, 2, q, w))

@@ -2,41 +2,81 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from ...plans.board import POSITION
-from ...plans.linkages.mechanism import Driver
+from ...plans.board import POSITION, Program
+from ...plans.linkages.compound import ACCELERATION, VELOCITY
+from ...plans.linkages.mechanism import Driver, Mechanism
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Structure
 from ...plans.names import inertia, rate, role
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
-from ..formats import Style
 from ..printed import segment_decimals
-from ..shapes import Vector
-from ..words import Given as Given
+from ..rungs import SubjectScene
+from ..shapes import Group, Pen, Vector
 from ..words import Words
+from .layout.ladders import DRIVER
+from .reading import Edge, Reading, read
 
 if TYPE_CHECKING:
     from ...plans.linkages.cycles.swept import Runs
 
-DRIVER = "driver"  # the figure of the driver apart, among the plans that have scale factors
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 
 
+class Scales(Mapping[str, Scale]):
+    """Scale factors by plan that note which of them a figure has `used`.
+
+    Some plans have those of others `instead`, where there are any: the driver's own figure is a plan of the mechanism.
+    """
+
+    def __init__(self, scales: Mapping[str, Scale], instead: Mapping[str, str] | None = None) -> None:
+        self._scales, self._instead, self.used = scales, instead or {}, dict[str, Scale]()
+
+    def __getitem__(self, plan: str) -> Scale:
+        """Return the scale factor of a plan and note it."""
+        other = self._instead.get(plan, plan)
+        scale = self.used[plan] = self._scales[other if other in self._scales else plan]
+        return scale
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the plans."""
+        return iter(self._scales)
+
+    def __len__(self) -> int:
+        """Return the number of plans."""
+        return len(self._scales)
+
+
 @dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(SubjectScene[SolvedLinkage]):
     """A solved mechanism on a certain format, in certain words; `scales` are by plan, `runs` of sliders by guide."""
 
-    solved: SolvedLinkage
     scales: Mapping[str, Scale]
-    words: Words
-    style: Style
-    givens: Mapping[str, Given]  # what the task states, in its own units
     runs: Runs = field(default_factory=dict)
     _largest: dict[str, float] = field(default_factory=dict, compare=False)
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism that is solved."""
+        return self.solved.mechanism
+
+    @property
+    def program(self) -> Program:
+        """The recorded steps."""
+        return self.solved.program
+
+    @property
+    def reading(self) -> Reading:
+        """What is looked up in the steps."""
+        return read(self.solved.program)
+
+    def point(self, at: complex, name: str) -> Group:
+        """Return the small circle of a point that is no joint."""
+        return self.node(at, name, "point", pen=Pen.MAIN)
 
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""
@@ -61,10 +101,14 @@ class Scene:
         value = self.solved.values.get(name)
         return value is not None and value == value
 
-    def vector(self, name: str, tail: str, tip: str) -> Vector:
-        """Return the vector `name` of a plan from one mark to another."""
-        scale = self.scales[role(tail).plan]
-        a, b = self.mm(tail), self.mm(tip)
+    def ends(self, edge: Edge) -> tuple[complex, complex]:
+        """Return tail and tip of a vector of a plan, mm from the plan's origin."""
+        return self.mm(edge.tail), self.mm(edge.tip)
+
+    def vector(self, edge: Edge, at: complex = 0j) -> Vector:
+        """Return a vector of a plan whose origin is `at`, mm."""
+        scale, name = self.scales[role(edge.tail).plan], edge.name
+        a, b = (end + at for end in self.ends(edge))
         size = self.solved.size(name) if name in self.solved.values else abs(b - a) * scale.mu
         return Vector(a, b, name, size, scale.unit, scale.mu, title=name)
 
@@ -114,3 +158,8 @@ def arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:
     taken = {s.name for s in solved.program if s.verb == "moment" and s.operands[0] in forces}
     taken &= {s.name for s in solved.program if s.verb == "moment" and s.operands[2] == driver.pivot}
     return frozenset(s.name for s in solved.program if s.verb == "arm" and s.operands[0] in taken)
+
+
+def is_at_point(plan: str) -> bool:
+    """Whether a plan is drawn at a point itself."""
+    return role(plan).kind in (VELOCITY, ACCELERATION)

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
+from typing import NamedTuple
 
 from ...plans.linkages.mechanism import FRAME, Pair, Prismatic, Revolute
 from .scene import Scene
@@ -14,6 +15,14 @@ from .scene import Scene
 NEAR = 0.02  # mm: points so near to one another, or to a line, coincide on the drawing
 ON_LINK, INNER, OUTER = 0.88, 0.75, 1.6  # parts of a slider on the frame: blocks on links, and two on one pin
 Stroke = tuple[complex, complex]
+
+
+class Block(NamedTuple):
+    """A block: its centre, unit direction, length and height."""
+
+    at: complex
+    u: complex
+    size: tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,11 +35,15 @@ class Skeleton:
 
     number: int
     pins: tuple[complex, ...]
-    blocks: tuple[Stroke, ...]  # centre and unit direction
-    sizes: tuple[tuple[float, float], ...]  # their lengths and heights
+    blocks: tuple[Block, ...]
     guides: tuple[Stroke, ...]
     bars: tuple[Stroke, ...]
     corners: tuple[tuple[complex, complex, complex], ...]
+
+    @property
+    def nodes(self) -> tuple[complex, ...]:
+        """Its pins and the centres of its blocks."""
+        return (*self.pins, *(block.at for block in self.blocks))
 
     @property
     def strokes(self) -> tuple[Stroke, ...]:
@@ -40,7 +53,7 @@ class Skeleton:
 
 def pairs_of(scene: Scene, number: int) -> tuple[Pair, ...]:
     """Return the pairs in which a link takes part."""
-    return tuple(pair for pair in scene.solved.mechanism.pairs if number in pair.links)
+    return tuple(pair for pair in scene.mechanism.pairs if number in pair.links)
 
 
 def pins_of(scene: Scene, number: int) -> tuple[str, ...]:
@@ -58,25 +71,25 @@ def skeleton(scene: Scene, number: int) -> Skeleton:
     """Find the figure of a moving link from the points that it has."""
     sliding = [pair for pair in pairs_of(scene, number) if isinstance(pair, Prismatic)]
     pins = [scene.mm(point) for point in pins_of(scene, number)]
-    blocks = tuple((scene.mm(p.point), guide_of(scene, p)) for p in sliding if p.links[0] == number)
-    sizes = tuple(block_size(scene, pair) for pair in sliding if pair.links[0] == number)
+    own = [p for p in sliding if p.links[0] == number]
+    blocks = tuple(Block(scene.mm(p.point), guide_of(scene, p), block_size(scene, p)) for p in own)
     rails = [_rail(scene, pair) for pair in sliding if pair.links[1] == number]
-    link = scene.solved.mechanism.link(number)
-    nodes = [*pins, *(at for at, _ in blocks)]
+    link = scene.mechanism.link(number)
+    nodes = [*pins, *(block.at for block in blocks)]
     nodes += [scene.mm(point) for point in link.points if point != link.centre]
     nodes = _apart(nodes)
     if rails:
         guides, bars, corners = _on_rails(rails, nodes)
     else:
-        guides = ()
-        bars, corners = _between(nodes, _pivot(scene, number))
-    corners = (*corners, *_through(pins, (*guides, *bars)), *_on_blocks(blocks, sizes, (*guides, *bars)))
-    return Skeleton(number, tuple(_apart(pins)), blocks, sizes, guides, bars, corners)
+        held = [point for point in pins_of(scene, number) if point in scene.mechanism.frame_points]
+        guides, (bars, corners) = (), _between(nodes, scene.mm(held[0]) if held else None)
+    corners = (*corners, *_through(pins, (*guides, *bars)), *_on_blocks(blocks, (*guides, *bars)))
+    return Skeleton(number, tuple(_apart(pins)), blocks, guides, bars, corners)
 
 
 def block_size(scene: Scene, pair: Prismatic) -> tuple[float, float]:
     """Return length and height of a block: on a moving link a little smaller; of two on one pin the first is larger."""
-    others = [p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] != pair.links[0]]
+    others = [p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] != pair.links[0]]
     shared = [p for p in others if abs(scene.mm(p.point) - scene.mm(pair.point)) < NEAR]
     rank = [FRAME not in pair.links, pair.links[0]]
     part = ON_LINK if FRAME not in pair.links else 1.0
@@ -93,12 +106,6 @@ def _rail(scene: Scene, pair: Prismatic) -> Stroke:
     low, high = scene.runs.get(scene.solved.guide_name(pair), (0.0, 0.0))
     per_mm, spare = 1.0 / scene.scales["position"].mu, 0.75 * scene.style.slider[0]
     return at + u * (low * per_mm - spare), at + u * (high * per_mm + spare)
-
-
-def _pivot(scene: Scene, number: int) -> complex | None:
-    """Return where the link turns on the frame, if it does."""
-    held = scene.solved.mechanism.frame_points
-    return next((scene.mm(point) for point in pins_of(scene, number) if point in held), None)
 
 
 def _apart(nodes: list[complex]) -> list[complex]:
@@ -171,16 +178,13 @@ def _through(pins: list[complex], strokes: tuple[Stroke, ...]) -> tuple[Corner, 
     """Return as corners of 180 degrees the pins through which a line of the link runs."""
     found = []
     for at in _apart(pins):
-        rays = [_unit(end - at) for stroke in strokes for end in stroke if _on(stroke, at) and abs(end - at) > NEAR]
-        found += [(at, u, w) for u, w in combinations(rays, 2) if abs(u + w) < 1e-4][:1]
+        found += [(at, u, w) for u, w in combinations(rays_of(at, strokes), 2) if abs(u + w) < 1e-4][:1]
     return tuple(found)
 
 
-def _on_blocks(
-    blocks: Iterable[Stroke], sizes: Iterable[tuple[float, float]], strokes: Sequence[Stroke]
-) -> Iterator[Corner]:
+def _on_blocks(blocks: Iterable[Block], strokes: Sequence[Stroke]) -> Iterator[Corner]:
     """Go through the corners between a block and each line of its own link that leaves it."""
-    for (at, u), size in zip(blocks, sizes, strict=True):
+    for at, u, size in blocks:
         for e in rays_of(at, strokes):
             rim = rim_of(u, size, e)
             along = 1j * u if abs((e / u).real) * rim > 0.999 * size[0] / 2 else u  # the edge at which it leaves
@@ -246,3 +250,8 @@ def is_inside(ring: Sequence[complex], point: complex) -> bool:
 def spread_of(u: complex, w: complex) -> float:
     """Return the angle between two unit directions, radians."""
     return abs(math.remainder(cmath.phase(w / u), 2 * math.pi))
+
+
+def room_beside(u: complex, rays: Iterable[complex]) -> float:
+    """Return the least angle between a direction and any of these, radians."""
+    return min((spread_of(u, ray) for ray in rays), default=math.pi)

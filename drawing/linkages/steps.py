@@ -2,30 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain
 
 from ...plans.board import POSITION, Step
+from ...plans.boards.exact import SMALL
+from ...plans.laws import dot
 from ...plans.linkages.legs import guide_letters
-from ...plans.linkages.mechanism import Driver
+from ...plans.linkages.mechanism import MOMENT, Driver
+from ...plans.linkages.solved import disagreement
 from ...plans.names import FORCES, role
+from ...plans.references import point_of
 from ..handouts import Shown
 from ..notes.blocks import Block, Equations, Heading, Story
-from .at_point import is_at_point
+from ..printed import value_text
+from .calculations.equations import rate_of, sensed, size_of, stated
 from .calculations.forces import LOADS, force_lines, force_parts, lines_by_plan
-from .calculations.kinematics import PLANS as KINEMATICS
 from .calculations.kinematics import kinematics_lines
+from .calculations.tables import printed_segment
 from .figures.inset import NUMERALS
 from .figures.scheme import angle_said
 from .layout.ladders import links_apart
 from .reading import Reading
-from .scene import Scene
-from .telling.compound import compound_blocks, compound_equations, compound_told
-from .telling.conclusions import conclusions
+from .scene import Scene, is_at_point, plan_heading
+from .telling.compound import block_name, compound_lines, compound_told
 from .telling.marks import TOLD, lever_told
 from .telling.teller import Teller, Told
 
 SET = ("pole", "place")  # verbs that set a drawing up
+PLANS = {"velocity": ("V", "omega"), "acceleration": ("a", "epsilon")}  # kinds of vectors and of rates
+BALANCES = ("M_bal", "F_bal")
+SAME = 1e-9  # part by which values may differ that are the same by construction
+SMALL_ANGLE = 20  # degrees, as `SMALL`
 
 
 def story(scene: Scene, texts: Mapping[str, str]) -> Story:
@@ -38,9 +47,13 @@ def story(scene: Scene, texts: Mapping[str, str]) -> Story:
     """
     teller, lengths = Teller.of(scene, texts), set[str]()
     steps = {view: [told.text for told in told_of(teller, view)] for view in drawn_views(teller)}
-    plans = [plan for plan in KINEMATICS if plan in scene.scales]
-    equations = {plan: kinematics_lines(scene, plan, lengths) for plan in plans} | compound_equations(teller)
-    views = {"equations_kinematics", *(f"equations_{plan}" for plan in plans), *compound_blocks(teller)}
+    plans = [plan for plan in PLANS if plan in scene.scales]
+    equations = {plan: kinematics_lines(scene, plan, lengths) for plan in plans}
+    views = {"equations_kinematics", *(f"equations_{plan}" for plan in plans)}
+    for view, points in teller.figures.items():
+        lines = [compound_lines(scene, at.coupler, at.kind, at.point) for at in points]
+        equations[view] = [*chain.from_iterable(lines)]
+        views |= {block_name(at.coupler, at.kind) for at in points}
     before: dict[str, tuple[Block, ...]] = {}
     if any(role(plan).kind == FORCES for plan in steps):
         groups = scene.solved.structure.groups
@@ -55,7 +68,7 @@ def story(scene: Scene, texts: Mapping[str, str]) -> Story:
 def drawn_views(teller: Teller) -> list[str]:
     """Return the views whose drawing is told step by step, in order: the plans, the figures of compound motion."""
     scene = teller.scene
-    plans = [plan for plan in scene.solved.program.plans if plan in scene.scales and not is_at_point(plan)]
+    plans = [plan for plan in scene.program.plans if plan in scene.scales and not is_at_point(plan)]
     forces = next((at for at, plan in enumerate(plans) if role(plan).kind == FORCES), len(plans))
     return [*plans[:forces], *teller.figures, *plans[forces:]]
 
@@ -67,17 +80,19 @@ def told_of(teller: Teller, view: str) -> Iterator[Told]:
     elif view == "lever":
         yield from lever_told(teller)
     else:
-        yield from chain.from_iterable(_plan(teller, view))
+        yield from _plan(teller, view)
 
 
-def _plan(teller: Teller, plan: str) -> Iterator[Iterator[Told]]:
+def _plan(teller: Teller, plan: str) -> Iterator[Told]:
     """Go through the steps of a plan; instant centres of compound motion are marked on its own figure."""
     centres = {at.coupler.centre for points in teller.figures.values() for at in points}
-    for step in teller.scene.solved.program.on(plan):
+    for step in teller.scene.program.on(plan):
         hidden = role(step.name).hidden and step.verb not in ("place", "read")
         arm = plan == POSITION and step.verb == "read"  # that a calculation takes
         if step.verb in TOLD and step.name not in centres and not hidden and not arm:
-            yield (Told(step, text, before=step.verb in SET) for text in TOLD[step.verb](teller, step))
+            text = TOLD[step.verb](teller, step)
+            if text:
+                yield Told(step, text, before=step.verb in SET)
 
 
 def begun(scene: Scene, steps: int) -> dict[str, Shown]:
@@ -99,10 +114,10 @@ def _begun(teller: Teller, view: str, steps: int) -> Shown:
         names |= told.names | vectors
         letters |= told.letters | {scene.letter(vector) for vector in vectors}
     if view == POSITION:
-        links = [str(link.number) for link in scene.solved.mechanism.links if names.issuperset(link.points)]
+        links = [str(link.number) for link in scene.mechanism.links if names.issuperset(link.points)]
         names |= {f"link:{number}" for number in links}
-        letters |= {*links, scene.words.frame, *guide_letters(scene.solved.program).values()}
-        driver = scene.solved.mechanism.driver
+        letters |= {*links, scene.words.frame, *guide_letters(scene.program).values()}
+        driver = scene.mechanism.driver
         if isinstance(driver, Driver) and driver.point in names:
             names.add(driver.angle)
             letters.add(angle_said(scene, driver)[1])
@@ -117,3 +132,127 @@ def _vectors_by(reading: Reading, step: Step) -> set[str]:
         steps = reading.program.on(step.plan)
         return {same.name for same in steps if (same.verb, same.operands) == (step.verb, step.operands)}
     return {edge.name for edge in reading.on(step.plan) if edge.tip == step.name and reading.is_hung(edge)}
+
+
+def conclusions(teller: Teller) -> Iterator[str]:
+    """Go through the sentences for the end of the note: what the plans that are drawn have shown."""
+    for plan, (kind, rate) in PLANS.items():
+        if plan in teller.scene.scales:
+            absolute = {f"{kind}_{point}" for link in teller.scene.mechanism.links for point in link.points}
+            names = [name for name in teller.scene.solved.quantities if name in absolute]
+            yield from _extremes(teller, f"conclusion.{plan}", names)
+            yield from _fastest(teller, rate)
+    gap = disagreement(teller.scene.solved)
+    if gap is not None:  # by which the theorems of compound motion give what the plans give
+        yield teller.texts["conclusion.compound"].format(part=teller.scene.words.number(100.0 * gap, 2))
+    if any(role(plan).kind == FORCES for plan in teller.scene.scales):
+        quantities = teller.scene.solved.quantities
+        yield from _extremes(teller, "conclusion.reactions", [n for n in quantities if _pair(n)])
+        for name in BALANCES:
+            yield from _balance(teller, name)
+    for name in BALANCES:
+        yield from _compared(teller, name)
+    yield from _angles(teller)
+
+
+def _extremes(teller: Teller, key: str, names: Iterable[str]) -> Iterator[str]:
+    """Tell the largest and the smallest of some vectors; of forces on one another only one."""
+    scene = teller.scene
+    listed = tuple(names)
+    found = {name: size_of(scene, name) for name in listed if _other_side(scene, name) not in listed}
+    moving = sorted((name for name in found if found[name] > 0.0), key=lambda name: found[name])
+    if moving and not math.isclose(found[moving[0]], found[moving[-1]], rel_tol=SAME):
+        low, high = (_alike(teller, found, name) for name in (moving[0], moving[-1]))
+        yield teller.texts[key].format(high=high, low=low)
+    elif moving:
+        yield teller.texts[f"{key}_one"].format(value=_alike(teller, found, moving[0]))
+
+
+def _pair(name: str) -> tuple[int, ...]:
+    """Return the links of a whole reaction, that which acts first; nothing where a quantity is none."""
+    quantity = role(name)
+    return quantity.links if quantity.kind == "R" and not quantity.part else ()
+
+
+def _other_side(scene: Scene, name: str) -> str:
+    """Return the reaction that stands for this one, too, since both are as large; nothing where it is itself that."""
+    pair = _pair(name)
+    return scene.mechanism.pair("R", pair[1], pair[0]) if pair and pair[0] > pair[1] else ""
+
+
+def _alike(teller: Teller, found: Mapping[str, float], name: str) -> str:
+    """Return the symbols of all quantities that are as large as one, with its value as the tables print it."""
+    scene, item = teller.scene, teller.scene.solved.quantities[name]
+    alike = [other for other in found if math.isclose(abs(found[other]), abs(found[name]), rel_tol=SAME)]
+    symbol = " = ".join(dict.fromkeys(scene.words.symbol(other) for other in alike))
+    if not scene.figure_of(name):
+        return stated(scene.words, symbol, abs(found[name]), item.unit)
+    return f"{symbol} = {printed_segment(scene, item)[2]} {scene.words.unit(scene.words.display.unit(item.unit))}"
+
+
+def _fastest(teller: Teller, rate: str) -> Iterator[str]:
+    """Tell which of the links that are moved turns fastest, or speeds up most."""
+    scene = teller.scene
+    driver = str(scene.solved.structure.driver)
+    names = [f"{rate}_{link.number}" for link in scene.mechanism.links if str(link.number) != driver]
+    values = {name: rate_of(scene, name) for name in names if name in scene.solved.quantities}
+    fastest = max(values, key=lambda name: abs(values[name]), default=None)
+    if fastest is None or values[fastest] == 0.0:
+        return
+    value, sense = _alike(teller, values, fastest), sensed(scene.words, values[fastest])
+    yield teller.texts[f"conclusion.{rate}"].format(value=value, sense=sense)
+
+
+def _balance(teller: Teller, name: str) -> Iterator[str]:
+    """Tell which way what balances the driver acts, and what that means."""
+    scene, words = teller.scene, teller.scene.words
+    item, driver = scene.solved.quantities.get(name), scene.mechanism.driver
+    by_moment = isinstance(driver, Driver) and driver.balance == MOMENT
+    if item is None or not item.value or by_moment != (name == "M_bal"):
+        return
+    speed = f"omega_{driver.link}" if by_moment else f"V_{driver.point}"
+    force = item.value if by_moment else scene.solved.values["_F_bal"]
+    power = dot(complex(force), complex(scene.solved.values[speed]))
+    yield teller.texts[f"conclusion.{name}_{'drives' if power > 0.0 else 'brakes'}"].format(
+        value=stated(words, words.symbol(name), abs(item.value), item.unit),
+        sense=sensed(words, item.value),
+        symbol=words.symbol(name),
+        speed=words.symbol(speed, bar=not by_moment),
+    )
+
+
+def _compared(teller: Teller, name: str) -> Iterator[str]:
+    """Compare what balances the driver by the force plans and by the lever."""
+    words, quantities = teller.scene.words, teller.scene.solved.quantities
+    by_plans, by_lever = quantities.get(name), quantities.get(f"{name}_lever")
+    if by_plans is None or by_lever is None or not by_plans.value or by_lever.value is None:
+        return
+    said = {"symbol": words.symbol(name), "other": words.symbol(f"{name}_lever")}
+    for key, item in (("value", by_plans), ("lever", by_lever)):
+        said[key] = f"{value_text(words, abs(item.value or 0.0))} {words.unit(item.unit)}"
+    part = abs(by_plans.value - by_lever.value) / abs(by_plans.value)
+    yield teller.texts["note.balance"].format(part=words.number(100.0 * part, 2), **said)
+
+
+def _angles(teller: Teller) -> Iterator[str]:
+    """Tell where lines meet at less than 20 degrees, or at which angle the flattest ones do."""
+    words = teller.scene.words
+    # compound motion meets the same lines once more
+    drawn_plans = {plan for plan in teller.scene.scales if not is_at_point(plan)}
+    drawn = {mark: sine for mark, sine in teller.scene.solved.sines.items() if role(mark).plan in drawn_plans}
+    flat = sorted((mark for mark in drawn if 0.0 < drawn[mark] < SMALL), key=lambda mark: drawn[mark])
+    if flat:
+        listed = "; ".join(_met(teller, mark, drawn[mark]) for mark in flat)
+        loss = words.short(float(f"{1.0 / drawn[flat[0]]:.2g}"))
+        yield teller.texts["conclusion.flat"].format(points=listed, loss=loss, limit=SMALL_ANGLE)
+    elif drawn:
+        mark = min(drawn, key=lambda mark: drawn[mark])
+        yield teller.texts["conclusion.sharp"].format(point=_met(teller, mark, drawn[mark]), limit=SMALL_ANGLE)
+
+
+def _met(teller: Teller, mark: str, sine: float) -> str:
+    """Return a point with its plan and the angle at which its lines meet."""
+    words, solved = teller.scene.words, teller.scene.solved
+    heading = plan_heading(words, solved.structure, role(mark).plan)
+    angle = words.short(math.degrees(math.asin(min(sine, 1.0))), 3)
+    return f"{words.mark(point_of(solved.program, mark))} ({heading[:1].lower()}{heading[1:]}, {angle}°)"

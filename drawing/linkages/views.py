@@ -58,17 +58,18 @@ def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
         yield from _forces(solved, width)
     if "lever" in plans:
         yield Figure("lever", lever_view, ("mu_V",))
-        yield _text("equations_lever", partial(lever_lines, with_loads="forces" not in plans), width)
+        lines = partial(lever_lines, with_loads="forces" not in plans)
+        yield _text("equations_lever", lines, width, "equations_lever")
     yield from _results(solved, [kind for kind in ("forces", "lever") if kind in plans])
 
 
 def _text(
-    name: str, lines: Callable[[Scene], Lines], width: float, heading: Callable[[Scene], str] | None = None
+    name: str, lines: Callable[[Scene], Lines], width: float, heading: str | Callable[[Scene], str]
 ) -> LinkageFigure:
-    """Return lines of text; where no other heading is said, they have that of their name."""
+    """Return lines of text with their heading, or with that of this key."""
 
     def draw(scene: Scene) -> View:
-        said = heading(scene) if heading else scene.words[f"heading.{name}"]
+        said = scene.words[f"heading.{heading}"] if isinstance(heading, str) else heading(scene)
         return text_block(name, said, lines(scene), scene.style, width)
 
     return Figure(name, draw)
@@ -88,7 +89,7 @@ def _kinematics(solved: SolvedLinkage, plans: Sequence[str], width: float) -> It
     """Go through what is given, the mechanism, its plans, and their equations: for each plan where groups are many."""
     if "structure" in plans:
         yield Figure("givens", givens_table)
-        yield _text("structure", structure_lines, width)
+        yield _text("structure", structure_lines, width, "structure")
     if "position" in plans:
         yield Figure("position", scheme, ("mu_l",))
     drawn = [plan for plan in PLANS if plan in plans]
@@ -96,15 +97,10 @@ def _kinematics(solved: SolvedLinkage, plans: Sequence[str], width: float) -> It
     single = len(solved.structure.groups) < 2
     for i, plan in enumerate(drawn[:1] if single else drawn):
         own = drawn if single else [plan]
-        key = f"heading.equations_{'kinematics' if len(own) > 1 else plan}"
         lines = partial(kinematics_text, plans=own, before=drawn[:i])
         name = "equations_kinematics" if single else f"equations_{plan}"
-        yield _text(name, lines, width, partial(_heading, key=key))
+        yield _text(name, lines, width, "equations_kinematics" if len(own) > 1 else f"equations_{plan}")
     yield from _results(solved, drawn)
-
-
-def _heading(scene: Scene, key: str) -> str:
-    return scene.words[key]
 
 
 def _compound(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:

@@ -203,7 +203,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         from ...drawing.linkages.scene import Scene
 
         solved = placed(case)
-        return Scene(solved, scales, self.lettered(words, solved), STYLES["A4"], case.givens)
+        return Scene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, scales)
 
     def lettered(self, words: Words, solved: SolvedLinkage) -> Words:
         """Return the words with the letters of guides, ends and couples."""
@@ -259,8 +259,8 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def vector_letters(self, solved: SolvedLinkage, words: Words) -> dict[str, str]:
         """Return the letters of the vector that shows a quantity on its plan: pb, ab, n_BA b."""
-        from ...drawing.linkages.at_point import is_at_point
         from ...drawing.linkages.reading import read
+        from ...drawing.linkages.scene import is_at_point
 
         reading = read(solved.program)
         plans = (plan for plan in solved.program.plans if not is_at_point(plan))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,7 +16,7 @@ from ....plans.quantities import unit_of
 from ....scales.scale import Scale
 from ...printed import POINT, Input, Symbol, calculation, ruler_decimals, value_text
 from ...words import Words
-from ..reading import Edge, Reading, read
+from ..reading import Edge, Reading
 from ..scene import Scene
 
 Lines = list[tuple[str, ...]]
@@ -114,7 +114,7 @@ def size_by_law(scene: Scene, head: str, step: Step, unit: str) -> tuple[str, ..
 
 def _operand(scene: Scene, name: str) -> Product:
     """Return an operand of a law: a value, an arm that was read off the plan of the mechanism, or a direction."""
-    made = read(scene.solved.program).step(name)
+    made = scene.reading.step(name)
     if made is not None and made.verb in DIRECTIONS:
         return Product(())
     if made is not None and made.verb == "read" and made.plan == POSITION:
@@ -144,7 +144,7 @@ def size_of(scene: Scene, name: str) -> float:
 
 def rate_of(scene: Scene, name: str) -> float:
     """Return an angular velocity or acceleration, zero where the vector that it is read from is a point of its plan."""
-    step = read(scene.solved.program).step(name)
+    step = scene.reading.step(name)
     if step is not None and step.law == "same_turning":
         return rate_of(scene, step.operands[0])
     still = step is not None and step.law == "turning" and size_of(scene, step.operands[0]) == 0.0
@@ -166,7 +166,7 @@ def segment(scene: Scene, symbol: str, plan: str, size: float) -> Factor:
 
 def is_given(scene: Scene, name: str) -> bool:
     """Whether a value is stated by the task, not constructed."""
-    return name in scene.solved.values and name not in read(scene.solved.program).made
+    return name in scene.solved.values and name not in scene.reading.made
 
 
 def paper(words: Words, scale: Scale) -> Factor:
@@ -210,7 +210,7 @@ def meeting(scene: Scene, step: Step) -> tuple[str, ...]:
     Both sides lead from the pole to the point where the lines meet; its absolute vector stands before them unless it is
     itself the unknown of one side.
     """
-    reading = read(scene.solved.program)
+    reading = scene.reading
     p, u, q, w = step.operands
     sides = sorted((_side(reading, step, p, u), _side(reading, step, q, w)), key=lambda side: len(side.knowns))
     whole = reading.absolute(step.name)
@@ -253,7 +253,7 @@ def line_note(scene: Scene, vector: str, direction: str) -> str:
 
 def line_of(scene: Scene, direction: str) -> str:
     """Return a line by the name of its direction: ∥ AB, ⊥ AB, ∥ x–x."""
-    reading = read(scene.solved.program)
+    reading = scene.reading
     step = reading.made[direction]
     if step.verb == "normal":
         return f"⊥ {_line(scene, step.operands[0])}"
@@ -267,10 +267,10 @@ def line_through(scene: Scene, point: str, direction: str) -> str:
 
 
 def _line(scene: Scene, direction: str) -> str:
-    guides = guide_letters(scene.solved.program)
+    guides = guide_letters(scene.program)
     if direction in guides:
         return guides[direction]
-    return "".join(scene.words.mark(point) for point in ends_of(read(scene.solved.program), direction))
+    return "".join(scene.words.mark(point) for point in ends_of(scene.reading, direction))
 
 
 def ends_of(reading: Reading, direction: str) -> tuple[str, str]:
@@ -285,9 +285,9 @@ def ends_of(reading: Reading, direction: str) -> tuple[str, str]:
 
 def closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
     """Go through the sums of forces of a plan: the one that closes it, then those that its chords show."""
-    reading = read(scene.solved.program)
+    reading = scene.reading
     edges = reading.on(plan)
-    meet = next((step for step in scene.solved.program.on(plan) if step.verb == "meet"), None)
+    meet = next((step for step in scene.program.on(plan) if step.verb == "meet"), None)
     if meet is None:
         last = edges[-1]
         around = path([e for e in edges if e is not last], last.tip, last.tail)
@@ -315,7 +315,7 @@ def _chords(
     """Go through the sums of forces that the chords of a plan show, by what is ready before each, or by all others."""
     for chord in (e for e in edges if e not in ready):
         parts = path(ready, chord.tail, chord.tip)
-        if _same_force(chord.name, parts):
+        if parts and all(role(part).whole == chord.name != part for part in parts):  # of one reaction
             yield summed(scene, chord.name, parts)
         else:
             around = path([e for e in others or ready if e is not chord], chord.tip, chord.tail)
@@ -337,26 +337,13 @@ def _two_ways(scene: Scene, whole: str, normal: str, note: str, along: str) -> t
 
 def path(edges: Iterable[Edge], start: str, end: str) -> list[str]:
     """Return the shortest way of vectors, tip to tail, from one mark to another."""
-    ways: dict[str, list[str]] = {start: []}
-    queue, leaving = [start], _leaving(edges)
+    ways, queue, every = {start: list[str]()}, [start], list(edges)
     for mark in queue:
-        for edge in leaving.get(mark, ()):
-            if edge.tip not in ways:
+        for edge in every:
+            if edge.tail == mark and edge.tip not in ways:
                 ways[edge.tip] = [*ways[mark], edge.name]
                 queue.append(edge.tip)
     return ways.get(end, [])
-
-
-def _leaving(edges: Iterable[Edge]) -> Mapping[str, list[Edge]]:
-    found: dict[str, list[Edge]] = {}
-    for edge in edges:
-        found.setdefault(edge.tail, []).append(edge)
-    return found
-
-
-def _same_force(whole: str, parts: Sequence[str]) -> bool:
-    """Whether these are the parts of one reaction."""
-    return bool(parts) and all(role(part).whole == whole != part for part in parts)
 
 
 def _zero(scene: Scene, knowns: Sequence[str], lines: Sequence[str], unknown: str) -> tuple[str, ...]:

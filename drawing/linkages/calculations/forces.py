@@ -13,7 +13,6 @@ from ....plans.linkages.structure import Group
 from ....plans.names import FORCES, role
 from ....scales.display import AS_INSIDE
 from ...printed import POINT, Symbol, value_text
-from ..reading import read
 from ..scene import Scene
 from .equations import (
     Factor,
@@ -57,7 +56,7 @@ def force_lines(scene: Scene, part: str = WHOLE) -> Lines:
     """Return the lines of the part in order of construction."""
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
     lines: Lines = []
-    for step in scene.solved.program:
+    for step in scene.program:
         if step.law in LOADING:
             lines += _load(scene, step) if part in (WHOLE, LOADS) else []
         elif part != LOADS:
@@ -73,11 +72,11 @@ def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, Lines]
     last plan of its group.
     """
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))
-    poles = [step for step in scene.solved.program if step.verb == "pole" and role(step.name).plan.kind == FORCES]
+    poles = [step for step in scene.program if step.verb == "pole" and role(step.name).plan.kind == FORCES]
     last = {_part(scene, step): role(step.name).plan for step in poles}
     found: dict[str, Lines] = {role(step.name).plan: [] for step in poles}
     held: dict[str, list[tuple[Step, Lines]]] = {}
-    for step in scene.solved.program:
+    for step in scene.program:
         told = [] if step.law in LOADING else _force(scene, step)
         if step in poles:
             before = held.pop(_part(scene, step), [])
@@ -120,12 +119,12 @@ def _load(scene: Scene, step: Step) -> Lines:
         return [size_by_law(scene, words.symbol(step.name), step, UNITS[step.law])]
     if step.law == "sum":
         return _sum_of_couples(scene, step)
-    mechanism = scene.solved.mechanism
+    mechanism = scene.mechanism
     loads = {load.name: load.magnitude for load in mechanism.loads}
     loads |= {couple.name: couple.magnitude for couple in mechanism.couples}
     if step.name not in loads:
         return []
-    made = read(scene.solved.program).step(step.operands[0])
+    made = scene.reading.step(step.operands[0])
     if made is None and step.law not in RESISTING:
         return []
     notes = [words["said.diagram"]] if loads[step.name] in {d.name for d in mechanism.diagrams} else []
@@ -139,7 +138,6 @@ def _load(scene: Scene, step: Step) -> Lines:
 
 
 def _sum_of_couples(scene: Scene, step: Step) -> Lines:
-    """Tell the sum of the couples on one link."""
     words, value = scene.words, scene.solved.values[step.name]
     products = terms(scene, step.operands)
     if not products:
@@ -160,7 +158,7 @@ def _force(scene: Scene, step: Step) -> Lines:
     if step.law == "closing_moment":
         return _for_a_moment(scene, step, step)
     if step.law == "opposite" and _is_sum(step.operands[0]):
-        return _for_a_moment(scene, step, read(scene.solved.program).made[step.operands[0]])
+        return _for_a_moment(scene, step, scene.reading.made[step.operands[0]])
     if step.verb == "arm" and role(step.operands[0]).kind == "M" and not role(step.operands[0]).hidden:
         return _arm(scene, step)
     return []
@@ -180,7 +178,7 @@ def _head(scene: Scene, links: str, point: str) -> str:
 
 def _for_a_force(scene: Scene, step: Step) -> Lines:
     """Tell the moments about a joint, solved for a force: drawn as it acts, its moment turns against the others."""
-    words, reading = scene.words, read(scene.solved.program)
+    words, reading = scene.words, scene.reading
     length, *moments = step.operands
     name, found = reading.visible(step.name), terms(scene, moments)
     laid = next((s for s in reading.users(step.name) if s.verb in ("lay", "back")), None)
@@ -202,7 +200,7 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
 
 def _reach(scene: Scene, name: str, length: str) -> Product:
     """Return the arm of the force to be found: a length, or what was measured from the point to the force's line."""
-    reading = read(scene.solved.program)
+    reading = scene.reading
     made = reading.step(length)
     if made is None or made.verb == "measure":
         return Product((factor(scene, length),))
@@ -216,7 +214,7 @@ def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> Lines:
     found, point = terms(scene, sum_of.operands), about(scene, sum_of)
     head = _head(scene, str(link_of(scene, step.name)), point)
     if not found:
-        arm = next((s for s in read(scene.solved.program).users(step.name) if s.verb == "arm"), None)
+        arm = next((s for s in scene.reading.users(step.name) if s.verb == "arm"), None)
         zeros = [f"{words.symbol(arm.operands[1])}·{words.symbol(arm.name)}", words.symbol(arm.name)] if arm else []
         return [(head, *(f"{zero} = 0," for zero in zeros[:-1]), f"{[words.symbol(step.name), *zeros][-1]} = 0")]
     line = worked(words, words.symbol(step.name), turned(found, -math.copysign(1.0, value)), "N*m")
@@ -248,7 +246,7 @@ def terms(scene: Scene, names: Iterable[str]) -> list[Product]:
 
 def _factors(scene: Scene, name: str) -> tuple[Factor, ...]:
     """Return what makes a moment: a force and its arm, a couple's power, or a couple that is known."""
-    reading = read(scene.solved.program)
+    reading = scene.reading
     step = reading.step(name)
     if step is not None and step.verb == "moment":
         arm = next(s for s in reading.users(name) if s.verb == "arm")
@@ -269,7 +267,7 @@ def on_arm(scene: Scene, arm: str) -> tuple[Factor, ...]:
 
 def about(scene: Scene, step: Step) -> str:
     """Return the point about which the moments of a calculation are taken."""
-    reading = read(scene.solved.program)
+    reading = scene.reading
     moments = (made for name in step.operands if (made := reading.step(name)) is not None and made.verb == "moment")
     point = next((moment.operands[2] for moment in moments), "")
     return point or _joint(scene, link_of(scene, step.name))
@@ -277,7 +275,7 @@ def about(scene: Scene, step: Step) -> str:
 
 def _joint(scene: Scene, number: int) -> str:
     """Return the joint about which a link without loads would turn: its pin in the group, or the group's only one."""
-    group, driver = group_of(scene, number), scene.solved.mechanism.driver
+    group, driver = group_of(scene, number), scene.mechanism.driver
     if group is None:
         return driver.pivot if isinstance(driver, Driver) else driver.point
     pins = [pair for pair in (*group.inner, *group.outer) if isinstance(pair, Revolute)]
@@ -292,7 +290,7 @@ def group_of(scene: Scene, number: int) -> Group | None:
 def link_of(scene: Scene, name: str) -> int:
     """Return the link on which a reaction or the moment of one acts: 2 of `R_12_t`, 3 of `_M_3`; else the driver."""
     numbers = role(name).links if role(name).kind in ("R", "M") else ()
-    moving = {link.number for link in scene.solved.mechanism.links}
+    moving = {link.number for link in scene.mechanism.links}
     return numbers[-1] if moving.intersection(numbers[-1:]) else scene.solved.structure.driver
 
 
@@ -302,7 +300,7 @@ def links_in(scene: Scene, number: int, point: str) -> str:
     About a point that is not the link's the inner reactions of the group would have moments, too.
     """
     group = group_of(scene, number)
-    if group is None or point in scene.solved.mechanism.link(number).points or len(group.links) < 2:
+    if group is None or point in scene.mechanism.link(number).points or len(group.links) < 2:
         return str(number)
     return ", ".join(map(str, sorted(group.links)))
 
@@ -311,7 +309,7 @@ def lever_lines(scene: Scene, with_loads: bool = False) -> Lines:
     """Return the moments on Zhukovsky's lever and what balances the driver by it; where that is wanted, loads first."""
     lines = force_lines(scene, LOADS) if with_loads else []
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
-    for step in scene.solved.program:
+    for step in scene.program:
         if step.law in TOLD and (step.law != "moment_equation" or role(step.operands[0]).kind == "V"):
             lines += TOLD[step.law](scene, step)
     return lines
@@ -320,7 +318,7 @@ def lever_lines(scene: Scene, with_loads: bool = False) -> Lines:
 def _couple(scene: Scene, step: Step) -> Lines:
     """A couple as two forces on the ends of its link."""
     words = scene.words
-    pair = [s.name for s in scene.solved.program if role(s.name).whole == step.name != s.name]
+    pair = [s.name for s in scene.program if role(s.name).whole == step.name != s.name]
     if not scene.defined(step.name):
         return []
     symbols = " = ".join(dict.fromkeys(words.symbol(name) for name in pair))
@@ -332,7 +330,7 @@ def _sum(scene: Scene, step: Step) -> Lines:
     words = scene.words
     speed, *moments = step.operands
     found = terms(scene, moments)
-    laid = next(s for s in read(scene.solved.program).users(speed) if s.verb in ("lay", "back"))
+    laid = next(s for s in scene.reading.users(speed) if s.verb in ("lay", "back"))
     reach = segment(scene, words.mark(laid.operands[0]) + words.mark(laid.name), "lever", size_of(scene, speed))
     # the balancing force along the line of its point's velocity has the moment -F * V, with the signs of both
     turn = math.copysign(1.0, scene.solved.values[step.name] * scene.solved.values[speed])
@@ -342,11 +340,6 @@ def _sum(scene: Scene, step: Step) -> Lines:
     if found:
         lines.append(worked(words, symbol, turned(found, turn), "N", Product((reach,))))
     return lines
-
-
-def _moment(scene: Scene, step: Step) -> Lines:
-    """The balancing force as a moment on the crank."""
-    return [size_by_law(scene, scene.words.symbol(step.name), step, "N*m")]
 
 
 def _difference(scene: Scene, step: Step) -> Lines:
@@ -364,6 +357,6 @@ def _difference(scene: Scene, step: Step) -> Lines:
 TOLD: dict[str, Callable[[Scene, Step], Lines]] = {
     "couple": _couple,
     "moment_equation": _sum,
-    "crank_moment": _moment,
+    "crank_moment": lambda scene, step: [size_by_law(scene, scene.words.symbol(step.name), step, "N*m")],
     "difference": _difference,
 }

@@ -13,7 +13,6 @@ from ....plans.names import POLE, role
 from ....plans.quantities import unit_of
 from ...printed import Input, calculation
 from ..figures.plan import on_link
-from ..reading import Reading, read
 from ..scene import Scene
 from .equations import (
     Lines,
@@ -40,7 +39,7 @@ STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": 
 
 def kinematics_text(scene: Scene, plans: Sequence[str], before: Sequence[str]) -> Lines:
     """Return the equations of plans; lengths that those of the plans `before` take have been told with these."""
-    steps = [step for step in scene.solved.program if step.law]
+    steps = [step for step in scene.program if step.law]
     told = {name for step in steps if stage_of(step) in before for name in step.operands}
     lines = [line for plan in plans for line in kinematics_lines(scene, plan, told)]
     if "velocity" in (*plans, *before):
@@ -54,9 +53,9 @@ def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> L
 
     `told` are the lengths of which other lines have told already.
     """
-    story = _Story(scene, read(scene.solved.program), told if told is not None else set())
-    apart = found_here(scene.solved.program)
-    for step in scene.solved.program:
+    story = _Story(scene, told if told is not None else set())
+    apart = found_here(scene.program)
+    for step in scene.program:
         if stage_of(step) == plan and step.name not in apart:
             story.tell(step)
     return story.lines
@@ -74,7 +73,6 @@ class _Story:
     """Lines as they are told; `held` are those of a group's known parts, which come after its vector equation."""
 
     scene: Scene
-    reading: Reading
     told: set[str]
     lines: Lines = field(default_factory=list)
     held: Lines = field(default_factory=list)
@@ -86,23 +84,23 @@ class _Story:
             self.held.clear()
         elif step.law in TOLD:
             told = self.held if step.law in BEFORE_MEETING or self._is_met(step) else self.lines
-            told += [*self._lengths(step), *_formula(self.scene, self.reading, step)]
+            told += [*self._lengths(step), _formula(self.scene, step)]
         elif step.law == "given":
-            self.lines.append(_given(self.scene, self.reading, step))
+            self.lines.append(_given(self.scene, step))
         elif step.law in ("signed", "same_turning"):
             self.lines += _turning_alike(self.scene, step)
         elif step.verb in ("divide", "similar"):
             self.lines += _similarity(self.scene, step)
         elif step.verb == "read":
-            self.lines += _absolute(self.scene, self.reading, step)
+            self.lines += _absolute(self.scene, step)
         if role(step.name).kind == "epsilon" and step.law != "same_turning":
             self.lines.append(_comparison(self.scene, step.name))
 
     def _is_met(self, step: Step) -> bool:
         """Whether a line that finds a point begins at the end of the vector of a step, where no point has its end."""
-        hung = [user.name for user in self.reading.users(step.name) if user.verb == "chain"]
-        ends = [end for end in hung if self.reading.absolute(end) is None]
-        return any(user.verb == "meet" for end in ends for user in self.reading.users(end))
+        hung = [user.name for user in self.scene.reading.users(step.name) if user.verb == "chain"]
+        ends = [end for end in hung if self.scene.reading.absolute(end) is None]
+        return any(user.verb == "meet" for end in ends for user in self.scene.reading.users(end))
 
     def _lengths(self, step: Step) -> Iterator[tuple[str, ...]]:
         """Go through the lengths for this step that are not given, each told once.
@@ -111,7 +109,7 @@ class _Story:
         """
         words = self.scene.words
         for name in step.operands:
-            made = self.reading.step(name)
+            made = self.scene.reading.step(name)
             if made is None or made.verb != "measure" or name in self.told:
                 continue
             self.told.add(name)
@@ -129,31 +127,25 @@ TOLD = (
 BEFORE_MEETING = ("normal_part", "coriolis")
 
 
-def _formula(scene: Scene, reading: Reading, step: Step) -> Lines:
-    """Return what a law gives, with its numbers, and how the vector lies."""
-    words, name = scene.words, reading.visible(step.name)
+def _formula(scene: Scene, step: Step) -> tuple[str, ...]:
+    """Return what a law gives, with its numbers, and how the vector lies.
+
+    It says in which sense a link turns, which way a normal part is laid off, how that of Coriolis is turned.
+    """
+    words, reading, name = scene.words, scene.reading, scene.reading.visible(step.name)
     line = size_by_law(scene, words.symbol(name), step, unit_of(name))
-    first, *rest = _lies(scene, reading, step, name) or ("",)
-    return [(*noted(line, first), *rest)]
-
-
-def _lies(scene: Scene, reading: Reading, step: Step, name: str) -> tuple[str, ...]:
-    """Say in which sense a link turns, which way a normal part is laid off, how that of Coriolis is turned."""
-    words = scene.words
     if step.law == "turning":
-        sense = sensed(words, rate_of(scene, name))
-        return (sense,) if sense else ()
+        return noted(line, sensed(words, rate_of(scene, name)))
     if step.law == "normal_part":
         back = next(s for s in reading.users(step.name) if s.verb == "back")
         start, end = (words.mark(point) for point in reading.made[back.operands[1]].operands[:2])
-        return (f"{words.symbol(name, bar=True)} ∥ {start}{end} ({end} → {start})",)
+        return noted(line, f"{scene.letter(name)} ∥ {start}{end} ({end} → {start})")
     if step.law == "coriolis":
         omega, v = step.operands
-        said = words["said.coriolis"].format(
-            part=words.symbol(name, bar=True), vector=words.symbol(v, bar=True), omega=words.symbol(omega)
-        )
-        return tuple(said.split("|"))
-    return ()
+        parts = {"part": scene.letter(name), "vector": scene.letter(v), "omega": words.symbol(omega)}
+        first, *rest = words["said.coriolis"].format(**parts).split("|")
+        return (*noted(line, first), *rest)
+    return line
 
 
 def _turning_alike(scene: Scene, step: Step) -> Lines:
@@ -173,8 +165,8 @@ def _turning_alike(scene: Scene, step: Step) -> Lines:
 
 def _special_point(scene: Scene, step: Step) -> Lines:
     """Say where a point stands that no link has, such as Assur's special point, when it is found for the first time."""
-    point, reading = role(step.name).of, read(scene.solved.program)
-    lettered = {point for link in scene.solved.mechanism.links for point in link.points}
+    point, reading = role(step.name).of, scene.reading
+    lettered = {point for link in scene.mechanism.links for point in link.points}
     made = reading.step(point)
     if step.plan != "velocity" or made is None or made.verb != "meet" or point in lettered:
         return []
@@ -183,21 +175,21 @@ def _special_point(scene: Scene, step: Step) -> Lines:
     return [(scene.words["said.special_point"].format(point=scene.words.mark(point)), lines)]
 
 
-def _given(scene: Scene, reading: Reading, step: Step) -> tuple[str, ...]:
+def _given(scene: Scene, step: Step) -> tuple[str, ...]:
     """Return a velocity or acceleration of the driver that the task states along its guide."""
-    words, name, given = scene.words, reading.visible(step.name), step.operands[0]
+    words, name, given = scene.words, scene.reading.visible(step.name), step.operands[0]
     if given == ZERO:
         return (f"{words.symbol(name)} = 0",)
     head = " = ".join(dict.fromkeys((words.symbol(name), words.symbol(given))))
     line = stated(words, head, float(scene.solved.values[given]), unit_of(name))
-    laid = next(user for user in reading.users(step.name) if user.verb == "lay")
+    laid = next(user for user in scene.reading.users(step.name) if user.verb == "lay")
     return noted((line,), line_note(scene, name, laid.operands[1]))
 
 
 def triangles(scene: Scene, step: Step) -> tuple[str, str]:
     """Return the triangle on a plan that is similar to one of a link, and that one, by the letters of their corners."""
     words, plan = scene.words, (step.operands[0], step.operands[1], step.name)
-    link = on_link(scene.solved.program, plan)
+    link = on_link(scene.program, plan)
     return "".join(map(words.mark, plan)), "".join(map(words.mark, link))
 
 
@@ -216,9 +208,9 @@ def _similarity(scene: Scene, step: Step) -> Lines:
     return [worked(words, f"{a}{s}", [ratio], words.display.paper)]
 
 
-def _absolute(scene: Scene, reading: Reading, step: Step) -> Lines:
+def _absolute(scene: Scene, step: Step) -> Lines:
     """Return the absolute vector of a point that was hung from parts, or moves like another."""
-    tail, tip = step.operands
+    reading, (tail, tip) = scene.reading, step.operands
     made = reading.made[tip]
     if role(tail).kind != POLE or made.name == tail:
         return []

@@ -57,24 +57,21 @@ class Part:
 def givens_table(scene: Scene) -> View:
     """Return the table of the givens in the task's own units."""
     words = scene.words
-    factors = [(symbols, number, words["table.calculated"]) for symbols, number in _factors(scene)]
-    return givens_view(scene.givens, words, scene.style, factors)
-
-
-def _factors(scene: Scene) -> Iterator[tuple[str, str]]:
-    """Go through the factors j of J_S = j m l^2 that the task fixes for all variants; links with one value share it."""
+    # factors j of J_S = j m l^2 that the task fixes for all variants; links with one value share it
     shared: dict[float, list[str]] = {}
-    for name in dict.fromkeys(link.inertia_factor for link in scene.solved.mechanism.links):
+    for name in dict.fromkeys(link.inertia_factor for link in scene.mechanism.links):
         if name and name not in scene.givens and scene.defined(name):
-            shared.setdefault(float(scene.solved.values[name]), []).append(scene.words.symbol(name))
-    for value, symbols in shared.items():
-        yield " = ".join(symbols), scene.words.short(value)
+            shared.setdefault(float(scene.solved.values[name]), []).append(words.symbol(name))
+    factors = [(" = ".join(s), words.short(value), words["table.calculated"]) for value, s in shared.items()]
+    return givens_view(scene.givens, words, scene.style, factors)
 
 
 def results_parts(solved: SolvedLinkage) -> tuple[Part, ...]:
     """Return the tables of results, in the order of the work; each quantity stands in one of them."""
     by_kind: dict[str, list[str]] = {kind: [] for kind in KINDS}
-    number, apart = read(solved.program).number, _compound(solved)
+    number = read(solved.program).number
+    # what compound motion alone finds, and the distances measured for it
+    apart = found_here(solved.program) | {step.name for step in solved.program if step.verb == "distance"}
     lever = number.get("lever.p", len(number))
     for q in _results(solved):
         kind = HEADS.get(role(q.name).kind, "forces")
@@ -83,11 +80,6 @@ def results_parts(solved: SolvedLinkage) -> tuple[Part, ...]:
     for kind, names in by_kind.items():
         parts += [Part(kind, tuple(names))] if 0 < len(names) <= ROWS else _cut(solved, kind, names)
     return tuple(parts)
-
-
-def _compound(solved: SolvedLinkage) -> frozenset[str]:
-    """Return what belongs to compound motion: what it alone finds, and the distances measured for it."""
-    return found_here(solved.program) | {step.name for step in solved.program if step.verb == "distance"}
 
 
 def _results(solved: SolvedLinkage) -> Iterator[Quantity]:
@@ -105,18 +97,17 @@ def _results(solved: SolvedLinkage) -> Iterator[Quantity]:
 
 def _cut(solved: SolvedLinkage, kind: str, names: list[str]) -> list[Part]:
     """Cut a long table by groups of links, in the order in which the groups are dealt with."""
-    order = [(solved.structure.driver,), *(group.links for group in solved.structure.groups)]
-    if kind == "forces":
-        order.reverse()
-    by_group: dict[tuple[int, ...], list[str]] = {links: [] for links in order}
+    groups = [(solved.structure.driver,), *(group.links for group in solved.structure.groups)]
+    by_group: dict[tuple[int, ...], list[str]] = {g: [] for g in (groups[::-1] if kind == "forces" else groups)}
     for name in names:
-        by_group[_owner(solved, name)].append(name)
+        links = _links_of(solved, name)  # it stands with the last group of those that it concerns
+        by_group[next((group for group in reversed(groups) if links & {*group}), groups[0])].append(name)
     pieces = [(links, chunk) for links, own in by_group.items() for chunk in _chunks(own)]
     whole, parts = all(len(own) <= ROWS for own in by_group.values()), []
     for count, run in enumerate(_evenly(pieces), start=1):
-        links = ", ".join(map(str, sorted({number for own, _ in run for number in own})))
+        numbers = ", ".join(map(str, sorted({number for own, _ in run for number in own})))
         rows = tuple(name for _, chunk in run for name in chunk)
-        parts.append(Part(kind, rows, links) if whole else Part(kind, rows, number=count))
+        parts.append(Part(kind, rows, numbers) if whole else Part(kind, rows, number=count))
     return parts
 
 
@@ -140,13 +131,6 @@ def _chunks(names: list[str]) -> Iterator[list[str]]:
     count = math.ceil(len(names) / ROWS)
     for k in range(count):
         yield names[k * len(names) // count : (k + 1) * len(names) // count]
-
-
-def _owner(solved: SolvedLinkage, name: str) -> tuple[int, ...]:
-    """Return the links of the group to which a quantity belongs, the last of those that it concerns."""
-    groups = [(solved.structure.driver,), *(group.links for group in solved.structure.groups)]
-    links = _links_of(solved, name)
-    return next((group for group in reversed(groups) if links & {*group}), groups[0])
 
 
 def _links_of(solved: SolvedLinkage, name: str) -> set[int]:
@@ -192,17 +176,19 @@ def _row(scene: Scene, q: Quantity) -> list[str]:
     value = rate_of(scene, q.name) if turning else words.display.value(q.value or 0.0, q.unit)
     symbol, unit = words.symbol(q.name), words.unit(words.display.unit(q.unit))
     plan = POSITION if role(q.name).kind == "l" else scene.figure_of(q.name)
-    if plan not in scene.scales:
-        return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, tidy(q, value)), unit]
-    mm, number, shown = printed_segment(scene, q)
-    return [symbol, mm, number, shown, unit]
+    if plan in scene.scales:
+        return [symbol, *printed_segment(scene, q), unit]
+    # the magnitude of a force; a difference that is rounding noise is 0
+    size = abs(value) if role(q.name).kind == "F" else value
+    size = 0.0 if role(q.name).kind == "delta" and abs(size) < 1e-6 else size
+    return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, size), unit]
 
 
-def printed_segment(scene: Scene, q: Quantity) -> tuple[str, str, str]:
-    """Return the segment that shows a quantity, its scale factor and its value, as they are printed."""
+def printed_segment(scene: Scene, q: Quantity, plan: str = "") -> tuple[str, str, str]:
+    """Return how a segment on a plan, its own if none is said, its scale factor and its value are printed."""
     words, turning = scene.words, role(q.name).kind in RATES
     value = rate_of(scene, q.name) if turning else words.display.value(q.value or 0.0, q.unit)
-    plan = POSITION if role(q.name).kind == "l" else scene.figure_of(q.name)
+    plan = plan or (POSITION if role(q.name).kind == "l" else scene.figure_of(q.name))
     scale, times = scene.scales[plan], enlarged(scene, q.name, plan)
     number = words.factor(Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit))
     mu = 1.0 / number if words.per_unit else number
@@ -215,12 +201,6 @@ def _angle(scene: Scene, q: Quantity) -> str:
     if q.x is None or q.y is None or math.hypot(q.x, q.y) == 0.0:
         return scene.words["table.calculated"]
     return scene.words.number(math.degrees(math.atan2(q.y, q.x)) % 360.0, 1)
-
-
-def tidy(q: Quantity, value: float) -> float:
-    """Return the value: of a force its magnitude, of a difference 0 where it is rounding noise."""
-    size = abs(value) if role(q.name).kind == "F" else value
-    return 0.0 if role(q.name).kind == "delta" and abs(size) < 1e-6 else size
 
 
 def structure_lines(scene: Scene) -> Lines:

@@ -9,13 +9,15 @@ from ....plans.laws import cross
 from ....plans.linkages.mechanism import Pair, Prismatic
 from ....plans.linkages.structure import Group
 from ....plans.names import role
-from ...shapes import Arrow, Pen
-from ...symbols import clear_ray, room_on
+from ...shapes import Arrow, Line, Pen
+from ...symbols import arm, clear_ray, room_on
 from ...view import Canvas
 from ..scene import Scene
 from ..skeleton import Stroke, rays_of
 
 Hung = list[tuple[str, str]]  # force, mark of the point where it acts
+LEAST = 0.05  # mm: a shorter arm is none
+PAST = 4.0  # mm by which the line of a force runs past what it meets
 SHORTER = 0.6  # part of its length that an arrow beyond another one has
 SPARE, ALONG = 1.2, 2.5  # mm between two arrows on a line, and beside one another where they count as on one
 FARTHEST = 2.5  # lengths of an arrow that it may stand from its point
@@ -47,7 +49,7 @@ class Contact:
 
 def loads(scene: Scene, number: int) -> Hung:
     """Return (force, point) of the loads on a link: inertia force, weight, then outer ones."""
-    mechanism, link = scene.solved.mechanism, scene.solved.mechanism.link(number)
+    mechanism, link = scene.mechanism, scene.mechanism.link(number)
     own = [(name, str(link.centre)) for name in (f"F_i{number}", f"G_{number}") if name in scene.solved.quantities]
     return own + [(load.name, load.point) for load in mechanism.loads_on(number)]
 
@@ -57,7 +59,7 @@ def handed(scene: Scene, number: int) -> Hung:
     moments = {moment.force: moment.at for moment in moments_of(scene, (number,))}
     found = []
     for group, pair, own in _attached(scene, number):
-        force = f"R_{scene.solved.mechanism.index(own, number)}"
+        force = f"R_{scene.mechanism.index(own, number)}"
         if scene.defined(force):
             found.append((force, moments.get(force) or group.pin(pair)))
     return found
@@ -73,7 +75,7 @@ def _attached(scene: Scene, number: int) -> Iterator[tuple[Group, Pair, int]]:
 
 def couples(scene: Scene, number: int) -> list[str]:
     """Return the names of the couples on a link: of inertia, outer ones, and those that guides on it hand on."""
-    mechanism = scene.solved.mechanism
+    mechanism = scene.mechanism
     names = [f"M_i{number}", *(couple.name for couple in mechanism.couples if couple.link == number)]
     for _, pair, own in _attached(scene, number):
         if isinstance(pair, Prismatic):
@@ -87,7 +89,7 @@ def reactions(scene: Scene, group: Group) -> list[tuple[Pair, int, list[str]]]:
     found = []
     for pair, before in zip(group.outer, group.before, strict=True):
         own = next(number for number in pair.links if number in group.links)
-        whole = f"R_{scene.solved.mechanism.index(before, own)}"
+        whole = f"R_{scene.mechanism.index(before, own)}"
         parts = [f"{whole}_{part}" for part in ("n", "t") if f"{whole}_{part}" in scene.solved.values]
         found.append((pair, own, parts or [whole]))
     return found
@@ -95,9 +97,9 @@ def reactions(scene: Scene, group: Group) -> list[tuple[Pair, int, list[str]]]:
 
 def moments_of(scene: Scene, numbers: tuple[int, ...]) -> list[Moment]:
     """Return the moments that the construction takes of forces on these links, each arm once."""
-    taken = {step.name: step.operands for step in scene.solved.program if step.verb == "moment"}
+    taken = {step.name: step.operands for step in scene.program if step.verb == "moment"}
     found: dict[str, Moment] = {}
-    for step in scene.solved.program:
+    for step in scene.program:
         if step.verb == "arm" and step.operands[0] in taken:
             force, at, about = taken[step.operands[0]]
             if role(about).plan != "lever" and _link_of(scene, force) in numbers:
@@ -107,7 +109,7 @@ def moments_of(scene: Scene, numbers: tuple[int, ...]) -> list[Moment]:
 
 def _link_of(scene: Scene, force: str) -> int | None:
     """Return the link on which a force acts."""
-    mechanism = scene.solved.mechanism
+    mechanism = scene.mechanism
     for load in mechanism.loads:
         if load.name == force:
             return load.link
@@ -118,8 +120,8 @@ def _link_of(scene: Scene, force: str) -> int | None:
 def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int) -> Contact | None:
     """Return where the reaction R of link `other` on `number` in a prismatic pair acts, both ways of naming tried."""
     for first, second in ((other, number), (number, other)):
-        index = scene.solved.mechanism.index(first, second)
-        step = next((s for s in scene.solved.program if s.verb == "arm" and s.name == f"h_{index}"), None)
+        index = scene.mechanism.index(first, second)
+        step = next((s for s in scene.program if s.verb == "arm" and s.name == f"h_{index}"), None)
         if step is not None and step.operands[1] == f"R_{index}":
             break
     else:
@@ -162,7 +164,8 @@ class Arrows:
         self.at.setdefault(_place(at), []).append(far - at)
         self._lying.append((near, far))
         tail, tip = (near, far) if abs(ray - e) < 1.0 else (far, near)
-        letter_arrow(self.canvas, self.scene, Arrow(tail, tip, Pen.MAIN, name=name), ray)
+        self.canvas.add(Arrow(tail, tip, Pen.MAIN, name=name))  # its letter stands beside its outer half
+        self.canvas.label(self.scene.letter(name), (far - ray * 0.55 * self.scene.style.force, far), clear=0.9)
 
     def bar(self, at: complex, directions: Iterable[complex]) -> None:
         """Let no arrow leave a place in these directions."""
@@ -203,8 +206,37 @@ def _place(at: complex) -> complex:
     return complex(round(at.real, 2), round(at.imag, 2))
 
 
-def letter_arrow(canvas: Canvas, scene: Scene, arrow: Arrow, ray: complex) -> None:
-    """Draw a force arrow with its letter beside its outer half."""
-    canvas.add(arrow)
-    far = arrow.tip if abs((arrow.tip - arrow.tail) / abs(arrow.tip - arrow.tail) - ray) < 1.0 else arrow.tail
-    canvas.label(scene.letter(arrow.name), (far - ray * 0.55 * scene.style.force, far), clear=0.9)
+@dataclass(frozen=True, slots=True)
+class Arm:
+    """An arm: the forces on one line, the names of their arms, where they hang, their direction, the line's foot."""
+
+    forces: tuple[str, ...]
+    names: tuple[str, ...]
+    at: complex
+    along: complex
+    foot: complex
+
+    def said(self, scene: Scene) -> str:
+        """Return what is written on the arm."""
+        symbols = " = ".join(scene.words.symbol(name) for name in self.names)
+        return f"{symbols} = {scene.segment(self.names[0])}"
+
+    @property
+    def line(self) -> str:
+        """The name of the line on which the forces act."""
+        return " ".join(self.forces)
+
+    def draw(self, canvas: Canvas, scene: Scene, about: complex, shift: complex = 0j) -> None:
+        """Draw the line of the forces, thin, from their arrow past its foot, and the arm from `about`, both shifted."""
+        start, foot, reach = about + shift, self.foot + shift, 0.6 * scene.style.force
+        ends = sorted((-reach, reach, ((foot - self.at) / self.along).real))
+        line = (self.at + self.along * (ends[0] - PAST), self.at + self.along * (ends[-1] + PAST))
+        canvas.add(Line(*line, Pen.THIN, role="line-of-action", name=self.line))
+        if abs(self.foot - about) >= LEAST:
+            if shift:
+                beyond = about + shift * (1 + 1.5 / abs(shift))
+                canvas.add(Line(about, beyond, Pen.THIN, role="extension", name=self.names[0]))
+            canvas.add(arm(start, foot, self.names[0], self.along, scene.style))
+            # smaller than a node's letter: a number with its symbol is long, and arms lie close together
+            text, height = self.said(scene), scene.style.text
+            canvas.label(text, (start, foot), clear=0.9, height=height, strict=True, spare=text)

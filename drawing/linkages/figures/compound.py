@@ -19,13 +19,13 @@ from numpy.typing import NDArray
 
 from ....plans.board import POSITION
 from ....plans.linkages.compound import Coupler
-from ...shapes import Arrow, Circle, Group, Line, Pen, Shape, Vector
+from ...shapes import Arrow, Group, Line, Pen, Shape, Vector
 from ...symbols import turning_arrow
 from ...view import Canvas, View
-from ..at_point import At, shifted_vector
+from ..reading import Edge
 from ..scene import Scene
 from ..skeleton import Skeleton, Stroke, pins_of
-from .inset import shown_of, shows, windows, with_insets
+from .inset import At, shown_of, shows, windows, with_insets
 from .links import draw_frame, draw_links, foot_of
 
 SIZES = (0.5, 0.75, 1.0)  # radii of arcs of turning beyond the joint, in arrows
@@ -35,13 +35,13 @@ FAR = 0.75  # part of the mechanism's size within which an instant centre is dra
 def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
     """Draw v = v^e + v^r at every point of the couplers, instant centres with their rays, and all rates of turning."""
     canvas = Canvas(scene.style)
-    numbers = [link.number for link in scene.solved.mechanism.links]
+    numbers = [link.number for link in scene.mechanism.links]
     figures = _mechanism(canvas, scene, numbers)
     points = [At(scene, c, point, "V") for c in couplers for point in c.letters]
     busy = _busy(scene, points, figures)
     shown = {at.point for at in points}  # a hinge may be a point of another coupler, which shows its velocity
     for hinge in dict.fromkeys(c.hinge for c in couplers if c.hinge not in shown):
-        moved = shifted_vector(scene.vector(f"V_{hinge}", "velocity.p", f"velocity.{hinge}"), scene.mm(hinge))
+        moved = scene.vector(Edge(f"V_{hinge}", "velocity.p", f"velocity.{hinge}"), at=scene.mm(hinge))
         _vector(canvas, scene, moved)
         busy.append((moved.tail, moved.tip))
     for at in points:
@@ -60,7 +60,9 @@ def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
     """Draw the accelerations of one point of a coupler: the chain of its parts, closed by the absolute one."""
     canvas = Canvas(scene.style)
     at = At(scene, coupler, point, "a")
-    figures = _mechanism(canvas, scene, _basic(scene, coupler))
+    group = next(g for g in scene.solved.structure.groups if coupler.number in g.links)
+    # the link that carries the coupler, itself, the other of its group
+    figures = _mechanism(canvas, scene, sorted({coupler.carrier.link.number, *group.links}))
     _distance(canvas, scene, at)
     _at_points(canvas, scene, [at])
     busy = _busy(scene, [at], figures)
@@ -73,14 +75,8 @@ def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
     ):
         _turn(canvas, scene, rate, centre, busy)
     heading = scene.heading("heading.compound_acceleration", POSITION, at.plan, point=scene.words.mark(point))
-    vectors = list(at.vectors())
-    return with_insets(canvas, f"compound_a_{at.letter}", heading, tuple(_said(scene, vectors)), shown_of([at]))
-
-
-def _basic(scene: Scene, coupler: Coupler) -> list[int]:
-    """Return the links that move with a coupler: the one that carries it, itself, the other of its group."""
-    group = next(g for g in scene.solved.structure.groups if coupler.number in g.links)
-    return sorted({coupler.carrier.link.number, *group.links})
+    notes = tuple(_said(scene, at.vectors()))
+    return with_insets(canvas, f"compound_a_{at.letter}", heading, notes, shown_of([at]))
 
 
 def _mechanism(canvas: Canvas, scene: Scene, numbers: Sequence[int]) -> list[Skeleton]:
@@ -90,18 +86,15 @@ def _mechanism(canvas: Canvas, scene: Scene, numbers: Sequence[int]) -> list[Ske
     draw_frame(canvas, scene, numbers, figures)
     canvas.shapes[start:] = [_thin(shape) for shape in canvas.shapes[start:]]
     joints = {point for number in numbers for point in pins_of(scene, number)}
-    blocks = {point for figure in figures for point in joints if _in_block(scene, figure, point)}
-    for point in dict.fromkeys(p for number in numbers for p in scene.solved.mechanism.link(number).points):
+    centres = [block.at for figure in figures for block in figure.blocks]
+    blocks = {p for p in joints if any(abs(centre - scene.mm(p)) < scene.style.pair for centre in centres)}
+    for point in dict.fromkeys(p for number in numbers for p in scene.mechanism.link(number).points):
         at = scene.mm(point)
         if point not in joints:
-            canvas.add(Group((Circle(at, scene.style.node, Pen.MAIN, fill="white"),), "point", point))
+            canvas.add(scene.point(at, point))
         reach = scene.style.slider[1] / 2 if point in blocks else scene.style.pair
         canvas.label(scene.words.mark(point), at, clear=reach + 0.8, priority=1)
     return figures
-
-
-def _in_block(scene: Scene, figure: Skeleton, point: str) -> bool:
-    return any(abs(centre - scene.mm(point)) < scene.style.pair for centre, _ in figure.blocks)
 
 
 def _thin(shape: Shape) -> Shape:
@@ -184,7 +177,7 @@ def _instant_centre(
             rim = way / abs(way) * scene.style.pair
             canvas.add(Line(scene.mm(joint) + rim, P, Pen.AXIS, role="ray", name=f"{c.centre}_{joint}"))
             busy.append((scene.mm(joint), P))
-    canvas.add(Group((Circle(P, scene.style.node, Pen.MAIN, fill="white"),), "point", c.centre))
+    canvas.add(scene.point(P, c.centre))
     canvas.label(symbol, P, clear=1.2, priority=1)
     _turn(canvas, scene, f"omega_{c.number}", c.centre, busy)
 
@@ -192,11 +185,11 @@ def _instant_centre(
 def _busy(scene: Scene, points: Iterable[At], figures: Sequence[Skeleton]) -> list[Stroke]:
     """Return all strokes near which an arc of turning should not stand."""
     strokes = [stroke for figure in figures for stroke in figure.strokes]
-    for pivot in scene.solved.mechanism.frame_points:
+    for pivot in scene.mechanism.frame_points:
         down, (_, height, base) = foot_of(scene, pivot, figures), scene.style.pivot
         ground = scene.mm(pivot) + down * (height + scene.style.pair + scene.style.hatch[0])
         strokes += [(scene.mm(pivot), ground + side * 1j * down * base / 2) for side in (-1, 1)]
-    for centre, u in (block for figure in figures for block in figure.blocks):
+    for centre, u, _ in (block for figure in figures for block in figure.blocks):
         length, height = scene.style.slider
         beside = 1j * u * (height / 2 + scene.style.hatch[0])  # the guide is on one of the two sides
         edges = centre, centre - beside, centre + beside
@@ -215,21 +208,16 @@ def _turn(canvas: Canvas, scene: Scene, rate: str, centre: str, busy: list[Strok
         return
     c, style = scene.mm(centre), scene.style
     places = [(style.pair + size * style.force, k * math.pi / 12) for size in SIZES for k in range(24)]
-    radius, middle = _freest(c, places, busy)
+    # farthest from all strokes, rather a small one
+    polar = np.array(places)
+    spots = c + polar[:, :1] * np.exp(1j * (polar[:, 1:] + np.array([-0.5, 0.0, 0.5])))
+    room = _distances(busy, spots).min(axis=(1, 2), initial=4.0 * polar[:, 0].max()) - 0.1 * polar[:, 0]
+    radius, middle = places[int(np.round(room, 3).argmax())]
     spread = 1.1 * SIZES[0] * style.force / (radius - style.pair) + 0.2
     canvas.add(turning_arrow(c, radius, middle, spread, math.copysign(1.0, value), rate))
     canvas.label(scene.words.symbol(rate), c + rect(radius, middle), prefer=rect(1.0, middle), clear=1.2)
     ends = (middle - 0.6 * spread, middle, middle + 0.6 * spread)
     busy += [(c + rect(radius, a), c + rect(radius, b)) for a, b in pairwise(ends)]
-
-
-def _freest(c: complex, places: Sequence[tuple[float, float]], busy: Sequence[Stroke]) -> tuple[float, float]:
-    """Choose the radius and the direction of an arc about `c` that is farthest from all strokes, rather a small one."""
-    polar = np.array(places)
-    spots = c + polar[:, :1] * np.exp(1j * (polar[:, 1:] + np.array([-0.5, 0.0, 0.5])))
-    room = _distances(busy, spots).min(axis=(1, 2), initial=4.0 * polar[:, 0].max()) - 0.1 * polar[:, 0]
-    radius, middle = places[int(np.round(room, 3).argmax())]
-    return radius, middle
 
 
 def _room(busy: Sequence[Stroke], spot: complex) -> float:
@@ -250,4 +238,4 @@ def _said(scene: Scene, vectors: Iterable[Vector]) -> Iterator[str]:
     """Say which vectors are zero."""
     for vector in vectors:
         if abs(vector.tip - vector.tail) < 1e-6:
-            yield scene.words["said.zero"].format(vector=scene.words.symbol(vector.quantity, bar=True))
+            yield scene.words["said.zero"].format(vector=scene.letter(vector.quantity))

@@ -72,21 +72,24 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
     bands = _bands(scene, drawn, dense, across, motion)
     low = 0.0
     for number, band in enumerate(bands):
-        least, most = (band.scale.drawn(end) for end in band.ends)
-        low -= most + (GAP + scene.style.label * 2 if number else 0.0)
-        _draw(canvas, scene, _field(scene, band, across, drawn, 1j * low), band)
+        below, above = (band.scale.drawn(end) for end in band.ends)
+        low -= above + (GAP + scene.style.label * 2 if number else 0.0)
+        field = _field(scene, band, across, drawn, 1j * low)
+        _draw(canvas, scene, field, band)
         if number:
-            pair = bands[number - 1 : number + 1]
-            _pole(canvas, scene, _field(scene, band, across, drawn, 1j * low), pair, f"P_{{{number}}}")
-        low += least
+            _pole(canvas, scene, field, bands[number - 1 : number + 1], f"P_{{{number}}}")
+        low += below
     top = _field(scene, bands[0], across, drawn, -1j * bands[0].scale.drawn(bands[0].ends[1]))
-    _chords(canvas, top, drawn, float(np.nanmin(dense.s)))
-    heading = (
-        scene.words["heading.diagrams"].format(link=of),
-        scene.words.scale(across),
-        _turning(scene, cycle, length),
-    )
-    return canvas.finish("diagrams", tuple(filter(None, heading)), _notes(scene, drawn, bands))
+    least = float(np.nanmin(dense.s))
+    # chords of the travel, between points of the smooth curve
+    ends = [top.at(t, s - least) for t, s in zip(drawn.times.tolist(), drawn.s.tolist(), strict=True)]
+    known = tuple(end for end in ends if math.isfinite(end.imag))
+    canvas.add(Group((Polyline(known, Pen.THIN),), "chords", "s"))
+    scales = [across]
+    if cycle.drive.turns:  # a sliding driver has no angle
+        scales.append(Scale("mu_phi", rounded(2.0 * math.pi / length, 6), "rad"))
+    heading = (scene.words["heading.diagrams"].format(link=of), *map(scene.words.scale, scales))
+    return canvas.finish("diagrams", heading, _notes(scene, drawn, bands))
 
 
 def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion: OutputMotion) -> tuple[Band, ...]:
@@ -157,20 +160,6 @@ def _pole(canvas: Canvas, scene: Scene, field: Field, bands: Sequence[Band], let
     rays(canvas, field, Pole(reach, letter, name, text), ordinates)
 
 
-def _chords(canvas: Canvas, field: Field, drawn: Diagrams, least: float) -> None:
-    """Draw the chords of the travel, between points of the smooth curve."""
-    points = [field.at(t, s - least) for t, s in zip(drawn.times.tolist(), drawn.s.tolist(), strict=True)]
-    known = tuple(point for point in points if math.isfinite(point.imag))
-    canvas.add(Group((Polyline(known, Pen.THIN),), "chords", "s"))
-
-
-def _turning(scene: Scene, cycle: Cycle, length: float) -> str:
-    """Return the scale factor of the crank's angle; a sliding driver has none."""
-    if not cycle.drive.turns:
-        return ""
-    return scene.words.scale(Scale("mu_phi", rounded(2.0 * math.pi / length, 6), "rad"))
-
-
 def _notes(scene: Scene, drawn: Diagrams, bands: Sequence[Band]) -> tuple[str, ...]:
     """Say how far the chords are from the plans."""
     parts = []
@@ -185,7 +174,8 @@ def _notes(scene: Scene, drawn: Diagrams, bands: Sequence[Band]) -> tuple[str, .
 def load_diagram(scene: Scene, diagram: Diagram) -> View:
     """Draw what the task gives: the diagram with its scale factors, and the ordinate of the calculated position."""
     canvas, words = Canvas(scene.style), scene.words
-    loads = users(scene, diagram)
+    every: Sequence[Load | Couple] = (*scene.mechanism.loads, *scene.mechanism.couples)
+    loads = [load for load in every if load.magnitude == diagram.name]
     forth, back = (_points(scene, diagram, names) for names in (diagram.values, diagram.back or ()))
     field = _load_field(scene, diagram, loads, [*forth, *back])
     axes(canvas, field)
@@ -201,13 +191,6 @@ def load_diagram(scene: Scene, diagram: Diagram) -> View:
         notes.append(f"H = {value_text(words, words.display.value(size, unit))} {words.unit(shown)}")
     heading = (words["heading.load"], words.scale(field.x.scale), words.scale(field.y.scale))
     return canvas.finish(f"load_{diagram.name}", heading, tuple(notes))
-
-
-def users(scene: Scene, diagram: Diagram) -> list[Load | Couple]:
-    """Return the loads whose magnitude the diagram is."""
-    mechanism = scene.solved.mechanism
-    every: Sequence[Load | Couple] = (*mechanism.loads, *mechanism.couples)
-    return [load for load in every if load.magnitude == diagram.name]
 
 
 def _value(scene: Scene, name: str) -> float:
@@ -229,7 +212,7 @@ def _points(scene: Scene, diagram: Diagram, names: Sequence[str]) -> list[tuple[
 
 def _travel(scene: Scene) -> tuple[float, str]:
     """Return the whole stroke and its unit."""
-    mechanism, values = scene.solved.mechanism, scene.solved.values
+    mechanism, values = scene.mechanism, scene.solved.values
     assert mechanism.stroke is not None
     number = mechanism.stroke.link
     slides = any(isinstance(p, Prismatic) and number in p.links and FRAME in p.links for p in mechanism.pairs)

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import math
 from cmath import phase, rect
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from ....plans.board import POSITION
 from ....plans.linkages.mechanism import FRAME, Driver, Pair, Prismatic
 from ....plans.linkages.structure import Group
 from ....plans.names import role
-from ....scales.scale import Scale
-from ...shapes import Arrow, Circle, Head, Line, Pen, Shape
+from ...shapes import Arrow, Head, Line, Pen, Shape
 from ...shapes import Group as Shapes
-from ...symbols import arm, turning_arrow
+from ...symbols import turning_arrow
 from ...view import Canvas, View
-from ..scene import DRIVER, Scene
+from ..layout.ladders import DRIVER
+from ..scene import Scales, Scene
 from ..skeleton import NEAR, Skeleton, guide_of
-from .acting import Arrows, Contact, Moment, contact, couples, handed, loads, moments_of, reactions
+from .acting import Arm, Arrows, Contact, Moment, contact, couples, handed, loads, moments_of, reactions
 from .links import draw_frame, draw_links, foot_of, letter_links
 from .scheme import special_points
 
@@ -26,28 +26,15 @@ SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88)  # places on a link whe
 
 
 @dataclass(slots=True)
-class Sketch:
+class Sketch(Arrows):
     """A part of the mechanism drawn apart, on which forces are hung: what lies at each place is known."""
 
-    canvas: Canvas
-    scene: Scene
-    figures: Sequence[Skeleton]
-    arrows: Arrows = field(init=False)
+    figures: Sequence[Skeleton] = ()
     turning: list[complex] = field(default_factory=list)  # places of couples
-
-    def __post_init__(self) -> None:
-        """Take the lines of the links as what arrows keep clear of."""
-        strokes = [stroke for figure in self.figures for stroke in figure.strokes]
-        self.arrows = Arrows(self.canvas, self.scene, strokes)
-
-    @property
-    def zero(self) -> list[str]:
-        """Names of forces, couples and arms that are zero."""
-        return self.arrows.zero
 
     def force(self, name: str, at: complex) -> None:
         """Hang the arrow of a force on a point."""
-        self.arrows.hang(name, at, self._gap(at, self.scene.direction(name) if self.scene.defined(name) else 0j))
+        self.hang(name, at, self._gap(at, self.scene.direction(name) if self.scene.defined(name) else 0j))
 
     def _gap(self, at: complex, e: complex) -> float:
         """Return where an arrow along `e` may begin beside a block at its point."""
@@ -55,7 +42,7 @@ class Sketch:
         if e == 0:
             return 0.0
         for figure in self.figures:
-            for (centre, u), (length, height) in zip(figure.blocks, figure.sizes, strict=True):
+            for centre, u, (length, height) in figure.blocks:
                 if abs(((at - centre) / u).imag) < NEAR and abs(at - centre) < self.scene.style.slider[0] / 2:
                     along, across = abs((e / u).real), abs((e / u).imag)
                     ahead = length / 2 + abs(at - centre) if along > across else length / 2
@@ -72,16 +59,17 @@ class Sketch:
         radius = self.scene.style.force * (0.5 + 0.25 * self.turning.count(at))  # round those that stand there already
         self.turning.append(at)
         self.canvas.add(turning_arrow(at, radius, phase(along), 2.0, math.copysign(1.0, value), name))
-        self.canvas.label(
-            self.scene.words.symbol(couple_name(self.scene, name, figure.number)), at + along * radius, clear=1.2
-        )
+        # that of a guide on link 3 is written M_43, also where it was a sum
+        couple, pair = role(name), self.scene.mechanism.pair
+        written = pair("M", couple.links[0], figure.number) if couple.hidden else name
+        self.canvas.label(self.scene.words.symbol(written), at + along * radius, clear=1.2)
 
     def _free_place(self, figure: Skeleton) -> tuple[complex, complex]:
         """Return the place on a link farthest from its joints, forces and couples so far, and the link's direction."""
         if not figure.strokes:
-            return figure.blocks[0] if figure.blocks else (figure.pins[0], 1 + 0j)
+            return figure.blocks[0][:2] if figure.blocks else (figure.pins[0], 1 + 0j)
         a, b = max(figure.strokes, key=lambda stroke: round(abs(stroke[1] - stroke[0]), 3))
-        busy = [*figure.pins, *(at for at, _ in figure.blocks), *self.arrows.at]
+        busy = [*figure.nodes, *self.at]
         places = [a + (b - a) * share for share in SHARES]
 
         def room(at: complex) -> float:
@@ -100,58 +88,75 @@ class Sketch:
         if found.couple:
             return pin
         if abs(at - pin) > 0.05:
-            length_along(self.canvas, scene, found.arm, pin, at)
+            self._arm_along(found.arm, pin, at)
         elif scene.defined(found.arm) and scene.direction(reaction) != 0:
             self.zero.append(found.arm)
         return at
 
+    def _arm_along(self, name: str, start: complex, end: complex) -> None:
+        """Draw the arm of a guide's reaction along the guide, from the pin to where it acts, with its millimetres."""
+        scene, e, parts = self.scene, (end - start) / abs(end - start), list[Shape]([Line(start, end, Pen.THIN)])
+        if abs(end - start) > 2.2 * scene.style.arrow:
+            parts += [Head(end, e), Head(start, -e)]
+        self.canvas.add(Shapes(tuple(parts), "arm", name))
+        text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
+        self.canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True, spare=text)
+
     def arms(self, moments: Iterable[Moment]) -> None:
         """Draw the arm of each force from the joint about which its moment is taken."""
-        drawn: dict[tuple[str, complex], list[Moment]] = {}
+        scene, arms = self.scene, dict[tuple[str, complex], tuple[Moment, complex, list[Moment]]]()
         for moment in moments:
-            e = self.scene.direction(moment.force)
+            e, at, about = scene.direction(moment.force), scene.mm(moment.at), scene.mm(moment.about)
             if e == 0:
                 continue
-            at, about = self.scene.mm(moment.at), self.scene.mm(moment.about)
             foot = at + e * ((about - at) / e).real
-            if self.scene.vanishes(moment.arm):
+            if scene.vanishes(moment.arm):
                 self.zero.append(moment.arm)
             key = moment.about, complex(round(foot.real, 3), round(foot.imag, 3))
-            drawn.setdefault(key, []).append(moment)
-        for sharing in drawn.values():
-            at, about = self.scene.mm(sharing[0].at), self.scene.mm(sharing[0].about)
-            names = list(dict.fromkeys(moment.arm for moment in sharing))
-            force_arm(self.canvas, self.scene, [m.force for m in sharing], names, at, about)
+            arms.setdefault(key, (moment, foot, []))[2].append(moment)
+        for first, foot, sharing in arms.values():
+            names = tuple(dict.fromkeys(moment.arm for moment in sharing))
+            forces, e = tuple(moment.force for moment in sharing), scene.direction(first.force)
+            if scene.defined(names[0]):
+                Arm(forces, names, scene.mm(first.at), e, foot).draw(self.canvas, scene, scene.mm(first.about))
 
     def letter_others(self, points: Iterable[str]) -> None:
         """Letter the points of other links at which their forces act on these: pins that slide along their guides."""
-        own = {p for figure in self.figures for p in self.scene.solved.mechanism.link(figure.number).points}
+        own = {p for figure in self.figures for p in self.scene.mechanism.link(figure.number).points}
         for point in dict.fromkeys(points):
-            if point not in own and point not in self.scene.solved.mechanism.frame_points:
+            if point not in own and point not in self.scene.mechanism.frame_points:
                 at = self.scene.mm(point)
-                node = Circle(at, self.scene.style.node, Pen.MAIN, fill="white")
-                self.canvas.add(Shapes((node,), "point", point))
+                self.canvas.add(self.scene.point(at, point))
                 self.canvas.label(self.scene.words.mark(point), at, clear=self.scene.style.node + 0.8)
 
-    def notes(self) -> tuple[str, ...]:
-        """Say that arrows have no scale, and what is zero."""
-        return self.scene.words["said.arrows"], *zeros(self.scene, self.zero)
+    def finish(self, name: str, heading: tuple[str, ...]) -> View:
+        """Letter the links, and close the view; it says that arrows have no scale, and what is zero."""
+        letter_links(self.canvas, self.scene, [figure.number for figure in self.figures], self.figures)
+        notes = self.scene.words["said.arrows"], *zeros(self.scene, self.zero)
+        return self.canvas.finish(name, heading, notes)
+
+
+def _sketch(scene: Scene, numbers: Sequence[int], framed: bool = False) -> Sketch:
+    """Draw these links apart, with the pivots on which they turn where they are `framed`."""
+    canvas = Canvas(scene.style)
+    figures = draw_links(canvas, scene, numbers, framed)
+    if framed:
+        draw_frame(canvas, scene, numbers, figures)
+    return Sketch(canvas, scene, [stroke for figure in figures for stroke in figure.strokes], figures=figures)
 
 
 def group_view(scene: Scene, group: Group) -> View:
     """Draw a group without the links before it: its loads, reactions at its outer pairs, the arm of each moment."""
-    canvas = Canvas(scene.style)
-    sketch = Sketch(canvas, scene, draw_links(canvas, scene, group.links, framed=False))
+    sketch = _sketch(scene, group.links)
     for pair, own, names in reactions(scene, group):
         _react(sketch, group, pair, own, names)
     _load(sketch, group.links)
     moments = moments_of(scene, group.links)
-    special_points(canvas, scene, {moment.about for moment in moments})
+    special_points(sketch.canvas, scene, {moment.about for moment in moments})
     sketch.arms(moments)
-    letter_links(canvas, scene, group.links, sketch.figures)
     links = ", ".join(map(str, group.links))
     heading = scene.heading("heading.group", POSITION, links=links)
-    return canvas.finish(f"group_{group.name}", heading, sketch.notes())
+    return sketch.finish(f"group_{group.name}", heading)
 
 
 def _react(sketch: Sketch, group: Group, pair: Pair, own: int, names: list[str]) -> None:
@@ -185,114 +190,54 @@ def _load(sketch: Sketch, numbers: Iterable[int]) -> None:
 
 def link_view(scene: Scene, group: Group, number: int) -> View:
     """Draw a link of a group apart with all its forces, reactions of the rest of the group among them."""
-    canvas = Canvas(scene.style)
-    sketch = Sketch(canvas, scene, draw_links(canvas, scene, (number,), framed=False))
+    sketch = _sketch(scene, (number,))
     for pair in (p for p in group.inner if number in p.links):
         other = next(n for n in pair.links if n != number)
-        _react(sketch, group, pair, number, [f"R_{scene.solved.mechanism.index(other, number)}"])
+        _react(sketch, group, pair, number, [f"R_{scene.mechanism.index(other, number)}"])
     _load(sketch, (number,))
     for pair, own, names in reactions(scene, group):
         if own == number:
             _react(sketch, group, pair, own, names)
-    letter_links(canvas, scene, (number,), sketch.figures)
-    return canvas.finish(f"link_{number}", scene.heading("heading.link", POSITION, link=str(number)), sketch.notes())
-
-
-def couple_name(scene: Scene, name: str, number: int) -> str:
-    """Return the name by which a couple is written: that of a guide on link 3 is `M_43`, also where it was a sum."""
-    couple = role(name)
-    return scene.solved.mechanism.pair("M", couple.links[0], number) if couple.hidden else name
-
-
-def length_along(canvas: Canvas, scene: Scene, name: str, start: complex, end: complex) -> None:
-    """Draw the arm of a guide's reaction along the guide, from the pin to where it acts, with its millimetres."""
-    e = (end - start) / abs(end - start)
-    parts: list[Shape] = [Line(start, end, Pen.THIN)]
-    if abs(end - start) > 2.2 * scene.style.arrow:
-        parts += [Head(end, e), Head(start, -e)]
-    canvas.add(Shapes(tuple(parts), "arm", name))
-    text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
-    canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True, spare=text)
-
-
-def force_arm(canvas: Canvas, scene: Scene, forces: list[str], names: list[str], at: complex, about: complex) -> None:
-    """Draw the line of forces that share it, thin, and the arm from `about` to it with its millimetres."""
-    e = scene.direction(forces[0])
-    if e == 0 or not scene.defined(names[0]):
-        return
-    foot = at + e * (((about - at) / e).real)
-    reach = 0.6 * scene.style.force
-    ends = sorted(((p - at) / e).real for p in (at - e * reach, at + e * reach, foot))
-    line = (at + e * (ends[0] - 4.0), at + e * (ends[-1] + 4.0))
-    canvas.add(Line(*line, Pen.THIN, role="line-of-action", name=" ".join(forces)))
-    if abs(foot - about) < 0.05:
-        return
-    canvas.add(*(arm(about, foot, name, e, scene.style) for name in names[:1]))
-    symbols = " = ".join(scene.words.symbol(name) for name in names)
-    # smaller than a node's letter: a number with its symbol is long, and the arms of a lever lie close together
-    text = f"{symbols} = {scene.segment(names[0])}"
-    canvas.label(text, (about, foot), clear=0.9, height=scene.style.text, strict=True, spare=text)
+    return sketch.finish(f"link_{number}", scene.heading("heading.link", POSITION, link=str(number)))
 
 
 def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
     """Say in one line which of these forces, couples and arms are zero: the figure cannot show them."""
-    w, couples = scene.words, {couple.name for couple in scene.solved.mechanism.couples}
+    w, couples = scene.words, {couple.name for couple in scene.mechanism.couples}
     gone = [name for name in dict.fromkeys(names) if scene.defined(name) and scene.vanishes(name)]
     parts = [w.symbol(role(name).shown, bar=role(name).kind not in ("M", "h") and name not in couples) for name in gone]
     return (f"{' = '.join(parts)} = 0",) if parts else ()
 
 
-class Apart(Mapping[str, Scale]):
-    """Scale factors by plan, that of the driver's own figure in the place of that of the mechanism."""
-
-    def __init__(self, scales: Mapping[str, Scale]) -> None:
-        self._scales = scales
-
-    def __getitem__(self, plan: str) -> Scale:
-        """Return the scale factor of a plan."""
-        return self._scales[DRIVER if plan == POSITION and DRIVER in self._scales else plan]
-
-    def __iter__(self) -> Iterator[str]:
-        """Go through the plans."""
-        return iter(self._scales)
-
-    def __len__(self) -> int:
-        """Return the number of plans."""
-        return len(self._scales)
-
-
 def driver_view(scene: Scene) -> View:
     """Draw the driver with all reactions on it, its own loads, R_01, what balances it, and the arms of the forces."""
-    scene = replace(scene, scales=Apart(scene.scales))
-    canvas, number = Canvas(scene.style), scene.solved.structure.driver
-    figures = draw_links(canvas, scene, (number,))
-    draw_frame(canvas, scene, (number,), figures)
-    sketch = Sketch(canvas, scene, figures)
+    scene = replace(scene, scales=Scales(scene.scales, {POSITION: DRIVER}))
+    number = scene.solved.structure.driver
+    sketch = _sketch(scene, (number,), framed=True)
     hung = [*handed(scene, number), *loads(scene, number)]
     for name, point in hung:
-        if point not in scene.solved.mechanism.frame_points:
+        if point not in scene.mechanism.frame_points:
             sketch.force(name, scene.mm(point))
     sketch.letter_others(point for _, point in hung)
     sketch.arms(moments_of(scene, (number,)))
-    driver = scene.solved.mechanism.driver
+    driver = scene.mechanism.driver
     if isinstance(driver, Driver):
         _crank(sketch, driver)
     else:
         _slider(sketch, number)
     for name in couples(scene, number):
-        sketch.couple(name, figures[0])
-    letter_links(canvas, scene, (number,), figures)
-    return canvas.finish("driver", scene.heading("heading.driver", POSITION), sketch.notes())
+        sketch.couple(name, sketch.figures[0])
+    return sketch.finish("driver", scene.heading("heading.driver", POSITION))
 
 
 def _crank(sketch: Sketch, driver: Driver) -> None:
     """Hang R_01 on the pivot, loads that stand there, and what balances the crank."""
     scene, o = sketch.scene, sketch.scene.mm(driver.pivot)
     foot = foot_of(scene, driver.pivot, sketch.figures)
-    sketch.arrows.bar(o, (foot * rect(1.0, lean) for lean in (-0.5, 0.0, 0.5)))
-    sketch.force(f"R_{scene.solved.mechanism.index(FRAME, driver.link)}", o)
+    sketch.bar(o, (foot * rect(1.0, lean) for lean in (-0.5, 0.0, 0.5)))
+    sketch.force(f"R_{scene.mechanism.index(FRAME, driver.link)}", o)
     for name, point in loads(scene, driver.link):
-        if point in scene.solved.mechanism.frame_points:
+        if point in scene.mechanism.frame_points:
             sketch.force(name, scene.mm(point))
     if "M_bal" in scene.solved.values:
         _balance(sketch, o)
@@ -303,8 +248,8 @@ def _crank(sketch: Sketch, driver: Driver) -> None:
 def _slider(sketch: Sketch, number: int) -> None:
     """Hang the guide's reaction where it acts, and the balancing force along the guide."""
     scene = sketch.scene
-    pair = next(p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and number in p.links)
-    index = scene.solved.mechanism.index(FRAME, number)
+    pair = next(p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and number in p.links)
+    index = scene.mechanism.index(FRAME, number)
     pin, u, reaction = scene.mm(pair.point), guide_of(scene, pair), f"R_{index}"
     sketch.force("_F_bal", pin)
     moment, size = scene.solved.values[f"M_{index}"], scene.direction(reaction)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import TypeAlias
 
 from ....plans.board import Step
-from ....plans.names import FORCES, role
+from ....plans.linkages.chain import hinged
+from ....plans.linkages.compound import ACCELERATION, TOTAL, VELOCITY, Coupler
+from ....plans.names import FORCES, role, spelled
+from ....plans.names import mark as mark_named
+from ....plans.names import vector as vector_named
 from ....scales.scale import SERIES, Scale
 from ...areas import clipped
 from ...formats import Style
@@ -15,8 +19,9 @@ from ...page import extent
 from ...shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
 from ...text import Box
 from ...view import Canvas, View, write_above
-from ..reading import vectors_of
-from ..scene import Scene
+from ..calculations.equations import line_of
+from ..reading import Edge, meetings
+from ..scene import Scene, is_at_point
 
 SHORT, READABLE = 1.25, 1.7  # arrowheads: a shorter vector cannot be read; the least length in an inset
 TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
@@ -28,38 +33,12 @@ NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
 NARROWEST_FORCES = 45.0  # mm, the least side of an inset of forces
 PAST = 6.0  # mm by which a construction line runs past the point that it finds
 FEW = 1  # forces too short to be read that a plan shows as points, said in words
+VELOCITIES, ACCELERATIONS = "compound_velocity", "compound_a_"  # names of the views
+PAST_AT_POINT = 8.0  # of those at a point of a coupler
 
 
-class Plan(Protocol):
-    """A plan whose short vectors insets show."""
-
-    @property
-    def scene(self) -> Scene:
-        """The mechanism, its scale factors and words."""
-
-    @property
-    def plan(self) -> str:
-        """The name of the plan."""
-
-    def vectors(self) -> Iterator[Vector]:
-        """Go through the vectors as they are drawn."""
-
-    def lines(self) -> Iterator[tuple[complex, complex, complex, str]]:
-        """Go through the construction lines: whence, the point that they find, their end, what is said of it."""
-
-    def marks(self) -> Mapping[str, complex]:
-        """Return the places of lettered points, mm."""
-
-    def poles(self) -> Sequence[str]:
-        """Return those of the marks that are small circles."""
-
-
-def is_short(vector: Vector, style: Style) -> bool:
-    """Whether a vector is too short to be read in its figure."""
-    return abs(vector.tip - vector.tail) < SHORT * style.arrow
-
-
-Shown = tuple[Plan, "Window"]
+Plan: TypeAlias = "ForcePlan | At"  # plans whose short vectors insets show
+Shown: TypeAlias = "tuple[Plan, Window]"
 
 
 def shown_of(plans: Sequence[Plan]) -> list[Shown]:
@@ -113,7 +92,7 @@ class Window:
 def windows(plan: Plan) -> list[Window]:
     """Return what the insets of a plan show: short vectors, each with those beside it that find room."""
     vectors = [vector for vector in plan.vectors() if abs(vector.tip - vector.tail) > 1e-6]
-    left = [vector for vector in vectors if is_short(vector, plan.scene.style)]
+    left = [vector for vector in vectors if abs(vector.tip - vector.tail) < SHORT * plan.scene.style.arrow]
     found = []
     while left:
         first = min(left, key=lambda vector: abs(vector.tip - vector.tail))
@@ -196,7 +175,7 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str, framed: Sequen
     seen = {mark: place for mark, place in places.items() if clipped(place, place, bounds) is not None}
     letters = {mark: scene.words.mark(mark) for mark in seen}
     poles = [pole for pole in plan.poles() if pole in seen]
-    letter_marks(canvas, scene, letters, poles, lambda _, mark: seen[mark])
+    letter_marks(canvas, scene, letters, seen, poles)
     canvas.add(_frame(bounds, "inset", name))
     scale = scene.scales[plan.plan]
     own = Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit)
@@ -227,7 +206,12 @@ def _together(
 ) -> View:
     """Put the insets to the right of a figure, or under it, whichever takes less room; the heading over all."""
     beside, under = (list(_shapes(figure, insets, right)) for right in (True, False))
-    shapes = min((beside, under), key=lambda shapes: _area(extent(shapes)))
+
+    def area(shapes: Sequence[Shape]) -> float:
+        x0, y0, x1, y1 = extent(shapes)
+        return (x1 - x0) * (y1 - y0)
+
+    shapes = min((beside, under), key=area)
     x0, y0, x1, y1 = write_above(shapes, heading, notes, style)
     return View(figure.name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes)
 
@@ -243,10 +227,6 @@ def _shapes(figure: View, insets: Sequence[View], right: bool) -> Iterator[Shape
         x, y = (x, y + height + GAP) if right else (x + width + GAP, y)
 
 
-def _area(box: Box) -> float:
-    return (box[2] - box[0]) * (box[3] - box[1])
-
-
 @dataclass(frozen=True, slots=True)
 class ForcePlan:
     """A plan of forces; its insets show what is too short for an arrowhead, where that is more than one force."""
@@ -254,34 +234,26 @@ class ForcePlan:
     scene: Scene
     plan: str
 
-    @property
-    def drawn(self) -> list[tuple[str, str, str]]:
-        """Quantity, tail and tip of each force."""
-        return vectors_of(self.scene.solved.program.on(self.plan))
-
     def vectors(self) -> Iterator[Vector]:
         """Go through the forces that can be read on the plan or in an inset."""
         least = READABLE * self.scene.style.arrow / self._times()[-1]
-        for quantity, tail, tip in dict.fromkeys(self.drawn):
-            vector = self.scene.vector(quantity, tail, tip)
+        for vector in map(self.scene.vector, dict.fromkeys(self.scene.reading.on(self.plan))):
             if abs(vector.tip - vector.tail) >= least:
                 yield vector
 
     def lines(self) -> Iterator[tuple[complex, complex, complex, str]]:
         """Go through the construction lines, of which nothing is said."""
-        for step in self.scene.solved.program.on(self.plan):
-            if step.verb == "meet":
-                p, u, q, w = step.operands
-                for start, direction in ((p, u), (q, w)):
-                    yield (*construction_line(self.scene, step, start, direction), "")
+        for step, _, start, direction in meetings(self.scene.program.on(self.plan)):
+            yield (*construction_line(self.scene, step, start, direction), "")
 
     def marks(self) -> Mapping[str, complex]:
         """Return the places of the pole and of all ends of forces."""
-        return {mark: self.scene.mm(mark) for mark in (*self.poles(), *(tip for _, _, tip in self.drawn))}
+        ends = (edge.tip for edge in self.scene.reading.on(self.plan))
+        return {mark: self.scene.mm(mark) for mark in (*self.poles(), *ends)}
 
     def poles(self) -> Sequence[str]:
         """Return the pole."""
-        return [step.name for step in self.scene.solved.program.on(self.plan) if step.verb == "pole"]
+        return [step.name for step in self.scene.program.on(self.plan) if step.verb == "pole"]
 
     def windows(self) -> list[Window]:
         """Return what the insets show, the coarser ones first; none where a single force is too short."""
@@ -342,13 +314,10 @@ def _clusters(vectors: Sequence[Vector]) -> list[list[Vector]]:
     """Part vectors into those that hang together by their ends."""
     clusters: list[list[Vector]] = []
     for vector in vectors:
-        own = [c for c in clusters if any(_joined(vector, other) for other in c)]
+        ends = {vector.tail, vector.tip}
+        own = [c for c in clusters if any(_near(other.tail, ends) or _near(other.tip, ends) for other in c)]
         clusters = [c for c in clusters if c not in own] + [[*(v for c in own for v in c), vector]]
     return clusters
-
-
-def _joined(one: Vector, other: Vector) -> bool:
-    return any(abs(a - b) < 1e-6 for a in (one.tail, one.tip) for b in (other.tail, other.tip))
 
 
 def in_inset(scene: Scene, shown: Sequence[Window], ends: tuple[complex, complex]) -> bool:
@@ -367,14 +336,9 @@ def construction_line(scene: Scene, step: Step, start: str, direction: str) -> t
 
 
 def letter_marks(
-    canvas: Canvas,
-    scene: Scene,
-    letters: Mapping[str, str],
-    poles: Sequence[str],
-    place_of: Callable[[Scene, str], complex] = Scene.mm,
+    canvas: Canvas, scene: Scene, letters: Mapping[str, str], places: Mapping[str, complex], poles: Sequence[str]
 ) -> None:
     """Draw poles and points with their letters outside of the figure; marks that coincide share one letter."""
-    places = {mark: place_of(scene, mark) for mark in letters}
     if not places:
         return
     middle = sum(places.values()) / len(places)
@@ -383,9 +347,68 @@ def letter_marks(
         near = next((place for place in at if abs(place - places[mark]) < TOGETHER), places[mark])
         at.setdefault(near, []).append(letter)
     for mark in poles:
-        canvas.add(Group((Circle(places[mark], scene.style.node, Pen.MAIN, fill="white"),), "point", mark))
+        canvas.add(scene.point(places[mark], mark))
     for place, names in at.items():
         canvas.label(", ".join(names), place, prefer=place - middle, clear=1.0, priority=1)
     for mark in letters:
         if mark not in poles:
             canvas.add(Group((Circle(places[mark], 0.3, Pen.THIN, fill="black"),), "point", mark))
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """The vectors of one point of a coupler: the plan drawn there, and where the point stands."""
+
+    scene: Scene
+    coupler: Coupler
+    point: str
+    kind: str  # "V" or "a"
+
+    @property
+    def letter(self) -> str:
+        """The point's letter in the names of its parts."""
+        return self.coupler.letters[self.point]
+
+    @property
+    def plan(self) -> str:
+        """The plan at the point."""
+        return spelled(VELOCITY if self.kind == "V" else ACCELERATION, self.letter)
+
+    def mm(self, mark: str) -> complex:
+        """Return where a mark of the plan stands in the figure."""
+        return self.scene.mm(mark) + self.scene.mm(self.point)
+
+    def vectors(self) -> Iterator[Vector]:
+        """Go through the vectors as they were drawn, the total last, each with the name of the quantity it shows."""
+        edges, (n, end) = [*self.scene.reading.on(self.plan)], (mark_named(self.plan, k) for k in ("n", self.letter))
+        if n in self.scene.solved.values:
+            edges.append(Edge(vector_named("a", self.point, part="t"), n, end))
+        total = vector_named(self.kind, self.letter, part=TOTAL).size
+        for edge in sorted(edges, key=lambda edge: edge.name == total):
+            plain = vector_named(self.kind, self.point) if edge.name == total else edge.name
+            yield self.scene.vector(replace(edge, name=plain), at=self.scene.mm(self.point))
+
+    def lines(self) -> Iterator[tuple[complex, complex, complex, str]]:
+        """Go through the construction lines: whence, the point that they find, their end, their direction in words."""
+        for step, _, start, direction in meetings(self.scene.program.on(self.plan)):
+            e, tail, end = self.scene.solved.point(direction), self.mm(start), self.mm(step.name)
+            sense = 1.0 if ((end - tail) / e).real >= 0 else -1.0
+            yield tail, end, end + e * sense * PAST_AT_POINT, line_of(self.scene, direction).replace(" ", "")
+
+    def marks(self) -> Mapping[str, complex]:
+        """Return where the point itself stands."""
+        return {self.point: self.scene.mm(self.point)}
+
+    def poles(self) -> Sequence[str]:
+        """Return the point: its vectors begin there."""
+        return (self.point,)
+
+
+def figures_of(scene: Scene) -> dict[str, tuple[At, ...]]:
+    """Return the points whose vectors the figures of compound motion show, by the name of the view."""
+    solved = scene.solved
+    if not any(is_at_point(plan) and plan in scene.scales for plan in solved.program.plans):
+        return {}
+    points = [(c, point) for c in hinged(solved.mechanism, solved.structure) for point in c.letters]
+    found = {VELOCITIES: tuple(At(scene, c, point, "V") for c, point in points)}
+    return found | {f"{ACCELERATIONS}{c.letters[point]}": (At(scene, c, point, "a"),) for c, point in points}

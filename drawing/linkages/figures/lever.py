@@ -3,58 +3,47 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations, pairwise
 from math import cos, radians
-from typing import NamedTuple
 
 from ....plans.names import COUPLE, lever_arm, role, spelled
 from ...shapes import Line, Pen
-from ...symbols import arm
 from ...view import Canvas, View
-from ..reading import vectors_of
+from ..reading import Edge
 from ..scene import Scene
 from ..skeleton import rays_of
-from .acting import Arrows
+from .acting import LEAST, Arm, Arrows
 from .group import zeros
 from .inset import letter_marks
 
 BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
 BESIDE = cos(radians(12.0))  # arms that make a smaller angle run into one another
 STEP = 2.4  # heights of an arm's letters between arms that are staggered
-LEAST = 0.05  # mm: a shorter arm is none
-PAST = 4.0  # mm by which the line of a force runs past what it meets
-
-
-class LeverLine(NamedTuple):
-    """A line of the turned velocity plan, by the marks at its ends."""
-
-    start: str
-    end: str
-    name: str
 
 
 def lever_view(scene: Scene) -> View:
     """Draw the lever: forces keep their directions, couples hang as pairs, arms run from the pole."""
     canvas = Canvas(scene.style)
-    words, point = scene.words, scene.solved.mechanism.driver.point
+    words, point = scene.words, scene.mechanism.driver.point
     marks = dict.fromkeys(("lever.p", *images(scene)))
     lines, hung = lines_of_lever(scene), hung_on_lever(scene)
-    strokes = [(image(scene, line.start), image(scene, line.end)) for line in lines]
-    canvas.add(
-        *(Line(a, b, Pen.MAIN, role="lever", name=line.name) for (a, b), line in zip(strokes, lines, strict=True))
-    )
+    strokes = [(image(scene, line.tail), image(scene, line.tip)) for line in lines]
+    for stroke, line in zip(strokes, lines, strict=True):
+        canvas.add(Line(*stroke, Pen.MAIN, role="lever", name=line.name))
     arrows = Arrows(canvas, scene, strokes)
     for name, mark in hung:
         at = image(scene, mark)
         arrows.bar(at, rays_of(at, strokes))
         arrows.hang(name, at)
-    places = [image(scene, mark) for mark in marks]
-    draw_arms(canvas, scene, image(scene, "lever.p"), arms_on_lever(scene), sum(places) / len(places))
-    text, ends = driven(scene), (image(scene, "lever.p"), image(scene, f"lever.{point}"))
+    places = {mark: image(scene, mark) for mark in marks}
+    pole, arms = image(scene, "lever.p"), arms_on_lever(scene)
+    shifts = staggered(pole, arms, sum(places.values()) / len(places), STEP * scene.style.text)
+    for number, arm in enumerate(arms):
+        arm.draw(canvas, scene, pole, shifts.get(number, 0j))
+    text, ends = driven(scene), (pole, image(scene, f"lever.{point}"))
     canvas.label(text, ends, clear=0.9, height=scene.style.text, spare=text)
-    letters = {mark: letter_of(scene, mark) for mark in marks}
-    letter_marks(canvas, scene, {**letters, "lever.p": words.mark("lever.p")}, ("lever.p",), image)
+    letters = {mark: letter_of(scene, mark) for mark in marks} | {"lever.p": words.mark("lever.p")}
+    letter_marks(canvas, scene, letters, places, ("lever.p",))
     gone = [arm_of(name) for name, _ in hung if scene.direction(name) != 0]
     zero = zeros(scene, [*arrows.zero, *gone])
     return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"], *zero))
@@ -62,7 +51,7 @@ def lever_view(scene: Scene) -> View:
 
 def driven(scene: Scene) -> str:
     """Return what is written on the velocity of the driver's point, the arm of the force that balances."""
-    words, point = scene.words, scene.solved.mechanism.driver.point
+    words, point = scene.words, scene.mechanism.driver.point
     return f"{words.mark('velocity.p')}{words.mark(f'velocity.{point}')} = {scene.segment(f'V_{point}')}"
 
 
@@ -71,7 +60,7 @@ def letter_of(scene: Scene, mark: str) -> str:
     return scene.words.mark(f"velocity.{role(mark).of}")
 
 
-def arms_on_lever(scene: Scene) -> list[LeverArm]:
+def arms_on_lever(scene: Scene) -> list[Arm]:
     """Return the arms; forces on one line share theirs."""
     p, feet = image(scene, "lever.p"), dict[complex, list[tuple[str, complex]]]()
     for name, mark in hung_on_lever(scene):
@@ -81,7 +70,7 @@ def arms_on_lever(scene: Scene) -> list[LeverArm]:
             same = next((other for other in feet if abs(other - foot) < 1e-4), foot)
             feet.setdefault(same, []).append((name, at))
     return [
-        LeverArm(tuple(n for n, _ in sharing), tuple(arm_of(n) for n, _ in sharing), sharing[0][1], along, foot)
+        Arm(tuple(n for n, _ in sharing), tuple(arm_of(n) for n, _ in sharing), sharing[0][1], along, foot)
         for foot, sharing in feet.items()
         for along in [scene.direction(sharing[0][0])]
     ]
@@ -96,14 +85,14 @@ def image(scene: Scene, mark: str) -> complex:
 
 def images(scene: Scene) -> list[str]:
     """Return the marks of the lever: those on which something hangs, and the images of all joints."""
-    hung = [step.name for step in scene.solved.program.on("lever") if step.verb == "normal"]
+    hung = [step.name for step in scene.program.on("lever") if step.verb == "normal"]
     joints = [f"lever.{point}" for points in _joints(scene) for point in points]
     return [*hung, *joints]
 
 
 def _joints(scene: Scene) -> list[list[str]]:
     """Return for each link the letters of its joints, and of its points over others, that have marks of velocity."""
-    mechanism, names = scene.solved.mechanism, set(scene.solved.program.names)
+    mechanism, names = scene.mechanism, set(scene.program.names)
     found = []
     for link in mechanism.links:
         joints = [p.point for p in mechanism.pairs if link.number in p.links and p.point in link.points]
@@ -112,19 +101,17 @@ def _joints(scene: Scene) -> list[list[str]]:
     return found
 
 
-def lines_of_lever(scene: Scene) -> list[LeverLine]:
+def lines_of_lever(scene: Scene) -> list[Edge]:
     """Return the lines of the turned velocity plan: all its vectors, and those between images of each link's joints."""
-    steps = scene.solved.program.on("velocity")
-    ends = [(tail, tip, name) for name, tail, tip in vectors_of(steps)]
+    ends = [(role(edge.tail).of, role(edge.tip).of, edge.name) for edge in scene.reading.on("velocity")]
     for points in _joints(scene):
         ways = combinations(points, 2) if len(points) < 4 else pairwise([*points, points[0]])
-        ends += [(f"lever.{a}", f"lever.{b}", a + b) for a, b in ways]
-    kept: dict[frozenset[complex], LeverLine] = {}
+        ends += [(a, b, a + b) for a, b in ways]
+    kept: dict[frozenset[complex], Edge] = {}
     for start, end, name in ends:
-        tail, tip = (f"lever.{role(mark).of}" for mark in (start, end))
-        line = LeverLine(tail, tip, name)
-        a, b = image(scene, line.start), image(scene, line.end)
-        places = frozenset(complex(round(at.real, 4), round(at.imag, 4)) for at in (a, b))
+        line = Edge(name, f"lever.{start}", f"lever.{end}")
+        images = (image(scene, mark) for mark in (line.tail, line.tip))
+        places = frozenset(complex(round(at.real, 4), round(at.imag, 4)) for at in images)
         if len(places) == 2:
             kept.setdefault(places, line)
     return list(kept.values())
@@ -134,19 +121,15 @@ def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
     """Return (force, mark) of all that hangs on the lever, the balancing force last."""
     hung = [
         (step.operands[0], step.operands[1])
-        for step in scene.solved.program
+        for step in scene.program
         if step.verb == "moment" and step.operands[2] == "lever.p"
     ]
     # of a couple on a link that turns about a pivot the second force stands at the pole: it has no moment
     pulling = {name for name, _ in hung}
-    made = (
-        step.name
-        for step in scene.solved.program
-        if role(step.name).part == COUPLE and step.law in ("along", "opposite")
-    )
+    made = (step.name for step in scene.program if role(step.name).part == COUPLE and step.law in ("along", "opposite"))
     hung += [(name, "lever.p") for name in made if name not in pulling]
     balance = next(name for name in BALANCE if name in scene.solved.values)
-    return [*hung, (balance, f"lever.{scene.solved.mechanism.driver.point}")]
+    return [*hung, (balance, f"lever.{scene.mechanism.driver.point}")]
 
 
 def arm_of(force: str) -> str:
@@ -159,74 +142,22 @@ def arm_of(force: str) -> str:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class LeverArm:
-    """An arm: the forces on one line, the names of their arms, where they hang, their direction, the line's foot."""
-
-    forces: tuple[str, ...]
-    names: tuple[str, ...]
-    at: complex
-    along: complex
-    foot: complex
-
-    def said(self, scene: Scene) -> str:
-        """Return what is written on the arm."""
-        symbols = " = ".join(scene.words.symbol(name) for name in self.names)
-        return f"{symbols} = {scene.segment(self.names[0])}"
-
-    @property
-    def line(self) -> str:
-        """The name of the line on which the forces act."""
-        return " ".join(self.forces)
-
-
-def draw_arms(canvas: Canvas, scene: Scene, pole: complex, arms: Sequence[LeverArm], middle: complex) -> None:
-    """Draw arms from the `pole`, or beside it on the far side of the figure, whose middle is `middle`."""
-    shifts = staggered(pole, arms, middle, STEP * scene.style.text)
-    for number, each in enumerate(arms):
-        shift = shifts.get(number, 0j)
-        _line_of_action(canvas, scene, each, each.foot + shift)
-        if abs(each.foot - pole) < LEAST:
-            continue
-        if shift:
-            canvas.add(
-                Line(pole, pole + shift * (1 + 1.5 / abs(shift)), Pen.THIN, role="extension", name=each.names[0])
-            )
-        canvas.add(arm(pole + shift, each.foot + shift, each.names[0], each.along, scene.style))
-        ends, text = (pole + shift, each.foot + shift), each.said(scene)
-        # smaller than a node's letter: a number with its symbol is long
-        canvas.label(text, ends, clear=0.9, height=scene.style.text, strict=True, spare=text)
-
-
-def staggered(pole: complex, arms: Sequence[LeverArm], middle: complex, step: float) -> Mapping[int, complex]:
+def staggered(pole: complex, arms: Sequence[Arm], middle: complex, step: float) -> Mapping[int, complex]:
     """Return by how much arms are moved along the lines of their forces; the shortest of those side by side stays.
 
     Arms are side by side when they make a small angle; each is moved away from the middle of the figure.
     """
     shifts: dict[int, complex] = {}
     by_length = sorted((abs(each.foot - pole), i) for i, each in enumerate(arms) if abs(each.foot - pole) >= LEAST)
-    bundles: list[list[int]] = []
+    bundles: list[tuple[complex, list[int]]] = []  # direction of the shortest of them, their numbers
     for reach, i in by_length:
-        way = (arms[i].foot - pole) / reach
-        near = (b for b in bundles if (way.conjugate() * _way(arms[b[0]], pole)).real > BESIDE)
-        bundle = next(near, None)
+        way = (arms[i].foot - pole) * (1.0 / reach)
+        bundle = next((numbers for other, numbers in bundles if (way.conjugate() * other).real > BESIDE), None)
         if bundle is None:
-            bundles.append([i])
+            bundles.append((way, [i]))
             continue
         outward = arms[i].along
         outward *= -1.0 if (outward.conjugate() * (middle - pole)).real > 0 else 1.0
         shifts[i] = outward * step * len(bundle)
         bundle.append(i)
     return shifts
-
-
-def _way(each: LeverArm, pole: complex) -> complex:
-    return (each.foot - pole) * (1.0 / abs(each.foot - pole))
-
-
-def _line_of_action(canvas: Canvas, scene: Scene, each: LeverArm, foot: complex) -> None:
-    """Draw the line of a force, thin, from its arrow past the foot of its arm."""
-    reach = 0.6 * scene.style.force
-    ends = sorted((-reach, reach, ((foot - each.at) / each.along).real))
-    line = (each.at + each.along * (ends[0] - PAST), each.at + each.along * (ends[-1] + PAST))
-    canvas.add(Line(*line, Pen.THIN, role="line-of-action", name=each.line))

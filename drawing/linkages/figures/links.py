@@ -16,7 +16,7 @@ from itertools import pairwise
 from ....plans.board import POSITION
 from ....plans.linkages.mechanism import FRAME, Prismatic, Revolute
 from ....plans.names import role
-from ...shapes import Circle, Group, Line, Pen
+from ...shapes import Group, Line, Pen
 from ...symbols import block, bridge, centre_of_mass, fixed_pivot, guide, revolute, rigid_corner, slider_up
 from ...view import Canvas
 from ..scene import Scene
@@ -31,6 +31,7 @@ from ..skeleton import (
     pins_of,
     rays_of,
     rim_of,
+    room_beside,
     skeleton,
     spread_of,
 )
@@ -60,11 +61,13 @@ def draw_links(
         _strokes(canvas, scene, figure, figure.bars)
         for at, u, w in figure.corners:
             if spread_of(u, w) > STRAIGHT:
-                canvas.add(bridge(at, _freer(u, at, figures), scene.style))
+                rays = rays_at(at, figures)  # the arc over a pin stands where no other link leaves the pin
+                up = u if room_beside(1j * u, rays) >= room_beside(-1j * u, rays) else -u
+                canvas.add(bridge(at, up, scene.style))
             else:
                 canvas.add(rigid_corner(at, u, w, scene.style, pin=_is_in(at, figure.pins)))
     pins = dict.fromkeys(point for number in numbers for point in pins_of(scene, number))
-    held = scene.solved.mechanism.frame_points if framed else ()
+    held = scene.mechanism.frame_points if framed else ()
     canvas.add(*(revolute(scene.mm(point), point, scene.style) for point in pins if point not in held))
     return figures
 
@@ -91,10 +94,7 @@ def _rim(scene: Scene, figure: Skeleton, end: complex, e: complex) -> float:
     """Return where a line that leaves `end` along `e` begins: at the circle of a pin, at the edge of a block."""
     if _is_in(end, figure.pins):
         return scene.style.pair
-    for (at, u), size in zip(figure.blocks, figure.sizes, strict=True):
-        if abs(at - end) < NEAR:
-            return rim_of(u, size, e)
-    return 0.0
+    return next((rim_of(u, size, e) for at, u, size in figure.blocks if abs(at - end) < NEAR), 0.0)
 
 
 def _is_in(at: complex, places: Iterable[complex]) -> bool:
@@ -104,24 +104,14 @@ def _is_in(at: complex, places: Iterable[complex]) -> bool:
 def _blocks(scene: Scene, figure: Skeleton, framed: bool, whole: bool) -> Iterator[tuple[float, tuple[Group, ...]]]:
     """Go through the blocks of a link by size: sliders with the frame's guide under them, blocks on links that move."""
     name = str(figure.number)
-    own = [p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] == figure.number]
-    for pair, (at, u), size in zip(own, figure.blocks, figure.sizes, strict=True):
+    own = [p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] == figure.number]
+    for pair, (at, u, size) in zip(own, figure.blocks, strict=True):
         if pair.links[1] == FRAME and framed:
             up = guide_up(scene, pair)
             on_frame = guide(guide_pieces(scene, pair, up, whole), up, name, scene.style)
             yield size[0], (on_frame, block(at, u, name, size))
         else:
             yield size[0], (block(at, u, name, size),)
-
-
-def _freer(u: complex, at: complex, figures: Iterable[Skeleton]) -> complex:
-    """Turn the direction of a line so that the arc over a pin on it stands where no other link leaves the pin."""
-    rays = rays_at(at, figures)
-
-    def room(v: complex) -> float:
-        return min((spread_of(1j * v, ray) for ray in rays), default=math.pi)
-
-    return u if room(u) >= room(-u) else -u
 
 
 def rays_at(at: complex, figures: Iterable[Skeleton]) -> list[complex]:
@@ -132,7 +122,7 @@ def rays_at(at: complex, figures: Iterable[Skeleton]) -> list[complex]:
 def draw_frame(canvas: Canvas, scene: Scene, numbers: Iterable[int], figures: Sequence[Skeleton]) -> None:
     """Draw the pivots on the frame of these links, each with its foot where no link is in the way."""
     wanted = set(numbers)
-    pairs = [p for p in scene.solved.mechanism.pairs if isinstance(p, Revolute) and FRAME in p.links]
+    pairs = [p for p in scene.mechanism.pairs if isinstance(p, Revolute) and FRAME in p.links]
     for point in dict.fromkeys(pair.point for pair in pairs if wanted & set(pair.links)):
         at, down = scene.mm(point), foot_of(scene, point, figures)
         canvas.add(fixed_pivot(at, point, scene.style, down))
@@ -145,20 +135,16 @@ def foot_of(scene: Scene, point: str, figures: Sequence[Skeleton]) -> complex:
     """Return the side on which the foot of a pivot stands: below, unless a link or another pivot is there."""
     at = scene.mm(point)
     rays = rays_at(at, figures)
-    others = [scene.mm(other) - at for other in scene.solved.mechanism.frame_points]
+    others = [scene.mm(other) - at for other in scene.mechanism.frame_points]
     rays += [way / abs(way) for way in others if NEAR < abs(way) < 2 * scene.style.pivot[2]]
-
-    def room(down: complex) -> float:
-        return min((spread_of(down, ray) for ray in rays), default=math.pi)
-
-    return max(DOWN, key=lambda down: (room(down) >= ROOM, -DOWN.index(down)))
+    return max(DOWN, key=lambda down: (room_beside(down, rays) >= ROOM, -DOWN.index(down)))
 
 
 def coincident(scene: Scene) -> dict[str, tuple[int, ...]]:
     """Return the joints at which points of several links have marks of their own, `velocity.A3`, with these links."""
-    mechanism, found = scene.solved.mechanism, dict[str, set[int]]()
+    mechanism, found = scene.mechanism, dict[str, set[int]]()
     letters = {point for link in mechanism.links for point in link.points}
-    for step in scene.solved.program.on("velocity"):
+    for step in scene.program.on("velocity"):
         under = role(role(step.name).of)
         if step.verb != "read" and under.links and under.of in letters and under not in letters:
             found.setdefault(under.of, set()).update(under.links)
@@ -171,12 +157,13 @@ def letter_links(canvas: Canvas, scene: Scene, numbers: Sequence[int], figures: 
     """Draw centres of mass and other lettered points, and letter joints, points and links, each once."""
     several, lettered = coincident(scene), set[str]()
     for number, figure in zip(numbers, figures, strict=True):
-        link = scene.solved.mechanism.link(number)
+        link = scene.mechanism.link(number)
         for point in link.points:
             if point in lettered:
                 continue
             lettered.add(point)
-            if point in pins_of(scene, number) or point in _running(scene, number):
+            running = (p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] == number)
+            if point in pins_of(scene, number) or point in {pair.point for pair in running}:
                 links = ",".join(map(str, several.get(point, ())))
                 mark = f"{point}_{{{links}}}" if links else scene.words.mark(point)
                 _letter_joint(canvas, scene, point, mark, figures)
@@ -186,17 +173,12 @@ def letter_links(canvas: Canvas, scene: Scene, numbers: Sequence[int], figures: 
         _number(canvas, scene, figure, figures)
 
 
-def _running(scene: Scene, number: int) -> set[str]:
-    """Return the letters of a link's points that run along guides."""
-    return {p.point for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] == number}
-
-
 def _letter_joint(canvas: Canvas, scene: Scene, point: str, mark: str, figures: Sequence[Skeleton]) -> None:
     """Letter a joint; in a block beside its free edge, for lines and arrows leave no room at the pin itself."""
     at = scene.mm(point)
     if not any(point in pins_of(scene, figure.number) for figure in figures):
-        canvas.add(Group((Circle(at, scene.style.node, Pen.MAIN, fill="white"),), "point", point))
-    around = [(size, u, figure) for figure in figures for (c, u), size in _sized(figure) if abs(c - at) < NEAR]
+        canvas.add(scene.point(at, point))
+    around = [(size, u, figure) for figure in figures for c, u, size in figure.blocks if abs(c - at) < NEAR]
     if not around:
         canvas.label(mark, at, clear=scene.style.pair + 0.8)
         return
@@ -206,18 +188,14 @@ def _letter_joint(canvas: Canvas, scene: Scene, point: str, mark: str, figures: 
     canvas.label(mark, (edge - half, edge + half), clear=1.0, prefer=up, priority=1)
 
 
-def _sized(figure: Skeleton) -> Iterator[tuple[Stroke, tuple[float, float]]]:
-    return zip(figure.blocks, figure.sizes, strict=True)
-
-
 def _up(scene: Scene, number: int, at: complex, u: complex, figures: Sequence[Skeleton]) -> complex:
     """Return the side of a block for its letter: away from the frame's guide, or from lines that leave it."""
-    for pair in scene.solved.mechanism.pairs:
+    for pair in scene.mechanism.pairs:
         if isinstance(pair, Prismatic) and pair.links == (number, FRAME):
             return guide_up(scene, pair)
     rays = rays_at(at, figures)
     sides = slider_up(u), -slider_up(u)
-    return max(sides, key=lambda side: round(min((spread_of(side, ray) for ray in rays), default=math.pi), 3))
+    return max(sides, key=lambda side: round(room_beside(side, rays), 3))
 
 
 def _letter_point(canvas: Canvas, scene: Scene, figure: Skeleton, point: str) -> None:
@@ -225,18 +203,17 @@ def _letter_point(canvas: Canvas, scene: Scene, figure: Skeleton, point: str) ->
     at, style, number = scene.mm(point), scene.style, figure.number
     if any(abs(at - scene.mm(pin)) < style.pair for pin in pins_of(scene, number)):
         return
-    if point == scene.solved.mechanism.link(number).centre:
+    if point == scene.mechanism.link(number).centre:
         _tie(canvas, scene, at, figure)
         canvas.add(centre_of_mass(at, point, style))
     else:
-        canvas.add(Group((Circle(at, style.node, Pen.MAIN, fill="white"),), "point", point))
+        canvas.add(scene.point(at, point))
     canvas.label(scene.words.mark(point), at, clear=style.centre + 0.8)
 
 
 def _tie(canvas: Canvas, scene: Scene, at: complex, figure: Skeleton) -> None:
     """Draw a thin line to a centre of mass that stands neither on a line of its link nor between them."""
-    feet = [nearest(*stroke, at) for stroke in figure.strokes] + [centre for centre, _ in figure.blocks]
-    feet += list(figure.pins)
+    feet = [*(nearest(*stroke, at) for stroke in figure.strokes), *(block.at for block in figure.blocks), *figure.pins]
     foot = min(feet, key=lambda foot: abs(foot - at))
     inside = len(figure.bars) > 2 and is_inside([a for a, _ in figure.bars], at)
     reach, e = abs(foot - at), (at - foot) / (abs(foot - at) or 1.0)
@@ -252,7 +229,7 @@ def _number(canvas: Canvas, scene: Scene, figure: Skeleton, figures: Sequence[Sk
         a, b = max(pieces, key=lambda piece: round(abs(piece[1] - piece[0]), 3))
         canvas.label(str(figure.number), (a, b), clear=0.8)
     elif figure.blocks:
-        (at, u), (length, height) = figure.blocks[0], figure.sizes[0]
+        at, u, (length, height) = figure.blocks[0]
         up, half = _up(scene, figure.number, at, u, figures), length / 2
         away = [ray for ray in rays_at(at, figures) if abs((ray / u).real) > 0.1]
         far = u * half if sum((ray / u).real for ray in away) <= 0 else -u * half
@@ -263,7 +240,7 @@ def _pieces(stroke: Stroke, figures: Sequence[Skeleton]) -> Iterator[Stroke]:
     """Cut a line at all pins and blocks on it."""
     a, b = stroke
     e, reach = (b - a) / abs(b - a), abs(b - a)
-    marks = [at for figure in figures for at in (*figure.pins, *(centre for centre, _ in figure.blocks))]
+    marks = [at for figure in figures for at in figure.nodes]
     along = [((at - a) / e).real for at in marks if abs(((at - a) / e).imag) < NEAR]
     stops = sorted({0.0, reach, *(k for k in along if 0 < k < reach)})
     yield from ((a + e * low, a + e * high) for low, high in pairwise(stops))
@@ -304,7 +281,7 @@ def _crossings(scene: Scene, pair: Prismatic, up: complex, ends: tuple[float, fl
     at, u, (_, height) = scene.mm(pair.point), guide_of(scene, pair), block_size(scene, pair)
     edges = height / 2, height / 2 + scene.style.hatch[0]
     found = []
-    for link in scene.solved.mechanism.links:
+    for link in scene.mechanism.links:
         for line in skeleton(scene, link.number).strokes:
             # along the guide, and away from the slider
             (x0, d0), (x1, d1) = (((p - at) * u.conjugate(), (p - at) * -up.conjugate()) for p in line)

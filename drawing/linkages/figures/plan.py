@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from ....plans.board import POSITION, Program, Step
+from ....plans.board import POSITION, Program
 from ....plans.boards.exact import ILL, SMALL
 from ....plans.names import FORCES, POLE, role
 from ....plans.references import intersections, pins_together, point_of
 from ...shapes import Line, Pen
 from ...view import Canvas, View
-from ..reading import read, vectors_of
+from ..reading import Edge, meetings, read
 from ..scene import Scene, plan_heading
 from ..skeleton import NEAR, Stroke
 from .inset import ForcePlan, construction_line, in_inset, letter_marks, with_insets
@@ -25,80 +25,57 @@ LARGE = 1e4  # above it a number is written with a power of ten
 def plan_view(scene: Scene, plan: str) -> View:
     """Draw a plan from the steps that made it: construction lines, vectors, letters; of forces also insets."""
     canvas = Canvas(scene.style)
-    steps = scene.solved.program.on(plan)
-    vectors = vectors_of(steps)
+    vectors = scene.reading.on(plan)
     forces = ForcePlan(scene, plan)
     shown = forces.windows() if role(plan).kind == FORCES else []
-    left = [ends for ends in vectors if not in_inset(scene, shown, (scene.mm(ends[1]), scene.mm(ends[2])))]
-    _construction(canvas, scene, steps)
-    draw_sides(canvas, scene, plan, [(scene.mm(tail), scene.mm(tip)) for _, tail, tip in vectors])
+    left = [edge for edge in vectors if not in_inset(scene, shown, scene.ends(edge))]
+    for step, number, start, direction in meetings(scene.program.on(plan)):
+        begin, _, end = construction_line(scene, step, start, direction)
+        canvas.add(Line(begin, end, Pen.DASHED, role="construction", name=f"{step.name}_{number}"))
+    draw_sides(canvas, scene, plan, map(scene.ends, vectors))
     _vectors(canvas, scene, vectors, left)
-    ends = {mark for _, *marks in left for mark in marks}
-    _letters(canvas, scene, plan, [tip for _, _, tip in vectors if tip in ends])
+    ends = {mark for edge in left for mark in (edge.tail, edge.tip)}
+    marks = *forces.poles(), *(edge.tip for edge in vectors if edge.tip in ends)
+    letters = {mark: scene.words.mark(mark) for mark in marks}
+    letter_marks(canvas, scene, letters, {mark: scene.mm(mark) for mark in marks}, forces.poles())
     heading = plan_heading(scene.words, scene.solved.structure, plan), scene.words.scale(scene.scales[plan])
     notes = *_said(scene, plan, left), *forces.said(shown)
     return with_insets(canvas, plan, heading, notes, [(forces, window) for window in shown])
 
 
-def _construction(canvas: Canvas, scene: Scene, steps: tuple[Step, ...]) -> None:
-    """Draw the two lines of each meeting, both running past the point where they meet."""
-    for step in steps:
-        if step.verb == "meet":
-            p, u, q, w = step.operands
-            for i, (start, direction) in enumerate(((p, u), (q, w))):
-                begin, _, end = construction_line(scene, step, start, direction)
-                canvas.add(Line(begin, end, Pen.DASHED, role="construction", name=f"{step.name}_{i + 1}"))
-
-
-def _vectors(
-    canvas: Canvas, scene: Scene, vectors: list[tuple[str, str, str]], lettered: list[tuple[str, str, str]]
-) -> None:
+def _vectors(canvas: Canvas, scene: Scene, vectors: Sequence[Edge], lettered: Sequence[Edge]) -> None:
     """Draw the vectors, with letters those to be lettered that are long enough."""
     named: dict[frozenset[complex], None] = {}
-    shared = {(tail, tip): [name for name, *ends in vectors if ends == [tail, tip]] for _, tail, tip in vectors}
-    for quantity, tail, tip in vectors:
-        vector = scene.vector(quantity, tail, tip)
+    for edge in vectors:
+        vector = scene.vector(edge)
         short = abs(vector.tip - vector.tail) < SHORT
         # an arrowhead would be longer than the vector
         canvas.add(replace(vector, head="none") if short else vector)
-        ends = frozenset((_rounded(vector.tail), _rounded(vector.tip)))
-        if short or (quantity, tail, tip) not in lettered:
+        ends = frozenset(complex(round(at.real, 3), round(at.imag, 3)) for at in (vector.tail, vector.tip))
+        if short or edge not in lettered:
             continue  # said in words under the heading, or lettered in an inset
-        names = list(dict.fromkeys(shared[tail, tip]))
-        if quantity != names[0]:
+        same = (other for other in vectors if (other.tail, other.tip) == (edge.tail, edge.tip))
+        names = list(dict.fromkeys(other.name for other in same))
+        if edge.name != names[0]:
             continue  # its letter stands beside that of the first of them
         across = 1j * (vector.tip - vector.tail)
         # the first of two vectors on one line has its letter above it or to the right
         side = (-across if (across / (0.3 + 1j)).real > 0 else across) if ends in named else 0j
         named[ends] = None
         text = " = ".join(scene.letter(name) for name in names)
-        ends_of = f"{text} = {scene.words.mark(tail)}{scene.words.mark(tip)}"
+        ends_of = f"{text} = {scene.words.mark(edge.tail)}{scene.words.mark(edge.tip)}"
         canvas.label(text, (vector.tail, vector.tip), prefer=side, clear=0.9, strict=True, spare=ends_of)
 
 
-def _letters(canvas: Canvas, scene: Scene, plan: str, tips: list[str]) -> None:
-    """Letter the pole and these ends of vectors."""
-    steps = scene.solved.program.on(plan)
-    poles = [step.name for step in steps if step.verb == "pole"]
-    letter_marks(canvas, scene, {mark: scene.words.mark(mark) for mark in (*poles, *tips)}, poles)
-
-
-def _said(scene: Scene, plan: str, vectors: list[tuple[str, str, str]]) -> list[str]:
+def _said(scene: Scene, plan: str, vectors: Iterable[Edge]) -> Iterator[str]:
     """Say in words what is too short for an arrow."""
-    lines = [*said_flat(scene, plan)]
-    for quantity, tail, tip in dict.fromkeys(vectors):
-        length = abs(scene.mm(tip) - scene.mm(tail))
-        if length < 1e-6:
-            lines.append(scene.words["said.zero"].format(vector=scene.letter(quantity)))
-        elif length < SHORT:
-            lines.append(
-                scene.words["said.short"].format(vector=scene.letter(quantity), mm=scene.words.number(length, 2))
-            )
-    return lines
-
-
-def _rounded(point: complex) -> complex:
-    return complex(round(point.real, 3), round(point.imag, 3))
+    yield from said_flat(scene, plan)
+    for edge in dict.fromkeys(vectors):
+        tail, tip = scene.ends(edge)
+        length = abs(tip - tail)
+        if length < SHORT:
+            said = scene.words["said.zero" if length < 1e-6 else "said.short"]
+            yield said.format(vector=scene.letter(edge.name), mm=scene.words.number(length, 2))
 
 
 def triangles(program: Program, plan: str) -> Iterator[Triangle]:
@@ -125,7 +102,7 @@ def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke])
 
     On the plan of the mechanism the triangles are those of its links.
     """
-    program, lines = scene.solved.program, list(drawn)
+    program, lines = scene.program, list(drawn)
     if plan == POSITION:
         figures: list[tuple[str, ...]] = [on_link(program, found) for found in triangles(program, "velocity")]
     else:
@@ -179,7 +156,7 @@ def said_flat(scene: Scene, plan: str) -> Iterator[str]:
 def _meeting(scene: Scene, mark: str, sine: float) -> dict[str, str]:
     """Return which point lines find, at which angle they meet, and by how much errors grow."""
     return {
-        "point": scene.words.mark(point_of(scene.solved.program, mark)),
+        "point": scene.words.mark(point_of(scene.program, mark)),
         "angle": scene.words.short(math.degrees(math.asin(sine)), 3),
         "loss": _large(scene, 1.0 / sine),
     }

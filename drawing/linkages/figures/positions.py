@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from ....plans.board import POSITION
 from ....plans.laws import dot
 from ....plans.linkages.cycles.cycle import Cycle
 from ....plans.linkages.cycles.diagrams import MARGIN, velocity_field
-from ....plans.linkages.cycles.strokes import Dead, OutputMotion
+from ....plans.linkages.cycles.strokes import OutputMotion
 from ....plans.linkages.mechanism import FRAME, Driver, Prismatic
 from ....plans.linkages.solved import SolvedLinkage, solve_linkage
 from ....plans.names import role
@@ -34,14 +34,6 @@ MOST = 100.0  # such distances along a side, more than a sheet has room for
 APART = 0.9  # longest vector in parts of the distance of neighbouring points
 
 
-@dataclass(frozen=True, slots=True)
-class Stand:
-    """One position of the cycle: its number, and the scene in which the mechanism stands so."""
-
-    number: int
-    scene: Scene
-
-
 def main_output(cycle: Cycle) -> OutputMotion | None:
     """Return the output that the task names, else the last one that has a stroke."""
     stroke = cycle.mechanism.stroke
@@ -53,46 +45,37 @@ def main_output(cycle: Cycle) -> OutputMotion | None:
 def positions_view(scene: Scene, cycle: Cycle) -> View:
     """Draw N positions thin, the calculated one in main lines, dead positions dash-two-dot, and all paths."""
     canvas = Canvas(scene.style)
-    numbers = [link.number for link in scene.solved.mechanism.links]
+    numbers = [link.number for link in scene.mechanism.links]
     for name, path in paths(scene, cycle):
         canvas.add(Polyline(path, Pen.AXIS, role="curve", name=name))
-    stands = list(_stands(scene, cycle))
-    dead = sorted({spot.angle for spot in _dead(cycle)})
-    for stand in stands:
-        _lay_down(canvas, stand.scene, numbers, Pen.THIN, f"position_{stand.number}")
-    for angle in dead:
-        at = _standing(scene, cycle, angle)
-        if at is not None:
-            _lay_down(canvas, at, numbers, Pen.EXTREME, "dead-position")
+    stands = dict(_stands(scene, cycle, cycle.angles.tolist()))
+    motion = main_output(cycle)
+    dead = sorted({spot.angle for spot in motion.dead}) if motion else []
+    for number, stand in stands.items():
+        _lay_down(canvas, stand, numbers, Pen.THIN, f"position_{number}")
+    for _, stand in _stands(scene, cycle, dead):
+        _lay_down(canvas, stand, numbers, Pen.EXTREME, "dead-position")
     _number(canvas, scene, stands, cycle.mechanism.driver.point)
     _number(canvas, scene, stands, _output_point(cycle))
-    scene = replace(scene, runs={**scene.runs, **_ways(scene, stands)})
+    scene = replace(scene, runs={**scene.runs, **_ways(scene, stands.values())})
     figures = draw_links(canvas, scene, numbers, whole=True)
     draw_frame(canvas, scene, numbers, figures)
-    _driving(canvas, scene)
+    driver = scene.mechanism.driver
+    if isinstance(driver, Driver):  # the sense in which the crank turns, outside of its circle
+        radius = abs(scene.mm(driver.point) - scene.mm(driver.pivot)) + 2.0 * scene.style.label
+        turning_of_driver(canvas, scene, driver, (radius, radius * 1.15, radius * 1.3), ARC / radius, START)
     letter_links(canvas, scene, numbers, figures)
     heading = scene.heading("heading.positions", "position", n=str(len(stands)))
     return canvas.finish("positions", heading, _notes(scene, cycle, dead))
 
 
-def _dead(cycle: Cycle) -> tuple[Dead, ...]:
-    motion = main_output(cycle)
-    return motion.dead if motion else ()
-
-
-def _standing(scene: Scene, cycle: Cycle, place: float) -> Scene | None:
-    """Return the scene with the driver at `place`, unless the mechanism cannot stand there."""
-    givens = {**cycle.givens, cycle.drive.variable: place}
-    solved = solve_linkage(cycle.mechanism, givens, ("position",))
-    # a guide on a moving link is drawn as far as the slider: how far it runs is counted from the calculated position
-    return None if solved.trouble is not None else replace(scene, solved=solved, runs={})
-
-
-def _stands(scene: Scene, cycle: Cycle) -> Iterator[Stand]:
-    for number, place in enumerate(cycle.angles.tolist()):
-        at = _standing(scene, cycle, place)
-        if at is not None:
-            yield Stand(number, at)
+def _stands(scene: Scene, cycle: Cycle, places: Iterable[float]) -> Iterator[tuple[int, Scene]]:
+    """Go through the scenes with the driver at these places, numbered, but those where the mechanism cannot stand."""
+    for number, place in enumerate(places):
+        solved = solve_linkage(cycle.mechanism, {**cycle.givens, cycle.drive.variable: place}, ("position",))
+        if solved.trouble is None:
+            # a guide on a moving link is drawn as far as the slider: its run is counted from the calculated position
+            yield number, replace(scene, solved=solved, runs={})
 
 
 def _lay_down(canvas: Canvas, scene: Scene, numbers: list[int], pen: Pen, role: str) -> None:
@@ -101,8 +84,7 @@ def _lay_down(canvas: Canvas, scene: Scene, numbers: list[int], pen: Pen, role: 
     for number in numbers:
         figure = skeleton(scene, number)
         canvas.add(*(Line(a, b, pen, role=role, name=str(number)) for a, b in figure.strokes))
-        places = (*figure.pins, *(at for at, _ in figure.blocks))
-        pins |= dict.fromkeys(complex(round(at.real, 4), round(at.imag, 4)) for at in places)
+        pins |= dict.fromkeys(complex(round(at.real, 4), round(at.imag, 4)) for at in figure.nodes)
     canvas.add(*(Circle(at, scene.style.node, Pen.THIN, fill="white", role=role) for at in pins))
 
 
@@ -154,13 +136,13 @@ def _output_point(cycle: Cycle) -> str:
     return next((p for p in (*shared, *points) if p not in held and p in points), cycle.mechanism.driver.point)
 
 
-def _number(canvas: Canvas, scene: Scene, stands: list[Stand], point: str) -> None:
+def _number(canvas: Canvas, scene: Scene, stands: Mapping[int, Scene], point: str) -> None:
     """Number the places of a point; places that coincide share one label."""
     at: dict[complex, list[str]] = {}
-    for stand in stands:
-        place = stand.scene.mm(point)
+    for number, stand in stands.items():
+        place = stand.mm(point)
         key = next((other for other in at if abs(other - place) < CLOSE), place)
-        at.setdefault(key, []).append(str(stand.number))
+        at.setdefault(key, []).append(str(number))
     middle = sum(at) / len(at) if at else 0j
     ends = [place - middle for place in at]
     far = max(ends, key=abs, default=0j)
@@ -173,26 +155,17 @@ def _number(canvas: Canvas, scene: Scene, stands: list[Stand], point: str) -> No
         canvas.label(text, place, prefer=away, clear=scene.style.node + 0.6, height=scene.style.text)
 
 
-def _ways(scene: Scene, stands: list[Stand]) -> dict[str, tuple[float, float]]:
+def _ways(scene: Scene, stands: Iterable[Scene]) -> dict[str, tuple[float, float]]:
     """Return by guide of the frame how far its slider stands back and forth of its calculated place, metres."""
     found = {}
-    for pair in scene.solved.mechanism.pairs:
+    for pair in scene.mechanism.pairs:
         if isinstance(pair, Prismatic) and FRAME in pair.links:
             name, point = scene.solved.guide_name(pair), pair.point
             at, u = scene.solved.point(point), scene.solved.point(name)
-            ways = [dot(stand.scene.solved.point(point) - at, u) for stand in stands]
+            ways = [dot(stand.solved.point(point) - at, u) for stand in stands]
             low, high = scene.runs.get(name, (0.0, 0.0))
             found[name] = min([low, *ways]), max([high, *ways])
     return found
-
-
-def _driving(canvas: Canvas, scene: Scene) -> None:
-    """Draw the sense in which the crank turns, outside of its circle."""
-    driver = scene.solved.mechanism.driver
-    if isinstance(driver, Driver):
-        crank = abs(scene.mm(driver.point) - scene.mm(driver.pivot))
-        radius = crank + 2.0 * scene.style.label
-        turning_of_driver(canvas, scene, driver, (radius, radius * 1.15, radius * 1.3), ARC / radius, START)
 
 
 def _notes(scene: Scene, cycle: Cycle, dead: list[float]) -> tuple[str, ...]:
@@ -210,23 +183,17 @@ def coupler(solved: SolvedLinkage) -> int | None:
     """Return the first link with two joints that is not on the frame: only such a link has a field worth drawing."""
     mechanism = solved.mechanism
     on_frame = {number for pair in mechanism.pairs if FRAME in pair.links for number in pair.links}
-    turning = [number for number in _numbers(solved) if number not in on_frame and _turns(solved, number)]
-    return turning[0] if turning else None
-
-
-def _numbers(solved: SolvedLinkage) -> list[int]:
-    return [number for group in solved.structure.groups for number in group.links]
-
-
-def _turns(solved: SolvedLinkage, number: int) -> bool:
-    joints = {pair.point for pair in solved.mechanism.pairs if number in pair.links}
-    return len(joints) > 1 and bool(solved.values.get(f"omega_{number}"))
+    for number in (n for group in solved.structure.groups for n in group.links if n not in on_frame):
+        joints = {pair.point for pair in mechanism.pairs if number in pair.links}
+        if len(joints) > 1 and solved.values.get(f"omega_{number}"):
+            return number
+    return None
 
 
 def _grid(scene: Scene, link: int) -> tuple[int, int]:
     """Return how many columns and rows stand so far apart that arrows have room between them."""
     pitch = PITCH * scene.style.arrow * scene.scales[POSITION].mu
-    points = [scene.solved.point(point) for point in scene.solved.mechanism.link(link).points]
+    points = [scene.solved.point(point) for point in scene.mechanism.link(link).points]
     width, height = (float(np.ptp(part)) for part in (np.real(points), np.imag(points)))
     side = max(width, height)
     wanted = ((part + 2.0 * MARGIN * side) / pitch for part in (width, height))

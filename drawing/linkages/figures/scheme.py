@@ -10,7 +10,7 @@ from ....plans.board import POSITION, Step
 from ....plans.linkages.legs import guide_letters
 from ....plans.linkages.mechanism import FRAME, ZERO, Driver, Prismatic, SlidingDriver
 from ....plans.names import role
-from ...shapes import Arc, Arrow, Circle, Group, Line, Pen
+from ...shapes import Arc, Arrow, Line, Pen
 from ...symbols import angle_dimension, turning_arrow
 from ...view import Canvas, View
 from ..scene import Scene
@@ -28,10 +28,10 @@ CROSS = 8.0  # mm by which arcs and lines run past the joint that they find
 def scheme(scene: Scene) -> View:
     """Draw the plan of the mechanism in the given position."""
     canvas = Canvas(scene.style)
-    numbers = [link.number for link in scene.solved.mechanism.links]
+    numbers = [link.number for link in scene.mechanism.links]
     axes(canvas, scene)
-    points = {point for link in scene.solved.mechanism.links for point in link.points}
-    for step in scene.solved.program.on(POSITION):
+    points = {point for link in scene.mechanism.links for point in link.points}
+    for step in scene.program.on(POSITION):
         if step.name in points or step.verb == "tangent":
             found_by(canvas, scene, step)
     special_points(canvas, scene)
@@ -39,7 +39,7 @@ def scheme(scene: Scene) -> View:
     draw_sides(canvas, scene, POSITION, strokes)
     figures = draw_links(canvas, scene, numbers)
     draw_frame(canvas, scene, numbers, figures)
-    driver = scene.solved.mechanism.driver
+    driver = scene.mechanism.driver
     if isinstance(driver, Driver):
         _angle(canvas, scene, driver)
     else:
@@ -98,7 +98,7 @@ def turning_of_driver(
 
 def _speed(canvas: Canvas, scene: Scene, driver: SlidingDriver) -> None:
     """Draw the arrow of the speed of a driver that slides, beside its block."""
-    pair = next(p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and driver.link in p.links)
+    pair = next(p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and driver.link in p.links)
     at, u = scene.mm(pair.point), guide_of(scene, pair)
     speed = scene.solved.values[driver.speed]
     if speed:
@@ -110,7 +110,7 @@ def _speed(canvas: Canvas, scene: Scene, driver: SlidingDriver) -> None:
 
 def _frame_number(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
     """Letter the frame 0, once, beside the hatching of the driver's pivot or guide; keep letters off the hatching."""
-    mechanism, style = scene.solved.mechanism, scene.style
+    mechanism, style = scene.mechanism, scene.style
     driver, zero = mechanism.driver, scene.words.frame
     for pair in mechanism.pairs:
         if isinstance(pair, Prismatic) and FRAME in pair.links:
@@ -133,9 +133,10 @@ def _frame_number(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> 
 
 def axes(canvas: Canvas, scene: Scene) -> None:
     """Draw the axes of the frame's guides: past the slider, and past a pivot that is near the same line."""
-    pivots = [scene.mm(point) for point in scene.solved.mechanism.frame_points]
-    pairs = [p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and FRAME in p.links]
-    letters, per_mm = guide_letters(scene.solved.program), 1.0 / scene.scales[POSITION].mu
+    pivots = [scene.mm(point) for point in scene.mechanism.frame_points]
+    pairs = [p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and FRAME in p.links]
+    joints = {scene.mm(pair.point) for pair in scene.mechanism.pairs}  # near them is the less room for a letter
+    letters, per_mm = guide_letters(scene.program), 1.0 / scene.scales[POSITION].mu
     for pair in pairs:
         at, u, name = scene.mm(pair.point), guide_of(scene, pair), scene.solved.guide_name(pair)
         feet = [(pivot - at) / u for pivot in pivots]
@@ -144,20 +145,16 @@ def axes(canvas: Canvas, scene: Scene) -> None:
         line = at + u * (min(0.0, *way) - PAST), at + u * (max(0.0, *way) + PAST)
         canvas.add(Line(*line, Pen.AXIS))
         # of several axes the far ends meet at one pivot
-        far = min(line, key=lambda end: (len(_near(scene, end)), (1.0 if len(pairs) > 1 else -1.0) * abs(end - at)))
+        crowd = {end: len([joint for joint in joints if abs(joint - end) < 1.2 * scene.style.force]) for end in line}
+        sign = 1.0 if len(pairs) > 1 else -1.0
+        far = min(line, key=lambda end: (crowd[end], sign * abs(end - at)))
         canvas.label(letters.get(name, ""), far, clear=1.0, prefer=-guide_up(scene, pair))
-
-
-def _near(scene: Scene, place: complex) -> set[complex]:
-    """Return the joints near a place, which has the less room for a letter."""
-    joints = {scene.mm(pair.point) for pair in scene.solved.mechanism.pairs}
-    return {joint for joint in joints if abs(joint - place) < 1.2 * scene.style.force}
 
 
 def moving_guides(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
     """Letter the guides of moving links that have letters: those that no two pins name."""
-    letters = guide_letters(scene.solved.program)
-    for pair in (p for p in scene.solved.mechanism.pairs if isinstance(p, Prismatic) and FRAME not in p.links):
+    letters = guide_letters(scene.program)
+    for pair in (p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and FRAME not in p.links):
         letter = letters.get(scene.solved.guide_name(pair))
         figure = next(figure for figure in figures if figure.number == pair.links[1])
         u = guide_of(scene, pair)
@@ -237,13 +234,13 @@ def special_points(canvas: Canvas, scene: Scene, wanted: Iterable[str] | None = 
 
     Such is the special point of a group of class III; without `wanted` all of them.
     """
-    mechanism = scene.solved.mechanism
+    mechanism = scene.mechanism
     lettered = {point for link in mechanism.links for point in link.points} | {*mechanism.frame_points}
-    for step in scene.solved.program.on(POSITION):
+    for step in scene.program.on(POSITION):
         if step.verb != "meet" or role(step.name).hidden or step.name in lettered:
             continue
         if wanted is None or step.name in wanted:
             found_by(canvas, scene, step)
             at = scene.mm(step.name)
-            canvas.add(Group((Circle(at, scene.style.node, Pen.MAIN, fill="white"),), "point", step.name))
+            canvas.add(scene.point(at, step.name))
             canvas.label(scene.words.mark(step.name), at, clear=scene.style.node + 0.8)

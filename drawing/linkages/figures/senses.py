@@ -34,23 +34,12 @@ Obstacle = tuple[complex, complex, float, float]  # ends, how far it reaches abo
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """A rate read off a plan: the link, the vector that turns its joint `end` about its joint `start`."""
+    """A rate of a link read off a plan: the vector that turns its joint `end` about its joint `start`."""
 
     rate: str
-    link: int
     vector: str
     start: str
     end: str
-
-
-def turns(scene: Scene) -> Iterator[Turn]:
-    """Go through the rates of turning that the construction reads off its plans."""
-    made = {step.name: step for step in scene.solved.program}
-    for step in scene.solved.program:
-        if step.law == "turning" and not is_relative(step.name):
-            vector, normal, _ = step.operands
-            along = made[made[normal].operands[0]]  # the direction whose normal it is, from one joint to another
-            yield Turn(step.name, role(step.name).links[0], vector, *along.operands[:2])
 
 
 def senses(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
@@ -60,11 +49,16 @@ def senses(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
     """
     taken: dict[tuple[complex, complex], float] = {}
     shown: dict[int, list[Turn]] = {}
-    for turn in turns(scene):
-        e, value = scene.direction(turn.vector), scene.solved.values[turn.rate]
-        if e != 0 and value == value:
-            shown.setdefault(turn.link, []).append(turn)
-            _carried(canvas, scene, turn, e, taken)
+    for step in scene.program:
+        if step.law == "turning" and not is_relative(step.name):
+            vector, normal, _ = step.operands
+            # the direction whose normal it is runs from one joint to another
+            joints = scene.reading.made[scene.reading.made[normal].operands[0]].operands[:2]
+            e = scene.direction(vector)
+            if e != 0 and scene.defined(step.name):
+                turn = Turn(step.name, vector, *joints)
+                shown.setdefault(role(step.name).links[0], []).append(turn)
+                _carried(canvas, scene, turn, e, taken)
     for figure in figures:
         if figure.number in shown:
             _arcs(canvas, scene, shown[figure.number], figure)
@@ -74,12 +68,12 @@ def _arcs(canvas: Canvas, scene: Scene, shown: Sequence[Turn], figure: Skeleton)
     """Draw the arcs of one link across one of its lines, that between the joints of the rate if there is one."""
     ends, own = (scene.mm(shown[0].start), scene.mm(shown[0].end)), figure.strokes
     rays = [ray for line in own for ray in (line, line[::-1])]
-    belongs = shown[0].start in scene.solved.mechanism.link(figure.number).points
+    belongs = shown[0].start in scene.mechanism.link(figure.number).points
     if belongs or not rays:
         rays.insert(0, ends)
     force, wanted = scene.style.force, [PLACES[role(turn.rate).kind] for turn in shown]
     # centres of mass are drawn with their letters, later
-    marks = [scene.mm(point) for link in scene.solved.mechanism.links for point in link.points]
+    marks = [scene.mm(point) for link in scene.mechanism.links for point in link.points]
     busy = [*obstacles(canvas.shapes), *((at, at, scene.style.centre, 2.0) for at in marks)]
     places = place_arcs(rays, wanted, busy, force, own)
     for turn, place in zip(shown, places, strict=True):
@@ -98,7 +92,7 @@ def _carried(canvas: Canvas, scene: Scene, turn: Turn, e: complex, taken: dict[t
     length = 0.62 * scene.style.force + start
     taken[key] = length + 0.2 * scene.style.force
     canvas.add(Arrow(b, b + e * length, Pen.THIN, name=turn.vector))
-    canvas.label(scene.words.symbol(turn.vector, bar=True), (b + e * (length * 0.6), b + e * length), clear=1.0)
+    canvas.label(scene.letter(turn.vector), (b + e * (length * 0.6), b + e * length), clear=1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,15 +121,18 @@ def place_arcs(
     force : float
         Length of the arrow of a force, mm, to which arcs are proportioned.
     """
-    tries = [_tries(ray, _others(ray, busy, own), force) for ray in rays]
+    tries = []
+    for ray in rays:  # the line of the link itself along a ray is crossed by all arcs about its start
+        along = [line for line in own if _on(line, (*ray, 0.0, 0.0))]
+        tries.append(_tries(ray, [one for one in busy if not any(_on(line, one) for line in along)], force))
     kept: list[list[tuple[float, int, Place]]] = []
     for share in wanted:
         found = []
         for number, (ray, (radii, spreads, costs)) in enumerate(zip(rays, tries, strict=True)):
-            reach, along = abs(ray[1] - ray[0]), phase(ray[1] - ray[0])
+            reach, angle = abs(ray[1] - ray[0]), phase(ray[1] - ray[0])
             cost = costs + AWAY * np.abs(radii - share * reach) / reach
             order = np.argsort(np.round(cost, 6), kind="stable")[:KEPT].tolist()
-            places = (Place(ray[0], along, float(radii[k]), float(spreads[k])) for k in order)
+            places = (Place(ray[0], angle, float(radii[k]), float(spreads[k])) for k in order)
             found += [(round(float(cost[k]), 6), number, place) for k, place in zip(order, places, strict=True)]
         kept.append(sorted(found, key=lambda one: one[:2])[:KEPT])
     return _together(kept, APART * force)
@@ -158,12 +155,6 @@ def _together(kept: Sequence[Sequence[tuple[float, int, Place]]], apart: float) 
         total = total + pair.reshape(shape)
     best = np.unravel_index(int(np.round(total, 6).argmin()), total.shape)
     return tuple(one[int(k)][2] for one, k in zip(kept, best, strict=True))
-
-
-def _others(ray: Stroke, busy: Sequence[Obstacle], own: Sequence[Stroke]) -> list[Obstacle]:
-    """Leave out the line of the link itself that an arc about the start of a ray must cross."""
-    along = [line for line in own if _on(line, (*ray, 0.0, 0.0))]
-    return [one for one in busy if not any(_on(line, one) for line in along)]
 
 
 def free_arc(
@@ -240,8 +231,10 @@ def obstacles(shapes: Iterable[Shape]) -> Iterator[Obstacle]:
     """Go through what is drawn, as lines that count by their pen, and circles."""
     for shape in shapes:
         match shape:
+            case Line(a=a, b=b, role="hatch"):
+                yield a, b, 0.0, 1.0
             case Line(a=a, b=b) | Vector(tail=a, tip=b) | Arrow(tail=a, tip=b):
-                yield a, b, 0.0, 1.0 if shape.pen is Pen.MAIN or _is_hatch(shape) else LIGHT
+                yield a, b, 0.0, 1.0 if shape.pen is Pen.MAIN else LIGHT
             case Polyline(points=points, closed=closed):
                 ends = (*points, points[0]) if closed else points
                 yield from ((a, b, 0.0, 1.0 if shape.pen is Pen.MAIN else LIGHT) for a, b in pairwise(ends))
@@ -254,10 +247,6 @@ def obstacles(shapes: Iterable[Shape]) -> Iterator[Obstacle]:
                 yield from obstacles(parts)
             case Head() | Text():
                 pass
-
-
-def _is_hatch(shape: Line | Vector | Arrow) -> bool:
-    return isinstance(shape, Line) and shape.role == "hatch"
 
 
 __all__ = ["Obstacle", "Place", "crowd", "free_arc", "obstacles", "place_arcs"]

@@ -17,8 +17,8 @@ from ....scales.errors import InputError
 from ....scales.scale import Scale, steps
 from ...extents import Extent, Extents, Ladder, Rungs, Size, choose, visible
 from ...formats import FORMATS, Format
-from ..scene import DRIVER
 
+DRIVER = "driver"  # the figure of the driver apart, among the plans that have scale factors
 # mm, the longest segment of a plan of forces at the beginning, on one page and on several, by format; that of other
 # plans may be so many times as long
 LONGEST = {"A1": (140.0, 190.0), "A2": (140.0, 190.0), "A3": (130.0, 190.0), "A4": (130.0, 160.0)}
@@ -129,7 +129,9 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
             yield from _plan(solved, plan, KINEMATICS)
     if "compound" in plans:
         yield Extent("mu_l", whole, GROUP)
-        yield from (Extent(symbols[p], _box(solved, p), SPLIT) for p in symbols if role(p).kind == ACCELERATION)
+        yield from (
+            Extent(symbols[p], _around(marks_on(solved, p)), SPLIT) for p in symbols if role(p).kind == ACCELERATION
+        )
     if "forces" in plans:
         for group in solved.structure.groups:
             points = [point for link in solved.mechanism.links if link.number in group.links for point in link.points]
@@ -140,13 +142,13 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
             yield from _plan(solved, plan, KINETOSTATICS)
         yield Extent("", (0.0, 0.0), APART, part=KINETOSTATICS)
     if "lever" in plans:
-        high, wide = _box(solved, "velocity")
+        high, wide = _around(marks_on(solved, "velocity"))
         yield Extent("mu_V", (wide, high), LEVER, HEADING, part=KINETOSTATICS)
 
 
 def _plan(solved: SolvedLinkage, plan: str, part: int) -> Iterator[Extent]:
     """Return the figure of a plan, and insets for the forces in it that would be points."""
-    yield Extent(solved.scale_of_plan[plan], _box(solved, plan), PLAN, HEADING, part)
+    yield Extent(solved.scale_of_plan[plan], _around(marks_on(solved, plan)), PLAN, HEADING, part)
     sizes = [abs(q.value or 0.0) for name, q in solved.quantities.items() if solved.shown_on.get(name) == plan]
     points = sum(ZERO * max(sizes) < size < POINT * max(sizes) for size in sizes)
     if part == KINETOSTATICS and points > 1:
@@ -180,10 +182,10 @@ def _mechanism(solved: SolvedLinkage) -> Size:
     return _around(places)
 
 
-def _box(solved: SolvedLinkage, plan: str) -> Size:
-    # an instant centre may be anywhere: its figure says so in words where it is far
+def marks_on(solved: SolvedLinkage, plan: str) -> list[complex]:
+    """Return the places of the marks of a plan, but of an instant centre: where it is far its figure says so."""
     drawn = (step.name for step in solved.program.on(plan) if step.verb in MARKS)
-    return _around([solved.point(name) for name in drawn if not role(name).hidden and role(name).kind != "P"])
+    return [solved.point(name) for name in drawn if not role(name).hidden and role(name).kind != "P"]
 
 
 def _around(places: Sequence[complex]) -> Size:
@@ -214,13 +216,10 @@ def _largest(solved: SolvedLinkage, symbol: str) -> float:
     plans, shown = solved.scale_of_plan, solved.shown_on
     if symbol == plans[POSITION]:
         return solved.extent
-    drawn = (q.value or 0.0 for q in solved.quantities.values() if plans.get(_plan_of(q.name, shown)) == symbol)
+    # lengths are those of the plan of the mechanism
+    on = {name: POSITION if role(name).kind == "l" else shown.get(name, "") for name in solved.quantities}
+    drawn = (q.value or 0.0 for name, q in solved.quantities.items() if plans.get(on[name]) == symbol)
     return max(map(abs, drawn), default=0.0)
-
-
-def _plan_of(quantity: str, shown: Mapping[str, str]) -> str:
-    """Return the plan that shows a quantity: lengths are those of the plan of the mechanism."""
-    return POSITION if role(quantity).kind == "l" else shown.get(quantity, "")
 
 
 def by_plan(solved: SolvedLinkage, mus: Mapping[str, float]) -> dict[str, Scale]:

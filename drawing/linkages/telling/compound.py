@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from ....plans.board import POSITION, Step
 from ....plans.linkages.compound import ACCELERATION, COMPOUND, VELOCITY, Closing, Coupler
 from ....plans.linkages.mechanism import ZERO
 from ....plans.names import POLE, Name, role, spelled, vector
-from ...printed import Input, calculation, ruler_decimals, segment_decimals
-from ..at_point import At
+from ...printed import Input, calculation
 from ..calculations.equations import (
     Factor,
-    Lines,
     Product,
     by_direction,
     factor,
     known,
     line_note,
     line_of,
+    noted,
     sensed,
     worked,
 )
+from ..calculations.tables import printed_segment
+from ..figures.inset import At
 from ..scene import Scene
 from .teller import Teller, Told
 
@@ -29,31 +30,18 @@ Line = tuple[str, ...]
 UNITS = {"V": "m/s", "a": "m/s^2", "omega": "rad/s", "epsilon": "rad/s^2"}
 
 
-def compound_equations(teller: Teller) -> dict[str, Lines]:
-    """Return the equations that stand before the steps of each figure of compound motion, by the name of its view."""
-    return {
-        view: [line for at in points for line in compound_lines(teller.scene, at.coupler, at.kind, at.point)]
-        for view, points in teller.figures.items()
-    }
-
-
-def compound_blocks(teller: Teller) -> frozenset[str]:
-    """Return the names of the views of the sheet whose equations stand with the steps."""
-    return frozenset(block_name(at.coupler, at.kind) for points in teller.figures.values() for at in points)
-
-
 def compound_told(teller: Teller, view: str) -> Iterator[Told]:
     """Go through the steps of one figure: the mechanism once more, then the vectors of every point."""
     scene, points = teller.scene, teller.figures[view]
-    first = scene.solved.program.on(points[0].plan)[0]
-    links = scene.solved.mechanism.links
+    first = scene.program.on(points[0].plan)[0]
+    links = scene.mechanism.links
     marks, names = {p for link in links for p in link.points}, {f"link:{link.number}" for link in links}
     letters = frozenset(map(teller.mark, marks))
     yield Told(first, teller.say("compound_mechanism"), names=frozenset(names | marks), letters=letters)
     for at in points:
         if at.kind == "V":
             yield _distance(teller, at)
-        for step in scene.solved.program.on(at.plan):
+        for step in scene.program.on(at.plan):
             if step.verb in POINT_STEPS:
                 yield from POINT_STEPS[step.verb](teller, at, step)
         if at.kind == "V" and at.point == [*at.coupler.letters][-1] and scene.defined(at.coupler.centre):
@@ -147,8 +135,11 @@ def compound_lines(scene: Scene, c: Coupler, kind: str, only: str = "") -> list[
 
 def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Line]:
     """Go through what is known before any point: the split, and relative rates where no end is closed."""
+    words = scene.words
     if kind == "V":
-        yield _split(scene, c)
+        links = {"link": _name(scene, c.number), "carrier": _name(scene, c.carrier.link.number)}
+        said = words["said.split"].format(pivot=words.mark(c.pivot), hinge=words.mark(c.hinge), **links)
+        yield tuple(said.split("|"))
     if c.closing is None:
         whole, carrier = ("omega", c.omega_e) if kind == "V" else ("epsilon", c.epsilon_e)
         yield _sum_of_rates(scene, f"{whole}_r_{c.number}", f"{whole}_{c.number}", carrier, -1.0)
@@ -164,11 +155,11 @@ def _velocities(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
     yield _product(scene, f"V_{letter}_e", factor(scene, c.omega_e), factor(scene, distance))
     if _closing(c, point) is not None:
         yield measured(scene, f"V_{letter}_r", spelled(VELOCITY, letter))
-        yield _product(scene, rate, factor(scene, f"V_{letter}_r"), _arm(scene, c, point, -1))
+        yield _product(scene, rate, factor(scene, f"V_{letter}_r"), _length(scene, c.hinge, point, -1))
         yield _sum_of_rates(scene, f"omega_{c.number}", c.omega_e, rate, 1.0)
         yield from _centre(scene, c)
     else:
-        yield _product(scene, f"V_{letter}_r", factor(scene, rate), _arm(scene, c, point))
+        yield _product(scene, f"V_{letter}_r", factor(scene, rate), _length(scene, c.hinge, point))
     yield measured(scene, f"V_{point}", spelled(VELOCITY, letter))
 
 
@@ -180,34 +171,21 @@ def _accelerations(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
     yield from _known_parts(scene, c, point)
     if closing is not None:
         yield from _closed(scene, c, closing, plan)
-        yield _product(scene, rate, factor(scene, f"a_{letter}_rt"), _arm(scene, c, point, -1))
+        yield _product(scene, rate, factor(scene, f"a_{letter}_rt"), _length(scene, c.hinge, point, -1))
         yield _sum_of_rates(scene, f"epsilon_{c.number}", c.epsilon_e, rate, 1.0)
     else:
-        yield _product(scene, f"a_{letter}_rt", factor(scene, rate), _arm(scene, c, point))
+        yield _product(scene, f"a_{letter}_rt", factor(scene, rate), _length(scene, c.hinge, point))
     yield measured(scene, f"a_{point}", plan)
 
 
-def _split(scene: Scene, c: Coupler) -> Line:
-    """Say which rotation is the transport one, and which the relative one."""
-    words = scene.words
-    said = words["said.split"].format(
-        link=_name(scene, c.number),
-        carrier=_name(scene, c.carrier.link.number),
-        pivot=words.mark(c.pivot),
-        hinge=words.mark(c.hinge),
-    )
-    return tuple(said.split("|"))
-
-
 def _closing(c: Coupler, point: str) -> Closing | None:
-    """Return what is known of the absolute motion of a point."""
     return c.closing if point == c.span.end else None
 
 
 def _known_parts(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
     """Go through the parts that the velocities give: normal ones, the tangential one of transport, Coriolis."""
     letter, distance = c.letters[point], factor(scene, f"l_{c.pivot}{point}")
-    yield _product(scene, f"a_{letter}_rn", factor(scene, f"omega_r_{c.number}", 2), _arm(scene, c, point))
+    yield _product(scene, f"a_{letter}_rn", factor(scene, f"omega_r_{c.number}", 2), _length(scene, c.hinge, point))
     yield _product(scene, f"a_{letter}_en", factor(scene, c.omega_e, 2), distance)
     if c.epsilon_e == ZERO:
         yield (f"{scene.words.symbol(f'a_{letter}_et')} = 0",)
@@ -222,8 +200,8 @@ def _closed(scene: Scene, c: Coupler, closing: Closing, plan: str) -> Iterator[L
     letter = c.letters[c.span.end]
     if closing.normal is not None:
         group = next(group for group in scene.solved.structure.groups if c.number in group.links)
-        link = scene.solved.mechanism.link(next(number for number in group.links if number != c.number))
-        pivot = next(point for point in link.points if point in scene.solved.mechanism.frame_points)
+        link = scene.mechanism.link(next(number for number in group.links if number != c.number))
+        pivot = next(point for point in link.points if point in scene.mechanism.frame_points)
         rate = factor(scene, f"omega_{link.number}", 2)
         yield _product(scene, closing.normal, rate, _length(scene, pivot, c.span.end))
     yield measured(scene, f"a_{letter}_rt", plan)
@@ -239,33 +217,17 @@ def tangential(normal: Name) -> Name:
 def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Line:
     """Return the vector equation of a point, and along which lines its unknown vectors lie."""
     closing, letter = _closing(c, point), c.letters[point]
-
-    def bar(name: str) -> str:
-        return scene.words.symbol(name, bar=True)
-
-    *parts, last = (bar(vector(kind, letter, part=part)) for part in COMPOUND[kind])
-    whole = bar(f"{kind}_{point}")
-    if closing is None:
-        return _equation(whole, [*map(known, parts), known(last)], [])
-    notes = [f"{last} {line_of(scene, c.span.n)}"]
-    if kind == "a" and closing.normal is not None:
-        across = tangential(closing.normal)
-        notes.append(line_note(scene, across, closing.direction))
-        whole = f"{known(bar(closing.normal))} + {by_direction(bar(across))}"
-    else:
-        notes.append(f"{whole} {line_of(scene, closing.direction)}")
+    *parts, last = (scene.letter(vector(kind, letter, part=part)) for part in COMPOUND[kind])
+    whole, notes = scene.letter(f"{kind}_{point}"), list[str]()
+    if closing is not None:
+        notes = [f"{last} {line_of(scene, c.span.n)}", f"{whole} {line_of(scene, closing.direction)}"]
         whole = by_direction(whole)
-    return _equation(whole, [*map(known, parts), by_direction(last)], notes)
-
-
-def _equation(whole: str, terms: Sequence[str], notes: Sequence[str]) -> Line:
-    chunks = [f"{whole} = {terms[0]}", *(f"+ {term}" for term in terms[1:])]
-    return _listed(tuple(chunks[:-1]), (chunks[-1], *notes))
-
-
-def _listed(before: Line, items: Sequence[str]) -> Line:
-    """Put a comma after all but the last of `items`."""
-    return (*before, *(f"{item}," for item in items[:-1]), items[-1])
+    if closing is not None and kind == "a" and closing.normal is not None:
+        across = tangential(closing.normal)
+        notes[1] = line_note(scene, across, closing.direction)
+        whole = f"{known(scene.letter(closing.normal))} + {by_direction(scene.letter(across))}"
+    first, *others = (*map(known, parts), known(last) if closing is None else by_direction(last))
+    return noted((f"{whole} = {first}", *(f"+ {term}" for term in others)), *notes)
 
 
 def _centre(scene: Scene, c: Coupler) -> Iterator[Line]:
@@ -285,7 +247,7 @@ def _product(scene: Scene, name: str, *factors: Factor) -> Line:
     head = role(name).kind
     line = worked(scene.words, scene.words.symbol(name), [Product(factors)], UNITS.get(head, "m"))
     sense = sensed(scene.words, scene.solved.values[name]) if head in ("omega", "epsilon") else ""
-    return _listed(line[:-1], [line[-1], sense]) if sense else line
+    return noted(line, sense)
 
 
 def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float) -> Line:
@@ -297,27 +259,17 @@ def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float)
     inputs = [Input(float(values[other]) * turn) for other, turn in terms]
     texts, result = calculation(words, lambda *x: sum(x), inputs)
     numbers = " ".join([texts[0], *(f"− {text[1:]}" if text.startswith("−") else f"+ {text}" for text in texts[1:])])
-    last = f"{result} {words.unit(UNITS[role(name).kind])}"
-    sense = sensed(words, float(values[name]))
     head = f"{words.symbol(name)} = {formula} =", *([f"{numbers} ="] if len(terms) > 1 else [])
-    return _listed(head, [last, sense]) if sense else (*head, last)
+    last = f"{result} {words.unit(UNITS[role(name).kind])}"
+    return noted((*head, last), sensed(words, float(values[name])))
 
 
 def measured(scene: Scene, name: str, plan: str) -> Line:
     """Return what was measured: the segment and the scale factor."""
     words, item = scene.words, scene.solved.quantities[name]
-    value, number = words.display.value(item.value or 0.0, item.unit), words.factor(scene.scales[plan])
-    mu = 1.0 / number if words.per_unit else number
-    places, decimals = segment_decimals(value, mu, ruler_decimals(words))
-    segment, unit = words.number(abs(value) / mu, places), words.unit(words.display.unit(item.unit))
-    times = "/" if words.per_unit else "·"
-    head = f"{words.symbol(name)} = {segment}{times}{words.short(number)} ="
-    return head, f"{words.number(abs(value), decimals)} {unit}"
-
-
-def _arm(scene: Scene, c: Coupler, point: str, power: int = 1) -> Factor:
-    """Return the distance of a point of the coupler from its hinge."""
-    return _length(scene, c.hinge, point, power)
+    segment, number, value = printed_segment(scene, item, plan)
+    head = f"{words.symbol(name)} = {segment}{'/' if words.per_unit else '·'}{number} ="
+    return head, f"{value} {words.unit(words.display.unit(item.unit))}"
 
 
 def _length(scene: Scene, start: str, end: str, power: int = 1) -> Factor:

@@ -12,13 +12,12 @@ from ....plans.names import role
 from ....scales.packaged import packaged
 from ... import notes
 from ...printed import HUNDREDTHS, POINT, Input, Symbol, calculation
-from ..at_point import At, figures_of
 from ..calculations.equations import Product, ends_of, factor, is_given, line_of, paper, size_of
-from ..reading import Reading, read
+from ..figures.inset import At, figures_of
+from ..reading import Reading
 from ..scene import Scene
 
 DOWN = 270.0  # degrees
-ACROSS = ("transport_speed", "transport_tangential")  # laws of vectors normal to the arm of a turn
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +49,7 @@ class Teller:
     def of(cls, scene: Scene, texts: Mapping[str, str] | None = None) -> Teller:
         """Return who tells the steps of a linkage; the words of the scene's language where no `texts` are said."""
         said = packaged(notes.__name__, "texts", scene.words.language) if texts is None else texts
-        return cls(scene, read(scene.solved.program), said, figures_of(scene))
+        return cls(scene, scene.reading, said, figures_of(scene))
 
     def say(self, key: str, **parts: str) -> str:
         """Return a sentence."""
@@ -135,48 +134,37 @@ class Teller:
         made = self.reading.step(vector)
         if made is None:
             return ""
-        if made.law in ACROSS or made.law == "transport_normal":
-            return self._on_arm(made)
-        if made.law in ALONG:
-            return ALONG[made.law](self, made)
         if made.verb == "read":  # laid off along a line on another plan
             laid = self.reading.made[made.operands[1]]
-            if laid.verb in ("lay", "back") and laid.operands[0] == made.operands[0]:
-                return self.line(laid.operands[1], back=laid.verb == "back")
+            own = laid.verb in ("lay", "back") and laid.operands[0] == made.operands[0]
+            return self.line(laid.operands[1], back=laid.verb == "back") if own else ""
+        match made.law:
+            case "transport_speed" | "transport_tangential" | "transport_normal":
+                return self._on_arm(made)
+            case "coriolis":
+                rate, turned = made.operands
+                return self.say("turned_by", vector=self.scene.letter(turned), rate=self.scene.words.symbol(rate))
+            case "inertia_force" | "resisting_force" | "resisting_along":
+                return self.say("against", motion=self.scene.letter(made.operands[1]))
+            case "weight":
+                return self.say("down")
+            case "along":
+                return self._given(made)
         return ""
 
     def _on_arm(self, made: Step) -> str:
         """Return the line of a part of a turn about a pin: normal to its arm, or along it towards the pin."""
         arm = self.reading.made[made.operands[1]]
         pin, point = (self.mark(mark) for mark in arm.operands)
-        if made.law not in ACROSS:
+        if made.law == "transport_normal":
             return f"∥ {pin}{point} ({point} → {pin})"
         return self.say("in_sense", line=f"⊥ {pin}{point}", rate=self.scene.words.symbol(made.operands[0]))
 
-    def _against(self, made: Step) -> str:
-        return self.say("against", motion=self.scene.letter(made.operands[1]))
-
-    def _across(self, made: Step) -> str:
-        rate, vector = made.operands
-        return self.say("turned_by", vector=self.scene.letter(vector), rate=self.scene.words.symbol(rate))
-
-    def _down(self, made: Step) -> str:
-        return self.say("down")
-
     def _given(self, made: Step) -> str:
+        """Return the line of a load: that of the plan along which it acts, or its angle."""
         line = self.reading.step(made.operands[1])
         if line is not None and line.verb != "turn":
             return self.line(made.operands[1])
         angle = math.degrees(cmath.phase(complex(self.scene.solved.values[made.name]))) % 360.0
         down = abs(angle - DOWN) < 1e-9
         return self.say("down") if down else self.say("inclined", angle=self.scene.words.short(round(angle, 2)))
-
-
-ALONG = {
-    "coriolis": Teller._across,
-    "inertia_force": Teller._against,
-    "resisting_force": Teller._against,
-    "resisting_along": Teller._against,
-    "weight": Teller._down,
-    "along": Teller._given,
-}
