@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from ..scales.arguments import of_kind
@@ -40,6 +40,13 @@ def names_of(
     return tuple(dict.fromkeys(one.strip() for item in items for one in str(item).split(",") if one.strip()))
 
 
+def all_known(key: str, names: Iterable[str], known: Collection[str]) -> None:
+    """Refuse, with the message `key`, the first of the names that is not known."""
+    for name in names:
+        if name not in known:
+            raise unknown(key, name, known)
+
+
 def positions_of(argument: str, value: int) -> int:
     """Return a number of positions or sections of a cycle.
 
@@ -73,7 +80,5 @@ def plans_wanted(
     of_kind("only", value, (str, Iterable), "list[str]")
     items = (value,) if isinstance(value, str) else tuple(value)
     plans = names_of("only", items)
-    for plan in plans or items[:1]:
-        if plan not in known:
-            raise unknown("plan-unknown", plan, known)
+    all_known("plan-unknown", plans or items[:1], known)
     return plans or all_of_them

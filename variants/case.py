@@ -107,13 +107,15 @@ def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser
         try:
             symbol = name if role(name).kind == "mu" else segment_symbol(name)
             chosen = chooser(symbol, str(text) if symbol == name else f"{name}={text}", firm=True)
-            if isinstance(chosen, Segment) and symbol in solved.scale_of_plan.values():
-                _shown(chosen, solved, name)
+            shown = {*solved.values, *solved.quantities}
+            drawn = symbol in solved.scale_of_plan.values()
+            if drawn and isinstance(chosen, Segment) and chosen.quantity not in shown:
+                raise InputError("scale-segment", text=quote(name))
         except InputError as error:
             raise LocatedError(name, error) from error
-        if symbol not in solved.scale_of_plan.values():
-            drawn = ", ".join(dict.fromkeys(solved.scale_of_plan.values())) or "-"
-            raise InputError("scale-not-drawn", text=quote(name), known=drawn)
+        if not drawn:
+            known = ", ".join(dict.fromkeys(solved.scale_of_plan.values())) or "-"
+            raise InputError("scale-not-drawn", text=quote(name), known=known)
         choosers[symbol] = chosen
     return choosers
 
@@ -129,9 +131,3 @@ def _choosable(task: Task, name: str, text: str | float, solved: Solved) -> None
     segment = name if role(name).kind != "mu" else str(text) if "=" in str(text) else ""
     if segment and not kind.segments:
         raise InputError("scale-no-segments", text=quote(segment), known=", ".join(known))
-
-
-def _shown(segment: Segment, solved: Solved, name: str) -> None:
-    """Refuse a segment, named `name`, that no plan shows."""
-    if segment.quantity not in solved.values and segment.quantity not in solved.quantities:
-        raise InputError("scale-segment", text=quote(name))

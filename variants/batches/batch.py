@@ -12,12 +12,11 @@ from ...drawing.pens import Norm
 from ...drawing.words import Words
 from ...drawing.writers import folder_for, save_all, slug
 from ...scales.errors import InputError, Written
-from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
-from ..arguments import by_name, plans_wanted
+from ..arguments import all_known, by_name, plans_wanted
 from ..case import Settings
-from ..crew import Advance, shared_out
+from ..crew import Advance, on_cluster, shared_out
 from ..kinds import kind_of
 from ..marking.wording import texts
 from ..reader import load_task
@@ -96,27 +95,25 @@ def batch(
         The roster, or an argument, is at fault for all; or a file cannot be written: what is done stays.
     """
     tasks = _tasks(task)
+    all_known("batch-kind", kinds, FORMS)
     making = Making(
-        _once(tasks), _known(kinds), by_name("set", set), _plans(_once(tasks), only), by_name("scales", scales), format,
-        norm, notation, lang, dict(block or {}),
+        _once(tasks), tuple(dict.fromkeys(kinds)), by_name("set", set), _plans(_once(tasks), only),
+        by_name("scales", scales), format, norm, notation, lang, dict(block or {}),
     )  # fmt: skip
     _refuse_early(making)
-    schemes = Schemes(tasks, Digits.of(_usual(tasks) if digits is None else digits))
+    usual = VARIANT if len(tasks) == 1 else f"{VARIANT},{SCHEME}"
+    schemes = Schemes(tasks, Digits.of(usual if digits is None else digits))
     listed = read_roster(os.fspath(roster), schemes, each=True)
     students = tuple(Student(number, entry) for number, entry in enumerate(listed.entries, 1))
     place = folder_for(folder)
     outcomes = run(making, students, place, _crew(jobs, dask), advance or (lambda done, whole: None))
-    done = Batch(students, outcomes, tuple(_unread(os.fspath(roster), listed.unread)))
+    unread = Written(", ".join(quote(head, SHOWN) for head in listed.unread))
+    # what was meant by columns that say nothing here has been left out
+    error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
+    done = Batch(students, outcomes, (error,) if listed.unread else ())
     for name, rows in _tables(done, making.tasks, lang):
         put(place / name, csv_table(list(rows), lang))
     return done
-
-
-def _unread(roster: str, heads: Sequence[str]) -> Iterator[InputError]:
-    """Warn of columns that say nothing here: what was meant by them has been left out."""
-    if heads:
-        columns = Written(", ".join(quote(head, SHOWN) for head in heads))
-        yield InputError("roster-unread", file=quote(os.path.basename(roster), SHOWN), columns=columns)
 
 
 def _tasks(said: Tasks) -> tuple[Task, ...]:
@@ -140,11 +137,6 @@ def _once(tasks: Sequence[Task]) -> tuple[Task, ...]:
     if not found:
         raise InputError("batch-nothing")
     return tuple(found.values())
-
-
-def _usual(tasks: Sequence[Task]) -> str:
-    """Return what the last digits of a record book are usually for."""
-    return VARIANT if len(tasks) == 1 else f"{VARIANT},{SCHEME}"
 
 
 def _plans(tasks: Iterable[Task], only: str | Iterable[str] | None) -> dict[str, tuple[str, ...]]:
@@ -180,13 +172,6 @@ def write_roster(task: Tasks, file: str | os.PathLike[str], lang: str = "uk") ->
     return save_all((file,), SUFFIXES, lambda path: [(path, table_bytes(path, rows, lang, tasks[0].id, [0], 1))])[0]
 
 
-def _known(kinds: Sequence[str]) -> tuple[str, ...]:
-    for kind in kinds:
-        if kind not in FORMS:
-            raise unknown("batch-kind", kind, FORMS)
-    return tuple(dict.fromkeys(kinds))
-
-
 def _refuse_early(making: Making) -> None:
     """Refuse what would be wrong for every student alike."""
     said_of(making.block)
@@ -204,8 +189,6 @@ def _crew(jobs: int | None, dask: str | None) -> Crew:
         return lambda making, students: shared_out(
             making, students, jobs or os.cpu_count() or 1, 0 if jobs != 1 else None, making.afresh
         )
-    from ..crew import on_cluster
-
     return lambda making, students: on_cluster(making, students, dask)
 
 

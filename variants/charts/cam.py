@@ -15,6 +15,7 @@ from ...plans.cams.rivals import rivals
 from ...plans.cams.robustness import Robustness, robustness
 from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.contest import FULL, Effort
+from ..arguments import all_known
 from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
 from .accuracy import AccuracyChart
@@ -25,7 +26,6 @@ from .data import (
     ChartRequest,
     Gallery,
     Scene,
-    check_known,
     error_rows,
     finite,
     per_cent,
@@ -54,7 +54,7 @@ def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
         return cam_accuracy_chart(scene, solved)
     if name == "stability":
         return CamStabilityChart(scene, robustness(solved, HANDS))
-    check_known(asked.quantities, compared(solved))
+    all_known("quantity-unknown", asked.quantities, compared(solved))
     return SectionsChart(scene, convergence(solved, HANDS, asked.quantities))
 
 

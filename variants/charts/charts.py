@@ -16,10 +16,9 @@ from ...drawing.words import Words
 from ...drawing.writers import save_all
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, KulmanError
-from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import parse, unit
-from ..arguments import names_of, positions_of
+from ..arguments import all_known, names_of, positions_of
 from ..case import Case, Settings, solve_case
 from ..task import LocatedError, Task
 from .data import Chart, ChartRequest, Gallery, Scene
@@ -156,9 +155,7 @@ def chart(
     case = solve_case(task, variant, set, only, scales)
     gallery = case.kind.gallery(case.task)
     names, wanted = names_of("chart", chart), names_of("quantities", quantities)
-    for name in names:
-        if name not in gallery.charts:
-            raise unknown("chart-unknown", name, gallery.charts)
+    all_known("chart-unknown", names, gallery.charts)
     if positions is not None:
         positions_of("positions", positions)
     most = _per_cent(tolerance)

@@ -14,7 +14,6 @@ from ...plans.hands.hand import PRESETS, Hand, preset
 from ...plans.laws import TURN
 from ...plans.linkages.cycles.cycle import Cycle
 from ...scales.errors import InputError
-from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import unit
 from ..case import Case
@@ -104,13 +103,6 @@ class Gallery:
     charts: tuple[str, ...]
     used_by: Mapping[str, tuple[str, ...]]
     make: Callable[[str, Scene, ChartRequest], Chart]
-
-
-def check_known(names: Iterable[str], known: Sequence[str]) -> None:
-    """Refuse a quantity that a chart cannot show."""
-    for name in names:
-        if name not in known:
-            raise unknown("quantity-unknown", name, known)
 
 
 def place_value(of: str, at: float) -> float:

@@ -13,9 +13,10 @@ from ...plans.gears.gear import unit_of
 from ...plans.gears.scale_errors import DRAWINGS, MILLI, ScaleErrors, compared, scale_errors
 from ...plans.gears.solve import SolvedGear
 from ...plans.hands.hand import PRESETS
+from ..arguments import all_known
 from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
-from .data import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, check_known, error_rows, finite, wrapped
+from .data import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, error_rows, finite, wrapped
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,7 +33,7 @@ def make(name: str, scene: Scene, asked: ChartRequest) -> ScaleChart:
         An unknown quantity, or no meshing to draw.
     """
     solved = SolvedGear.of(scene.case.solved)
-    check_known(asked.quantities, compared(solved))
+    all_known("quantity-unknown", asked.quantities, compared(solved))
     return ScaleChart(scene, scale_errors(solved, HANDS, asked.quantities))
 
 

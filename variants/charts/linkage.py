@@ -28,6 +28,7 @@ from ...plans.quantities import BALANCES, unit_of
 from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit
+from ..arguments import all_known
 from ..case import Case
 from ..spreadsheets.cells_out import Cell
 from ..sweeps.cycles import driver_name
@@ -39,7 +40,6 @@ from .data import (
     ChartRequest,
     Gallery,
     Scene,
-    check_known,
     finite,
     place_column,
     place_si,
@@ -70,7 +70,7 @@ def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
     if count not in scene.cycles:
         scene.cycles[count] = _cycle(scene.case, count)
     whole = scene.cycles[count]
-    check_known(asked.quantities, whole.quantities)
+    all_known("quantity-unknown", asked.quantities, whole.quantities)
     if name == "accuracy":
         return accuracy_chart(scene, whole, asked.quantities)
     if name == "stability":

@@ -84,47 +84,47 @@ def output(module: str, help: str, required: bool = False) -> Callable[[Command]
     return click.option(*names, metavar="FILE", multiple=True, required=required, callback=checked, help=said)
 
 
-def of_task(command: Command) -> Command:
-    """Add what every command about a task takes."""
-    return click.argument("task")(_about_task(command))
+def stacked(*options: Any) -> Callable[[Command], Command]:
+    """Return what adds options to a command, in the order in which its help shows them."""
+
+    def add(command: Command) -> Command:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return add
 
 
-def of_tasks(command: Command) -> Command:
-    """Add what a command about one task or several takes."""
-    return click.argument("tasks", metavar="TASK...", nargs=-1, required=True)(_about_task(command))
-
-
-def _about_task(command: Command) -> Command:
-    options = (
-        click.option("-v", "--variant", help="A variant of the task; without it the first one."),
-        click.option(
-            "--set",
-            "settings",
-            metavar="NAME=VALUE",
-            multiple=True,
-            callback=pairs,
-            help="Another value for a given: l_OA=55, 'n_1=765 об/хв', 'F_3=2 kN'. Repeatable.",
-        ),
-        click.option(
-            "--scale",
-            "scales",
-            metavar="NAME=VALUE",
-            multiple=True,
-            callback=pairs,
-            help="A scale factor, mu_V=0.05, or a segment in mm, pa=80. Repeatable.",
-        ),
-        click.option("--only", metavar="PLAN,...", multiple=True, callback=given, help="Only these plans."),
-        click.option("--notation", help="Letters of another school: artobolevsky, bauman, bertyaev, iso, madi, nau."),
-        of_language,
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
-
-
-def of_language(command: Command) -> Command:
-    """Add the language, which `main` has already taken for messages."""
-    return click.option("--lang", type=Word(*LANGUAGES), help="Of results and messages; else `KULMAN_LANG`.")(command)
+# the language, which `main` has already taken for messages
+of_language = click.option("--lang", type=Word(*LANGUAGES), help="Of results and messages; else `KULMAN_LANG`.")
+_about_task: tuple[Any, ...] = (
+    click.option("-v", "--variant", help="A variant of the task; without it the first one."),
+    click.option(
+        "--set",
+        "settings",
+        metavar="NAME=VALUE",
+        multiple=True,
+        callback=pairs,
+        help="Another value for a given: l_OA=55, 'n_1=765 об/хв', 'F_3=2 kN'. Repeatable.",
+    ),
+    click.option(
+        "--scale",
+        "scales",
+        metavar="NAME=VALUE",
+        multiple=True,
+        callback=pairs,
+        help="A scale factor, mu_V=0.05, or a segment in mm, pa=80. Repeatable.",
+    ),
+    click.option("--only", metavar="PLAN,...", multiple=True, callback=given, help="Only these plans."),
+    click.option("--notation", help="Letters of another school: artobolevsky, bauman, bertyaev, iso, madi, nau."),
+    of_language,
+)
+of_task = stacked(click.argument("task"), *_about_task)
+of_tasks = stacked(click.argument("tasks", metavar="TASK...", nargs=-1, required=True), *_about_task)
+of_norm = click.option(
+    "--norm", type=Word("gost", "iso"), default="gost", show_default=True, help="Frame and title block."
+)
+tiled = click.option("--tile", type=Word("A4", "A3"), help="Cut a PDF into pages of this format for a small printer.")
 
 
 def example(*lines: str) -> str:
@@ -155,28 +155,10 @@ def processes(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     return number
 
 
-def of_norm(command: Command) -> Command:
-    """Add by which norm frame and title block are drawn."""
-    said = "Frame and title block."
-    return click.option("--norm", type=Word("gost", "iso"), default="gost", show_default=True, help=said)(command)
-
-
-def tiled(command: Command) -> Command:
-    """Add on what small paper a PDF is spread."""
-    said = "Cut a PDF into pages of this format for a small printer."
-    return click.option("--tile", type=Word("A4", "A3"), help=said)(command)
-
-
 def titled(*names: str) -> Callable[[Command], Command]:
     """Return what adds `names`, which a title block or a title page says."""
-
-    def add(command: Command) -> Command:
-        for name in reversed(names):
-            none = "; none is invented" if name == "date" else ""
-            command = click.option(f"--{name}", help=f"For the title block{none}.")(command)
-        return command
-
-    return add
+    none = {"date": "; none is invented"}
+    return stacked(*(click.option(f"--{name}", help=f"For the title block{none.get(name, '')}.") for name in names))
 
 
 def moodle_out(ctx: click.Context, param: click.Parameter, value: str | None) -> Path | None:
@@ -189,51 +171,43 @@ def moodle_out(ctx: click.Context, param: click.Parameter, value: str | None) ->
     return Path(value)
 
 
-def of_check(command: Command) -> Command:
-    """Add what is said of answers to be marked."""
-    options = (
-        click.argument("answers", nargs=-1),
-        click.option(
-            "--form", metavar="FILE", help="Write an empty form, .csv or .xlsx; with --roster that of a class."
-        ),
-        click.option(
-            "--preset",
-            type=Word(*HANDS),
-            default="normal",
-            show_default=True,
-            help="What may be missed by hand.",
-        ),
-        click.option(
-            "--verdict-only", "own", is_flag=True, help="For the student: right or wrong, and no right numbers."
-        ),
-        click.option("--format", type=Word(*SIZES), help="Mark what is drawn on the sheet of this format."),
-        click.option("--rubric", metavar="FILE", help="Weights, worths, tolerances: a small TOML file."),
-        click.option(
-            "--directions",
-            type=Word("required", "optional", "ignored"),
-            help="Directions of vectors, senses of what turns: a line without is worth half; what is said is compared; "
-            "or sizes alone are. In the place of what the rubric says; else optional.",
-        ),
-        click.option(
-            "--roster", metavar="FILE", help="Students with their variants, record books, own data: .csv or .xlsx."
-        ),
-        click.option(
-            "--digits",
-            metavar="N|WORD,...",
-            default="1",
-            show_default=True,
-            help="How many last digits of the record book give the variant, where the roster has none; or what each is "
-            "for: variant, scheme, - for nothing.",
-        ),
-        click.option("--out", "folder", metavar="FOLDER", help="Reports on every student, .html and .txt."),
-        click.option("--moodle", metavar="FILE", callback=moodle_out, help="Grades for Moodle, .csv."),
-        click.option("--jobs", metavar="N", callback=processes, help="Processes; as many as cores when left out."),
-        output(
-            ".marking.reports",
-            "Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx.",
-        ),
-        click.option("--json", "as_json", is_flag=True, help="Print one JSON object (of one student)."),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
+# what is said of answers to be marked
+of_check = stacked(
+    click.argument("answers", nargs=-1),
+    click.option("--form", metavar="FILE", help="Write an empty form, .csv or .xlsx; with --roster that of a class."),
+    click.option(
+        "--preset",
+        type=Word(*HANDS),
+        default="normal",
+        show_default=True,
+        help="What may be missed by hand.",
+    ),
+    click.option("--verdict-only", "own", is_flag=True, help="For the student: right or wrong, and no right numbers."),
+    click.option("--format", type=Word(*SIZES), help="Mark what is drawn on the sheet of this format."),
+    click.option("--rubric", metavar="FILE", help="Weights, worths, tolerances: a small TOML file."),
+    click.option(
+        "--directions",
+        type=Word("required", "optional", "ignored"),
+        help="Directions of vectors, senses of what turns: a line without is worth half; what is said is compared; "
+        "or sizes alone are. In the place of what the rubric says; else optional.",
+    ),
+    click.option(
+        "--roster", metavar="FILE", help="Students with their variants, record books, own data: .csv or .xlsx."
+    ),
+    click.option(
+        "--digits",
+        metavar="N|WORD,...",
+        default="1",
+        show_default=True,
+        help="How many last digits of the record book give the variant, where the roster has none; or what each is "
+        "for: variant, scheme, - for nothing.",
+    ),
+    click.option("--out", "folder", metavar="FOLDER", help="Reports on every student, .html and .txt."),
+    click.option("--moodle", metavar="FILE", callback=moodle_out, help="Grades for Moodle, .csv."),
+    click.option("--jobs", metavar="N", callback=processes, help="Processes; as many as cores when left out."),
+    output(
+        ".marking.reports",
+        "Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx.",
+    ),
+    click.option("--json", "as_json", is_flag=True, help="Print one JSON object (of one student)."),
+)

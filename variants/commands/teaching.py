@@ -250,7 +250,8 @@ def _mark(
     if alone:
         _mark_one(asked, found[0], files, how["as_json"])
     else:
-        results = _mark_class(asked, found, folder, how["jobs"] or None)
+        with progress() as advance:
+            results = asked.mark_all(found, folder, advance, how["jobs"] or None)
         _print_class(asked, found, results, files, moodle)
     say_written((*files, *filter(None, (folder, moodle))), how["as_json"])
 
@@ -265,12 +266,6 @@ def _mark_one(asked: Check, answers: Answers, files: tuple[Path, ...], as_json: 
     elif not files:
         click.echo(report_text(told), nl=False)
     write_reports(told, files)
-
-
-def _mark_class(asked: Check, found: list[Answers], folder: str | None, jobs: int | None) -> list[Result]:
-    """Mark a class; a console shows how far it is."""
-    with progress() as advance:
-        return asked.mark_all(found, folder, advance, jobs)
 
 
 def _print_class(

@@ -87,13 +87,7 @@ class Cams(Sized[Cam, "SolvedCam"]):
     def solve(
         self, subject: Cam, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
     ) -> SolvedCam:
-        """Solve a cam.
-
-        Raises
-        ------
-        InputError
-            Numbers that no cam can have: phases longer than a turn, a roller that leaves no cam.
-        """
+        """Solve a cam; numbers that belong to none are refused."""
         from ...plans.cams.solve import solve_cam  # needs numpy
 
         for error in impossible(values):

@@ -93,13 +93,7 @@ class Gears(Sized[GearPair, "SolvedGear"]):
     def solve(
         self, subject: GearPair, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
     ) -> SolvedGear:
-        """Solve a pair.
-
-        Raises
-        ------
-        InputError
-            Numbers of which no pair can be made.
-        """
+        """Solve a pair; numbers that belong to none are refused."""
         from ...plans.gears.solve import solve_gear
 
         return solve_gear(subject.chosen(words), values, plans)

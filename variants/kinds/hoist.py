@@ -68,13 +68,7 @@ class Hoists(Sized[Hoist, "SolvedHoist"]):
     def solve(
         self, subject: Hoist, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
     ) -> SolvedHoist:
-        """Solve a hoist.
-
-        Raises
-        ------
-        InputError
-            Numbers that no hoist can have.
-        """
+        """Solve a hoist; numbers that belong to none are refused."""
         from ...plans.hoist.solve import solve_hoist  # needs numpy
 
         return solve_hoist(subject.chosen(words), values, plans)

@@ -13,11 +13,10 @@ from xml.sax.saxutils import escape
 from ...drawing.writers import Files, save_all
 from ...plans.quantities import unit_of
 from ...scales.errors import InputError, KulmanError
-from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.packaged import packaged
 from ...scales.units import format_unit
-from ..arguments import names_of
+from ..arguments import all_known, names_of
 from ..case import Settings
 from ..crew import Advance
 from ..marking.checks import Check, check
@@ -200,9 +199,7 @@ def all_variants(
     known = tuple(dict.fromkeys(name for key in keys.values() for name in key.asked.quantities))
     forms = (question.name for key in keys.values() for part in key.parts for question in part.asked)
     wanted = tuple(dict.fromkeys(forms)) if quantities is None else names_of("quantities", tuple(quantities))
-    for name in wanted:
-        if name not in known:
-            raise unknown("quantity-unknown", name, known)
+    all_known("quantity-unknown", wanted, known)
     return AllVariants(asked, keys, problems, wanted, new)
 
 

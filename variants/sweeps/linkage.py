@@ -19,9 +19,8 @@ from ...plans.linkages.cycles.diagrams import Diagrams, diagrams
 from ...plans.linkages.mechanism import Driver, Mechanism
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, PositionError
-from ...scales.names import unknown
 from ...scales.units import parse, unit
-from ..arguments import names_of, positions_of
+from ..arguments import all_known, names_of, positions_of
 from ..case import Case
 from ..kinds.linkage import placed
 from ..sheets import Sheet, sheet_of
@@ -143,9 +142,7 @@ def _chosen(mechanism: Mechanism, points: str | Iterable[str] | None) -> tuple[s
     """Return the points and links that are asked for, each named alone or several with commas between."""
     chosen = names_of("points", points, (str, int))
     known = (*letters(mechanism), *(str(link.number) for link in mechanism.links))
-    for one in chosen:
-        if one not in known:
-            raise unknown("motion-unknown", one, known)
+    all_known("motion-unknown", chosen, known)
     return chosen
 
 
