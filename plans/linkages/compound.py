@@ -20,7 +20,7 @@ from ..board import Board, Program
 from ..names import Name, between, mark, pole, rate, role, scale_factor, spelled, vector
 from .dyads.pinned import RRP, RRR
 from .legs import AssurGroup
-from .mechanism import FRAME, ZERO, Mechanism, Revolute
+from .mechanism import FRAME, ZERO, Link, Mechanism, Revolute
 from .parts import Bodies, Body, Span
 
 VELOCITY, ACCELERATION = "V_at", "a_at"  # kinds of plans
@@ -37,10 +37,13 @@ class Closing(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Coupler:
-    """A link between two joints, whose `start` hangs on the body `carrier`, which turns about a pivot of the frame."""
+    """A link between two joints, whose `start` hangs on the link `carrier`, which turns about a pivot of the frame."""
 
     span: Span
-    carrier: Body
+    carrier: Link
+    pivot: str  # the joint about which the carrier turns
+    omega_e: str  # names of the transport rotation's angular velocity
+    epsilon_e: str  # and acceleration, `zero` where the carrier turns steadily
     letters: Mapping[str, str]  # its points without the hinge; a point of two couplers takes the link's number, too
     closing: Closing | None  # None where the other outer pair of its group moves
 
@@ -53,21 +56,6 @@ class Coupler:
     def hinge(self) -> str:
         """The joint about which it turns relative to the carrier."""
         return self.span.start
-
-    @property
-    def pivot(self) -> str:
-        """The joint about which the carrier turns."""
-        return self.carrier.pin
-
-    @property
-    def omega_e(self) -> str:
-        """Name of the angular velocity of the transport rotation."""
-        return str(self.carrier.omega)
-
-    @property
-    def epsilon_e(self) -> str:
-        """Name of its angular acceleration, `zero` where the carrier turns steadily."""
-        return self.carrier.epsilon or ZERO
 
     @property
     def centre(self) -> Name:
@@ -87,7 +75,9 @@ def couplers(mechanism: Mechanism, groups: Iterable[AssurGroup], bodies: Bodies)
             points = (span.end, *span.others)
             letters = {p: mechanism.letter_on(p, span.number) if p in taken else p for p in points}
             taken.update(points)
-            found.append(Coupler(span, carrier, letters, _closing(mechanism, group, span)))
+            rates = str(carrier.omega), carrier.epsilon or ZERO
+            closing = _closing(mechanism, group, span)
+            found.append(Coupler(span, carrier.link, carrier.pin, *rates, letters, closing))
     return tuple(found)
 
 

@@ -62,7 +62,7 @@ def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
     at = At(scene, coupler, point, "a")
     group = next(g for g in scene.solved.structure.groups if coupler.number in g.links)
     # the link that carries the coupler, itself, the other of its group
-    figures = _mechanism(canvas, scene, sorted({coupler.carrier.link.number, *group.links}))
+    figures = _mechanism(canvas, scene, sorted({coupler.carrier.number, *group.links}))
     _distance(canvas, scene, at)
     _at_points(canvas, scene, [at])
     busy = _busy(scene, [at], figures)

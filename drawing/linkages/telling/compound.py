@@ -137,7 +137,7 @@ def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Line]:
     """Go through what is known before any point: the split, and relative rates where no end is closed."""
     words = scene.words
     if kind == "V":
-        links = {"link": _name(scene, c.number), "carrier": _name(scene, c.carrier.link.number)}
+        links = {"link": _name(scene, c.number), "carrier": _name(scene, c.carrier.number)}
         said = words["said.split"].format(pivot=words.mark(c.pivot), hinge=words.mark(c.hinge), **links)
         yield tuple(said.split("|"))
     if c.closing is None:

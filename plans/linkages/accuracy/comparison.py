@@ -129,13 +129,13 @@ class _Race:
     def plans(self) -> Iterator[Entry]:
         """Go through plans: in batches of all sizes, then in other precisions."""
         names, rivals = self.kind.names, self.rivals
-        errors = self.truth.errors(rivals.plan(self.places, names))
+        found = rivals.plan(self.places, names)
         spent = 0.0
         for size in self.effort.batches:
             if spent * size > LONG * 10.0:  # groups of class III are followed at length
                 break
             spent = self._one_by_one() if size == 1 else self._time(rivals.plan, size)
-            yield self.entry(PLAN, size, errors, spent, size)
+            yield self.entry(PLAN, size, found, spent, size)
         # a coarse clock may not notice what takes so little
         size = min(self.effort.at_once, max(int(LONG / spent), 100)) if spent else self.effort.at_once
         precisions = {SINGLE: "single"}
@@ -146,8 +146,7 @@ class _Race:
             def way(places: Array, wanted: Sequence[str], precision: str = precision) -> Values:
                 return rivals.plan(places, wanted, precision)
 
-            errors = self.truth.errors(way(self.places, names))
-            yield self.entry(method, size, errors, self._time(way, size), size)
+            yield self.entry(method, size, way(self.places, names), self._time(way, size), size)
 
     def others(self, newton: Newton) -> Iterator[Entry]:
         """Go through the methods that are no plans."""
@@ -156,13 +155,12 @@ class _Race:
         ways += [(DIFFERENCES, step, rivals.differences(step)) for step in STEPS]
         sizes: dict[str, int] = {}
         for method, setting, way in ways:
-            errors = self.truth.errors(way(self.places, names))
             size = sizes.setdefault(method, self._affordable(way))
-            yield self.entry(method, setting, errors, self._time(way, size), size)
+            yield self.entry(method, setting, way(self.places, names), self._time(way, size), size)
         for sections in SECTIONS:
-            errors = self.truth.errors(rivals.chords(sections)(self.places, names))
+            found = rivals.chords(sections)(self.places, names)
             spent = timed(partial(rivals.chords_of_cycle, sections, names), self.clock) / sections
-            yield self.entry(CHORDS, sections, errors, spent, sections)
+            yield self.entry(CHORDS, sections, found, spent, sections)
 
     def _affordable(self, way: Way) -> int:
         """Return how many positions at once a method is timed at."""
@@ -181,12 +179,10 @@ class _Race:
         each = cycle.each(self.places)
         return timed(lambda: [run(program, here) for here in each], self.clock) / len(each)
 
-    def entry(
-        self, method: str, setting: float, errors: Mapping[str, Array], seconds: float | None, at_once: int
-    ) -> Entry:
-        """Sum up the errors of a method."""
-        found = summed(method, setting, self.kind, self.places, errors)
-        return replace(found, seconds=seconds, at_once=at_once)
+    def entry(self, method: str, setting: float, found: Values, seconds: float, at_once: int) -> Entry:
+        """Sum up the errors of what a method has found."""
+        entry = summed(method, setting, self.kind, self.places, self.truth.errors(found))
+        return replace(entry, seconds=seconds, at_once=at_once)
 
 
 def summed(method: str, setting: float | str, kind: Kind, places: Array, errors: Mapping[str, Array]) -> Entry:
@@ -196,18 +192,9 @@ def summed(method: str, setting: float | str, kind: Kind, places: Array, errors:
     worst = filled.max(axis=0)
     row, column = np.unravel_index(np.argmax(filled), filled.shape)
     there = worst >= 0.0
-    return Entry(
-        method,
-        setting,
-        kind.name,
-        float(filled[row, column]) if there.any() else None,
-        float(np.median(worst[there])) if there.any() else None,
-        kind.names[row],
-        float(places[column]),
-        None,
-        1,
-        float(1.0 - there.mean()),
-    )
+    error, typical = (float(of(worst[there])) if there.any() else None for of in (np.max, np.median))
+    failed, place = float(1.0 - there.mean()), float(places[column])
+    return Entry(method, setting, kind.name, error, typical, kind.names[row], place, None, 1, failed)
 
 
 @dataclass(frozen=True, slots=True)

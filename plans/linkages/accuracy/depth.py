@@ -113,16 +113,8 @@ class Model:
         worst = np.fmax(change, reaction)
         known = np.isfinite(worst)
         place = float(self._cycle.angles[np.argmax(np.where(known, worst, -1.0))])
-        shown = self.reaction is not None
-        return Cost(
-            key,
-            parts,
-            _most(change),
-            _rms(change),
-            _most(reaction) if shown else None,
-            _rms(reaction) if shown else None,
-            place,
-        )
+        most, rms = (_most(reaction), _rms(reaction)) if self.reaction is not None else (None, None)
+        return Cost(key, parts, _most(change), _rms(change), most, rms, place)
 
 
 def depth(cycle: Cycle, tolerance: float) -> Depth:
@@ -151,17 +143,9 @@ def depth(cycle: Cycle, tolerance: float) -> Depth:
         if without_it.worst <= tolerance:
             spare, together = without_it.parts, without_it
     needed = tuple(part for part in kinds if part not in spare)
-    return Depth(
-        model.balance,
-        model.largest,
-        model.reaction,
-        model.largest_reaction,
-        (*single, *several),
-        tolerance,
-        needed,
-        tuple(part for part in kinds if part in spare),
-        together,
-    )
+    spare = tuple(part for part in kinds if part in spare)
+    largest = (model.balance, model.largest, model.reaction, model.largest_reaction)
+    return Depth(*largest, (*single, *several), tolerance, needed, spare, together)
 
 
 def _size(values: Array) -> Array:

@@ -153,15 +153,8 @@ def diagrams(cycle: Cycle, of: str, sections: int = 12) -> Diagrams:
     times = duration * (np.arange(2 * sections + 1) / (2 * sections))
     v_chords, a_chords = differentiate(s[::2], duration / sections, closed)
     inner = slice(0, -1) if closed else slice(1, -1)
-    return Diagrams(
-        "rad" if motion.angle else "m",
-        times[::2],
-        s[::2],
-        v[::2],
-        a[::2],
-        Curve(times[1::2], v[1::2], v_chords),
-        Curve(times[::2][inner], a[::2][inner], a_chords),
-    )
+    curves = Curve(times[1::2], v[1::2], v_chords), Curve(times[::2][inner], a[::2][inner], a_chords)
+    return Diagrams("rad" if motion.angle else "m", times[::2], s[::2], v[::2], a[::2], *curves)
 
 
 def velocities(at: Array, pin: complex, velocity: complex, omega: float) -> Array:

@@ -84,14 +84,6 @@ class Follower:
         return found
 
     @property
-    def starts(self) -> NDArray[np.bool_]:
-        """Whether all groups can be laid down near their starts, shape (N,)."""
-        held = np.ones(1, bool)
-        for course in self._courses:
-            held = held & np.isfinite(course.start.at)
-        return held
-
-    @property
     def places(self) -> Array:
         """Places of the driver that stand for all: around a crank's circle, a slide's start."""
         start = self._courses[-1].start.at[:1]
