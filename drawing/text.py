@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from math import cos, inf, sin
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from ..scales.errors import InputError, Written
 from .font import SIZE, font
@@ -61,6 +61,57 @@ def escape(plain: str) -> str:
     return "".join("\\" + letter if letter in ESCAPED else letter for letter in plain)
 
 
+class Ruling(NamedTuple):
+    """A group under a vector bar (`bar`), or over one line or two (`u`, `uu`)."""
+
+    kind: str
+    pieces: list[Piece]
+
+
+Piece: TypeAlias = str | Ruling | dict[str, list["Piece"]]  # plain characters, a ruled group, scripts by `_` and `^`
+
+
+def read(markup: str) -> list[Piece]:
+    """Return the pieces of a line of markup.
+
+    Raises
+    ------
+    InputError
+        The markup is broken.
+    """
+    return _read(markup, 0, nested=False)[0]
+
+
+def _read(markup: str, at: int, nested: bool) -> tuple[list[Piece], int]:
+    """Read up to the end, or up to the brace that closes a group; return the pieces, and the place behind them."""
+    pieces: list[Piece] = []
+    while at < len(markup) and not (nested and markup[at] == "}"):
+        mark, after = markup[at], markup[at + 1 : at + 2]
+        if mark in "_^" and after == "{":
+            scripts: dict[str, list[Piece]] = {}
+            while (mark := markup[at : at + 2])[1:] == "{" and mark[0] in "_^" and mark[0] not in scripts:
+                scripts[mark[0]], at = _read(markup, at + 2, nested=True)
+            pieces.append(scripts)
+        elif mark == "\\" and (not after or after not in ESCAPED):
+            kind = markup[at + 1 : max(markup.find("{", at), at)]
+            if kind not in RULES:
+                raise _broken(markup, at)
+            inner, at = _read(markup, at + len(kind) + 2, nested=True)
+            pieces.append(Ruling(kind, inner))
+        elif plain := _PLAIN.match(markup, at):
+            pieces.append(_ESCAPE.sub(r"\1", plain.group()))
+            at = plain.end()
+        else:
+            raise _broken(markup, at)
+    if nested and at >= len(markup):
+        raise _broken(markup, at)
+    return pieces, at + nested
+
+
+def _broken(markup: str, at: int) -> InputError:
+    return InputError("markup-broken", text=Written(markup), position=at + 1)
+
+
 @lru_cache(maxsize=8192)
 def lay_out(markup: str, height: float) -> TextLayout:
     """Lay a line of markup out with capitals of `height` mm.
@@ -70,46 +121,35 @@ def lay_out(markup: str, height: float) -> TextLayout:
     InputError
         The markup is broken, or the font lacks a character.
     """
-    reader = _Reader(markup)
-    width, top, bottom = reader.line(0.0, 0.0, height, height, nested=False)
+    pen = _Pen()
+    width, top, bottom = pen.line(read(markup), 0.0, 0.0, height, height)
     if top < bottom:
         top = bottom = 0.0
-    return TextLayout(tuple(reader.runs), tuple(reader.rules), width, top, bottom)
+    return TextLayout(tuple(pen.runs), tuple(pen.rules), width, top, bottom)
 
 
-class _Reader:
-    """Reads one line of markup from left to right, and lays it out as it goes.
+class _Pen:
+    """Lays pieces of markup out from left to right.
 
-    Each method lays out from the place (x, y) of the pen with capitals of `height`; scripts are measured from `base`.
+    Each method lays out from the place (x, y) with capitals of `height`; scripts are measured from `base`.
     """
 
-    def __init__(self, markup: str) -> None:
-        self.markup = markup
-        self.at = 0
+    def __init__(self) -> None:
         self.runs: list[Run] = []
         self.rules: list[Box] = []
 
-    def refuse(self) -> InputError:
-        return InputError("markup-broken", text=Written(self.markup), position=self.at + 1)
-
-    def line(self, x: float, y: float, height: float, base: float, nested: bool) -> _Span:
-        """Lay out up to the end, or up to the brace that closes a group."""
+    def line(self, pieces: list[Piece], x: float, y: float, height: float, base: float) -> _Span:
+        """Lay out pieces one after the other."""
         start, (top, bottom) = x, _NO_INK
-        while self.at < len(self.markup) and not (nested and self.markup[self.at] == "}"):
-            width, high, low = self.piece(x, y, height, base)
+        for piece in pieces:
+            if isinstance(piece, str):
+                width, high, low = self.word(piece, x, y, height * SIZE)
+            elif isinstance(piece, Ruling):
+                width, high, low = self.ruled(piece, x, y, height, base)
+            else:
+                width, high, low = self.scripts(piece, x, y, height, base)
             x, top, bottom = x + width, max(top, high), min(bottom, low)
-        if nested and self.at >= len(self.markup):
-            raise self.refuse()
         return x - start, top, bottom
-
-    def piece(self, x: float, y: float, height: float, base: float) -> _Span:
-        """Lay out plain characters, a ruled group, or scripts."""
-        mark, after = self.markup[self.at], self.markup[self.at + 1 : self.at + 2]
-        if mark in "_^" and after == "{":
-            return self.scripts(x, y, height, base)
-        if mark == "\\" and (not after or after not in ESCAPED):
-            return self.ruled(x, y, height, base)
-        return self.word(self.plain(), x, y, height * SIZE)
 
     def word(self, string: str, x: float, y: float, size: float) -> _Span:
         """Lay plain characters out; spaces at the ends become distance, since SVG would drop them."""
@@ -125,56 +165,30 @@ class _Reader:
         top, bottom = max([letter[2] for letter in letters]), min([letter[1] for letter in letters])
         return width, y + top * size, y + bottom * size
 
-    def ruled(self, x: float, y: float, height: float, base: float) -> _Span:
+    def ruled(self, group: Ruling, x: float, y: float, height: float, base: float) -> _Span:
         """Lay out a group with a vector bar over it, or one or two lines under it."""
-        kind = self.command()
-        width, top, bottom = self.group(x, y, height, base)
+        width, top, bottom = self.line(group.pieces, x, y, height, base)
         if top < bottom:
             top = bottom = y
         gap = GAP * height
-        if kind == "bar":
+        if group.kind == "bar":
             top += gap
             self.rules.append((x, top, x + width, top))
             return width, top, bottom
         bottom = min(bottom, y)
-        for _ in range(RULES[kind]):
+        for _ in range(RULES[group.kind]):
             bottom -= gap
             self.rules.append((x, bottom, x + width, bottom))
         return width, top, bottom
 
-    def scripts(self, x: float, y: float, height: float, base: float) -> _Span:
+    def scripts(self, scripts: dict[str, list[Piece]], x: float, y: float, height: float, base: float) -> _Span:
         """Lay out a subscript, a superscript, or both one over the other."""
-        shift = {"_": -DROP * height, "^": LIFT * height}
         width, (top, bottom) = 0.0, _NO_INK
-        while (mark := self.markup[self.at : self.at + 2])[1:] == "{" and mark[0] in shift:
-            self.at += 1
-            wide, high, low = self.group(x, y + shift.pop(mark[0]), SCRIPT * base, base)
+        for mark, pieces in scripts.items():
+            shift = -DROP * height if mark == "_" else LIFT * height
+            wide, high, low = self.line(pieces, x, y + shift, SCRIPT * base, base)
             width, top, bottom = max(width, wide), max(top, high), min(bottom, low)
         return width + 0.06 * height, top, bottom
-
-    def group(self, x: float, y: float, height: float, base: float) -> _Span:
-        """Lay out what stands between the brace here and the one that closes it."""
-        self.at += 1
-        span = self.line(x, y, height, base, nested=True)
-        self.at += 1
-        return span
-
-    def command(self) -> str:
-        """Read `\\bar`, `\\u` or `\\uu` up to its opening brace."""
-        end = self.markup.find("{", self.at)
-        kind = self.markup[self.at + 1 : end] if end >= 0 else ""
-        if kind not in RULES:
-            raise self.refuse()
-        self.at = end
-        return kind
-
-    def plain(self) -> str:
-        """Read characters that mean themselves."""
-        found = _PLAIN.match(self.markup, self.at)
-        if found is None:
-            raise self.refuse()
-        self.at = found.end()
-        return _ESCAPE.sub(r"\1", found.group())
 
 
 def placer(text: Text) -> Callable[[float, float], complex]:

@@ -7,13 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from ..text import ESCAPED, RULES
+from ..text import Piece, Ruling, read
 
-_PLAIN = re.compile(r"(?:[^\\{}_^]|\\[\\{}_^]|[_^](?!\{))+")
 _WORD = re.compile(r"[^\W\d_]$|(?:^|\d |, )\(?[^\W\d_]+/$")  # a letter at the end, or a unit: 2 m/s²
-_ESCAPE = re.compile(r"\\([\\{}_^])")
-
-
 TIE = "\u00a0"  # a space at which no line ends
 _BEFORE_SIGN, _AFTER_NUMBER = re.compile(r" (?=[=≤≥<>] )"), re.compile(r"(?<=\d) (?=\w)")
 
@@ -47,44 +43,25 @@ Node = Plain | Ruled | Scripted
 
 @lru_cache(maxsize=4096)
 def parse(markup: str) -> tuple[Node, ...]:
-    """Return the parts of a line of markup, which is one that can be drawn.
+    """Return the parts of a line of markup, scripts with the letters behind which they stand.
 
     >>> parse("a_{B}")
     (Scripted(base=Plain(text='a'), above=(), below=(Plain(text='B'),)),)
     """
-    parts, at = _line(markup, 0)
-    return parts if at >= len(markup) else (*parts, Plain(markup[at:]))
+    return _nodes(read(markup))
 
 
-def _line(markup: str, at: int) -> tuple[tuple[Node, ...], int]:
-    """Read up to the end, or to a closing brace."""
-    parts: list[Node] = []
-    while at < len(markup) and markup[at] != "}":
-        if markup[at] in "_^" and markup[at + 1 : at + 2] == "{":
-            base = _base(parts)
-            found, at = _scripts(markup, at)
-            parts.append(Scripted(base, found.get("^", ()), found.get("_", ())))
-        elif markup[at] == "\\" and markup[at + 1 : at + 2] not in ESCAPED:
-            kind = markup[at + 1 : markup.index("{", at)]
-            inner, at = _line(markup, markup.index("{", at) + 1)
-            parts.append(Ruled(kind if kind in RULES else "u", inner))
-            at += 1
+def _nodes(pieces: Sequence[Piece]) -> tuple[Node, ...]:
+    nodes: list[Node] = []
+    for piece in pieces:
+        if isinstance(piece, str):
+            nodes.append(Plain(piece))
+        elif isinstance(piece, Ruling):
+            nodes.append(Ruled(piece.kind, _nodes(piece.pieces)))
         else:
-            plain = _PLAIN.match(markup, at)
-            assert plain is not None
-            parts.append(Plain(_ESCAPE.sub(r"\1", plain.group())))
-            at = plain.end()
-    return tuple(parts), at
-
-
-def _scripts(markup: str, at: int) -> tuple[dict[str, tuple[Node, ...]], int]:
-    """Read scripts that stand one over the other."""
-    found: dict[str, tuple[Node, ...]] = {}
-    while markup[at : at + 1] in ("_", "^") and markup[at + 1 : at + 2] == "{" and markup[at] not in found:
-        sign = markup[at]
-        found[sign], at = _line(markup, at + 2)
-        at += 1
-    return found, at
+            base = _base(nodes)
+            nodes.append(Scripted(base, _nodes(piece.get("^", ())), _nodes(piece.get("_", ()))))
+    return tuple(nodes)
 
 
 def _base(parts: list[Node]) -> Node:
