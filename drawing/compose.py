@@ -31,7 +31,7 @@ def arrange(
     None if they do not fit.
     """
     return pack(
-        [[size] for size in sizes],
+        sizes,
         usable(sheet, norm),
         reserved_boxes(sheet, norm, first=first),
         later=reserved_boxes(sheet, norm, first=False),
@@ -92,7 +92,7 @@ def arrange_halves(sizes: Sequence[Size], boundary: int, sheet: Format, norm: No
             places: list[Placement] = []
             for part, box in ((sizes[:end], left), (sizes[end:], right)):
                 own = [block for block in taken if block[0] < box[2] and block[2] > box[0]]
-                places += pack([[size] for size in part], box, own, gap=gap, any_order=False) or []
+                places += pack(part, box, own, gap=gap, any_order=False) or []
             if len(places) == len(sizes):
                 return places
     return None
@@ -101,9 +101,7 @@ def arrange_halves(sizes: Sequence[Size], boundary: int, sheet: Format, norm: No
 def arrange_rest(views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] | None:
     """Place views on as many following pages as they need, counted from 0; None if one has no room on a page."""
     later = reserved_boxes(sheet, norm, first=False)
-    return pack(
-        [[view.size] for view in views], usable(sheet, norm), later, gap=GAPS["A1"], pages=None, any_order=False
-    )
+    return pack([view.size for view in views], usable(sheet, norm), later, gap=GAPS["A1"], pages=None, any_order=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,10 +6,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from .rows import SLACK, Column, Edge, Leaf, Room, Row, Size, cut
+from .rows import SLACK, Column, Edge, Room, Row, Size, cut
+from .text import Box
 
-Box: TypeAlias = tuple[float, float, float, float]
 Corner: TypeAlias = tuple[float, float]
+Place: TypeAlias = tuple[int, float, float]  # of a view: its number, its lower left corner
 
 SINK = 12.0  # mm that a layer may move away from the one above it
 NEIGHBOURS = (5, 7, 12, 19)  # how many views may change places if they do not fit in order
@@ -17,16 +18,15 @@ NEIGHBOURS = (5, 7, 12, 19)  # how many views may change places if they do not f
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """Where a view stands: its page from 0, its lower left corner in mm (y up), which of its shapes was taken."""
+    """Where a view stands: its page from 0, its lower left corner in mm (y up)."""
 
     page: int
     x: float
     y: float
-    shape: int = 0
 
 
 def pack(
-    views: Sequence[Sequence[Size]],
+    views: Sequence[Size],
     area: Box,
     reserved: Sequence[Box] = (),
     *,
@@ -39,8 +39,8 @@ def pack(
 
     Parameters
     ----------
-    views : sequence of sequences of (width, height)
-        The shapes that each view may take, in mm, the preferred one first.
+    views : sequence of (width, height)
+        What each view takes, in mm.
     area : (x0, y0, x1, y1)
         The usable area of a page, y up.
     reserved : sequence of boxes
@@ -63,26 +63,20 @@ def pack(
     if not views:
         return []
     first, rest = _room(area, reserved, gap), _room(area, reserved if later is None else later, gap)
-    plain = [shapes[:1] for shapes in views]
-    whole = cut(plain, first, rest, gap, 1, nested=False) or cut(views, first, rest, gap, 1, nested=True)
-    if whole is not None:
-        return _placed(whole, first, rest, views, area, gap)
-    if any_order:
+    pages_of_rows = cut(views, first, rest, gap, 1, nested=False) or cut(views, first, rest, gap, 1, nested=True)
+    if pages_of_rows is None and any_order:
         taken = tuple((x0 - gap, y0 - gap, x1 + gap, y1 + gap) for x0, y0, x1, y1 in reserved)
-        corners = _in_any_order([shapes[0] for shapes in views], _Page(area, taken, gap))
+        corners = _in_any_order(views, _Page(area, taken, gap))
         if corners is not None:
             return [Placement(0, x, y) for x, y in corners]
-    several = None if pages == 1 else cut(views, first, rest, gap, pages, nested=True)
-    return None if several is None else _placed(several, first, rest, views, area, gap)
-
-
-def _placed(
-    found: list[list[Row]], first: Room, rest: Room, views: Sequence[Sequence[Size]], area: Box, gap: float
-) -> list[Placement]:
+    if pages_of_rows is None and pages != 1:
+        pages_of_rows = cut(views, first, rest, gap, pages, nested=True)
+    if pages_of_rows is None:
+        return None
     places: dict[int, Placement] = {}
-    for number, rows in enumerate(found):
-        for (i, shape), x, y in hang(rows, rest if number else first, views, gap):
-            places[i] = Placement(number, area[0] + x, area[1] + y, shape)
+    for number, rows in enumerate(pages_of_rows):
+        for i, x, y in _Hanging(views, rest if number else first, gap).places(rows):
+            places[i] = Placement(number, area[0] + x, area[1] + y)
     return [places[i] for i in range(len(views))]
 
 
@@ -113,65 +107,64 @@ def _edges(main: Size, other: Size, gap: float, left: bool) -> tuple[Edge, ...]:
     return beside, Edge(0.0 if left else aside, aside if left else 0.0, other[1], main)
 
 
-def hang(
-    rows: Sequence[Row], room: Room, views: Sequence[Sequence[Size]], gap: float
-) -> Iterator[tuple[Leaf, float, float]]:
-    """Yield each view with its lower left corner, from the lower left corner of the room."""
-    over = room.over + gap if room.over and rows[0].head == Edge() else 0.0
-    under = room.under + gap if room.under and rows[-1].tail == Edge() else 0.0
-    free = room.height - over - under - gap * (len(rows) - 1)
-    space = max(0.0, free - sum(row.height for row in rows)) / (len(rows) + 1)
-    # The space itself keeps the rows clear of the corners, so that the first and the last row need less.
-    space = max(0.0, free - sum(_height(row, space, gap) for row in rows)) / (len(rows) + 1)
-    top = room.height - over
-    for row in rows:
-        top -= space
-        height = _height(row, space, gap)
-        yield from _row(row, top, height, space, room, views, gap)
-        top -= height + gap
+@dataclass(frozen=True, slots=True)
+class _Hanging:
+    """Where the views of a page of rows stand: what is left empty is shared out evenly."""
 
+    views: Sequence[Size]
+    room: Room
+    gap: float
 
-def _inset(edge: Edge, space: float, gap: float) -> float:
-    """How far a column keeps away from the row's outer line because of the box over or under it."""
-    return max(0.0, edge.box[1] + gap - space) if edge.box[1] else 0.0
+    def places(self, rows: Sequence[Row]) -> Iterator[Place]:
+        """Yield each view with its lower left corner, from the lower left corner of the room."""
+        room, gap = self.room, self.gap
+        over = room.over + gap if room.over and rows[0].head == Edge() else 0.0
+        under = room.under + gap if room.under and rows[-1].tail == Edge() else 0.0
+        free = room.height - over - under - gap * (len(rows) - 1)
+        space = max(0.0, free - sum(row.height for row in rows)) / (len(rows) + 1)
+        # The space itself keeps the rows clear of the corners, so that the first and the last row need less.
+        space = max(0.0, free - sum(self._height(row, space) for row in rows)) / (len(rows) + 1)
+        top = room.height - over
+        for row in rows:
+            top -= space
+            height = self._height(row, space)
+            yield from self._row(row, top, height, space)
+            top -= height + gap
 
+    def _inset(self, edge: Edge, space: float) -> float:
+        """How far a column keeps away from the row's outer line because of the box over or under it."""
+        return max(0.0, edge.box[1] + self.gap - space) if edge.box[1] else 0.0
 
-def _height(row: Row, space: float, gap: float) -> float:
-    columns = row.columns
-    tall = [column.height for column in columns]
-    tall[0] += _inset(row.head, space, gap)
-    tall[-1] += _inset(row.tail, space, gap)
-    return max(*tall, row.head.height - space, row.tail.height - space)
+    def _height(self, row: Row, space: float) -> float:
+        tall = [column.height for column in row.columns]
+        tall[0] += self._inset(row.head, space)
+        tall[-1] += self._inset(row.tail, space)
+        return max(*tall, row.head.height - space, row.tail.height - space)
 
+    def _row(self, row: Row, top: float, height: float, space: float) -> Iterator[Place]:
+        columns, gap, left = row.columns, self.gap, row.head.left + row.tail.left
+        widths = [column.width for column in columns]
+        widths[0], widths[-1] = max(widths[0], row.head.box[0]), max(widths[-1], row.tail.box[0])
+        right = self.room.width - row.head.right - row.tail.right
+        share = (right - left - sum(widths) - gap * (len(columns) - 1)) / (len(columns) + 1)
+        x = left + share
+        for n, (column, width) in enumerate(zip(columns, widths, strict=True)):
+            head = self._inset(row.head, space) if n == 0 else 0.0
+            tail = self._inset(row.tail, space) if n == len(columns) - 1 else 0.0
+            yield from self._column(column, (x, top - head), width, height - head - tail)
+            x += width + gap + share
 
-def _row(
-    row: Row, top: float, height: float, space: float, room: Room, views: Sequence[Sequence[Size]], gap: float
-) -> Iterator[tuple[Leaf, float, float]]:
-    columns, left = row.columns, row.head.left + row.tail.left
-    widths = [column.width for column in columns]
-    widths[0], widths[-1] = max(widths[0], row.head.box[0]), max(widths[-1], row.tail.box[0])
-    right = room.width - row.head.right - row.tail.right
-    share = (right - left - sum(widths) - gap * (len(columns) - 1)) / (len(columns) + 1)
-    x = left + share
-    for n, (column, width) in enumerate(zip(columns, widths, strict=True)):
-        head = _inset(row.head, space, gap) if n == 0 else 0.0
-        tail = _inset(row.tail, space, gap) if n == len(columns) - 1 else 0.0
-        yield from _column(column, x, top - head, width, height - head - tail, views, gap)
-        x += width + gap + share
-
-
-def _column(
-    column: Column, x: float, top: float, width: float, height: float, views: Sequence[Sequence[Size]], gap: float
-) -> Iterator[tuple[Leaf, float, float]]:
-    sink = min(SINK, max(0.0, height - column.height) / len(column.layers))
-    for layer in column.layers:
-        sizes = [views[i][k] for i, k in layer]
-        share = (width - sum(w for w, _ in sizes) - gap * (len(sizes) - 1)) / (len(sizes) + 1)
-        left = x + share
-        for leaf, (w, h) in zip(layer, sizes, strict=True):
-            yield leaf, left, top - h
-            left += w + gap + share
-        top -= max(h for _, h in sizes) + gap + sink
+    def _column(self, column: Column, corner: Corner, width: float, height: float) -> Iterator[Place]:
+        x, top = corner
+        sink = min(SINK, max(0.0, height - column.height) / len(column.layers))
+        for layer in column.layers:
+            sizes = [self.views[i] for i in layer]
+            share = (width - sum(w for w, _ in sizes) - self.gap * (len(sizes) - 1)) / (len(sizes) + 1)
+            left = x + share
+            for i, (w, h) in zip(layer, sizes, strict=True):
+                yield i, left, top - h
+                left += w + self.gap + share
+            top -= max(h for _, h in sizes) + self.gap + sink
 
 
 # Close packing: the last resort ---------------------------------------------------------------------------------------
@@ -183,18 +176,12 @@ class _Page:
     reserved: tuple[Box, ...]  # already with the gap around them
     gap: float
 
-    def may_hold(self, sizes: Sequence[Size]) -> bool:
-        """Compare the areas."""
-        (x0, y0, x1, y1), gap = self.area, self.gap
-        taken = sum(
-            max(0.0, min(c, x1) - max(a, x0)) * max(0.0, min(d, y1) - max(b, y0)) for a, b, c, d in self.reserved
-        )
-        return sum((w + gap) * (h + gap) for w, h in sizes) <= (x1 - x0 + gap) * (y1 - y0 + gap) - taken + SLACK
-
 
 def _in_any_order(sizes: Sequence[Size], page: _Page) -> list[Corner] | None:
     """Put each view as high and as far left as it goes, the large ones of each few neighbours first."""
-    if not page.may_hold(sizes):
+    (x0, y0, x1, y1), gap = page.area, page.gap
+    taken = sum(max(0.0, min(c, x1) - max(a, x0)) * max(0.0, min(d, y1) - max(b, y0)) for a, b, c, d in page.reserved)
+    if sum((w + gap) * (h + gap) for w, h in sizes) > (x1 - x0 + gap) * (y1 - y0 + gap) - taken + SLACK:
         return None
     sides = [-w * h for w, h in sizes], [-h for _, h in sizes]
     for near in NEIGHBOURS:

@@ -13,13 +13,12 @@ from operator import itemgetter
 from typing import NamedTuple, TypeAlias, TypeVar
 
 Size: TypeAlias = tuple[float, float]
-Leaf: TypeAlias = tuple[int, int]  # view, which of its shapes
 
 SLACK = 1e-9  # mm, for rounding
 LAYERS, BESIDE, VIEWS = 4, 3, 5  # most layers in a column, views in a layer, views in a column
 FULL = 0.5  # least part of a column that its views cover, and of a row of three columns or more
 KEPT_COLUMNS, KEPT_ROWS, KEPT_PAGES = 3, 4, 3  # of those that place the same views, how many are followed further
-LAYER_COST, BESIDE_COST, SHAPE_COST = 0.002, 0.01, 0.02  # what a departure from plain rows may gain in evenness
+LAYER_COST, BESIDE_COST = 0.002, 0.01  # what a departure from plain rows may gain in evenness
 
 
 class Edge(NamedTuple):
@@ -50,7 +49,7 @@ class Column(NamedTuple):
     cost: float
     area: float  # of its views, each with the gap on two sides
     end: int
-    layers: tuple[tuple[Leaf, ...], ...]
+    layers: tuple[tuple[int, ...], ...]
 
 
 class _Partial(NamedTuple):
@@ -102,7 +101,7 @@ class _Part(NamedTuple):
 class Cutter:
     """Cuts one sequence of views into rows; keeps what it has found out about the columns."""
 
-    views: Sequence[Sequence[Size]]
+    views: Sequence[Size]
     gap: float
     nested: bool  # may a layer hold several views?
     waste: float  # mm2 of a row that may stay empty
@@ -139,19 +138,17 @@ class Cutter:
 
     def _layers(self, i: int, room: Room) -> Iterator[Column]:
         gap = self.gap
-        for k, (w, h) in enumerate(self.views[i]):
-            if w <= room.width + SLACK and h <= room.height + SLACK:
-                yield Column(w, h, k * SHAPE_COST, (w + gap) * (h + gap), i + 1, (((i, k),),))
+        w, h = self.views[i]
+        if w <= room.width + SLACK and h <= room.height + SLACK:
+            yield Column(w, h, 0.0, (w + gap) * (h + gap), i + 1, ((i,),))
         width, height, area = -gap, 0.0, 0.0
         for j in range(i, min(i + BESIDE, len(self.views)) if self.nested else 0):
-            w, h = self.views[j][0]
+            w, h = self.views[j]
             width, height, area = width + gap + w, max(height, h), area + (w + gap) * (h + gap)
             if width > room.width or area < FULL * (width + gap) * (height + gap):
                 return
             if j > i:
-                yield Column(
-                    width, height, BESIDE_COST * (j - i), area, j + 1, (tuple((k, 0) for k in range(i, j + 1)),)
-                )
+                yield Column(width, height, BESIDE_COST * (j - i), area, j + 1, (tuple(range(i, j + 1)),))
 
     def rows(self, i: int, room: Room, head: Edge, spent: float = 0.0) -> tuple[list[Row], list[Row]]:
         """Rows that begin with view `i`: those that leave the page open, and those that end it.
@@ -236,7 +233,7 @@ def _worthwhile(rows: list[Row]) -> list[Row]:
 
 
 def cut(
-    views: Sequence[Sequence[Size]], first: Room, later: Room, gap: float, limit: int | None, nested: bool
+    views: Sequence[Size], first: Room, later: Room, gap: float, limit: int | None, nested: bool
 ) -> list[list[Row]] | None:
     """Cut the sequence into rows and pages: as few pages as possible, then the most even ones; None if none fit."""
     return _Pages(views, first, later, gap, limit, nested).cut()
@@ -246,10 +243,10 @@ class _Pages:
     """The search for the pages; `ended[i]` is the best way to end a page before view i, `opened[i]` a row only."""
 
     def __init__(
-        self, views: Sequence[Sequence[Size]], first: Room, later: Room, gap: float, limit: int | None, nested: bool
+        self, views: Sequence[Size], first: Room, later: Room, gap: float, limit: int | None, nested: bool
     ) -> None:
         self.count, self.rooms, self.gap, self.limit = len(views), (first, later), gap, limit
-        least = [min((w + gap) * (h + gap) for w, h in shapes) for shapes in views]
+        least = [(w + gap) * (h + gap) for w, h in views]
         self.left = [sum(least[i:]) for i in range(self.count + 1)]
         waste = (first.width + gap) * (first.height + gap) - self.left[0] if limit == 1 else inf
         self.cutter = Cutter(views, gap, nested, waste, limit != 1)

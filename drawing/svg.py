@@ -12,7 +12,7 @@ from math import cos, degrees, isfinite, pi, sin
 from typing import BinaryIO, assert_never
 
 from .font import FAMILY, subset, web_subset
-from .page import Layer, Page, parts_of
+from .page import Page, parts_of
 from .pens import Pens, arrow_parts, head_outline, length_of
 from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from .text import lay_out, placer
@@ -41,7 +41,9 @@ def svg_text(page: Page, with_font: bool = True) -> str:
     writer = _Writer(page.height, page.pens)
     for layer, shapes in parts_of(page):
         if layer is not None:
-            writer.parts.append(_opened(layer, page.language))
+            identity = f'id="layer-{layer.value}" class="layer" inkscape:groupmode="layer"'
+            shown = ' display="none"' if layer.hidden else ""
+            writer.parts.append(f'<g {identity} inkscape:label="{_quoted(layer.title(page.language))}"{shown}>')
         for shape in shapes:
             writer.draw(shape)
         if layer is not None:
@@ -56,13 +58,6 @@ def svg_text(page: Page, with_font: bool = True) -> str:
     )
     characters = "".join(sorted(writer.characters)) if with_font else ""
     return head + _style(characters) + "\n".join([*writer.parts, "</svg>\n"])
-
-
-def _opened(layer: Layer, language: str) -> str:
-    """Return the beginning of the group that holds a layer."""
-    shown = ' display="none"' if layer.hidden else ""
-    label = _quoted(layer.title(language))
-    return f'<g id="layer-{layer.value}" class="layer" inkscape:groupmode="layer" inkscape:label="{label}"{shown}>'
 
 
 def _style(characters: str) -> str:

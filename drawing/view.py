@@ -19,6 +19,7 @@ from .text import Box, lay_out
 from .thinning import coarser
 
 WIDE = "circle"  # the role of a circle that goes round other things
+EACH = 4  # letters left out that stand in one line of the notes
 ROUND = 48  # pieces of it, for the letters that keep clear of it
 
 
@@ -132,9 +133,13 @@ class Canvas:
     def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:
         """Place the letters, write the heading lines and smaller notes above, and close the view."""
         left, placed = self._placed()
-        parts = [*self._drawn_parts(), *(self._lettered[int(request.name)] for request in left)]
+        starts = [0, *(start for start, _ in self._begun), len(self.shapes)]
+        names = ["", *(name for _, name in self._begun)]
+        parts = [name for name, (a, b) in zip(names, pairwise(starts), strict=True) for _ in range(a, b)]
+        parts += (self._lettered[int(request.name)] for request in left)
         kept = {request.name for request in left}
-        notes = (*notes, *_joined([text for name, text in self._spare.items() if name not in kept]))
+        spare = [text for name, text in self._spare.items() if name not in kept]
+        notes = (*notes, *("; ".join(spare[i : i + EACH]) for i in range(0, len(spare), EACH)))
         for request in left:
             markup, height = self._markup[int(request.name)]
             corner = placed.corners[request.name]
@@ -148,19 +153,15 @@ class Canvas:
         every = (*parts, *("" for _ in self.shapes[len(parts) :])) if self._begun else ()
         return View(name, tuple(self.shapes), box, heading, tuple(notes), parts=every, stages=self.stages)
 
-    def _drawn_parts(self) -> list[str]:
-        """Return to which part each shape belongs that is drawn so far."""
-        starts = [0, *(start for start, _ in self._begun), len(self.shapes)]
-        names = ["", *(name for _, name in self._begun)]
-        return [name for name, (a, b) in zip(names, pairwise(starts), strict=True) for _ in range(a, b)]
-
     def _placed(self) -> tuple[list[Request], Labels]:
         """Place the letters; leave out spare ones that cover something, or that stand in the way of others."""
         shapes = [coarser(shape, self.coarse) for shape in self.shapes] if self.coarse else self.shapes
         obstacles, left = _obstacles(shapes, self._boxes, self.style), self._requests
         placed = place(left, obstacles, bounds=self.bounds)
         while placed.failed or placed.crossed:
-            out = {name for name in placed.failed if name in self._spare} or self._as_well(placed.crossed)
+            out = {name for name in placed.failed if name in self._spare}
+            # or numbers of arms that lines cross, which say the same under the heading
+            out = out or {name for name in placed.crossed if self._spare.get(name) == self._markup[int(name)][0]}
             if not out and placed.failed:
                 out = self._in_the_way(placed, {request.name for request in left})
             if not out:
@@ -168,10 +169,6 @@ class Canvas:
             left = [request for request in left if request.name not in out]
             placed = place(left, obstacles, bounds=self.bounds)
         return left, placed
-
-    def _as_well(self, crossed: tuple[str, ...]) -> set[str]:
-        """Return those of letters crossed by lines that say the same under the heading: numbers of arms."""
-        return {name for name in crossed if self._spare.get(name) == self._markup[int(name)][0]}
 
     def _in_the_way(self, placed: Labels, left: set[str]) -> set[str]:
         """Return for each letter that found no place the nearest spare one."""
@@ -181,11 +178,6 @@ class Canvas:
             for failed in placed.failed
         }
         return {name for name in near if name}
-
-
-def _joined(markups: list[str], each: int = 4) -> list[str]:
-    """Return lines of at most so many markups."""
-    return ["; ".join(markups[i : i + each]) for i in range(0, len(markups), each)]
 
 
 def write_above(shapes: list[Shape], heading: tuple[str, ...], notes: tuple[str, ...], style: Style) -> Box:

@@ -239,22 +239,18 @@ class Words:
         if name.plan == POSITION:
             return indexed(mark)
         if name.plan.kind == FORCES:
-            return self._force_letter(int(of))
+            pole = str(self.notation["force_pole"])
+            if int(of) == 0:
+                return pole
+            letters = ascii_lowercase.replace(pole, "")  # a, b, c, ... without the pole's, then a_1, b_1, c_1, ...
+            turn, at = divmod(int(of) - 1, len(letters))
+            return letters[at] + (f"_{{{turn}}}" if turn else "")
         if name.kind == POLE:
             return str(self.notation[f"{name.plan}_pole"])
         if name.kind in (NORMAL, CORIOLIS):
             return str(self.notation["normal_end" if name.kind == NORMAL else "coriolis_end"])
         prime = self.notation["acceleration_prime"] if name.plan == "acceleration" else ""
         return indexed(of[0].lower() + prime + of[1:])
-
-    def _force_letter(self, number: int) -> str:
-        """Return the pole's letter, then a, b, c, ... without it, then a_1, b_1, c_1, ..."""
-        pole = str(self.notation["force_pole"])
-        if number == 0:
-            return pole
-        letters = ascii_lowercase.replace(pole, "")
-        turn, at = divmod(number - 1, len(letters))
-        return letters[at] + (f"_{{{turn}}}" if turn else "")
 
 
 @dataclass(frozen=True, slots=True)

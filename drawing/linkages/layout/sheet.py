@@ -162,7 +162,7 @@ def zoned(fitting: Fitting, sheet: Format, first: Rungs) -> Found | None:
     places = None if "positions" in tight else arrange_rest([views[i] for i in rest], sheet, fitting.contents.norm)
     if places is None:
         return None
-    placed |= {i: Placement(p.page + 1, p.x, p.y, p.shape) for i, p in zip(rest, places, strict=True)}
+    placed |= {i: Placement(p.page + 1, p.x, p.y) for i, p in zip(rest, places, strict=True)}
     return views, scales, [placed[i] for i in range(len(views))]
 
 
@@ -189,7 +189,7 @@ def _place(views: Sequence[View], zones: Sequence[str], structure: Structure) ->
     for zone, box in boxes.items():
         own = [i for i, name in enumerate(zones) if name == zone]
         for count in range(len(own), 0, -1):
-            places = pack([[views[i].size] for i in own[:count]], box, gap=GAP)
+            places = pack([views[i].size for i in own[:count]], box, gap=GAP)
             if places is not None:
                 placed |= dict(zip(own, places, strict=False))
                 break
