@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from ...plans.cams.dense import diagram
-from ...plans.cams.integration import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
+from ...plans.cams.construction import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
+from ...plans.cams.course import diagram
 from ...plans.cams.motion import PHASES, RISE
 from ...plans.names import role
 from ..areas import beside

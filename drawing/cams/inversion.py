@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...plans.cams import dense
-from ...plans.cams.dense import dwelling, on_circle, pitch_curve, rests, theta, transmission, up_at
+from ...plans.cams import course
+from ...plans.cams.course import dwelling, on_circle, pitch_curve, rests, theta, transmission, up_at
 from ...plans.cams.envelopes import Undercut
 from ...plans.cams.motion import LOWER, Motion
 from ...plans.cams.profile import RollerProfile
@@ -214,7 +214,7 @@ def curves(canvas: Canvas, scene: CamScene, profile: RollerProfile) -> None:
 
 def sharpest(canvas: Canvas, scene: CamScene) -> None:
     """Mark the place of the least radius of curvature of the pitch curve, and the radius."""
-    found = dense.sharpest(scene.solved)
+    found = course.sharpest_place(scene.solved)
     if found is None:
         return
     place, core, normal = scene.drawn(found.place), scene.drawn(found.core), found.normal

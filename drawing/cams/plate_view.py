@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...plans.cams.construction import PLATE_PROFILE
-from ...plans.cams.dense import up_at
+from ...plans.cams.course import up_at
 from ..dimensions import linear
 from ..figure import Figure, Stage
 from ..hardware import Rod

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...plans.cams.dense import courses, permitted, theta
+from ...plans.cams.course import courses, permitted, theta
 from ...plans.cams.motion import RISE
 from ...scales.scale import Scale, steps
 from ..areas import beside

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...plans.cams.construction import ROCKER_SIZES, is_back, phase_of
-from ...plans.cams.dense import (
+from ...plans.cams.course import (
     Bound,
     analogue_end,
     analogues,

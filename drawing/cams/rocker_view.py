@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ...plans.cams.construction import PROFILE
-from ...plans.cams.dense import dwelling, pole_share, pressed
+from ...plans.cams.course import dwelling, pole_share, pressed
 from ..dimensions import angle
 from ..figure import Figure, Stage
 from ..shapes import Arc, Circle, Group, Line, Pen, Text

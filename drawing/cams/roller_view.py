@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...plans.cams.construction import PROFILE
-from ...plans.cams.dense import on_circle, pressed, rests, up_at
+from ...plans.cams.course import on_circle, pressed, rests, up_at
 from ..dimensions import linear
 from ..figure import Figure, Stage
 from ..hardware import Rod

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
-from ...plans.cams.integration import DIAGRAMS
+from ...plans.cams.construction import DIAGRAMS
 from ...plans.cams.solve import EXACT_OF, SCALES, SolvedCam
 from ...plans.names import role
 from ...plans.solved import PAPER_MM

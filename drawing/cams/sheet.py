@@ -189,7 +189,7 @@ def _profiles(contents: SheetContents[SolvedCam], width: float) -> Iterator[CamF
 
 
 def _pressure(contents: SheetContents[SolvedCam], width: float) -> Iterator[CamFigure]:
-    from ...plans.cams.dense import rolls
+    from ...plans.cams.course import rolls
     from . import pressure_view
 
     if rolls(contents.solved):

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...plans.cams.construction import PLATE_SIZES, SIZES, is_back, phase_of
-from ...plans.cams.dense import (
+from ...plans.cams.course import (
     analogue,
     offset_places,
     outwards,

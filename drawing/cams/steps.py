@@ -6,9 +6,8 @@ import math
 from collections.abc import Iterator, Mapping
 
 from ...plans.cams.cam import PLATE
-from ...plans.cams.construction import OUTWARDS, PLATE_SIZES, ROCKER_SIZES, SIZES
-from ...plans.cams.dense import analogue, permitted, pressed, rolling, rolls, theta, transmission, turning
-from ...plans.cams.integration import ACCELERATION
+from ...plans.cams.construction import ACCELERATION, OUTWARDS, PLATE_SIZES, ROCKER_SIZES, SIZES
+from ...plans.cams.course import analogue, permitted, pressed, rolling, rolls, theta, transmission, turning
 from ...plans.cams.rules import Rule, rules_of
 from ..notes.blocks import Sentences, Story
 from ..printed import segment_decimals

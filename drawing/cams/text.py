@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from ...plans.cams.construction import PLATE_SIZES, SIZES
-from ...plans.cams.dense import rolls, theta
+from ...plans.cams.construction import ACCELERATION, PLATE_SIZES, SIZES
+from ...plans.cams.course import rolls, theta
 from ...plans.cams.formulas import ARC
-from ...plans.cams.integration import ACCELERATION
 from ...plans.cams.rules import Rule, rules_of
 from ...plans.cams.solve import SCALES
 from ..handouts import NOTHING

@@ -8,10 +8,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...plans.cams.closing import WAYS
-from ...plans.cams.convergence import BETWEEN, CLOSED, DRAWINGS, NODES, Convergence
-from ...plans.cams.robustness import Robustness
-from ...plans.cams.sectioned import MU_S, R_0, S_MAX, V_MAX
+from ...plans.cams.chords import (
+    BETWEEN,
+    CLOSED,
+    DRAWINGS,
+    MU_S,
+    NODES,
+    R_0,
+    S_MAX,
+    V_MAX,
+    WAYS,
+    Convergence,
+    Robustness,
+)
 from ..words import Words
 from .paper import (
     BLACK,

@@ -26,10 +26,18 @@ centre sees `D1` along the normal, so that the line through `D1` at the permitte
 at the pivot between the rocker's lowest position and the line of centres.
 
 On its `profile` the pivot goes round the cam against its sense, `A1`; `B1` is the roller's centre, `D1` the same point
-as above, seen from the cam, `K1` where the roller touches the practical profile.
+as above, seen from the cam, `K1` where the roller touches the practical profile. Graphical integration by chords leads
+from acceleration to velocity, to the travel. Three diagrams stand on one axis of angles, divided into sections. The
+mean ordinate of every section is projected on the ordinate axis and joined to a pole at the distance H to the left of
+it; on the next diagram the chord of the section is drawn parallel to that ray, from the end of the chord before it to
+the next section line. All of it is drawn in millimetres of paper: scale factors come from it, not before it.
+
+Marks, on the plans `diagram_a`, `diagram_v`, `diagram_s`: `0` the origin, where the curve begins; `1`, `2`, ... the
+nodes of the curve on the section lines; `f1` the foot of a section line; on a diagram that is integrated `O` the pole,
+`m1` the mean ordinate of the first section, `p1` its projection; `ray(plan, 1)` names the direction of the ray.
 
 Sources: Artobolevsky, Theory of mechanisms and machines (S-ds/dphi diagram, inversion of motion, cams with an
-oscillating follower); Geronimus (tangent at 45 degrees).
+oscillating follower, method of chords); Geronimus (tangent at 45 degrees).
 """
 
 from __future__ import annotations
@@ -38,10 +46,77 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..board import Board, Program, RecordingBoard, with_needs
+from ..names import Name
 from .cam import DIAGRAMS_PART, PLANS, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART
 from .formulas import ARC
-from .integration import ACCELERATION, RIGHT, TRAVEL, UP, VELOCITY, Division, diagrams, foot
+from .motion import Division
 from .sizes import BACK
+
+ACCELERATION, VELOCITY, TRAVEL = "diagram_a", "diagram_v", "diagram_s"
+DIAGRAMS = (ACCELERATION, VELOCITY, TRAVEL)
+RIGHT, UP = "_right", "_up"
+
+
+def foot(plan: str, line: int) -> str:
+    """Return the mark where a section line meets the axis of angles."""
+    return f"{plan}.f{line}" if line else f"{plan}.0"
+
+
+def ray(plan: str, section: int) -> str:
+    """Return the name of the direction of a section's ray on the diagram that is integrated."""
+    return f"_{plan}_ray{section}"
+
+
+def mean(section: int) -> Name:
+    """Return the name of the mean ordinate of a section on the given diagram."""
+    return Name(f"_mean{section}", "mean", str(section))
+
+
+def axes(board: Board, plan: str, sections: Iterable[int]) -> None:
+    """Draw the axes of a diagram and its section lines."""
+    board.pole(f"{plan}.0")
+    for i in sections:
+        board.calc(f"_x{i}", "on_axis", f"_phi{i}", "mu_phi")
+        board.lay(foot(plan, i), f"{plan}.0", RIGHT, f"_x{i}")
+
+
+def given_means(board: Board, plan: str, sections: Iterable[int]) -> None:
+    """Mark on the given diagram the mean ordinate of every section, in its middle."""
+    for i in sections:
+        board.calc(f"_middle{i}", "on_axis", f"_phi_middle{i}", "mu_phi")
+        board.calc(mean(i), "part_of_amplitude", "l_A1", f"_part{i}")
+        board.place(f"{plan}.m{i}", f"_middle{i}", mean(i))
+
+
+def drawn_means(board: Board, plan: str, sections: Iterable[int]) -> None:
+    """Mark on a curve of chords the mean ordinate of every section: the middle of the chord."""
+    for i in sections:
+        board.divide(f"{plan}.m{i}", f"{plan}.{i - 1}", f"{plan}.{i}", "one", "_two")
+
+
+def integrate(board: Board, plan: str, onto: str, pole_distance: str, sections: Iterable[int]) -> None:
+    """Integrate the diagram `plan`, whose mean ordinates are marked, by chords onto the diagram `onto`."""
+    origin, pole = f"{plan}.0", f"{plan}.O"
+    board.back(pole, origin, RIGHT, pole_distance)
+    for i in sections:
+        projection, length = f"{plan}.p{i}", f"_{plan}_l{i}"
+        board.meet(projection, f"{plan}.m{i}", RIGHT, origin, UP)
+        board.measure(length, pole, projection)
+        board.direction(ray(plan, i), pole, projection, length)
+        board.meet(f"{onto}.{i}", f"{onto}.{i - 1}", ray(plan, i), foot(onto, i), UP)
+
+
+def diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:
+    """Draw the diagrams from the one that is given on: the analogue of acceleration, or that of velocity."""
+    board.turn(RIGHT, "zero")
+    board.normal(UP, RIGHT)
+    for plan in DIAGRAMS[DIAGRAMS.index(given) :]:
+        axes(board, plan, sections)
+    given_means(board, given, sections)
+    if given == ACCELERATION:
+        integrate(board, ACCELERATION, VELOCITY, "H_a", sections)
+        drawn_means(board, VELOCITY, sections)
+    integrate(board, VELOCITY, TRAVEL, "H_v", sections)
 
 
 def exact_factors(board: Board, given: str) -> None:

@@ -21,8 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..laws import cross
-from .motion import TURN, Motion
-from .places import Places, minima, refined
+from .motion import TURN, Motion, Places, minima, refined
 
 CELLS = 360  # of a turn, in which envelope and positions are looked at
 APART = 3  # cells from a position to those that are not next to it

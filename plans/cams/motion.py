@@ -1,13 +1,16 @@
-"""The motion of a follower over a turn of its cam: rise, upper dwell, fall, lower dwell, as smooth pieces.
+"""The motion of a follower over a turn of its cam: four phases of smooth pieces, and least values over them.
 
-The angle phi of the cam counts from the start of the rise, in the sense in which the cam turns. Travel and derivatives
-are in SI; the travel of a rocker is its angle.
+The phases are rise, upper dwell, fall, lower dwell. The angle phi of the cam counts from the start of the rise, in the
+sense in which the cam turns. Travel and derivatives are in SI; the travel of a rocker is its angle.
+
+Something is looked at in places over the turn: at a corner of the motion there are two, one for the limit from each
+side.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, zip_longest
@@ -18,7 +21,6 @@ from numpy.typing import NDArray
 
 from ...scales.errors import InputError
 from .cam import MIRROR, NEAR, Cam
-from .integration import Division
 from .laws_of_motion import SAME, LawOfMotion, Smooth, law_of_curve, law_of_motion
 
 Array = NDArray[np.float64]
@@ -26,6 +28,46 @@ RISE, UPPER, FALL, LOWER = PHASES = ("rise", "upper", "fall", "lower")
 TURN = 2.0 * math.pi
 SHORT = 1e-6  # rad, of a phase that nobody can draw: what rounded angles leave of a turn
 WHOLE = 1e-9  # part of a section by which a node may be off an equal division
+
+
+@dataclass(frozen=True, slots=True)
+class Division:
+    """Numbers of section lines: the rise runs from 0 to `top`, the upper dwell to `leave`, the fall to `last`.
+
+    The lower dwell is the rest of the turn; nothing changes in it, so that it has no sections. `jumps` are the lines
+    within a phase at which the acceleration jumps.
+    """
+
+    top: int
+    leave: int
+    last: int
+    jumps: tuple[int, ...] = ()
+
+    @property
+    def lines(self) -> range:
+        """All section lines."""
+        return range(self.last + 1)
+
+    @property
+    def sections(self) -> range:
+        """All sections; each has the number of the line at its end."""
+        return range(1, self.last + 1)
+
+    @property
+    def rise(self) -> range:
+        """Lines of the rise, both ends among them."""
+        return range(self.top + 1)
+
+    @property
+    def fall(self) -> range:
+        """Lines of the fall, both ends among them."""
+        return range(self.leave, self.last + 1)
+
+    def pieces(self, phase: str) -> tuple[range, ...]:
+        """Return the lines of the `rise` or the `fall`, between jumps: of each piece both ends are among them."""
+        lines = self.rise if phase == "rise" else self.fall
+        ends = sorted({lines[0], *(line for line in self.jumps if line in lines), lines[-1]})
+        return tuple(range(a, b + 1) for a, b in pairwise(ends))
 
 
 @dataclass(frozen=True, slots=True)
@@ -337,3 +379,84 @@ def _divided(phase: Phase, marked: Iterable[float], sections: int) -> Array:
     counts = [max(1, math.ceil(sections * (b - a))) for a, b in pairwise(parts)]
     steps = [np.linspace(a, b, n, endpoint=False) for (a, b), n in zip(pairwise(parts), counts, strict=True)]
     return phase.start + phase.length * np.append(np.concatenate(steps), 1.0)
+
+
+Function = Callable[[Any, int], NDArray[Any]]
+FINE = math.radians(0.25)  # between places
+FEWEST = 8  # cells of a piece
+APART = 2e-12  # rad, from a corner, where the side of a limit no longer matters
+GOLDEN, ROUNDS = 0.5 * (math.sqrt(5.0) - 1.0), 60
+
+
+@dataclass(frozen=True, slots=True)
+class Minimum:
+    """A least value and the angle of the cam there."""
+
+    value: float
+    phi: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Places:
+    """Angles `phi` in order, each with the side of its limit, +1 right or -1 left."""
+
+    phi: Array
+    side: NDArray[np.intp]
+
+    @classmethod
+    def between(cls, corners: Sequence[float], extra: Iterable[float] = ()) -> Places:
+        """Return places at most `FINE` apart between corners, those of `extra` among them, of any turn."""
+        further = np.mod(np.fromiter(extra, float), TURN)
+        parts, sides = [], []
+        for low, high in pairwise(corners):
+            even = np.linspace(low, high, max(FEWEST, math.ceil((high - low) / FINE)) + 1)
+            inner = further[(further > low) & (further < high)]
+            parts.append(np.unique(np.concatenate((even, inner))))
+            sides.append(np.ones(len(parts[-1]), int))
+            sides[-1][-1] = -1
+        return cls(np.concatenate(parts), np.concatenate(sides))
+
+    def values(self, function: Function) -> NDArray[Any]:
+        """Return the values of a function of the angle and the side."""
+        return np.where(self.side > 0, function(self.phi, 1), function(self.phi, -1))
+
+    def cell(self, i: int) -> tuple[float, float, int]:
+        """Return the cell between the places i and i + 1, all round: its ends and the side for what is in it."""
+        a, b = i % len(self.phi), (i + 1) % len(self.phi)
+        low, high = float(self.phi[a]), float(self.phi[b])
+        return low, high if high >= low else high + TURN, int(self.side[b])
+
+
+def refined(function: Function, low: Array, high: Array) -> tuple[Array, Array]:
+    """Return the least values in brackets, and where, by golden section; each bracket lies inside one piece."""
+    low, high = np.atleast_1d(low) + APART, np.atleast_1d(high) - APART
+    a, b = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    left, right = function(a, 1), function(b, 1)
+    for _ in range(ROUNDS):
+        down = left <= right
+        low, high = np.where(down, low, a), np.where(down, b, high)
+        kept, value = np.where(down, a, b), np.where(down, left, right)
+        fresh = np.where(down, high - GOLDEN * (high - low), low + GOLDEN * (high - low))
+        found = function(fresh, 1)
+        a, b = np.where(down, fresh, kept), np.where(down, kept, fresh)
+        left, right = np.where(down, found, value), np.where(down, value, found)
+    return np.minimum(left, right), np.where(left <= right, a, b)
+
+
+def minima(function: Function, corners: Sequence[float]) -> list[Minimum]:
+    """Return the minima of a function between corners of the motion, the limits there among them, in order of phi.
+
+    Where it is constant its first place stands for all.
+    """
+    places = Places.between(corners)
+    values, phi = places.values(function), places.phi
+    begins = np.append(True, np.diff(phi) == 0.0)
+    ends = np.roll(begins, -1)
+    before = np.where(begins, np.inf, np.roll(values, 1))
+    after = np.where(ends, np.inf, np.roll(values, -1))
+    at = np.flatnonzero((values < before) & (values <= after))
+    low, high = phi[np.where(begins[at], at, at - 1)], phi[np.where(ends[at], at, at + 1)]
+    lower, where = refined(function, low, high)
+    better = lower < values[at]
+    found = np.where(better, lower, values[at]), np.where(better, where, phi[at])
+    return [Minimum(float(value), float(place)) for value, place in zip(*found, strict=True)]

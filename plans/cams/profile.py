@@ -23,8 +23,7 @@ from numpy.typing import NDArray
 
 from ..laws import cross, dot
 from .envelopes import Envelope, Undercut, outline, undercuts
-from .motion import Motion
-from .places import Minimum, minima
+from .motion import Minimum, Motion, minima
 from .sizes import RollerSizes
 
 Array = NDArray[np.float64]

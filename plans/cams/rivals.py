@@ -7,8 +7,8 @@ that of closed forms is their rounding, beside the same forms with longer number
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -21,11 +21,10 @@ from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
 from ..hands.hand import Hand
 from ..hands.shaky import draw
 from ..hands.spread import kept
-from .convergence import DRAWINGS, SEED
+from .chords import DRAWINGS, SEED, drawn_on, equal_division, inner_jumps, nodes, ordinates
+from .construction import ACCELERATION, TRAVEL, VELOCITY
 from .formulas import MM_PER_M
-from .integration import ACCELERATION, TRAVEL, VELOCITY, Division
-from .motion import TURN, Motion
-from .sectioned import drawn_on, equal_division, inner_jumps, nodes, ordinates
+from .motion import TURN, Division, Motion
 from .solve import SolvedCam
 
 Array = NDArray[np.float64]
@@ -127,21 +126,24 @@ class _Race:
         for size in self.effort.batches:
             places = TURN * ((np.arange(size) + 0.5) / size)
             spent = timed(partial(closed, motion, places), self.clock) / size
-            yield from self._entries(CLOSED, size, cut, course, found, spent, size)
+            way = _way(CLOSED, size, spent, size)
+            yield from _entries(self.solved, way, cut.angles, errors(motion, cut.division, course, found))
 
     def board(self) -> Iterator[Entry]:
         """Go through chords on the board: one cam alone, and many at once."""
+        motion = self.solved.motion
         for sections in ON_BOARD:
-            cut = on_lines(self.solved.motion, sections)
+            cut = on_lines(motion, sections)
             paper = drawn_on(self.solved, cut.angles, cut.division, nodes(self.solved, cut.division))
             course = _drawn(self.solved, cut.division, run(paper.program, paper.givens).values)
             spent = timed(partial(run, paper.program, paper.givens), self.clock) / len(cut.angles)
-            yield from self._entries(BOARD, cut.division.top, cut, course, None, spent, 1)
+            found = errors(motion, cut.division, course, closed(motion, cut.angles))
+            yield from _entries(self.solved, _way(BOARD, cut.division.top, spent), cut.angles, found)
             if sections in AT_ONCE:
                 several = {**paper.givens, "l_A1": np.full(CAMS, paper.givens["l_A1"])}
                 work = partial(batch, paper.program, several, nodes(self.solved, cut.division))
                 spent = timed(work, self.clock) / (len(cut.angles) * CAMS)
-                yield from self._entries(BOARDS, cut.division.top, cut, course, None, spent, CAMS)
+                yield from _entries(self.solved, _way(BOARDS, cut.division.top, spent, CAMS), cut.angles, found)
 
     def numerical(self) -> Iterator[Entry]:
         """Go through sums of numbers, with jumps on section lines, and within sections where there are any."""
@@ -157,22 +159,9 @@ class _Race:
                 cut = divided(motion, sections)
                 course = way(motion, given, cut)
                 spent = timed(partial(way, motion, given, cut), self.clock) / len(cut.angles)
-                yield from self._entries(method, cut.division.top, cut, course, None, spent, len(cut.angles))
-
-    def _entries(
-        self, method: str, setting: int, cut: Cut, course: Course, exact: Course | None, seconds: float, at_once: int
-    ) -> Iterator[Entry]:
-        """Go through the errors of a course beside the exact one."""
-        motion = self.solved.motion
-        right = closed(motion, cut.angles) if exact is None else exact
-        for kind, error in errors(motion, cut.division, course, right).items():
-            if kind == VELOCITIES and self.solved.layout.given != ACCELERATION:
-                continue
-            worst = int(np.argmax(error))
-            at = float(cut.angles[worst])
-            name = "s" if kind == TRAVELS else "ds"
-            most, middle = float(error[worst]), float(np.median(error))
-            yield Entry(method, setting, kind, most, middle, name, at, seconds, at_once, 0.0)
+                found = errors(motion, cut.division, course, closed(motion, cut.angles))
+                done = _way(method, cut.division.top, spent, len(cut.angles))
+                yield from _entries(self.solved, done, cut.angles, found)
 
 
 def errors(motion: Motion, division: Division, course: Course, exact: Course) -> dict[str, Array]:
@@ -186,6 +175,20 @@ def errors(motion: Motion, division: Division, course: Course, exact: Course) ->
         kind: (np.abs(found * scale - right) * (1.0 / size)).astype(float)
         for kind, found, right, size in zip((TRAVELS, VELOCITIES), course, exact, sizes, strict=True)
     }
+
+
+def _way(method: str, setting: float | str, seconds: float | None, at_once: int = 1) -> Entry:
+    """Return an entry of which the errors are still to be found."""
+    return Entry(method, setting, "", None, None, "", 0.0, seconds, at_once, 0.0)
+
+
+def _entries(solved: SolvedCam, way: Entry, angles: Array, found: Mapping[str, Array]) -> Iterator[Entry]:
+    """Go through the errors on section lines, each as an entry; a velocity that is given has none."""
+    for kind, error in found.items():
+        if kind == TRAVELS or solved.layout.given == ACCELERATION:
+            worst, name = int(np.argmax(error)), "s" if kind == TRAVELS else "ds"
+            most, middle = float(error[worst]), float(np.median(error))
+            yield replace(way, kind=kind, error=most, typical=middle, name=name, place=float(angles[worst]))
 
 
 def rivals(solved: SolvedCam, clock: Clock, hand: Hand, effort: Effort = FULL) -> Contest:
@@ -211,14 +214,9 @@ def by_hand(solved: SolvedCam, hand: Hand) -> Iterator[Entry]:
         board = draw(paper, hand, np.random.default_rng(SEED), DRAWINGS)
         course = _drawn(solved, cut.division, board.values, DRAWINGS)
         s, ds = (values[:, None] for values in closed(motion, cut.angles))
-        for kind, error in errors(motion, cut.division, course, (s, ds)).items():
-            if kind == VELOCITIES and solved.layout.given != ACCELERATION:
-                continue
-            lines = kept(error, 0.0)
-            at = float(cut.angles[int(np.argmax(lines))])
-            name = "s" if kind == TRAVELS else "ds"
-            most, middle = float(lines.max()), float(np.median(lines))
-            yield Entry(HAND, f"n = {cut.division.top}", kind, most, middle, name, at, None, 1, 0.0)
+        found = errors(motion, cut.division, course, (s, ds))
+        lines = {kind: np.asarray(kept(error, 0.0)) for kind, error in found.items()}
+        yield from _entries(solved, _way(HAND, f"n = {cut.division.top}", None), cut.angles, lines)
 
 
 def _drawn(solved: SolvedCam, division: Division, values: Any, *shape: int) -> Course:

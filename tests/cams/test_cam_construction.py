@@ -9,11 +9,9 @@ import pytest
 
 from kulman.plans.boards.exact import run
 from kulman.plans.cams.cam import LAWS, PLANS, Cam, Curve
-from kulman.plans.cams.construction import construct
-from kulman.plans.cams.givens import diagram_givens
-from kulman.plans.cams.integration import ray
+from kulman.plans.cams.construction import construct, ray
 from kulman.plans.cams.motion import motion_of
-from kulman.plans.cams.solve import EQUAL, SolvedCam, solve_cam
+from kulman.plans.cams.solve import EQUAL, SolvedCam, diagram_givens, solve_cam
 from kulman.plans.hands.hand import preset
 from kulman.plans.hands.shaky import draw, paper_of
 from kulman.scales.errors import InputError

@@ -10,10 +10,7 @@ import pytest
 
 from kulman import check, note, sweep
 from kulman.plans.cams.cam import Cam
-from kulman.plans.cams.laws_of_motion import law_of_motion
-from kulman.plans.cams.motion import Motion, motion_of
-from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath
-from kulman.plans.cams.rocker import (
+from kulman.plans.cams.followers import (
     NoPlace,
     Rocker,
     RockerPath,
@@ -23,6 +20,9 @@ from kulman.plans.cams.rocker import (
     smallest_rocker,
     smallest_rocker_at,
 )
+from kulman.plans.cams.laws_of_motion import law_of_motion
+from kulman.plans.cams.motion import Motion, motion_of
+from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath
 from kulman.plans.cams.sizes import (
     Limits,
     NoOffset,

@@ -14,9 +14,7 @@ import pytest
 from kulman import cli
 from kulman.plans import contest as contests
 from kulman.plans.cams import rivals as races
-from kulman.plans.cams.convergence import BETWEEN, NODES, convergence
-from kulman.plans.cams.robustness import robustness
-from kulman.plans.cams.sectioned import S_MAX
+from kulman.plans.cams.chords import BETWEEN, NODES, S_MAX, convergence, robustness
 from kulman.plans.contest import Effort
 from kulman.plans.hands.hand import PRESETS
 from kulman.variants.charts import cam as charts

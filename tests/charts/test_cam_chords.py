@@ -9,11 +9,23 @@ import numpy as np
 import pytest
 
 import kulman
-from kulman.plans.cams.closing import BOTH, drift, stroke_closed
-from kulman.plans.cams.convergence import BETWEEN, CLOSED, NODES, Convergence, convergence
-from kulman.plans.cams.integration import Division
-from kulman.plans.cams.robustness import late, robustness
-from kulman.plans.cams.sectioned import R_0, S_MAX, V_MAX, drawn_on
+from kulman.plans.cams.chords import (
+    BETWEEN,
+    BOTH,
+    CLOSED,
+    NODES,
+    R_0,
+    S_MAX,
+    V_MAX,
+    Convergence,
+    convergence,
+    drawn_on,
+    drift,
+    late,
+    robustness,
+    stroke_closed,
+)
+from kulman.plans.cams.motion import Division
 from kulman.plans.cams.solve import SolvedCam
 from kulman.plans.hands.hand import Hand, preset
 from kulman.plans.hands.shaky import draw

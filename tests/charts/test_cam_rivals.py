@@ -11,9 +11,9 @@ import pytest
 import kulman
 from kulman.plans import contest as contests
 from kulman.plans.cams import rivals as races
+from kulman.plans.cams.chords import V_MAX, drawn_on, exact_values
 from kulman.plans.cams.motion import Motion
 from kulman.plans.cams.rivals import errors, in_extended, midpoint, on_lines, rivals, simpson
-from kulman.plans.cams.sectioned import V_MAX, drawn_on, exact_values
 from kulman.plans.cams.solve import SolvedCam
 from kulman.plans.contest import Contest, Effort
 from kulman.plans.hands.hand import preset

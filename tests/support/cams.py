@@ -9,10 +9,10 @@ from itertools import pairwise
 import numpy as np
 
 from kulman.plans.cams.cam import LAWS, ORDERS
+from kulman.plans.cams.followers import Rocker, RockerPath, RockerSizes, smallest_rocker
 from kulman.plans.cams.laws_of_motion import UNIFORM, law_of_motion
 from kulman.plans.cams.motion import Motion
 from kulman.plans.cams.profile import RollerProfile, StraightPath
-from kulman.plans.cams.rocker import Rocker, RockerPath, RockerSizes, smallest_rocker
 from kulman.plans.cams.sizes import Limits, smallest_roller, wedge
 
 SEED = 1868

@@ -9,10 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...drawing.charts.cam import sections_page, stability_page
 from ...drawing.words import Words
-from ...plans.cams.closing import WAYS
-from ...plans.cams.convergence import DRAWINGS, ROUNDING, Convergence, compared, convergence
+from ...plans.cams.chords import DRAWINGS, ROUNDING, WAYS, Convergence, Robustness, compared, convergence, robustness
 from ...plans.cams.rivals import rivals
-from ...plans.cams.robustness import Robustness, robustness
 from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.contest import FULL, Effort
 from ..arguments import all_known

@@ -138,13 +138,13 @@ class Cams(Sized[Cam, "SolvedCam"]):
 
     def as_drawn(self, solved: SolvedCam) -> SolvedCam:
         """Return the cam with chords and tangents in the place of closed forms."""
-        from ...plans.cams.drawn import as_drawn
+        from ...plans.cams.rules import as_drawn
 
         return as_drawn(solved)
 
     def stands_for(self, solved: SolvedCam) -> dict[str, str]:
         """Return for what the sizes by chords and tangents stand."""
-        from ...plans.cams.drawn import stands_for
+        from ...plans.cams.rules import stands_for
 
         return stands_for(solved)
 
@@ -213,7 +213,7 @@ class Cams(Sized[Cam, "SolvedCam"]):
         from ...drawing.cams.scene import CamScene
         from ...drawing.cams.steps import story
         from ...drawing.formats import STYLES
-        from ...plans.cams.integration import TRAVEL
+        from ...plans.cams.construction import TRAVEL
         from ...plans.cams.solve import SolvedCam, reduced
 
         solved = SolvedCam.of(case.solved)
@@ -254,7 +254,7 @@ def _outside(solved: SolvedCam) -> Iterator[InputError]:
 
 def _unusual(solved: SolvedCam) -> Iterator[InputError]:
     """Go through the numbers that hardly any cam has, each in the unit in which people read it."""
-    from ...plans.cams.usual import unusual
+    from ...plans.cams.rules import unusual
 
     for one in unusual(solved):
         key, shown = UNUSUAL[one.unit]

@@ -1,0 +1,440 @@
+"""The diagrams of a cam on a division of one's own: any number of sections, jumps on their lines or between them.
+
+They are closed when they have been drawn: the velocity brought back to zero, then the travel. What a hand draws does
+not close: at the end of a phase the velocity is not zero, after the fall the travel is not. The closing error of the
+velocity may be distributed over its phase, that of the travel over the turn, in proportion to the way along the axis;
+as the travel is the integral of the velocity, the first changes the travel, too.
+
+They are drawn with more and more sections, exactly and by hands, and with a section line beside a jump. Chords err as
+the square of a section when every jump of the acceleration lies on a section line, as the section itself when one lies
+between lines. A hand errs the more the more chords it draws, so that for each there is a best number.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...scales.errors import InputError
+from ..boards.exact import run
+from ..hands.hand import Hand
+from ..hands.shaky import Paper, draw
+from ..hands.spread import kept
+from .cam import DIAGRAMS_PART, ROLLER, SIZES_PART
+from .construction import ACCELERATION, TRAVEL, VELOCITY, construct
+from .formulas import MM_PER_M
+from .motion import Division, Motion, Phase
+from .solve import EQUAL, SolvedCam, diagram_givens
+
+Array = NDArray[np.float64]
+V_MAX, S_MAX, MU_S, R_0 = "V_max_chord", "S_max_chord", "mu_s_chord", "r_0_tangents"
+EXACT = {V_MAX: "_V_max", S_MAX: "_S_max", MU_S: "mu_s"}  # what the exact curves give
+NEAR = 1e-6  # part of a section within which a jump lies on a line
+THIRD, ROUNDED = 1.0 / 3.0, 9  # of a section; decimals
+MU_L = 1e-3  # m/mm, of plans that the sizes do not depend on
+
+
+@dataclass(frozen=True, slots=True)
+class Sectioned:
+    """The diagrams of a cam with so many `sections` of the rise: the construction as it is drawn, and its values."""
+
+    sections: int
+    angles: Array
+    division: Division
+    paper: Paper
+    values: Mapping[str, Any]
+
+
+def exact_values(solved: SolvedCam) -> dict[str, float]:
+    """Return what the exact curves give for the quantities that the chords of a cam have."""
+    found = {name: float(solved.values[of]) for name, of in EXACT.items()}
+    if solved.layout.given != ACCELERATION:  # the velocity is given, not found
+        del found[V_MAX]
+    if solved.roller is not None:
+        found[R_0] = solved.roller.by_tangents.r_0
+    return found
+
+
+def at_nodes(solved: SolvedCam, sections: int, names: Iterable[str]) -> Sectioned:
+    """Draw the diagrams with at least so many sections of a phase and every jump on a section line."""
+    return _sectioned(solved, *solved.motion.division(sections), tuple(names))
+
+
+def between(solved: SolvedCam, sections: int, names: Iterable[str]) -> Sectioned:
+    """Draw the diagrams with about so many equal sections of a phase, jumps about a third of a section beside lines.
+
+    The first jump lies behind the line: so errors of all numbers of sections have the same sign.
+    """
+    parts = inner_jumps(solved.motion)
+
+    def off(count: int) -> float:
+        beside = [part * count - math.floor(part * count) for part in parts]
+        return abs(beside[0] - THIRD) + sum(abs(min(x, 1.0 - x) - THIRD) for x in beside)
+
+    count = min(range(sections, sections + max(5, sections // 8)), key=lambda count: round(off(count), ROUNDED))
+    return _sectioned(solved, *equal_division(solved.motion, count), tuple(names))
+
+
+def inner_jumps(motion: Motion) -> list[float]:
+    """Return the places of jumps of the acceleration within rise and fall, each as part of its phase."""
+    return [
+        part
+        for phase in (motion.rise, motion.fall)
+        for jump in motion.jumps
+        if jump.order == 2 and NEAR < (part := (jump.phi - phase.start) / phase.length) < 1.0 - NEAR
+    ]
+
+
+def equal_division(motion: Motion, count: int) -> tuple[Array, Division]:
+    """Return section lines that divide rise and fall into `count` equal parts each, jumps wherever they lie."""
+
+    def lines(phase: Phase) -> Array:
+        return phase.start + phase.length * (np.arange(count + 1) / count)
+
+    rise, fall = lines(motion.rise), lines(motion.fall)
+    leave = count + (motion.upper.length > 0.0)
+    angles = np.concatenate((rise, fall if leave > count else fall[1:]))
+    places = [int(np.abs(angles - jump.phi).argmin()) for jump in motion.jumps]
+    close = NEAR * motion.rise.length / count
+    hit = (i for i, jump in zip(places, motion.jumps, strict=True) if abs(angles[i] - jump.phi) < close)
+    end = leave + count
+    return angles, Division(count, leave, end, tuple(i for i in hit if 0 < i < count or leave < i < end))
+
+
+def drawn_on(solved: SolvedCam, angles: Array, division: Division, names: tuple[str, ...]) -> Paper:
+    """Return the construction of some values on a division of one's own, as it is drawn."""
+    motion, given = solved.motion, solved.layout.given
+    sized = solved.roller is not None
+    fastest = int(np.abs(angles - motion.ds_max.phi).argmin())
+    layout = replace(solved.layout, division=division, followers=(ROLLER,) if sized else (), fastest=fastest)
+    program = construct(layout, (SIZES_PART,) if sized else (DIAGRAMS_PART,))
+    givens = {**solved.givens, **diagram_givens(motion, angles, division, given)}
+    return Paper(program.needed_for(names), givens, _worth(solved), solved.edges)
+
+
+def _worth(solved: SolvedCam) -> dict[str, float]:
+    """Return what a millimetre of the plans that are drawn is worth to the board, SI."""
+    mus = ((plan, EQUAL.get(mu, mu)) for plan, mu in solved.scale_of_plan.items())
+    return solved.worth({plan: solved.values.get(mu, MU_L) for plan, mu in mus})
+
+
+def _sectioned(solved: SolvedCam, angles: Array, division: Division, names: tuple[str, ...]) -> Sectioned:
+    paper = drawn_on(solved, angles, division, (*names, *nodes(solved, division)))
+    values = run(paper.program, paper.givens).values
+    return Sectioned(division.top, angles, division, paper, values)
+
+
+def nodes(solved: SolvedCam, division: Division) -> tuple[str, ...]:
+    """Return the marks of the nodes that are drawn: of the travel, and of the velocity where it is not given."""
+    plans = (TRAVEL, VELOCITY) if solved.layout.given == ACCELERATION else (TRAVEL,)
+    return tuple(f"{plan}.{i}" for plan in plans for i in division.lines)
+
+
+def ordinates(values: Mapping[str, Any], plan: str, division: Division, *shape: int) -> Array:
+    """Return the ordinates of a diagram on all section lines, shape (lines, *shape), m of paper."""
+    return np.array([np.broadcast_to(np.imag(values[f"{plan}.{i}"]), shape) for i in division.lines])
+
+
+AS_DRAWN, SPEED, STROKE, BOTH = WAYS = ("drawn", "speed", "stroke", "both")  # what has been closed
+
+
+def travel_errors(
+    solved: SolvedCam, angles: Array, division: Division, values: Mapping[str, Any], *shape: int
+) -> dict[str, Array]:
+    """Return the errors of a drawn travel on its worst section line, in parts of the stroke, by what has been closed.
+
+    Parameters
+    ----------
+    angles : array
+        Section lines, rad.
+    values : mapping
+        The nodes that have been drawn, each a number or an array of `shape`.
+
+    Returns
+    -------
+    dict of str to array of `shape`
+        By `WAYS`; where the velocity is given there is none to be closed. The travel is scaled by its own stroke.
+    """
+    x = angles * (1.0 / (solved.givens["mu_phi"] * MM_PER_M))
+    travel = ordinates(values, TRAVEL, division, *shape)
+    closed = {AS_DRAWN: travel, STROKE: stroke_closed(travel, x)}
+    if solved.layout.given == ACCELERATION:
+        speed = ordinates(values, VELOCITY, division, *shape)
+        closed[SPEED] = travel - drift(speed, x, division, solved.givens["H_v"])
+        closed[BOTH] = stroke_closed(closed[SPEED], x)
+    exact = _column(solved.motion.at(angles, -1)[0] * (1.0 / solved.motion.h), travel)
+    found = {}
+    for way in WAYS:
+        if way in closed:
+            scaled = closed[way] * (1.0 / closed[way][division.top])
+            found[way] = np.max(np.abs(scaled - exact), axis=0)
+    return found
+
+
+def stroke_closed(travel: Array, x: Array) -> Array:
+    """Return ordinates of the travel, shape (lines, ...), with the error at the last line distributed over the turn."""
+    closed: Array = travel - _column(x / x[-1], travel) * travel[-1]
+    return closed
+
+
+def drift(speed: Array, x: Array, division: Division, pole_distance: float) -> Array:
+    """Return by how much the travel falls when the velocity is brought back to zero at the ends of rise and fall.
+
+    Parameters
+    ----------
+    speed : array of shape (lines, ...)
+        Ordinates of the velocity on the section lines, m of paper.
+    x : array of shape (lines,)
+        Abscissas, m of paper.
+    """
+    column = _column(x, speed)
+    top, leave, last = division.top, division.leave, division.last
+    off = np.empty_like(speed)
+    off[: top + 1] = speed[top] * (column[: top + 1] / x[top])
+    part = (column[leave:] - x[leave]) / (x[last] - x[leave])
+    off[leave:] = speed[leave] * (1.0 - part) + speed[last] * part
+    areas = 0.5 * (off[1:] + off[:-1]) * np.diff(column, axis=0)
+    found: Array = np.concatenate((np.zeros_like(speed[:1]), np.cumsum(areas, axis=0))) * (1.0 / pole_distance)
+    return found
+
+
+def _column(x: Array, beside: Array) -> Array:
+    """Return numbers of section lines as a column beside ordinates of many drawings."""
+    return x.reshape(-1, *(1,) * (beside.ndim - 1))
+
+
+NODES, BETWEEN = "nodes", "between"  # where the jumps of the acceleration lie
+CLOSED = "s_closed"  # the travel on the worst section line, after velocity and travel have been closed
+SECTIONS = (6, 12, 24, 48, 96, 192, 384)  # of a phase
+DRAWN = (6, 9, 12, 18, 24, 36, 48, 72)
+FINE = 24  # sections from which on errors show their order
+ROUNDING = 1e-11  # error that is none
+DRAWINGS, SEED = 400, 1
+ENOUGH = 1.1  # times the least error that is as good
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Convergence:
+    """Errors by quantity, one for each number of sections: in parts of the exact value, of `s_closed` of the stroke.
+
+    Parameters
+    ----------
+    exact : mapping of str to float
+        The exact values, SI; of V_max and S_max in metres of paper.
+    quantities : tuple of str
+        What is compared.
+    sections : mapping of str to tuple of int
+        Sections of the rise by where jumps lie, `nodes` or `between`; the latter only where some lie within a phase.
+    errors : mapping of (str, str) to array
+        By where jumps lie and quantity, signed.
+    drawn : tuple of int
+        Numbers of sections at which hands were looked at.
+    hands : mapping of (str, str) to array
+        What 95 % of the drawings of a hand keep, by hand and quantity.
+    """
+
+    exact: Mapping[str, float]
+    quantities: tuple[str, ...]
+    sections: Mapping[str, tuple[int, ...]]
+    errors: Mapping[tuple[str, str], Array]
+    drawn: tuple[int, ...]
+    hands: Mapping[tuple[str, str], Array]
+
+    def order(self, where: str, quantity: str) -> float | None:
+        """Return the power of the section as which an error falls; None when it is rounding."""
+        n = np.array(self.sections[where], float)
+        error = np.abs(self.errors[where, quantity])
+        shown = (n >= FINE) & (error > ROUNDING)
+        if shown.sum() < 3:
+            return None
+        return -float(np.polyfit(np.log(n[shown]), np.log(error[shown]), 1)[0])
+
+    def best(self, hand: str, quantity: str) -> tuple[int, float]:
+        """Return the fewest sections with which a hand errs hardly more than it must, and its error."""
+        errors = self.hands[hand, quantity]
+        least = np.min(errors, initial=np.inf, where=np.isfinite(errors))
+        at = int(np.argmax(errors <= ENOUGH * least))
+        return self.drawn[at], float(errors[at])
+
+
+def convergence(
+    solved: SolvedCam,
+    hands: Mapping[str, Hand],
+    quantities: Sequence[str] = (),
+    sections: Iterable[int] = SECTIONS,
+    drawn: Iterable[int] = DRAWN,
+) -> Convergence:
+    """Draw the diagrams with more and more sections.
+
+    Parameters
+    ----------
+    solved : SolvedCam
+        With its diagrams, and its sizes when r_0 is wanted.
+    hands : mapping of str to Hand
+        Hands by their names.
+    quantities : sequence of str
+        Of `compared`, all when empty.
+
+    Raises
+    ------
+    InputError
+        With the key `chart-exact-chords`: chords make no error, because the velocity is constant.
+    """
+    chosen = tuple(name for name in compared(solved) if not quantities or name in quantities)
+    exact = {name: value for name, value in exact_values(solved).items() if name in chosen}
+    divided = {NODES: at_nodes, **({BETWEEN: between} if inner_jumps(solved.motion) else {})}
+    wanted = tuple(sections)
+    found = {where: _unique(divide(solved, n, exact) for n in wanted) for where, divide in divided.items()}
+    errors = {
+        (where, name): np.array([_error(solved, one, name, exact) for one in ones])
+        for where, ones in found.items()
+        for name in chosen
+    }
+    if all(np.abs(error).max() < ROUNDING for error in errors.values()):
+        raise InputError("chart-exact-chords")
+    papers = _unique(at_nodes(solved, n, exact) for n in drawn)
+    by_hand = {
+        (name, quantity): np.array(kept_by_hand)
+        for name, hand in hands.items()
+        for quantity, kept_by_hand in zip(
+            chosen, zip(*(_by_hand(solved, one, hand, chosen, exact) for one in papers), strict=True), strict=False
+        )
+    }
+    counts = {where: tuple(one.sections for one in ones) for where, ones in found.items()}
+    return Convergence(exact, chosen, counts, errors, tuple(one.sections for one in papers), by_hand)
+
+
+def compared(solved: SolvedCam) -> tuple[str, ...]:
+    """Return the names of what can be compared."""
+    return (*exact_values(solved), CLOSED)
+
+
+def _error(solved: SolvedCam, one: Sectioned, name: str, exact: Mapping[str, float]) -> float:
+    """Return the error of chords alone."""
+    if name in exact:
+        return float(one.values[name] / exact[name] - 1.0)
+    found = travel_errors(solved, one.angles, one.division, one.values)
+    return float(found.get(BOTH, found[STROKE]))
+
+
+def _by_hand(
+    solved: SolvedCam, one: Sectioned, hand: Hand, names: Iterable[str], exact: Mapping[str, float]
+) -> Iterator[float]:
+    """Go through what most drawings of a hand keep."""
+    values = draw(one.paper, hand, np.random.default_rng(SEED), DRAWINGS).values
+    for name in names:
+        if name in exact:
+            drawings = np.broadcast_to(values[name], DRAWINGS)
+            yield float(kept(drawings, exact[name])) / exact[name]
+        else:
+            found = travel_errors(solved, one.angles, one.division, values, DRAWINGS)
+            yield float(kept(found.get(BOTH, found[STROKE]), 0.0))
+
+
+def _unique(ones: Iterable[Sectioned]) -> list[Sectioned]:
+    """Leave out what has the number of sections of another."""
+    return list({one.sections: one for one in ones}.values())
+
+
+BESIDE_AT = (12, 24, 48)  # at which a line beside a jump is looked at
+BESIDE = tuple(k / 20.0 for k in range(-10, 11))  # parts of a section by which the line is late
+CLOSED_AT = 12  # sections that hands draw
+
+
+@dataclass(frozen=True, slots=True)
+class Closing:
+    """How the drawings of a hand close: what 95 % of them keep.
+
+    Parameters
+    ----------
+    speed_top, speed_last, stroke_last : float
+        Ordinates of the velocity at the end of the rise and of the fall, of the travel at the end of the fall, mm.
+    errors : mapping of str to float
+        Error of the scaled travel on the worst section line, in parts of the stroke, by what has been closed.
+    """
+
+    speed_top: float | None
+    speed_last: float | None
+    stroke_last: float
+    errors: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Robustness:
+    """What happens to diagrams by chords.
+
+    Parameters
+    ----------
+    beside : tuple of float
+        Parts of a section by which section lines at jumps are late; empty where no jump lies within a phase.
+    missed : mapping of (int, str) to array
+        Errors in parts of the exact values, by the number of sections and quantity.
+    sections : int
+        Sections of the rise that hands draw.
+    closings : mapping of str to Closing
+        By hand.
+    """
+
+    beside: tuple[float, ...]
+    missed: Mapping[tuple[int, str], Array]
+    sections: int
+    closings: Mapping[str, Closing]
+
+
+def robustness(solved: SolvedCam, hands: Mapping[str, Hand], sections: Iterable[int] = BESIDE_AT) -> Robustness:
+    """Draw section lines beside jumps; let hands draw, and close what they have drawn."""
+    exact = exact_values(solved)
+    missed: dict[tuple[int, str], Array] = {}
+    beside = BESIDE if inner_jumps(solved.motion) else ()
+    for count in sections if beside else ():
+        angles, division = solved.motion.division(count)
+        found = [_missed(solved, angles, division, part, tuple(exact)) for part in beside]
+        for name, value in exact.items():
+            missed[division.top, name] = np.array([values[name] for values in found]) / value - 1.0
+    angles, division = solved.motion.division(CLOSED_AT)
+    closings = {name: _closing(solved, angles, division, hand) for name, hand in hands.items()}
+    return Robustness(beside, missed, division.top, closings)
+
+
+def late(solved: SolvedCam, angles: Array, part: float) -> Array:
+    """Return section lines, those at jumps within phases late by a part of the section that they move into."""
+    moved = angles.copy()
+    for phase in (solved.motion.rise, solved.motion.fall):
+        for jump in solved.motion.jumps:
+            inside = NEAR < (jump.phi - phase.start) / phase.length < 1.0 - NEAR
+            if jump.order == 2 and inside:
+                i = int(np.abs(angles - jump.phi).argmin())
+                moved[i] += part * (angles[i + 1] - angles[i] if part > 0.0 else angles[i] - angles[i - 1])
+    return moved
+
+
+def _missed(
+    solved: SolvedCam, angles: Array, division: Division, part: float, names: tuple[str, ...]
+) -> dict[str, float]:
+    paper = drawn_on(solved, late(solved, angles, part), division, names)
+    values = run(paper.program, paper.givens).values
+    return {name: float(values[name]) for name in names}
+
+
+def _closing(solved: SolvedCam, angles: Array, division: Division, hand: Hand) -> Closing:
+    """Let a hand draw, and look at how it closes."""
+    paper = drawn_on(solved, angles, division, nodes(solved, division))
+    values = draw(paper, hand, np.random.default_rng(SEED), DRAWINGS).values
+    travel = ordinates(values, TRAVEL, division, DRAWINGS)
+    speed = ordinates(values, VELOCITY, division, DRAWINGS) if solved.layout.given == ACCELERATION else None
+    found = travel_errors(solved, angles, division, values, DRAWINGS)
+    return Closing(
+        None if speed is None else _millimetres(speed[division.top]),
+        None if speed is None else _millimetres(speed[division.last]),
+        _millimetres(travel[division.last]),
+        {way: float(kept(errors, 0.0)) for way, errors in found.items()},
+    )
+
+
+def _millimetres(ordinates: Array) -> float:
+    return float(kept(ordinates, 0.0)) * MM_PER_M
