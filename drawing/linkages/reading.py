@@ -34,10 +34,6 @@ class Reading:
     number: Mapping[str, int]
     edges: Mapping[str, tuple[Edge, ...]]
 
-    def step(self, name: str) -> Step | None:
-        """Return the step that makes a name; None for a given."""
-        return self.made.get(name)
-
     def on(self, plan: str) -> tuple[Edge, ...]:
         """Return the vectors of a plan in the order in which they are drawn."""
         return self.edges.get(plan, ())
@@ -171,7 +167,7 @@ def _ends(reading: Reading, words: Words) -> dict[str, str]:
 def _link_of(reading: Reading, mark: str) -> str:
     """Return the number of the link whose turning makes the vector that ends at a mark; of a guide for Coriolis."""
     step = reading.made[mark]
-    made = reading.step(step.operands[1 if step.verb == "chain" else 2])
+    made = reading.made.get(step.operands[1 if step.verb == "chain" else 2])
     names = made.operands if made else ()
     # the law of a normal part takes omega itself, or the relative velocity from which omega is read
     rates = [name for name in names if role(name).kind == "omega"]

@@ -38,13 +38,7 @@ SMALL_ANGLE = 20  # degrees, as `SMALL`
 
 
 def story(scene: Scene, texts: Mapping[str, str]) -> Story:
-    """Return what the note of a linkage says: equations and steps of every plan, what the numbers mean.
-
-    Parameters
-    ----------
-    texts : mapping of str to str
-        The sentences, by key.
-    """
+    """Return what the note of a linkage says, in sentences by key: equations and steps of plans, what numbers mean."""
     teller, lengths = Teller.of(scene, texts), set[str]()
     steps = {view: [told.text for told in told_of(teller, view)] for view in drawn_views(teller)}
     plans = [plan for plan in PLANS if plan in scene.scales]

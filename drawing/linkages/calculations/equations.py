@@ -114,7 +114,7 @@ def size_by_law(scene: Scene, head: str, step: Step, unit: str) -> tuple[str, ..
 
 def _operand(scene: Scene, name: str) -> Product:
     """Return an operand of a law: a value, an arm that was read off the plan of the mechanism, or a direction."""
-    made = scene.reading.step(name)
+    made = scene.reading.made.get(name)
     if made is not None and made.verb in DIRECTIONS:
         return Product(())
     if made is not None and made.verb == "read" and made.plan == POSITION:
@@ -144,7 +144,7 @@ def size_of(scene: Scene, name: str) -> float:
 
 def rate_of(scene: Scene, name: str) -> float:
     """Return an angular velocity or acceleration, zero where the vector that it is read from is a point of its plan."""
-    step = scene.reading.step(name)
+    step = scene.reading.made.get(name)
     if step is not None and step.law == "same_turning":
         return rate_of(scene, step.operands[0])
     still = step is not None and step.law == "turning" and size_of(scene, step.operands[0]) == 0.0

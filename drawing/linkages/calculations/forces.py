@@ -124,7 +124,7 @@ def _load(scene: Scene, step: Step) -> Lines:
     loads |= {couple.name: couple.magnitude for couple in mechanism.couples}
     if step.name not in loads:
         return []
-    made = scene.reading.step(step.operands[0])
+    made = scene.reading.made.get(step.operands[0])
     if made is None and step.law not in RESISTING:
         return []
     notes = [words["said.diagram"]] if loads[step.name] in {d.name for d in mechanism.diagrams} else []
@@ -201,7 +201,7 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
 def _reach(scene: Scene, name: str, length: str) -> Product:
     """Return the arm of the force to be found: a length, or what was measured from the point to the force's line."""
     reading = scene.reading
-    made = reading.step(length)
+    made = reading.made.get(length)
     if made is None or made.verb == "measure":
         return Product((factor(scene, length),))
     arm = next(s for s in reading.program if s.verb == "arm" and s.operands[1] == name)
@@ -247,7 +247,7 @@ def terms(scene: Scene, names: Iterable[str]) -> list[Product]:
 def _factors(scene: Scene, name: str) -> tuple[Factor, ...]:
     """Return what makes a moment: a force and its arm, a couple's power, or a couple that is known."""
     reading = scene.reading
-    step = reading.step(name)
+    step = reading.made.get(name)
     if step is not None and step.verb == "moment":
         arm = next(s for s in reading.users(name) if s.verb == "arm")
         return factor(scene, step.operands[0]), *on_arm(scene, arm.name)
@@ -268,7 +268,7 @@ def on_arm(scene: Scene, arm: str) -> tuple[Factor, ...]:
 def about(scene: Scene, step: Step) -> str:
     """Return the point about which the moments of a calculation are taken."""
     reading = scene.reading
-    moments = (made for name in step.operands if (made := reading.step(name)) is not None and made.verb == "moment")
+    moments = (made for name in step.operands if (made := reading.made.get(name)) is not None and made.verb == "moment")
     point = next((moment.operands[2] for moment in moments), "")
     return point or _joint(scene, link_of(scene, step.name))
 

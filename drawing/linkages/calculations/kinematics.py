@@ -109,7 +109,7 @@ class _Story:
         """
         words = self.scene.words
         for name in step.operands:
-            made = self.scene.reading.step(name)
+            made = self.scene.reading.made.get(name)
             if made is None or made.verb != "measure" or name in self.told:
                 continue
             self.told.add(name)
@@ -167,7 +167,7 @@ def _special_point(scene: Scene, step: Step) -> Lines:
     """Say where a point stands that no link has, such as Assur's special point, when it is found for the first time."""
     point, reading = role(step.name).of, scene.reading
     lettered = {point for link in scene.mechanism.links for point in link.points}
-    made = reading.step(point)
+    made = reading.made.get(point)
     if step.plan != "velocity" or made is None or made.verb != "meet" or point in lettered:
         return []
     p, u, q, w = made.operands

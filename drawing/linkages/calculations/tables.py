@@ -73,26 +73,16 @@ def results_parts(solved: SolvedLinkage) -> tuple[Part, ...]:
     # what compound motion alone finds, and the distances measured for it
     apart = found_here(solved.program) | {step.name for step in solved.program if step.verb == "distance"}
     lever = number.get("lever.p", len(number))
-    for q in _results(solved):
-        kind = HEADS.get(role(q.name).kind, "forces")
+    for q in solved.quantities.values():
+        name = role(q.name)
+        if q.kind == "point" or q.value is None or q.name not in number or (name.part == COUPLE and name.about):
+            continue  # of points, of given lengths, and of the second force of a couple the tables say nothing
+        kind = HEADS.get(name.kind, "forces")
         by_kind["compound" if q.name in apart else "lever" if number[q.name] > lever else kind].append(q.name)
     parts = []
     for kind, names in by_kind.items():
         parts += [Part(kind, tuple(names))] if 0 < len(names) <= ROWS else _cut(solved, kind, names)
     return tuple(parts)
-
-
-def _results(solved: SolvedLinkage) -> Iterator[Quantity]:
-    """Go through what the tables show: all quantities but points, given lengths, and each force of a pair."""
-    made = read(solved.program).made
-    for q in solved.quantities.values():
-        if (
-            q.kind != "point"
-            and q.value is not None
-            and q.name in made
-            and not (role(q.name).part == COUPLE and role(q.name).about)
-        ):
-            yield q
 
 
 def _cut(solved: SolvedLinkage, kind: str, names: list[str]) -> list[Part]:

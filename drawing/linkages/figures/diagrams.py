@@ -62,34 +62,31 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
     motion = main_output(cycle)
     if motion is None:
         raise ValueError("no output has a stroke")
-    canvas, sections = Canvas(scene.style), len(cycle.angles)
-    of = str(motion.output.link)
-    drawn = diagrams(cycle, of, sections)
-    length = LENGTH[scene.style.label]
-    duration = float(drawn.times[-1])
-    across = Scale("mu_t", rounded(duration / length, 6), "s")
-    dense = diagrams(cycle, of, DENSE)
-    bands = _bands(scene, drawn, dense, across, motion)
-    low = 0.0
+    canvas, of, length = Canvas(scene.style), str(motion.output.link), LENGTH[scene.style.label]
+    drawn, dense = (diagrams(cycle, of, sections) for sections in (len(cycle.angles), DENSE))
+    across = Scale("mu_t", rounded(float(drawn.times[-1]) / length, 6), "s")
+    bands, fields, low = _bands(scene, drawn, dense, across, motion), list[Field](), 0.0
     for number, band in enumerate(bands):
         below, above = (band.scale.drawn(end) for end in band.ends)
         low -= above + (GAP + scene.style.label * 2 if number else 0.0)
-        field = _field(scene, band, across, drawn, 1j * low)
-        _draw(canvas, scene, field, band)
+        fields.append(_field(scene, band, across, drawn, 1j * low))
+        _draw(canvas, scene, fields[-1], band)
         if number:
-            _pole(canvas, scene, field, bands[number - 1 : number + 1], f"P_{{{number}}}")
+            _pole(canvas, scene, fields[-1], bands[number - 1 : number + 1], f"P_{{{number}}}")
         low += below
-    top = _field(scene, bands[0], across, drawn, -1j * bands[0].scale.drawn(bands[0].ends[1]))
-    least = float(np.nanmin(dense.s))
-    # chords of the travel, between points of the smooth curve
-    ends = [top.at(t, s - least) for t, s in zip(drawn.times.tolist(), drawn.s.tolist(), strict=True)]
-    known = tuple(end for end in ends if math.isfinite(end.imag))
-    canvas.add(Group((Polyline(known, Pen.THIN),), "chords", "s"))
+    _chords(canvas, fields[0], drawn, float(np.nanmin(dense.s)))
     scales = [across]
     if cycle.drive.turns:  # a sliding driver has no angle
         scales.append(Scale("mu_phi", rounded(2.0 * math.pi / length, 6), "rad"))
     heading = (scene.words["heading.diagrams"].format(link=of), *map(scene.words.scale, scales))
     return canvas.finish("diagrams", heading, _notes(scene, drawn, bands))
+
+
+def _chords(canvas: Canvas, field: Field, drawn: Diagrams, least: float) -> None:
+    """Draw the chords of the travel, between points of the smooth curve."""
+    ends = [field.at(t, s - least) for t, s in zip(drawn.times.tolist(), drawn.s.tolist(), strict=True)]
+    known = tuple(end for end in ends if math.isfinite(end.imag))
+    canvas.add(Group((Polyline(known, Pen.THIN),), "chords", "s"))
 
 
 def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion: OutputMotion) -> tuple[Band, ...]:

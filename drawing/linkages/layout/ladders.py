@@ -12,7 +12,7 @@ from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.structure import TRIAD, Group
 from ....plans.names import FORCES, role
 from ....scales.choices import SIZES
-from ....scales.choose import UNITS, Chooser, Choosers, CrankScale, Fixed, From, Round
+from ....scales.choose import UNITS, Choosers, CrankScale, Fixed, From, Round
 from ....scales.errors import InputError
 from ....scales.scale import Scale, steps
 from ...extents import Extent, Extents, Ladder, Rungs, Size, choose, visible
@@ -108,15 +108,11 @@ def ladders_of(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
             weight=weight,
             least={name: LARGER[kind] * mm for name, mm in LEAST.items()},
             root="mu_l" if isinstance(chooser, CrankScale) else "",
-            fixed=is_fixed(chooser),
+            # of what the task or the user has fixed several pages are better than a coarser one
+            fixed=isinstance(chooser, Fixed) or (chooser is not None and chooser.firm),
             chosen=chooser is not None and not isinstance(chooser, From),
         )
     return ladders
-
-
-def is_fixed(chooser: Chooser | None) -> bool:
-    """Whether the task or the user has fixed a scale factor: several pages are better than a coarser one."""
-    return isinstance(chooser, Fixed) or (chooser is not None and chooser.firm)
 
 
 def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
@@ -200,15 +196,11 @@ def links_apart(solved: SolvedLinkage, group: Group) -> tuple[int, ...]:
 
     None has, where no link of the group has a plan of its own.
     """
-    sliding, alone = _sliding(group), {number for number in group.links if f"forces_{number}" in solved.scale_of_plan}
+    pairs = (pair for pair in (*group.inner, *group.outer) if isinstance(pair, Prismatic))
+    sliding = {number for pair in pairs for number in pair.links if number in group.links}
+    alone = {number for number in group.links if f"forces_{number}" in solved.scale_of_plan}
     shown = sliding & alone or (sliding if alone else set())
     return tuple(number for number in group.links if number in shown)
-
-
-def _sliding(group: Group) -> set[int]:
-    """Return the links of a group that have sliding pairs."""
-    pairs = (pair for pair in (*group.inner, *group.outer) if isinstance(pair, Prismatic))
-    return {number for pair in pairs for number in pair.links if number in group.links}
 
 
 def _largest(solved: SolvedLinkage, symbol: str) -> float:

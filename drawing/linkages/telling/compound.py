@@ -129,8 +129,7 @@ def compound_lines(scene: Scene, c: Coupler, kind: str, only: str = "") -> list[
     """
     points = [point for point in c.letters if only in ("", point)]
     lines = list(_of_the_whole(scene, c, kind)) if next(iter(c.letters)) in points else []
-    told = _velocities if kind == "V" else _accelerations
-    return [*lines, *(line for point in points for line in told(scene, c, point))]
+    return [*lines, *(line for point in points for line in _lines_of_point(scene, c, point, kind))]
 
 
 def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Line]:
@@ -141,41 +140,42 @@ def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Line]:
         said = words["said.split"].format(pivot=words.mark(c.pivot), hinge=words.mark(c.hinge), **links)
         yield tuple(said.split("|"))
     if c.closing is None:
-        whole, carrier = ("omega", c.omega_e) if kind == "V" else ("epsilon", c.epsilon_e)
+        whole, carrier = _rates(c, kind)
         yield _sum_of_rates(scene, f"{whole}_r_{c.number}", f"{whole}_{c.number}", carrier, -1.0)
         if kind == "V":
             yield from _centre(scene, c)
 
 
-def _velocities(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
-    """Go through the velocities of a point: where the end is closed, omega_r follows from it, else it is known."""
-    rate, letter, distance = f"omega_r_{c.number}", c.letters[point], f"l_{c.pivot}{point}"
-    yield _vectors(scene, c, point, "V")
-    yield measured(scene, distance, POSITION)
-    yield _product(scene, f"V_{letter}_e", factor(scene, c.omega_e), factor(scene, distance))
-    if _closing(c, point) is not None:
-        yield measured(scene, f"V_{letter}_r", spelled(VELOCITY, letter))
-        yield _product(scene, rate, factor(scene, f"V_{letter}_r"), _length(scene, c.hinge, point, -1))
-        yield _sum_of_rates(scene, f"omega_{c.number}", c.omega_e, rate, 1.0)
-        yield from _centre(scene, c)
+def _lines_of_point(scene: Scene, c: Coupler, point: str, kind: str) -> Iterator[Line]:
+    """Go through the vectors of a point as they are hung; where its end is closed they give the relative rate."""
+    letter, closing, (whole, carrier) = c.letters[point], _closing(c, point), _rates(c, kind)
+    plan, rate = spelled(VELOCITY if kind == "V" else ACCELERATION, letter), f"{whole}_r_{c.number}"
+    relative = f"V_{letter}_r" if kind == "V" else f"a_{letter}_rt"
+    yield _vectors(scene, c, point, kind)
+    if kind == "V":
+        distance = f"l_{c.pivot}{point}"
+        yield measured(scene, distance, POSITION)
+        yield _product(scene, f"V_{letter}_e", factor(scene, c.omega_e), factor(scene, distance))
     else:
-        yield _product(scene, f"V_{letter}_r", factor(scene, rate), _length(scene, c.hinge, point))
-    yield measured(scene, f"V_{point}", spelled(VELOCITY, letter))
+        yield from _known_parts(scene, c, point)
+    if closing is None:
+        yield _product(scene, relative, factor(scene, rate), _length(scene, c.hinge, point))
+    else:
+        normal = closing.normal if kind == "a" else None
+        if normal is not None:
+            yield _normal(scene, c, normal)
+        yield measured(scene, relative, plan)
+        if normal is not None:
+            yield measured(scene, tangential(normal), plan)
+        yield _product(scene, rate, factor(scene, relative), _length(scene, c.hinge, point, -1))
+        yield _sum_of_rates(scene, f"{whole}_{c.number}", carrier, rate, 1.0)
+        yield from _centre(scene, c) if kind == "V" else ()
+    yield measured(scene, f"{kind}_{point}", plan)
 
 
-def _accelerations(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
-    """Go through the accelerations of a point in the order in which they are hung."""
-    rate, letter = f"epsilon_r_{c.number}", c.letters[point]
-    closing, plan = _closing(c, point), spelled(ACCELERATION, letter)
-    yield _vectors(scene, c, point, "a")
-    yield from _known_parts(scene, c, point)
-    if closing is not None:
-        yield from _closed(scene, c, closing, plan)
-        yield _product(scene, rate, factor(scene, f"a_{letter}_rt"), _length(scene, c.hinge, point, -1))
-        yield _sum_of_rates(scene, f"epsilon_{c.number}", c.epsilon_e, rate, 1.0)
-    else:
-        yield _product(scene, f"a_{letter}_rt", factor(scene, rate), _length(scene, c.hinge, point))
-    yield measured(scene, f"a_{point}", plan)
+def _rates(c: Coupler, kind: str) -> tuple[str, str]:
+    """Return the kind of rates that go with velocities or accelerations, and that of the carrier."""
+    return ("omega", c.omega_e) if kind == "V" else ("epsilon", c.epsilon_e)
 
 
 def _closing(c: Coupler, point: str) -> Closing | None:
@@ -195,18 +195,12 @@ def _known_parts(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
     yield _product(scene, f"a_{letter}_k", two, factor(scene, c.omega_e), factor(scene, f"V_{letter}_r"))
 
 
-def _closed(scene: Scene, c: Coupler, closing: Closing, plan: str) -> Iterator[Line]:
-    """Go through what closes the figure: the normal part on the circle of the end, and what was measured."""
-    letter = c.letters[c.span.end]
-    if closing.normal is not None:
-        group = next(group for group in scene.solved.structure.groups if c.number in group.links)
-        link = scene.mechanism.link(next(number for number in group.links if number != c.number))
-        pivot = next(point for point in link.points if point in scene.mechanism.frame_points)
-        rate = factor(scene, f"omega_{link.number}", 2)
-        yield _product(scene, closing.normal, rate, _length(scene, pivot, c.span.end))
-    yield measured(scene, f"a_{letter}_rt", plan)
-    if closing.normal is not None:
-        yield measured(scene, tangential(closing.normal), plan)
+def _normal(scene: Scene, c: Coupler, normal: Name) -> Line:
+    """Return the normal part on the circle of the end, which the other link of the group draws."""
+    group = next(group for group in scene.solved.structure.groups if c.number in group.links)
+    link = scene.mechanism.link(next(number for number in group.links if number != c.number))
+    pivot = next(point for point in link.points if point in scene.mechanism.frame_points)
+    return _product(scene, normal, factor(scene, f"omega_{link.number}", 2), _length(scene, pivot, c.span.end))
 
 
 def tangential(normal: Name) -> Name:

@@ -252,7 +252,7 @@ def _hung(teller: Teller, mark: str, moments: list[Step], drawn: Iterable[Arm]) 
 def _balance(teller: Teller) -> Iterator[Told]:
     """Tell the force that balances, at the end of the driver's velocity and normal to it when turned."""
     point = teller.scene.mechanism.driver.point
-    step = teller.reading.step(f"lever.{point}")
+    step = teller.reading.made.get(f"lever.{point}")
     if step is not None and step.verb == "normal":
         segment = f"{teller.mark('velocity.p')}{teller.mark(f'velocity.{point}')}"
         vector = teller.scene.letter(balance := hung_on_lever(teller.scene)[-1][0])

@@ -124,14 +124,14 @@ class Teller:
 
     def hung(self, vector: str) -> str:
         """Return the letter of a vector that is hung on others; of a reaction the one that it answers, too."""
-        made, letter = self.reading.step(vector), self.scene.letter(vector)
+        made, letter = self.reading.made.get(vector), self.scene.letter(vector)
         return (
             letter if made is None or made.law != "opposite" else f"{letter} = −{self.scene.letter(made.operands[0])}"
         )
 
     def along(self, vector: str) -> str:
         """Return how a vector that is hung on others lies, by the law that gives it; nothing where that is said so."""
-        made = self.reading.step(vector)
+        made = self.reading.made.get(vector)
         if made is None:
             return ""
         if made.verb == "read":  # laid off along a line on another plan
@@ -162,7 +162,7 @@ class Teller:
 
     def _given(self, made: Step) -> str:
         """Return the line of a load: that of the plan along which it acts, or its angle."""
-        line = self.reading.step(made.operands[1])
+        line = self.reading.made.get(made.operands[1])
         if line is not None and line.verb != "turn":
             return self.line(made.operands[1])
         angle = math.degrees(cmath.phase(complex(self.scene.solved.values[made.name]))) % 360.0
