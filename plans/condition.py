@@ -71,15 +71,7 @@ def _turning(direction: Any) -> Any:
 def derivatives(program: Program, givens: Mapping[str, Any], varied: Collection[str]) -> dict[str, Any]:
     """Return x dQ/dx of every name that the program makes, for each given x of `varied`, in this order.
 
-    Parameters
-    ----------
-    givens : mapping of str to float
-        As for an exact board.
-
-    Returns
-    -------
-    dict of str to array of shape (givens,)
-        Complex for vectors; in units of the quantity.
+    The derivatives, in units of the quantity, have the shape (givens,), and are complex for vectors.
     """
     one = np.eye(len(varied))
     own = {name: Dual(float(givens[name]), one[i] * givens[name]) for i, name in enumerate(varied)}
@@ -117,14 +109,9 @@ def by_solving_again(
 def conditions(
     program: Program, givens: Mapping[str, Any], varied: Collection[str], values: Mapping[str, Any], sines: Any
 ) -> dict[str, Condition]:
-    """Return the condition of every quantity of `program`.
+    """Return the condition of every quantity of `program`, whose exact run gave `values` and `sines`.
 
-    Parameters
-    ----------
-    varied : collection of str
-        Givens that may err: not senses and branches.
-    values, sines : mapping
-        Of an exact run.
+    The givens `varied` may err: not senses and branches.
     """
     slopes, sizes = derivatives(program, givens, varied), sizes_beside(program, values)
     worst = worst_behind(program, sines)

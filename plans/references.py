@@ -83,12 +83,7 @@ def worst_behind(
 ) -> dict[str, float]:
     """Return for every name the least sine of all intersections that it hangs on, one where there are none.
 
-    Parameters
-    ----------
-    sines : mapping of str to float
-        As an exact board gives them.
-    counts : callable
-        Whether a step inherits from an operand; from all when left out.
+    `sines` are as an exact board gives them; `counts` tells whether a step inherits from an operand.
     """
     own = intersections(program, sines)
     worst: dict[str, float] = {}

@@ -55,21 +55,10 @@ class Solved:
         return math.hypot(value.real, value.imag)
 
     def dense(self, construction: Callable[[Board], None], mark: str, **over: NDArray[np.float64]) -> NDArray[Any]:
-        """Return a curve densely: a mark of a piece of construction that is done for many values of variables at once.
+        """Return a curve densely: places of a mark, complex128 of shape (N,), SI, NaN where there is none.
 
-        Parameters
-        ----------
-        construction : callable
-            Draws on a board, from all that is solved and from the variables.
-        mark : str
-            What it makes.
-        **over : float64 array of shape (N,)
-            The variables.
-
-        Returns
-        -------
-        complex128 array of shape (N,)
-            Places of the mark, SI; NaN where there is none.
+        The `construction` that makes the mark draws on a board, from all that is solved and from the variables `over`,
+        float64 of shape (N,), of which it is a function.
         """
         (count,) = {len(values) for values in over.values()}
         import numpy as np  # reading a task needs no arrays

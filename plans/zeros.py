@@ -241,12 +241,8 @@ class _Search:
 def extremes(functions: Function, stretches: Sequence[Stretch]) -> list[tuple[Extreme, Extreme] | None]:
     """Return (largest, smallest) of every row, the first of equal ones; None for a row that has no value anywhere.
 
-    Parameters
-    ----------
-    functions : callable
-        Takes places of shape (N,), gives values of shape (rows, N), NaN where there are none.
-    stretches : sequence of Stretch
-        Where to look; the functions may be singular at their ends only.
+    The functions take places of shape (N,) and give values of shape (rows, N), NaN where there are none; they may be
+    singular at the ends of stretches only.
     """
     best: dict[int, Extreme] = {}
     for stretch in stretches:

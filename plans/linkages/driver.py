@@ -182,7 +182,7 @@ class SlidingBlock:
         reaction, couple, arm = (self.mechanism.pair(kind, FRAME, link) for kind in ("R", "M", "h"))
         board.pole(f"{plan}.0")
         last, closing = hang(board, plan, hung), f"{plan}.{len(hung) + 1}"
-        board.meet(closing, last, u, f"{plan}.0", self.slide.line)
+        board.meet(closing, last, u, f"{plan}.0", self.slide.e)
         board.read(F_BAL.size, last, closing)
         board.read(reaction, closing, f"{plan}.0")
         board.calc(F_BAL, "component", u, F_BAL.size)

@@ -61,16 +61,6 @@ class Hinged(Span):
     absolute: bool  # whether `start` is a pivot of the frame, and motion about it is called absolute
 
     @property
-    def line(self) -> Name:
-        """Direction of its line."""
-        return self.e
-
-    @property
-    def across(self) -> Name:
-        """Direction normal to it."""
-        return self.n
-
-    @property
     def spans(self) -> tuple[Span, ...]:
         """Itself, with its two joints."""
         return (self,)
@@ -157,13 +147,13 @@ class Slide:
         return self.mechanism.pair("u", self.number, self.before)
 
     @property
-    def line(self) -> Name:
-        """Direction of the normal to the guide."""
+    def e(self) -> Name:
+        """Direction of its line: the normal to the guide."""
         return normal_of(self.u)
 
     @property
-    def across(self) -> Name:
-        """Direction of the guide."""
+    def n(self) -> Name:
+        """Direction normal to its line: that of the guide."""
         return self.u
 
     @property
@@ -307,7 +297,11 @@ def legs_of(mechanism: Mechanism, group: Group, bodies: Bodies) -> list[Leg]:
 
 @dataclass(frozen=True, slots=True)
 class AssurGroup:
-    """A group with the names that its constructions use; what they do is said by the kind of group."""
+    """A group with the names that its constructions use.
+
+    A kind of group has `position`, `velocity` and `acceleration`, which take a board and mark its points there, and
+    `forces`.
+    """
 
     mechanism: Mechanism
     name: str  # its links as a word
@@ -326,18 +320,6 @@ class AssurGroup:
     def passed(self) -> tuple[Passed, ...]:
         """Reactions on the links before."""
         return tuple(leg.passed() for leg in self.legs)
-
-    def position(self, board: Board) -> None:
-        """Mark its points on the plan of the mechanism."""
-        raise NotImplementedError
-
-    def velocity(self, board: Board) -> None:
-        """Mark them on the plan of velocities, find angular velocities."""
-        raise NotImplementedError
-
-    def acceleration(self, board: Board) -> None:
-        """Mark them on the plan of accelerations, find angular accelerations."""
-        raise NotImplementedError
 
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
         """Draw its plans of forces; `loads` are (force, point) and `couples` moments, by link."""

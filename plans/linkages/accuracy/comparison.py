@@ -92,16 +92,8 @@ def beside(cycle: Cycle, name: str, sizes: Array) -> Array:
 def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (), effort: Effort = FULL) -> Contest:
     """Let all methods but the hand, which `by_hand` adds, compete over a cycle.
 
-    Parameters
-    ----------
-    positions : int
-        At how many places of the driver errors are looked at.
-    clock : function
-        Returns seconds, best those of the processor: `time.process_time`.
-    names : iterable of str
-        Quantities wanted; all that can be compared when empty.
-    effort : Effort
-        On what times are measured.
+    Errors are looked at in so many `positions`, of the quantities `names`, of all that can be compared when empty;
+    `clock` returns seconds, best those of the processor, and `effort` says on what times are measured.
     """
     rivals, places = Rivals.of(cycle), places_of(cycle, positions)
     found: list[Entry] = []

@@ -159,14 +159,9 @@ class Contours:
         return None, next(i for i, pair in enumerate(self.guides) if {*pair.links} == ends), 0.0
 
     def pose(self, directions: Mapping[int, Array], places: Mapping[str, Array]) -> Pose:
-        """Return the pose in which the links lie.
+        """Return the pose in which the links lie, from unit directions of their x axes, by number, and lettered points.
 
-        Parameters
-        ----------
-        directions : mapping of int to complex128 array of shape (N,)
-            Unit directions of the x axes of links, by number.
-        places : mapping of str to complex128 array of shape (N,)
-            Lettered points.
+        All are complex128 of shape (N,).
         """
         n = len(next(iter(directions.values())))
         angles, ways = np.zeros((self.count, n)), np.zeros((len(self.guides), n))
@@ -225,13 +220,7 @@ class Contours:
 
 
 class Closure:
-    """A mechanism's closure equations, ready to be solved at any places of its driver.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        Numbers of the mechanism in SI; where its driver stands does not matter.
-    """
+    """A mechanism's closure equations with its numbers in SI, ready to be solved at any places of its driver."""
 
     def __init__(self, mechanism: Mechanism, values: Mapping[str, Any]) -> None:
         self.contours = Contours(mechanism, values)
@@ -250,21 +239,10 @@ class Closure:
         return Pose(angles, ways)
 
     def solve(self, near: Pose, places: Array, tolerance: float) -> Pose:
-        """Find poses by Newton's method.
+        """Find poses by Newton's method, from a pose `near` each place of the driver, float64 of shape (N,).
 
-        Parameters
-        ----------
-        near : Pose
-            Where to start in every position.
-        places : float64 array of shape (N,)
-            Places of the driver.
-        tolerance : float
-            A position is found when its last correction is smaller: in radians, and in parts of the mechanism's size.
-
-        Returns
-        -------
-        Pose
-            NaN where the corrections have no end.
+        A position is found when its last correction is smaller than the `tolerance`, in radians, and in parts of the
+        mechanism's size; NaN where the corrections have no end.
         """
         contours, pose = self.contours, self.driven(near, places)
         held = np.zeros(len(places), bool)

@@ -120,10 +120,7 @@ class Model:
 def depth(cycle: Cycle, tolerance: float) -> Depth:
     """Find what each simplification costs, and what may be left out together.
 
-    Parameters
-    ----------
-    tolerance : float
-        Per cent of the largest balance and of the largest reaction that may be missed.
+    The `tolerance` is per cent of the largest balance and of the largest reaction that may be missed.
     """
     model, kinds = Model(cycle), parts_of(cycle.program)
     single = [model.cost(part, (part,)) for part in kinds]

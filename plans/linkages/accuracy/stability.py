@@ -67,15 +67,7 @@ class Stability:
 
 
 def stability(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand: Hand, seed: int = 0) -> Stability:
-    """Look at quantities at all places of a cycle.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Quantities.
-    mus : mapping of str to float
-        Scale factors by plan, SI per mm.
-    """
+    """Look at quantities at all places of a cycle; `mus` are scale factors by plan, SI per mm."""
     lost = cycle.reach.undetermined(cycle.angles)
     sines, worst, found = _conditions(cycle, names, lost)
     plans = plans_of(cycle.program)

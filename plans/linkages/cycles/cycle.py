@@ -98,14 +98,9 @@ class Cycle:
         ]
 
     def extremes(self, names: Iterable[str] | None = None) -> dict[str, tuple[Extreme, Extreme]]:
-        """Return the largest and the smallest value of quantities, with the driver's places where they are.
+        """Return the largest and the smallest value of quantities, of all without `names`, and the driver's places.
 
         Scalars keep their sign, of vectors the magnitude counts. What has no value anywhere is left out.
-
-        Parameters
-        ----------
-        names : iterable of str, optional
-            Without it all quantities.
         """
         wanted = tuple(self.quantities if names is None else names)
         along = self.drive.along(self.program, self.givens, wanted)

@@ -138,19 +138,10 @@ class MarginBoard(ArrayBoard):
 def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = None) -> Reach:
     """Find where in its driver's range a mechanism can be assembled.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        Its numbers in SI; that of the driver's variable does not matter for a crank, and for a slide only as the middle
-        of the range that is searched.
-    between : Arc, optional
-        Range of a sliding driver; without it, as far as its links could reach.
-
-    Returns
-    -------
-    Reach
-        Limits and change points to the rounding of the margins: better than 1e-12 rad; limits near a change point,
-        which are nearly double zeros, than 1e-9 rad.
+    Of its numbers in SI that of the driver's variable does not matter for a crank, and for a slide only as the middle
+    of the range that is searched; without `between` that is as far as its links could reach. Limits and change points
+    are known to the rounding of the margins, better than 1e-12 rad; limits near a change point, which are nearly double
+    zeros, than 1e-9 rad.
     """
     free = drive.mechanism.without_loads
     _, program = constructed(free, ("position",))
@@ -260,11 +251,8 @@ def _gaps(whole: Stretch, stretches: Iterable[Stretch]) -> tuple[Arc, ...]:
 def limiting_places(mechanism: Mechanism, values: Mapping[str, float]) -> tuple[float | None, float | None] | None:
     """Return the places of the driver, below and above the given one, from which on the mechanism can be assembled.
 
-    Returns
-    -------
-    tuple of float or None
-        Radians within one turn of the given angle, or metres of a slide, where None stands for no such place; None for
-        both when there is no place at all.
+    They are radians within one turn of the given angle, or metres of a slide, where None stands for no such place; None
+    for both when there is no place at all.
     """
     drive = swept(mechanism, values)
     found = reach_of(drive, values)

@@ -156,15 +156,8 @@ def measured(program: Program, found: Sequence[Output]) -> Program:
 def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> Travel:
     """Return from where to where the output of `mechanism.stroke` moves; without it, the first that has a stroke.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        Numbers in SI; masses and loads are not needed.
-
-    Returns
-    -------
-    Travel
-        NaN all through where the mechanism cannot be assembled in any position: its plan of positions says why.
+    Masses and loads are not needed. NaN all through where the mechanism cannot be assembled in any position: its plan
+    of positions says why.
 
     Raises
     ------

@@ -51,11 +51,8 @@ class Swept:
         self, values: Mapping[str, Any], places: Any, program: Program | None = None, mechanism: Mechanism | None = None
     ) -> dict[str, Any]:
         """Return the board's givens for places of the driver; `mechanism` is this one in another form."""
-        there = {
-            **values,
-            self.variable: places,
-            **(self.follower.near(np.atleast_1d(places)) if self.follower else {}),
-        }
+        near = self.follower.near(np.atleast_1d(places)) if self.follower else {}
+        there = {**values, self.variable: places, **near}
         return board_givens(mechanism or self.mechanism, there, program, follow=False)
 
     def along(

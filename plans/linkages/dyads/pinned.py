@@ -66,7 +66,7 @@ class Pinned(AssurGroup):
     def _move(self, board: Board, plan: str) -> None:
         b, (first, second) = f"{plan}.{self.B}", self.legs
         ends = [leg.begin(board, plan) for leg in self.legs]
-        board.meet(b, ends[0], first.across, ends[1], second.across)
+        board.meet(b, ends[0], first.n, ends[1], second.n)
         for leg, end in zip(self.legs, ends, strict=True):
             leg.read(board, plan, end)
         board.read(vector(SYMBOLS[plan], self.B), f"{plan}.p", b)
@@ -195,7 +195,7 @@ class RRP(Pinned):
         board.lay(f"{plan}.1", f"{plan}.0", rod.n, pair("R", i, j, "t").size)
         board.read(pair("R", i, j, "t"), f"{plan}.0", f"{plan}.1")
         last, closing = hang(board, plan, hung, 1), f"{plan}.{len(hung) + 2}"
-        board.meet(closing, last, slide.line, f"{plan}.0", rod.e)
+        board.meet(closing, last, slide.e, f"{plan}.0", rod.e)
         board.read(pair("R", m, k), last, closing)
         board.read(pair("R", i, j, "n"), closing, f"{plan}.0")
         board.read(pair("R", i, j), closing, f"{plan}.1")
@@ -238,7 +238,7 @@ class PRP(Pinned):
         parted = hang(board, plan, [force for force, _ in loads[j]])
         last = hang(board, plan, [force for force, _ in loads[k]], len(loads[j]))
         closing = f"{plan}.{len(loads[j]) + len(loads[k]) + 1}"
-        board.meet(closing, last, second.line, f"{plan}.0", first.line)
+        board.meet(closing, last, second.e, f"{plan}.0", first.e)
         board.read(pair("R", i, j), closing, f"{plan}.0")
         board.read(pair("R", m, k), last, closing)
         board.read(pair("R", k, j), parted, closing)

@@ -276,7 +276,7 @@ class RPP(AssurGroup):
         plan, own, pair = spelled("forces", k), spelled("forces", j), self.mechanism.pair
         board.pole(f"{plan}.0")
         last, closing = hang(board, plan, [force for force, _ in loads[k]]), f"{plan}.{len(loads[k]) + 1}"
-        board.meet(closing, last, self.outer.line, f"{plan}.0", self.inner.line)
+        board.meet(closing, last, self.outer.e, f"{plan}.0", self.inner.e)
         board.read(pair("R", j, k), closing, f"{plan}.0")
         board.read(pair("R", m, k), last, closing)
         answer(board, self.mechanism, "R", (j, k))

@@ -41,13 +41,9 @@ Legs = tuple[int, int]
 
 
 class Follower:
-    """The groups of class III of one mechanism, at any positions of its driver.
+    """The groups of class III of one mechanism with its numbers in SI, or of N where these are arrays of shape (N,).
 
-    Parameters
-    ----------
-    values : mapping of str to float or float64 array of shape (N,)
-        Its numbers in SI; the position of the driver is not among those that matter. With arrays there are N
-        mechanisms.
+    They are known at any positions of the driver: that among the numbers does not matter.
     """
 
     def __init__(self, mechanism: Mechanism, values: Mapping[str, Any]) -> None:
@@ -67,16 +63,8 @@ class Follower:
     def near(self, at: Array) -> Poses:
         """Return the board's givens that say where each central link lies, about, with the driver at `at`.
 
-        Parameters
-        ----------
-        at : float64 array of shape (N,)
-            Positions of the driver: radians, or metres of a slide.
-
-        Returns
-        -------
-        dict of str to float64 array of shape (N,)
-            Five givens for each group; see `start_names`. One of them is not zero where the group cannot
-            come from its start, so that the board refuses that position.
+        `at`, float64 of shape (N,), is in radians, or metres of a slide. Each group has five givens of that shape, see
+        `start_names`; one of them is not zero where it cannot come from its start, so that the board refuses.
         """
         found: Poses = {}
         for course in self._courses:
@@ -111,13 +99,8 @@ def triads(mechanism: Mechanism) -> list[int]:
 def followed(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the board's givens that say where the central link of every group of class III lies, about.
 
-    A mechanism without such groups needs none. For many positions of one mechanism, asked for again and again, keep a
-    `Follower`.
-
-    Parameters
-    ----------
-    values : mapping of str to float or float64 array of shape (N,)
-        Numbers of the mechanism in SI, its driver's position among them.
+    The `values` are numbers or float64 arrays of shape (N,) in SI, the driver's position among them. A mechanism
+    without such groups needs none. For many positions of one mechanism, asked for again and again, keep a `Follower`.
     """
     if not mechanism.starts or not triads(mechanism):
         return {}
@@ -205,10 +188,10 @@ def _pairs(board: RecordingBoard, triad: Triad) -> Iterable[tuple[Legs, tuple[st
     for first, second in combinations(triad.by_number, 2):
         third = next(leg for leg in triad.legs if leg not in (first, second))
         key = f"{first.number}_{second.number}"
-        board.meet(f"_X_{key}", first.start, first.line, second.start, second.line)
+        board.meet(f"_X_{key}", first.start, first.e, second.start, second.e)
         board.distance(f"_l_{key}", f"_X_{key}", third.end)
-        board.calc(f"_sine_{key}", "across_axis", first.line, "_nowhere", second.line)
+        board.calc(f"_sine_{key}", "across_axis", first.e, "_nowhere", second.e)
         # the normals to both meet like the lines themselves
-        board.calc(f"_across_{key}", "across_axis", third.line, f"_X_{key}", third.end)
+        board.calc(f"_across_{key}", "across_axis", third.e, f"_X_{key}", third.end)
         board.calc(f"_sine_D_{key}", "part_of", f"_across_{key}", f"_l_{key}")
         yield (first.number, second.number), (f"_sine_{key}", f"_sine_D_{key}")

@@ -136,11 +136,11 @@ class Triad(AssurGroup):
         self._place_special_point(board)
         X, D, (length, _, n) = self.X, third.end, self.XD
         x, d = mark("velocity", X), mark("velocity", D)
-        board.meet(x, starts[0], first.across, starts[1], second.across)
+        board.meet(x, starts[0], first.n, starts[1], second.n)
         for leg, start in zip((first, second), starts, strict=False):
             board.read(vector("V", *leg.about(X)), start, x)
         board.read(vector("V", X), "velocity.p", x)
-        board.meet(d, x, n, starts[2], third.across)
+        board.meet(d, x, n, starts[2], third.n)
         board.read(vector("V", D, X), x, d)
         board.read(vector("V", D), "velocity.p", d)
         board.calc(self.central.omega, "turning", vector("V", D, X), n, length)
@@ -149,7 +149,7 @@ class Triad(AssurGroup):
     def _place_special_point(self, board: Board) -> None:
         """Mark where the lines of two legs meet, and how the joints of the central link lie to it and to D."""
         (first, second, third), (length, e, n) = self.legs, self.XD
-        board.meet(self.X, first.start, first.line, second.start, second.line)
+        board.meet(self.X, first.start, first.e, second.start, second.e)
         board.measure(length, self.X, third.end)
         board.direction(e, self.X, third.end, length)
         board.normal(n, e)
@@ -184,13 +184,13 @@ class Triad(AssurGroup):
         ends = [leg.begin(board, "acceleration") for leg in self.legs]
         hung = [self._towards_joint(board, leg, end) for leg, end in zip((first, second), ends, strict=False)]
         x, d, tip = mark("acceleration", X), mark("acceleration", D), mark("acceleration", D, NORMAL, X)
-        board.meet(x, hung[0], first.across, hung[1], second.across)
+        board.meet(x, hung[0], first.n, hung[1], second.n)
         board.read(vector("a", X), "acceleration.p", x)
         part = vector("a", D, X, "n")
         board.calc(part.size, "normal_part", vector("V", D, X), length)
         board.back(tip, x, e, part.size)
         board.read(part, x, tip)
-        board.meet(d, tip, n, ends[2], third.across)
+        board.meet(d, tip, n, ends[2], third.n)
         board.read(vector("a", D, X, "t"), tip, d)
         board.read(vector("a", D, X), x, d)
         board.read(vector("a", D), "acceleration.p", d)
@@ -241,7 +241,7 @@ class Triad(AssurGroup):
         part = _pair(leg, "R", "t")
         # R^t stands on the arm of the leg and turns about the joint against the sense in which it points
         board.calc(part.size, "moment_equation", leg.length, *own, *couples)
-        board.calc(part, "along", part.size, leg.across)
+        board.calc(part, "along", part.size, leg.n)
         board.moment(moment(part, self.X), arm(part), part, leg.start, self.X)
         return [*about, *couples, moment(part, self.X)]
 
@@ -250,9 +250,9 @@ class Triad(AssurGroup):
         third = self.legs[2]
         part, aside = _normal(third), Name(f"_arm_{_pair(third, 'R').of}")
         # a force along the line has the moment minus its size times the distance of the line to the left of X
-        board.calc(aside, "across_axis", third.line, self.X, third.start)
+        board.calc(aside, "across_axis", third.e, self.X, third.start)
         board.calc(part.size, "moment_equation", aside, *moments)
-        board.calc(part, "along", part.size, third.line)
+        board.calc(part, "along", part.size, third.e)
         board.moment(moment(part, self.X), arm(part, self.X), part, third.start, self.X)
 
     def _draw(self, board: Board, loads: Forces) -> None:
@@ -269,7 +269,7 @@ class Triad(AssurGroup):
             count += len(hung)
         parted, left, loaded, right, chained, last = ends
         closing = f"{plan}.{count + 1}"
-        board.meet(closing, last, second.line, f"{plan}.0", first.line)
+        board.meet(closing, last, second.e, f"{plan}.0", first.e)
         board.read(_normal(first), closing, f"{plan}.0")
         board.read(_normal(second), last, closing)
         for leg, tail, tip in ((first, closing, f"{plan}.1"), (second, chained, closing), (third, loaded, right)):
