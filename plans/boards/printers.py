@@ -230,15 +230,9 @@ def number(value: float) -> str:
 
 @dataclass(frozen=True)
 class Loop(Plain):
-    """The same for many positions, as a loop over arrays `g...` of givens and `out...` of results that numba compiles.
+    """The same for many positions: a loop over arrays `g...` of givens and `out...` of results that numba compiles."""
 
-    Parameters
-    ----------
-    shared : collection of int
-        Places of what is the same at all positions.
-    """
-
-    shared: Collection[int]
+    shared: Collection[int]  # places of what is the same at all positions
 
     given = "g{place}[i]"
 
@@ -262,18 +256,11 @@ class Chunked:
 
     What depends on no array is done once, on numbers; the rest goes through few buffers, so that a chunk stays in the
     cache: what nothing needs any more hands its own on.
-
-    Parameters
-    ----------
-    arrays : collection of str
-        Givens that are arrays.
-    outputs : sequence of (place, negative)
-        What is kept of every position.
     """
 
     trace: Trace
-    arrays: Collection[str]
-    outputs: Sequence[Output]
+    arrays: Collection[str]  # givens that are arrays
+    outputs: Sequence[Output]  # what is kept of every position
 
     @cached_property
     def order(self) -> list[int]:

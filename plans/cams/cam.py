@@ -76,36 +76,19 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Cam:
-    """A disk cam that turns with `omega` and lifts its followers after one law of motion.
+    """A disk cam that turns with `omega` and lifts its followers after one law of motion."""
 
-    Parameters
-    ----------
-    followers : tuple of str
-        Of `FOLLOWERS`: the same motion may be that of several cams, each with a follower of its own.
-    law : str
-        The law of the rise: one of `LAWS`, or the name of one of `curves`.
-    law_fall : str
-        The law of the fall likewise, or `rise`.
-    fall : {"mirror", "same"}
-        Whether the fall runs through its law backwards in time, or in the same order.
-    rotation : {"ccw", "cw"}
-        Sense in which the cam turns.
-    limits : {"one-sided", "two-sided"}
-        Whether the pressure angle is limited only where the cam pushes, or to both sides.
-    sections : int
-        Into how many sections a phase is divided at least.
-    curves : tuple of Curve
-        Laws of one's own.
-    """
-
+    # of `FOLLOWERS`: the same motion may be that of several cams, each with a follower of its own
     followers: tuple[str, ...]
-    law: str
-    law_fall: str = AS_RISE
+    law: str  # the law of the rise: one of `LAWS`, or the name of one of `curves`
+    law_fall: str = AS_RISE  # the law of the fall likewise, or `rise`
+    # `mirror`, `same`: whether the fall runs through its law backwards in time, or in the same order
     fall: str = MIRROR
-    rotation: str = CCW
+    rotation: str = CCW  # `ccw`, `cw`: sense in which the cam turns
+    # `one-sided`, `two-sided`: whether the pressure angle is limited only where the cam pushes, or to both sides
     limits: str = ONE_SIDED
-    sections: int = SECTIONS
-    curves: tuple[Curve, ...] = ()
+    sections: int = SECTIONS  # into how many sections a phase is divided at least
+    curves: tuple[Curve, ...] = ()  # laws of one's own
 
     def chosen(self, words: Mapping[str, str]) -> Cam:
         """Return the cam with the words of a variant in the place of the names of the choices."""

@@ -220,30 +220,15 @@ ENOUGH = 1.1  # times the least error that is as good
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Convergence:
-    """Errors by quantity, one for each number of sections: in parts of the exact value, of `s_closed` of the stroke.
+    """Errors by quantity, one for each number of sections: in parts of the exact value, of `s_closed` of the stroke."""
 
-    Parameters
-    ----------
-    exact : mapping of str to float
-        The exact values, SI; of V_max and S_max in metres of paper.
-    quantities : tuple of str
-        What is compared.
-    sections : mapping of str to tuple of int
-        Sections of the rise by where jumps lie, `nodes` or `between`; the latter only where some lie within a phase.
-    errors : mapping of (str, str) to array
-        By where jumps lie and quantity, signed.
-    drawn : tuple of int
-        Numbers of sections at which hands were looked at.
-    hands : mapping of (str, str) to array
-        What 95 % of the drawings of a hand keep, by hand and quantity.
-    """
-
-    exact: Mapping[str, float]
-    quantities: tuple[str, ...]
+    exact: Mapping[str, float]  # the exact values, SI; of V_max and S_max in metres of paper
+    quantities: tuple[str, ...]  # what is compared
+    # sections of the rise by where jumps lie, `nodes` or `between`; the latter only where some lie within a phase
     sections: Mapping[str, tuple[int, ...]]
-    errors: Mapping[tuple[str, str], Array]
-    drawn: tuple[int, ...]
-    hands: Mapping[tuple[str, str], Array]
+    errors: Mapping[tuple[str, str], Array]  # by where jumps lie and quantity, signed
+    drawn: tuple[int, ...]  # numbers of sections at which hands were looked at
+    hands: Mapping[tuple[str, str], Array]  # what 95 % of the drawings of a hand keep, by hand and quantity
 
     def order(self, where: str, quantity: str) -> float | None:
         """Return the power of the section as which an error falls; None when it is rounding."""
@@ -348,42 +333,26 @@ CLOSED_AT = 12  # sections that hands draw
 
 @dataclass(frozen=True, slots=True)
 class Closing:
-    """How the drawings of a hand close: what 95 % of them keep.
+    """How the drawings of a hand close: what 95 % of them keep."""
 
-    Parameters
-    ----------
-    speed_top, speed_last, stroke_last : float
-        Ordinates of the velocity at the end of the rise and of the fall, of the travel at the end of the fall, mm.
-    errors : mapping of str to float
-        Error of the scaled travel on the worst section line, in parts of the stroke, by what has been closed.
-    """
-
+    # ordinates of the velocity at the end of the rise and of the fall, of the travel at the end of the fall, mm
     speed_top: float | None
     speed_last: float | None
     stroke_last: float
+    # error of the scaled travel on the worst section line, in parts of the stroke, by what has been closed
     errors: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Robustness:
-    """What happens to diagrams by chords.
+    """What happens to diagrams by chords."""
 
-    Parameters
-    ----------
-    beside : tuple of float
-        Parts of a section by which section lines at jumps are late; empty where no jump lies within a phase.
-    missed : mapping of (int, str) to array
-        Errors in parts of the exact values, by the number of sections and quantity.
-    sections : int
-        Sections of the rise that hands draw.
-    closings : mapping of str to Closing
-        By hand.
-    """
-
+    # parts of a section by which section lines at jumps are late; empty where no jump lies within a phase
     beside: tuple[float, ...]
+    # errors in parts of the exact values, by the number of sections and quantity
     missed: Mapping[tuple[int, str], Array]
-    sections: int
-    closings: Mapping[str, Closing]
+    sections: int  # sections of the rise that hands draw
+    closings: Mapping[str, Closing]  # by hand
 
 
 def robustness(solved: SolvedCam, hands: Mapping[str, Hand], sections: Iterable[int] = BESIDE_AT) -> Robustness:

@@ -131,24 +131,14 @@ class Envelope(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Undercut:
-    """A part of the motion that the profile does not give: from `start` to `end` the follower rests on a corner.
+    """A part of the motion that the profile does not give: from `start` to `end` the follower rests on a corner."""
 
-    Parameters
-    ----------
-    start, end : float
-        Angles of the cam, rad; the start is within the turn, the end may be beyond it.
-    corner : complex
-        The corner of the profile, m, in the frame of the cam at phi = 0.
-    along : tuple of float
-        Where the profile leaves the envelope and comes back to it: places of the `Curve`.
-    lost, phi_lost : float
-        The greatest travel that is lost, and where.
-    """
-
+    # angles of the cam, rad; the start is within the turn, the end may be beyond it
     start: float
     end: float
-    corner: complex
-    along: tuple[float, float]
+    corner: complex  # the corner of the profile, m, in the frame of the cam at phi = 0
+    along: tuple[float, float]  # where the profile leaves the envelope and comes back to it: places of the `Curve`
+    # the greatest travel that is lost, and where
     lost: float
     phi_lost: float
 

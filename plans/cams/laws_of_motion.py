@@ -33,24 +33,14 @@ ROUNDING = 1e-15  # part of an interval within which two of its points are one
 
 @dataclass(frozen=True, slots=True)
 class Smooth:
-    """c0 + c1 t + c2 t^2 + ... + sine sin(rate t) + cosine cos(rate t), t = x - origin, for low <= x <= high.
+    """c0 + c1 t + c2 t^2 + ... + sine sin(rate t) + cosine cos(rate t), t = x - origin, for low <= x <= high."""
 
-    Parameters
-    ----------
-    low, high : float
-        The piece's ends.
-    origin : float
-        From where t is counted: that end at which small values must be exact.
-    coefficients : tuple of float
-        Of the polynomial, beginning with the constant.
-    sine, cosine, rate : float
-        Amplitudes of the wave, and its angle per unit of x.
-    """
-
+    # the piece's ends
     low: float
     high: float
-    origin: float
-    coefficients: tuple[float, ...]
+    origin: float  # from where t is counted: that end at which small values must be exact
+    coefficients: tuple[float, ...]  # of the polynomial, beginning with the constant
+    # amplitudes of the wave, and its angle per unit of x
     sine: float = 0.0
     cosine: float = 0.0
     rate: float = 0.0
@@ -200,18 +190,10 @@ LOBES: dict[str, tuple[Smooth, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class LawOfMotion:
-    """The travel over one phase, from (0, 0) to (1, 1), as smooth pieces one after the other.
+    """The travel over one phase, from (0, 0) to (1, 1), as smooth pieces one after the other."""
 
-    Parameters
-    ----------
-    pieces : tuple of Smooth
-        The travel s; each piece begins where the one before ends.
-    u : float or None
-        Where the lobes of acceleration join; None for a law of one's own.
-    """
-
-    pieces: tuple[Smooth, ...]
-    u: float | None = None
+    pieces: tuple[Smooth, ...]  # the travel s; each piece begins where the one before ends
+    u: float | None = None  # where the lobes of acceleration join; None for a law of one's own
 
     def at(self, x: Any, order: int = 0) -> Array:
         """Return s (order 0), s' (1) or s'' (2) at the places `x`; at a jump what follows it, at 1 what precedes."""

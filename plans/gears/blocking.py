@@ -194,20 +194,12 @@ class Crossing:
 
 @dataclass(frozen=True)
 class Plane:
-    """The plane of the shifts of a pair.
+    """The plane of the shifts of a pair."""
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        The complete givens; their x_1 and x_2 are the chosen point.
-    least_tip : float
-        The least thickness of a tooth at its tip, in modules, that the curves `thin_1` and `thin_2` stand for.
-    low, high : complex
-        Corners of the window in which the curves are traced.
-    """
-
-    values: Mapping[str, float]
+    values: Mapping[str, float]  # the complete givens; their x_1 and x_2 are the chosen point
+    # the least thickness of a tooth at its tip, in modules, that the curves `thin_1` and `thin_2` stand for
     least_tip: float
+    # corners of the window in which the curves are traced
     low: complex
     high: complex
     cells: int = CELLS

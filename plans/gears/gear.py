@@ -50,17 +50,11 @@ NUMBERS = ("u", "y", "delta_y", *(f"z_W{i}" for i in WHEELS))
 
 @dataclass(frozen=True, slots=True)
 class GearPair:
-    """A pinion that drives a wheel, both cut by one rack.
+    """A pinion that drives a wheel, both cut by one rack."""
 
-    Parameters
-    ----------
-    rotation : {"ccw", "cw"}
-        Sense in which the pinion turns.
-    material : {"homogeneous", "hardened"}
-        Whether the teeth are of one structure, or hard outside: these must be thicker at the tip.
-    """
-
-    rotation: str = CCW
+    rotation: str = CCW  # `ccw`, `cw`: sense in which the pinion turns
+    # `homogeneous`, `hardened`: whether the teeth are of one structure, or hard outside: these must be thicker at the
+    # tip
     material: str = HOMOGENEOUS
 
     def chosen(self, words: Mapping[str, str]) -> GearPair:

@@ -26,21 +26,11 @@ WANTED = ("a_w", "alpha_w", "d_w1", "d_w2", "d_b1", "d_b2", "rho_p1", "rho_a1", 
 
 @dataclass(frozen=True)
 class Meshing:
-    """A pair in mesh without backlash.
+    """A pair in mesh without backlash."""
 
-    Parameters
-    ----------
-    teeth : tuple of Tooth
-        Of the pinion and of the wheel.
-    sizes : mapping of str to float
-        The quantities of the pair.
-    sense : int
-        +1 when the pinion turns counter-clockwise, else -1.
-    """
-
-    teeth: tuple[Tooth, Tooth]
-    sizes: Mapping[str, float]
-    sense: int = 1
+    teeth: tuple[Tooth, Tooth]  # of the pinion and of the wheel
+    sizes: Mapping[str, float]  # the quantities of the pair
+    sense: int = 1  # +1 when the pinion turns counter-clockwise, else -1
 
     @property
     def centres(self) -> tuple[complex, complex]:
@@ -126,34 +116,17 @@ FLANK = 40  # points of a flank that is drawn apart
 
 @dataclass(frozen=True)
 class Wheel:
-    """One wheel on the paper.
+    """One wheel on the paper."""
 
-    Parameters
-    ----------
-    number : int
-        1 for the pinion, 2 for the wheel.
-    tooth : Tooth
-        Its tooth, m.
-    centre, up : complex
-        Its centre, mm; the unit direction from there to the pole.
-    facing : complex
-        The unit direction from its centre in which the middle line of the tooth in contact points.
-    side : int
-        +1 where the active flank is the counter-clockwise one of a tooth, else -1.
-    k : float
-        Millimetres of paper for a metre.
-    sizes : mapping of str to float
-        The quantities of the pair.
-    """
-
-    number: int
-    tooth: Tooth
+    number: int  # 1 for the pinion, 2 for the wheel
+    tooth: Tooth  # its tooth, m
+    # its centre, mm; the unit direction from there to the pole
     centre: complex
     up: complex
-    facing: complex
-    side: int
-    k: float
-    sizes: Mapping[str, float]
+    facing: complex  # the unit direction from its centre in which the middle line of the tooth in contact points
+    side: int  # +1 where the active flank is the counter-clockwise one of a tooth, else -1
+    k: float  # millimetres of paper for a metre
+    sizes: Mapping[str, float]  # the quantities of the pair
 
     def radius(self, circle: str) -> float:
         """Return the radius of a circle of `CIRCLES`, mm."""

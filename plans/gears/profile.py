@@ -40,33 +40,18 @@ NEEDED = ("d_1", "d_2", "s_1", "s_2", "inv_alpha", "d_b1", "d_b2", "d_a1", "d_a2
 
 @dataclass(frozen=True)
 class Tooth:
-    """One tooth of a wheel.
+    """One tooth of a wheel."""
 
-    Parameters
-    ----------
-    z : float
-        Number of teeth.
-    alpha : float
-        Profile angle of the rack, rad.
-    r, r_b, r_a, r_f : float
-        Radii of the reference, base, tip and root circles, m.
-    psi_b : float
-        Half the angle of the tooth on the base circle, rad; the flanks are thought to reach it.
-    rho_f : float
-        Radius of the rack's corner, m.
-    e_f : float
-        Distance of the corner's centre from the centre line of the rack's tooth, m.
-    """
-
-    z: float
-    alpha: float
+    z: float  # number of teeth
+    alpha: float  # profile angle of the rack, rad
+    # radii of the reference, base, tip and root circles, m
     r: float
     r_b: float
     r_a: float
     r_f: float
-    psi_b: float
-    rho_f: float
-    e_f: float
+    psi_b: float  # half the angle of the tooth on the base circle, rad; the flanks are thought to reach it
+    rho_f: float  # radius of the rack's corner, m
+    e_f: float  # distance of the corner's centre from the centre line of the rack's tooth, m
 
     @property
     def h_0(self) -> float:

@@ -28,24 +28,12 @@ MILLI = 1e-3
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScaleErrors:
-    """What 95 % of drawings keep, in parts of the exact value, by hand and quantity: one for each of the `ratios`.
+    """What 95 % of drawings keep, in parts of the exact value, by hand and quantity: one for each of the `ratios`."""
 
-    Parameters
-    ----------
-    exact : mapping of str to float
-        The exact values, SI.
-    ratios : tuple of float
-        Scales of the meshing, M k : 1.
-    tooth : float
-        Depth of a tooth, m.
-    errors : mapping of (str, str) to array
-        By hand and quantity, in the order of `ratios`.
-    """
-
-    exact: Mapping[str, float]
-    ratios: tuple[float, ...]
-    tooth: float
-    errors: Mapping[tuple[str, str], Array]
+    exact: Mapping[str, float]  # the exact values, SI
+    ratios: tuple[float, ...]  # scales of the meshing, M k : 1
+    tooth: float  # depth of a tooth, m
+    errors: Mapping[tuple[str, str], Array]  # by hand and quantity, in the order of `ratios`
 
     @property
     def quantities(self) -> tuple[str, ...]:

@@ -47,21 +47,14 @@ class TremblingError(ArithmeticError):
 
 @dataclass(frozen=True, slots=True)
 class Heavy:
-    """What a rope of n masses gives: the greatest forces at its lower end, on the load, and at the drum, SI.
-
-    Parameters
-    ----------
-    F_12_max, P_12_max : float
-        At the load, in both phases.
-    F_drum_max : float
-        At the drum, in both phases.
-    """
+    """What a rope of n masses gives: the greatest forces at its lower end, on the load, and at the drum, SI."""
 
     n: int
     t_1: float
+    # at the load, in both phases
     F_12_max: float
     P_12_max: float
-    F_drum_max: float
+    F_drum_max: float  # at the drum, in both phases
 
 
 def rope_row(found: Mapping[str, float], n: int, lifted: bool) -> Row:
@@ -143,24 +136,12 @@ def _top(values: Array) -> float:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Row:
-    """Masses in a row; leading axes hold many rows at once.
+    """Masses in a row; leading axes hold many rows at once."""
 
-    Parameters
-    ----------
-    masses : array of shape (..., n)
-        a_1..a_n, kg.
-    stiffnesses : array of shape (..., n + 1)
-        c_(0,1)..c_(n,n+1), N/m; zero where there is no link.
-    forces : array of shape (..., n)
-        Q_1..Q_n, constant, N.
-    ends : array of shape (..., 2)
-        Accelerations of both ends, constant, m/s^2.
-    """
-
-    masses: Array
-    stiffnesses: Array
-    forces: Array
-    ends: Array
+    masses: Array  # shape (..., n): a_1..a_n, kg
+    stiffnesses: Array  # shape (..., n + 1): c_(0,1)..c_(n,n+1), N/m; zero where there is no link
+    forces: Array  # shape (..., n): Q_1..Q_n, constant, N
+    ends: Array  # shape (..., 2): accelerations of both ends, constant, m/s^2
 
     @property
     def matrix(self) -> Array:
@@ -204,23 +185,12 @@ class Row:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RowMotion:
-    """The forces of the links over time: oscillations of the modes, one of which may be still.
+    """The forces of the links over time: oscillations of the modes, one of which may be still."""
 
-    Parameters
-    ----------
-    frequencies : array of shape (..., n + 1)
-        Of the modes, rad/s, falling; the last is zero.
-    modes : array of shape (..., n + 1, links)
-        A mode a row, in forces divided by the square roots of the stiffnesses.
-    scale : array of shape (..., links)
-        Square roots of the stiffnesses.
-    start, rates, drive : array of shape (..., n + 1)
-        Forces, their rates at t = 0 and right-hand sides, in modes.
-    """
-
-    frequencies: Array
-    modes: Array
-    scale: Array
+    frequencies: Array  # shape (..., n + 1): of the modes, rad/s, falling; the last is zero
+    modes: Array  # shape (..., n + 1, links): a mode a row, in forces divided by the square roots of the stiffnesses
+    scale: Array  # shape (..., links): square roots of the stiffnesses
+    # shape (..., n + 1): forces, their rates at t = 0 and right-hand sides, in modes
     start: Array
     rates: Array
     drive: Array
@@ -291,16 +261,11 @@ class Simplification:
 
 @dataclass(frozen=True, slots=True)
 class OneMass:
-    """One reduced mass beside a rope of many masses; errors in parts.
-
-    Parameters
-    ----------
-    at_load, at_drum : float
-        F_max of one mass less that of the rope at its lower and upper end.
-    """
+    """One reduced mass beside a rope of many masses; errors in parts."""
 
     ratio: float
     t_1: float
+    # F_max of one mass less that of the rope at its lower and upper end
     at_load: float
     at_drum: float
 
@@ -312,31 +277,16 @@ class OneMass:
 
 @dataclass(frozen=True, slots=True)
 class HoistDepth:
-    """How deep the model must be.
+    """How deep the model must be."""
 
-    Parameters
-    ----------
-    full : mapping of str to float
-        The quantities of the full model, of `COMPARED`, SI.
-    simpler : tuple of Simplification
-        In the order of `SIMPLER`, the article's formula last.
-    ropes : tuple of Heavy
-        Ropes of more and more masses, as far as they can be followed; empty where the rope weighs nothing, the support
-        is rigid or formulas are not valid.
-    ratio : float
-        G_2 / G_1 of this hoist.
-    one_mass : tuple of OneMass
-        Beside a rope of `MANY` masses, over the ratio of the weights.
-    tolerance : float
-        In parts.
-    """
-
-    full: Mapping[str, float]
-    simpler: tuple[Simplification, ...]
+    full: Mapping[str, float]  # the quantities of the full model, of `COMPARED`, SI
+    simpler: tuple[Simplification, ...]  # in the order of `SIMPLER`, the article's formula last
+    # ropes of more and more masses, as far as they can be followed; empty where the rope weighs nothing, the support is
+    # rigid or formulas are not valid
     ropes: tuple[Heavy, ...]
-    ratio: float
-    one_mass: tuple[OneMass, ...]
-    tolerance: float
+    ratio: float  # G_2 / G_1 of this hoist
+    one_mass: tuple[OneMass, ...]  # beside a rope of `MANY` masses, over the ratio of the weights
+    tolerance: float  # in parts
 
     @property
     def here(self) -> OneMass | None:

@@ -165,27 +165,17 @@ ROUNDS, FINE, LESS = 5, 9, 5  # rounds in which the optimum is closed in on, and
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Spectrum:
-    """Greatest forces over the places of load and drum.
+    """Greatest forces over the places of load and drum."""
 
-    Parameters
-    ----------
-    beta_0, beta_2 : array of shape (N,), (M,)
-        The places.
-    F_max, sigma_max, safety : array of shape (N, M)
-        SI.
-    formulas : array of bool, shape (N, M)
-        Whether the closed formulas are valid.
-    permitted : array of bool, shape (N, M)
-        Whether the strength condition holds.
-    """
-
+    # shape (N,): the places
     beta_0: Array
     beta_2: Array
+    # shape (N, M), SI
     F_max: Array
     sigma_max: Array
     safety: Array
-    formulas: Flags
-    permitted: Flags
+    formulas: Flags  # shape (N, M): whether the closed formulas are valid
+    permitted: Flags  # shape (N, M): whether the strength condition holds
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,25 +190,13 @@ class Trial:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Choice:
-    """The spectrum, the best places, and the way of the article's loop.
-
-    Parameters
-    ----------
-    given : Trial
-        The places that are given.
-    best : Trial
-        Those with the least force, between the places of the grid too.
-    trials : tuple of Trial
-        What the loop tried, `given` first; the last is safe, unless no place is.
-    K : float
-        The safety that is required.
-    """
+    """The spectrum, the best places, and the way of the article's loop."""
 
     spectrum: Spectrum
-    given: Trial
-    best: Trial
-    trials: tuple[Trial, ...]
-    K: float
+    given: Trial  # the places that are given
+    best: Trial  # those with the least force, between the places of the grid too
+    trials: tuple[Trial, ...]  # what the loop tried, `given` first; the last is safe, unless no place is
+    K: float  # the safety that is required
 
     @property
     def found(self) -> bool:

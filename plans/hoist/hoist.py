@@ -52,14 +52,9 @@ USUAL = {"slack": 0.0, "g": 9.81}  # what is not given
 
 @dataclass(frozen=True, slots=True)
 class Hoist:
-    """A load on a support beam, and the drum on a bridge beam above it that takes it up.
+    """A load on a support beam, and the drum on a bridge beam above it that takes it up."""
 
-    Parameters
-    ----------
-    near_0, near_2 : {"left", "right"}
-        The end of the support beam and of the bridge beam that is the nearer one.
-    """
-
+    # `left`, `right`: the end of the support beam and of the bridge beam that is the nearer one
     near_0: str = LEFT
     near_2: str = LEFT
 

@@ -33,21 +33,11 @@ MOST = 1e6  # w h up to which a method is looked at
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Motion:
-    """u'' = b(t) - w^2 u, or another acceleration.
+    """u'' = b(t) - w^2 u, or another acceleration."""
 
-    Parameters
-    ----------
-    square : float or array
-        w^2, rad^2/s^2.
-    drive : callable
-        b(t), m/s^2.
-    bent : callable, optional
-        The acceleration at (t, u) where it is not linear in u.
-    """
-
-    square: Any
-    drive: Callable[[Any], Any]
-    bent: Callable[[Any, Any], Any] | None = None
+    square: Any  # w^2, rad^2/s^2
+    drive: Callable[[Any], Any]  # b(t), m/s^2
+    bent: Callable[[Any, Any], Any] | None = None  # the acceleration at (t, u) where it is not linear in u
 
     def acceleration(self, t: Any, u: Any) -> Any:
         """Return u'', m/s^2."""
@@ -173,33 +163,19 @@ class Trace:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Run:
-    """What an integrator finds, of N hoists; NaN where it is refused.
+    """What an integrator finds, of N hoists; NaN where it is refused."""
 
-    Parameters
-    ----------
-    step : array
-        k h, rad: of the swing on the support, of that on the rope where the support is rigid.
-    t_1, F_12_t1, F_12_max, P_12_max, F_max : array
-        As of the closed form, SI.
-    grown : array
-        By what the method makes oscillations grow over the run.
-    refused : array of bool
-        Steps beyond the stability limit, or oscillations that grow by more than `GROWN`.
-    steps : array of int
-        Steps until the end, one period after lift-off.
-    t, F_12 : array of shape (rows, N)
-        The force of the rope at the steps; NaN after the end.
-    """
-
-    step: Array
+    step: Array  # k h, rad: of the swing on the support, of that on the rope where the support is rigid
+    # as of the closed form, SI
     t_1: Array
     F_12_t1: Array
     F_12_max: Array
     P_12_max: Array
     F_max: Array
-    grown: Array
-    refused: Flags
-    steps: NDArray[np.int64]
+    grown: Array  # by what the method makes oscillations grow over the run
+    refused: Flags  # steps beyond the stability limit, or oscillations that grow by more than `GROWN`
+    steps: NDArray[np.int64]  # steps until the end, one period after lift-off
+    # shape (rows, N): the force of the rope at the steps; NaN after the end
     t: Array
     F_12: Array
 

@@ -179,20 +179,14 @@ SAME = 1e-9  # part of a force within which two are alike
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A piece of the motion from `begin` on, which lasts `time`; the curves are of the time since its begin.
-
-    Parameters
-    ----------
-    rope, support : bool
-        Whether the rope pulls, and the support pushes.
-    stretch, height : Curve
-        Of the rope, and of the load above the unloaded support beam, m.
-    """
+    """A piece of the motion from `begin` on, which lasts `time`; the curves are of the time since its begin."""
 
     begin: float
     time: float
+    # whether the rope pulls, and the support pushes
     rope: bool
     support: bool
+    # of the rope, and of the load above the unloaded support beam, m
     stretch: Curve
     height: Curve
 
@@ -213,15 +207,9 @@ class Piece:
 
 @dataclass(frozen=True)
 class OneSided:
-    """The whole motion until it only repeats itself, higher and higher.
+    """The whole motion until it only repeats itself, higher and higher."""
 
-    Parameters
-    ----------
-    pieces : tuple of Piece
-        In order; the last one is on the rope, and one swing or as long as it takes to go slack.
-    """
-
-    pieces: tuple[Piece, ...]
+    pieces: tuple[Piece, ...]  # in order; the last one is on the rope, and one swing or as long as it takes to go slack
     C_12: float
 
     @cached_property

@@ -199,21 +199,12 @@ TOLERANCE = 1e-14  # at which evaluations are counted
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ways:
-    """Ways to one root.
+    """Ways to one root."""
 
-    Parameters
-    ----------
-    root : float
-        x = k t_1, rad.
-    errors : mapping of str to array of shape (N,)
-        By method: of the approximation after each evaluation, in parts of the root; NaN where there is none.
-    found : mapping of str to Found
-        Where each method stops; the root is NaN where it fails.
-    """
-
-    root: float
+    root: float  # x = k t_1, rad
+    # shape (N,): by method: of the approximation after each evaluation, in parts of the root; NaN where there is none
     errors: Mapping[str, Array]
-    found: Mapping[str, Found]
+    found: Mapping[str, Found]  # where each method stops; the root is NaN where it fails
 
     def error(self, method: str) -> float:
         """Return the error where a method stops, in parts of the root."""
@@ -266,24 +257,12 @@ ROUNDING = 1e-12  # error that is none
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StepLimits:
-    """Errors of the rope's force, the worst until one period after lift-off, in parts of the greatest force.
+    """Errors of the rope's force, the worst until one period after lift-off, in parts of the greatest force."""
 
-    Parameters
-    ----------
-    steps : mapping of str to array of shape (N,)
-        k h, rad, by method.
-    ratio : float
-        k_1 / k: in phase 2 steps are so much smaller beside the period.
-    errors : mapping of str to array of shape (N,)
-        By method; NaN where a run is refused.
-    grown : mapping of str to array of shape (N,)
-        By what a method makes oscillations grow over the run.
-    """
-
-    steps: Mapping[str, Array]
-    ratio: float
-    errors: Mapping[str, Array]
-    grown: Mapping[str, Array]
+    steps: Mapping[str, Array]  # shape (N,): k h, rad, by method
+    ratio: float  # k_1 / k: in phase 2 steps are so much smaller beside the period
+    errors: Mapping[str, Array]  # shape (N,): by method; NaN where a run is refused
+    grown: Mapping[str, Array]  # shape (N,): by what a method makes oscillations grow over the run
 
     def order(self, method: str) -> float | None:
         """Return the power of the step as which the error falls; None where too few runs show it."""

@@ -253,18 +253,12 @@ BEYOND = 1e-9  # parts of a bracket by which a root on its end may be beyond it
 
 @dataclass(frozen=True, slots=True)
 class Equation:
-    """f(x) = 0 with its derivative, and a bracket of its root.
+    """f(x) = 0 with its derivative, and a bracket of its root."""
 
-    Parameters
-    ----------
-    value, slope : callable
-        f and f'.
-    low, high : float
-        f(low) <= 0 <= f(high).
-    """
-
+    # f and f'
     value: Callable[[float], float]
     slope: Callable[[float], float]
+    # f(low) <= 0 <= f(high)
     low: float
     high: float
 
