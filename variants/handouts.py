@@ -116,12 +116,7 @@ def drawing_for_print(
 
 
 def begun_of_case(
-    case: Case,
-    drawing: Drawn,
-    block: Mapping[str, str],
-    steps: int = 0,
-    notation: str | None = None,
-    lang: str = "uk",
+    case: Case, drawing: Drawn, block: Mapping[str, str], steps: int = 0, notation: str | None = None, lang: str = "uk"
 ) -> Sheet:
     """Return the handout of a case whose `drawing` is for print, with so many steps done."""
     drawn = sheet_of(case, drawing, stamp_of(case, block, notation, lang))

@@ -14,7 +14,6 @@ from ..plans.board import Program, Step
 from ..plans.hands.expectations import DRAWINGS, SEED, Expectation, as_data, expectations
 from ..plans.hands.hand import PRESETS, Hand, Tolerance, preset
 from ..plans.hands.shaky import Paper
-from ..plans.hands.spread import Spread
 from ..plans.linkages.legs import guide_letters
 from ..plans.names import role
 from ..plans.quantities import Quantity
@@ -124,10 +123,7 @@ def drawing(
 
 
 def table(
-    drawn: Drawing,
-    quantities: Iterable[Quantity],
-    words: Words,
-    conditions: Mapping[str, tuple[str, str]] = NONE,
+    drawn: Drawing, quantities: Iterable[Quantity], words: Words, conditions: Mapping[str, tuple[str, str]] = NONE
 ) -> str:
     """Return a table: value, interval of drawings, half of it on paper and in per cents, what to let pass, worst step.
 
@@ -167,7 +163,12 @@ def _row(quantity: Quantity, expected: Expectation, program: Program, words: Wor
 
     spread, si = expected.spread, quantity.unit
     value = _place(quantity, words) if quantity.kind == "point" else shown(quantity.value)
-    interval = "" if quantity.kind == "point" else _interval(spread, shown)
+    if quantity.kind == "point":
+        interval = ""
+    elif spread.low is None or spread.low == spread.high:
+        interval = shown(spread.low)
+    else:
+        interval = "–" if spread.high is None else f"{shown(spread.low)} … {shown(spread.high)}"
     errs = expected.errs
     paper = "" if expected.mm is None or not errs else words.number(words.display.segment(expected.mm), 2)
     part = "" if expected.percent is None or not errs else _two(expected.percent, words)
@@ -188,12 +189,6 @@ def _row(quantity: Quantity, expected: Expectation, program: Program, words: Wor
 def _two(value: float, words: Words) -> str:
     """Return a number with two digits, or without decimals."""
     return words.number(value, 0) if value >= 10.0 else words.short(value, 2)
-
-
-def _interval(spread: Spread, shown: Any) -> str:
-    if spread.low is None or spread.high is None:
-        return "–"
-    return shown(spread.low) if spread.low == spread.high else f"{shown(spread.low)} … {shown(spread.high)}"
 
 
 def _place(quantity: Quantity, words: Words) -> str:

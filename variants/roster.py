@@ -153,7 +153,8 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
         No such columns; an unknown task, variant or given, or a value that it cannot take, with the cell.
     """
     grid = read_grid(file)
-    header = next((row for row in range(min(len(grid.rows), LOOKED_AT)) if _is_header(grid.rows[row])), None)
+    named = (len(cells) > 1 and not NAMED.isdisjoint(map(about_kind, cells)) for cells in grid.rows[:LOOKED_AT])
+    header = next((row for row, is_header in enumerate(named) if is_header), None)
     if header is None:
         raise InputError("roster-header", file=quote(grid.file, SHOWN))
     columns = _columns(grid, header, of)
@@ -164,11 +165,6 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
     read, heads = _told if each else _entry, enumerate(grid.rows[header])
     unread = (text for column, text in heads if column not in columns.read and any(map(str.isalpha, text)))
     return Roster(tuple(read(columns, row) for row in rows), tuple(unread))
-
-
-def _is_header(row: tuple[str, ...]) -> bool:
-    kinds = {about_kind(text) for text in row}
-    return bool(kinds & NAMED) and len(row) > 1
 
 
 def _columns(grid: Grid, header: int, of: Task | Schemes) -> _Columns:

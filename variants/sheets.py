@@ -166,11 +166,7 @@ def draw_case(
 
 
 def drawing_of(
-    case: Case,
-    format: str | Format | None = None,
-    norm: Norm = "gost",
-    notation: str | None = None,
-    lang: str = "uk",
+    case: Case, format: str | Format | None = None, norm: Norm = "gost", notation: str | None = None, lang: str = "uk"
 ) -> Drawn:
     """Draw the sheet of a case but for its title block; arguments and errors as of `draw_case`."""
     paper = format if format is None or isinstance(format, Format) else format_named(format)

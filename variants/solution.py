@@ -191,7 +191,9 @@ class Solution:
 
     def scaled(self, words: Words) -> str:
         """Return the format of the sheet and its scale factors, as a line."""
-        return f"{self.format}: {', '.join(scale_said(scale, words) for scale in by_symbol(self.scales).values())}"
+        shown = (words.display.scale(scale) for scale in self.scales.values())
+        units = ((one, format_unit(one.per_mm_unit, words.language)) for one in shown)
+        return f"{self.format}: {', '.join(f'{one.symbol} = {words.short(one.mu, 6)} {unit}' for one, unit in units)}"
 
 
 def _judged(checks: Iterable[Check], words: Words) -> list[list[str]]:
@@ -202,15 +204,9 @@ def _judged(checks: Iterable[Check], words: Words) -> list[list[str]]:
         return f"{words.short(words.display.value(value, si), 6)} {spelled}".rstrip()
 
     return [
-        [
-            check.name,
-            check.quantity,
-            shown(check.value, check.unit),
-            check.sign,
-            shown(check.limit, check.unit),
-            words["said.ok" if check.ok else "said.fails"],
-        ]
-        for check in checks
+        [one.name, one.quantity, shown(one.value, one.unit), one.sign, shown(one.limit, one.unit), words[verdict]]
+        for one in checks
+        for verdict in ("said.ok" if one.ok else "said.fails",)
     ]
 
 
@@ -304,7 +300,7 @@ def solve(
     words = case.words(lang, notation)
     solved, paper, by_plan, warnings = _on_paper(case, words if lang else case.words("uk"), format)
     items = measured(solved.quantities, solved.shown_on, by_plan)
-    used = by_symbol(by_plan)
+    used = {scale.symbol: scale for scale in by_plan.values()}
     found = case.kind.conditions(case) if condition else {}
     drawn = None if hand is None else _drawing(case.kind, solved, by_plan, hand)
     said = solved.error(), warnings, words
@@ -330,17 +326,6 @@ def _on_paper(
     solved, said = case.kind.fitted(solved, drawn)
     # some views are drawn larger
     return solved, drawn.format, {plan: drawn.scales[plan] for plan in solved.scale_of_plan}, (*case.warnings, *said)
-
-
-def by_symbol(scales: Mapping[str, Scale]) -> dict[str, Scale]:
-    """Return scale factors by symbol."""
-    return {scale.symbol: scale for scale in scales.values()}
-
-
-def scale_said(scale: Scale, words: Words) -> str:
-    """Return a scale factor as a list of quantities has it: mu_V = 0.05 (m/s)/mm."""
-    shown = words.display.scale(scale)
-    return f"{shown.symbol} = {words.short(shown.mu, 6)} {format_unit(shown.per_mm_unit, words.language)}"
 
 
 def _drawing(kind: Kind[Any, Any], solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:

@@ -16,15 +16,7 @@ from ...plans.hoist.rivals import COURSE, DRAWN, FORMULAS, LIFT_OFF, PEAK
 from ...plans.hoist.rivals import MISSED as MISSED_LIFT_OFF
 from ...plans.hoist.roots import BISECTION, BRENT, ILLINOIS, SECANT
 from ...plans.hoist.roots import NEWTON as NEWTON_ROOT
-from ...plans.linkages.accuracy.comparison import (
-    CHORDS,
-    DIFFERENCES,
-    EXTENDED,
-    HAND,
-    NEWTON,
-    PLAN,
-    SINGLE,
-)
+from ...plans.linkages.accuracy.comparison import CHORDS, DIFFERENCES, EXTENDED, HAND, NEWTON, PLAN, SINGLE
 from ..words import Words
 from .paper import BLACK, GREY, SMALL, TEXT, Label, box, page, put
 

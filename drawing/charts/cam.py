@@ -22,21 +22,7 @@ from ...plans.cams.chords import (
     Robustness,
 )
 from ..words import Words
-from .paper import (
-    BLACK,
-    GREY,
-    HANDS,
-    LOOK,
-    SMALL,
-    TEXT,
-    Label,
-    box,
-    curves_of_hands,
-    decimals,
-    logarithmic,
-    page,
-    put,
-)
+from .paper import BLACK, GREY, HANDS, LOOK, SMALL, TEXT, Label, box, curves_of_hands, decimals, logarithmic, page, put
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

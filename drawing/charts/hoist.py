@@ -15,22 +15,7 @@ from ...plans.hoist.rivals import RootRace, StepLimits, Ways
 from ...plans.hoist.roots import BISECTION, BRENT, ILLINOIS, NEWTON, SECANT
 from ...scales.units import format_unit
 from ..words import Words
-from .paper import (
-    BLACK,
-    GREY,
-    HEIGHT,
-    LIGHT,
-    LIMIT,
-    LOOK,
-    SMALL,
-    TEXT,
-    WIDTH,
-    Label,
-    box,
-    decimals,
-    page,
-    put,
-)
+from .paper import BLACK, GREY, HEIGHT, LIGHT, LIMIT, LOOK, SMALL, TEXT, WIDTH, Label, box, decimals, page, put
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

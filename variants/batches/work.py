@@ -24,7 +24,8 @@ def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, a
     """Make what is not there yet; write it, and note it, as it comes."""
     sweep_parts(folder, lambda name: _OWN.match(name) is not None)
     journal = Journal(folder / JOURNAL, Outcome.from_json, Outcome.to_json)
-    digests = _digests(making, students)
+    of = {task.id: making.digest_of_task(task) for task in making.tasks}
+    digests = [digest_of(f"{of.get(student.entry.task)} {student!r}") for student in students]
     found = {
         number: outcome
         for number, digest in enumerate(digests)
@@ -44,12 +45,6 @@ def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, a
     remove_stale(folder, before, {name for outcome in outcomes for name in outcome.files}, SUFFIXES)
     journal.keep(zip(digests, outcomes, strict=True))
     return outcomes
-
-
-def _digests(making: Making, students: Sequence[Student]) -> list[str]:
-    """Return what tells the work of each student from any other."""
-    of = {task.id: making.digest_of_task(task) for task in making.tasks}
-    return [digest_of(f"{of.get(student.entry.task)} {student!r}") for student in students]
 
 
 def _kept(made: Made | None, student: Student, folder: Path, language: str) -> Outcome:

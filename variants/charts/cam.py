@@ -17,19 +17,7 @@ from ..arguments import all_known
 from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
 from .accuracy import AccuracyChart
-from .data import (
-    HANDS,
-    PERCENT,
-    Chart,
-    ChartRequest,
-    Gallery,
-    Scene,
-    error_rows,
-    finite,
-    per_cent,
-    short,
-    wrapped,
-)
+from .data import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, error_rows, finite, per_cent, short, wrapped
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

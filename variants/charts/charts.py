@@ -162,19 +162,14 @@ def chart(
     words = case.words(lang, notation)
     of_kind("hand", hand, (str,), "str")
     scene = Scene(case, words, hand)
-    changed = {"quantities": bool(wanted), "hand": hand != HAND, "tolerance": most != TOLERANCE}
-    changed["positions"] = positions is not None
-    unused = tuple(_unused(gallery, names, changed))
-    found = _made(gallery, scene, names, ChartRequest(wanted, positions, most))
-    return replace(found, warnings=unused + found.warnings)
-
-
-def _unused(gallery: Gallery, names: tuple[str, ...], changed: dict[str, bool]) -> Iterator[InputError]:
-    """Go through the arguments that change nothing on any of the charts that are made."""
+    arguments = {"quantities": bool(wanted), "hand": hand != HAND, "tolerance": most != TOLERANCE}
+    arguments["positions"] = positions is not None
+    changed = [argument for argument, other in arguments.items() if other]
     made = names or gallery.charts
-    for argument, wanted in changed.items():
-        if wanted and not any(name in gallery.used_by.get(argument, ()) for name in made):
-            yield InputError("chart-unused", name=argument, charts=", ".join(made))
+    used = {argument for argument, charts in gallery.used_by.items() if not frozenset(charts).isdisjoint(made)}
+    unused = [InputError("chart-unused", name=one, charts=", ".join(made)) for one in changed if one not in used]
+    found = _made(gallery, scene, names, ChartRequest(wanted, positions, most))
+    return replace(found, warnings=(*unused, *found.warnings))
 
 
 def _per_cent(tolerance: str | float) -> float:

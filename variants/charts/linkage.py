@@ -74,7 +74,9 @@ def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
     if name == "accuracy":
         return accuracy_chart(scene, whole, asked.quantities)
     if name == "stability":
-        return stability_chart(scene, whole, asked.quantities)
+        mus = scales_of_cycle(scene, whole)
+        found = stability(whole, asked.quantities or usual(whole), mus, HANDS[scene.hand])
+        return StabilityChart(scene, whole, found, mus)
     return DepthChart(scene, whole, depth(whole, asked.tolerance))
 
 
@@ -320,13 +322,6 @@ class StabilityChart(_OfCycle):
         unit = "°" if self.cycle.drive.turns else words.unit("mm")
         along = Abscissa(f"{GREEK.get(kind, kind)}, {unit}", self.cycle.drive.turns)
         return stability_page(self.found, self.cycle.reach.apart, words, title, along, self._note(words))
-
-
-def stability_chart(scene: Scene, cycle: Cycle, names: Sequence[str]) -> StabilityChart:
-    """Look at quantities over the cycle; without `names` at the motion of the output and what balances the driver."""
-    mus = scales_of_cycle(scene, cycle)
-    found = stability(cycle, tuple(names) or usual(cycle), mus, HANDS[scene.hand])
-    return StabilityChart(scene, cycle, found, mus)
 
 
 def usual(cycle: Cycle) -> tuple[str, ...]:

@@ -176,11 +176,7 @@ of_check = stacked(
     click.argument("answers", nargs=-1),
     click.option("--form", metavar="FILE", help="Write an empty form, .csv or .xlsx; with --roster that of a class."),
     click.option(
-        "--preset",
-        type=Word(*HANDS),
-        default="normal",
-        show_default=True,
-        help="What may be missed by hand.",
+        "--preset", type=Word(*HANDS), default="normal", show_default=True, help="What may be missed by hand."
     ),
     click.option("--verdict-only", "own", is_flag=True, help="For the student: right or wrong, and no right numbers."),
     click.option("--format", type=Word(*SIZES), help="Mark what is drawn on the sheet of this format."),

@@ -116,9 +116,13 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         """Go through what makes a variant a poor exercise: its crank does not turn round, a plan is a line."""
         yield from super().unfit(case)
         yield from _hindered(case.task.mechanism, case.task.values(case.variant, case.settings))
-        short = _short_vectors(case)
-        for name in sorted(short - _always_short(case.task)) if short else ():
-            yield InputError("variant-short", quantity=name)
+        if short := _short_vectors(case):
+            from ..case import solve_case
+
+            # those that are so in every variant of a task, as on guides that do not turn, do not count
+            always = (_short_vectors(solve_case(case.task, one, None, None, None)) for one in case.task.variants)
+            for name in sorted(short - short.intersection(*always)):
+                yield InputError("variant-short", quantity=name)
 
     def remarks(self, task: Task, variant: str, solved: SolvedLinkage) -> Iterator[InputError]:
         """Go through what a teacher should know: where a crank does not turn, where links lie in line."""
@@ -305,14 +309,6 @@ def _short_vectors(case: Case) -> set[str]:
     own = (item for name, item in solved.quantities.items() if solved.shown_on.get(name) == "velocity")
     sizes = {item.name: item.value or 0.0 for item in own if item.kind == "vector"}
     return {name for name, size in sizes.items() if size < SHORT * max(sizes.values())}
-
-
-def _always_short(task: Task) -> set[str]:
-    """Return those that are so in every variant of a task, as on guides that do not turn."""
-    from ..case import solve_case
-
-    found = (_short_vectors(solve_case(task, variant, None, None, None)) for variant in task.variants)
-    return set.intersection(*found)
 
 
 def _degrees(angle: float) -> str:

@@ -295,10 +295,6 @@ class FruitlessError(LocatedError):
         return f"{self.place}: {said.format(found=self.found, tries=TRIES, reason=self.cause.text(language))}"
 
 
-def _given_up(place: str, reason: KulmanError, found: int) -> LocatedError:
-    return LocatedError(place, reason) if reason.key == "variants-few" else FruitlessError(place, reason, found)
-
-
 def made(
     task: Task, ranges: Mapping[str, Range], count: int, seed: int, fixed: Mapping[str, str]
 ) -> Iterator[dict[str, str]]:
@@ -328,7 +324,9 @@ def made(
                 break
         else:
             assert reason is not None
-            raise _given_up(f"--make {count}", reason, number)
+            place = f"--make {count}"
+            few = reason.key == "variants-few"
+            raise LocatedError(place, reason) if few else FruitlessError(place, reason, number)
 
 
 def looked_at(

@@ -64,11 +64,9 @@ class _Table:
 
     def _tells(self, column: int) -> bool:
         """Whether a column tells the rows that have numbers apart."""
-        found = [self.text(row, column) for row in self.rows if self._is_data(row)]
+        rows = (row for row in self.rows if any(_NUMBER.fullmatch(self.text(row, at)) for at in self.names))
+        found = [self.text(row, column) for row in rows]
         return "" not in found and len(set(found)) == len(found) > 0
-
-    def _is_data(self, row: int) -> bool:
-        return any(_NUMBER.fullmatch(text) for column in self.names if (text := self.text(row, column)))
 
     @property
     def rows(self) -> Iterator[int]:
@@ -128,17 +126,13 @@ def _seen(grid: Grid, task: Task, turned: bool) -> _Table:
     if turned:
         width = max(map(len, rows), default=0)
         rows = [[row[at] if at < len(row) else "" for row in rows] for at in range(width)]
-    known = _by_symbol(task)
+    symbols = {symbol(name): name for name in task.givens}
+    small = [letters.lower() for letters in symbols]
+    # in small letters, too, where these tell them apart
+    known = {letters.lower(): name for letters, name in symbols.items() if small.count(letters.lower()) == 1} | symbols
     heads = [_names(row, task, known) for row in rows]
     best = max(range(len(heads)), key=lambda at: (len(heads[at]), -at), default=0)
     return _Table(grid, turned, best, heads[best] if heads else {})
-
-
-def _by_symbol(task: Task) -> dict[str, str]:
-    """Return the givens of a task by their symbols, and in small letters where these tell them apart."""
-    found = {symbol(name): name for name in task.givens}
-    small = [letters.lower() for letters in found]
-    return {letters.lower(): name for letters, name in found.items() if small.count(letters.lower()) == 1} | found
 
 
 def _names(cells: list[str], task: Task, known: Mapping[str, str]) -> dict[int, tuple[str, str]]:

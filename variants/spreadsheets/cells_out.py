@@ -117,11 +117,13 @@ def xlsx_bytes(rows: Rows, title: str, bold: Iterable[int] = (), frozen: int = 0
     frozen : int
         Rows that stay in sight when the sheet is scrolled.
     """
+    name = escape("".join(c for c in title if c.isprintable() and c not in r"[]:*?/\'")[:31], {'"': "&quot;"})
+    sheets = f'<sheets><sheet name="{name or "1"}" sheetId="1" r:id="rId1"/></sheets>'
     stream = io.BytesIO()
     parts = {
         "[Content_Types].xml": _content_types(),
         "_rels/.rels": _relations((("rId1", f"{_OFFICE}/officeDocument", "xl/workbook.xml"),)),
-        "xl/workbook.xml": _workbook(title),
+        "xl/workbook.xml": f'<workbook xmlns="{_MAIN}" xmlns:r="{_OFFICE}">{sheets}</workbook>',
         "xl/_rels/workbook.xml.rels": _relations(
             (("rId1", f"{_OFFICE}/worksheet", "worksheets/sheet1.xml"), ("rId2", f"{_OFFICE}/styles", "styles.xml"))
         ),
@@ -149,12 +151,6 @@ def _content_types() -> str:
 def _relations(items: Iterable[tuple[str, str, str]]) -> str:
     own = "".join(f'<Relationship Id="{name}" Type="{kind}" Target="{target}"/>' for name, kind, target in items)
     return f'<Relationships xmlns="{_PACKAGE}/relationships">{own}</Relationships>'
-
-
-def _workbook(title: str) -> str:
-    name = escape("".join(c for c in title if c.isprintable() and c not in r"[]:*?/\'")[:31], {'"': "&quot;"})
-    sheet = f'<sheet name="{name or "1"}" sheetId="1" r:id="rId1"/>'
-    return f'<workbook xmlns="{_MAIN}" xmlns:r="{_OFFICE}"><sheets>{sheet}</sheets></workbook>'
 
 
 def _styles() -> str:

@@ -18,7 +18,6 @@ from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
 from ...plans.solved import Columned
 from ...plans.zeros import Extreme
-from ...scales.display import Display
 from ...scales.units import format_unit, unit
 from ..spreadsheets.cells_out import csv_text
 from ..tables import aligned
@@ -30,15 +29,6 @@ ROUGHLY = 4  # decimals of the angle of an extreme, near which values hardly cha
 ROUNDING = 1e-12  # part of the largest value of a column below which one is zero
 CONSTANT = 1e-7  # part of its size within which a quantity does not change over the cycle
 LESS_WANTED = ("h", "delta", "l")  # kinds of quantities whose extremes a reader hardly looks for
-
-
-def as_shown(column: Columned, display: Display) -> Columned:
-    """Return a column in the units of `display`, angles in degrees."""
-    in_degrees: Callable[[Any], Any] = unit("deg").from_si
-    if column.unit == "rad":
-        return Columned(column.name, "deg", in_degrees(column.values))
-    shown: Callable[[Any, str], Any] = display.value
-    return Columned(column.name, display.unit(column.unit), shown(column.values, column.unit))
 
 
 def driver_column(cycle: Cycle) -> Columned:
@@ -123,29 +113,31 @@ def letters(mechanism: Mechanism) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*mechanism.frame_points, *points)))
 
 
+def _shown(cycle: Cycle, columns: list[Columned], words: Words) -> list[Columned]:
+    """Return the driver's place, the time and columns in the units of the words, angles in degrees."""
+    in_degrees: Callable[[Any], Any] = unit("deg").from_si
+    shown: Callable[[Any, str], Any] = words.display.value
+    return [
+        Columned(column.name, "deg", in_degrees(column.values))
+        if column.unit == "rad"
+        else Columned(column.name, words.display.unit(column.unit), shown(column.values, column.unit))
+        for column in (driver_column(cycle), Columned("t", "s", cycle.times), *columns)
+    ]
+
+
 def as_table(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
     """Return positions with their main columns, then what holds for the whole cycle."""
-    columns = [driver_column(cycle), Columned("t", "s", cycle.times)]
-    columns += chosen_columns(cycle, chosen) if chosen else main_columns(cycle)
-    shown = [as_shown(column, words.display) for column in columns]
+    shown = _shown(cycle, chosen_columns(cycle, chosen) if chosen else main_columns(cycle), words)
     head = ["", *(f"{column.name}, {format_unit(column.unit, words.language)}" for column in shown)]
-    rows = [
-        [
-            str(k),
-            *(_cell(words, column, k) for column in shown),
-            "" if status == "ok" else words[f"status.{status}"],
-        ]
-        for k, status in enumerate(cycle.statuses)
-    ]
+    statuses = ["" if status == "ok" else words[f"status.{status}"] for status in cycle.statuses]
+    rows = [[str(k), *(_cell(words, column, k) for column in shown), said] for k, said in enumerate(statuses)]
     parts = [aligned([head, *rows], ()), *_whole_cycle(cycle, words), _extremes(cycle, chosen, words)]
     return "\n\n".join(part for part in parts if part)
 
 
 def as_csv(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
     """Return all columns as CSV, numbers in full precision."""
-    columns = [driver_column(cycle), Columned("t", "s", cycle.times)]
-    columns += chosen_columns(cycle, chosen) if chosen else all_columns(cycle)
-    shown = [as_shown(column, words.display) for column in columns]
+    shown = _shown(cycle, chosen_columns(cycle, chosen) if chosen else all_columns(cycle), words)
     head = ["k", *(f"{column.name} [{format_unit(column.unit, words.language)}]" for column in shown), "status"]
     rows = ([k, *(column.values[k] for column in shown), status] for k, status in enumerate(cycle.statuses))
     return csv_text([head, *rows], words.language)
