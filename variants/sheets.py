@@ -175,7 +175,12 @@ def drawing_of(
     error = case.solved.error()
     if error is not None:
         raise error
-    return case.kind.draw(case, case.words(lang, notation), norm, paper)
+    return case.kind.draw(case, _words(case, notation, lang), norm, paper)
+
+
+def _words(case: Case, notation: str | None, lang: str) -> Words:
+    """Return the words of a sheet, whose language has to be said."""
+    return Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
 
 
 def said_of(block: Mapping[str, str]) -> dict[str, str]:
@@ -193,7 +198,7 @@ def said_of(block: Mapping[str, str]) -> dict[str, str]:
 
 def stamp_of(case: Case, block: Mapping[str, str], notation: str | None = None, lang: str = "uk") -> Stamp:
     """Return what the title block of a case says."""
-    words = case.words(lang, notation)
+    words = _words(case, notation, lang)
     said = dict.fromkeys(BLOCK, "") | said_of(block)
     return Stamp(
         title=case.task.title[lang],
