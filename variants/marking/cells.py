@@ -67,9 +67,11 @@ def signed(text: str) -> str:
     text = text.translate(_WIDE)
     if text[:1] in "+-−–" and text[1:2].isspace():
         return text[0] + text[1:].lstrip()
-    behind = next((sign for sign in _BEHIND if text.endswith(sign)), "")
+    if not text.endswith(_BEHIND):
+        return text
+    behind = next(sign for sign in _BEHIND if text.endswith(sign))
     number = text.removesuffix(behind).strip()
-    return behind.strip("()") + number if behind and number[:1].isdigit() else text
+    return behind.strip("()") + number if number[:1].isdigit() else text
 
 
 def segment(text: str, written: str) -> tuple[float, int]:

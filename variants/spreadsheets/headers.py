@@ -104,8 +104,9 @@ def recognised(rows: Sequence[Sequence[str]]) -> int:
     """Return how many cells of the most telling row are headers; to choose a separator by."""
     best = 0
     for row in rows:
-        kinds = {kind for cell in row if (kind := column_kind(cell))}
-        names = {cell for cell in row if MIXED.match(latin(cell.strip()))}
-        about = {kind for cell in row if (kind := about_kind(cell))}
+        words = [cell for cell in row if cell and not cell[0].isdigit()]  # no header begins with a digit
+        kinds = {kind for cell in words if (kind := column_kind(cell))}
+        names = {cell for cell in words if MIXED.match(latin(cell.strip()))}
+        about = {kind for cell in words if (kind := about_kind(cell))}
         best = max(best, len(kinds | about) + (len(names) if len(row) > 1 else 0))
     return best
