@@ -118,13 +118,11 @@ def _worst(parts: Sensitivities, name: str) -> tuple[str | None, float | None]:
 def _allowed(key: Key, name: str, mu: float | None) -> tuple[float | None, float | None, float | None]:
     """Return what to let pass of a quantity: in SI, in mm, and of its direction in degrees."""
     allowed, angle = key.allowed[name], key.angles.get(name)
-    if not math.isfinite(allowed) or _undefined(key[name]) or role(name).kind == "delta":  # of two values, marked alone
+    if (
+        not math.isfinite(allowed) or not np.isfinite(key[name]) or role(name).kind == "delta"
+    ):  # of two values, marked alone
         return None, None, None
     return allowed, None if mu is None else allowed / mu, None if angle is None else math.degrees(angle)
-
-
-def _undefined(value: Any) -> bool:
-    return not np.isfinite(value)
 
 
 def as_data(expected: Expectation) -> Mapping[str, Any]:

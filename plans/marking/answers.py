@@ -118,16 +118,13 @@ def readings(answer: Answer, values: tuple[float, ...], plain: bool = False) -> 
         size, minus = (None, False) if value is None else (abs(value), value < 0.0)
         sign = answer.sense if answer.sense else None
         if minus and free:
-            found += [Said(size, sign, turned), Said(size, None if sign is None else -sign, _opposite(turned))]
+            opposite = None if turned is None else turned * -1.0
+            found += [Said(size, sign, turned), Said(size, None if sign is None else -sign, opposite)]
         else:
             positive = plain or (answer.plus and not free)
             written = -1 if minus else 1 if positive and size else None
             found.append(Said(size, written if sign is None else sign, turned))
     return tuple(found)
-
-
-def _opposite(direction: complex | None) -> complex | None:
-    return None if direction is None else direction * -1.0
 
 
 SIZE, DIRECTION = "size", "direction"

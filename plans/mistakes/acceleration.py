@@ -35,6 +35,7 @@ from .velocity import (
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
+SENSES = {constant(sense): sense for sense in (1.0, -1.0)}
 START = pole(ACCELERATION)
 
 
@@ -89,21 +90,15 @@ def normal_laws(scene: Scene) -> Iterator[tuple[Step, Step]]:
             yield step, reading
 
 
-def _to_the_same_end(scene: Scene, reading: Step) -> Iterator[Step]:
-    """Go through the other readings of the plan that end where one does: the absolute vector, other relative ones."""
-    for other in scene.made_by("read", plan=reading.plan):
-        if other.operands[1] == reading.operands[1] and other.operands[0] != reading.operands[0]:
-            yield other
-
-
 @mistake("M40")
 def normal_from_another(scene: Scene) -> Iterator[Change]:
     """The normal part is calculated from the absolute velocity, or from the angular velocity of the crank."""
     for step, reading in normal_laws(scene):
-        for other in _to_the_same_end(scene, reading):
-            yield instead(
-                step, "v" if role(other.operands[0]).kind == POLE else other.name, operands=operand(step, 0, other.name)
-            )
+        for other in scene.made_by("read", plan=reading.plan):
+            start, end = other.operands
+            if end == reading.operands[1] and start != reading.operands[0]:
+                how = "v" if role(start).kind == POLE else other.name
+                yield instead(step, how, operands=operand(step, 0, other.name))
         if "omega_1" in scene.steps:
             yield instead(step, "omega_1", operands=operand(step, 0, "omega_1"), law="centripetal")
 
@@ -136,10 +131,6 @@ def normal_sizes(scene: Scene) -> Iterator[tuple[Step, tuple[Step, ...], str, st
         yield step, (Step("calc", omega, (sense, step.operands[0]), "along"),), omega, step.operands[1]
 
 
-def _signs() -> dict[str, float]:
-    return {constant(sense): sense for sense in (1.0, -1.0)}
-
-
 @mistake("M125")
 def parts_exchanged(scene: Scene) -> Iterator[Change]:
     """The normal part is written for the tangential one, and the other way round; the rate follows."""
@@ -158,7 +149,7 @@ def omega_not_squared(scene: Scene) -> Iterator[Change]:
     """The normal part is omega l."""
     for step, found, omega, length in normal_sizes(scene):
         product = Step("calc", step.name, (omega, length), "circular_speed")
-        yield Change(step.name, {step.name: (*found, product)}, _signs())
+        yield Change(step.name, {step.name: (*found, product)}, SENSES)
 
 
 @mistake("M116")
@@ -166,7 +157,7 @@ def length_lost(scene: Scene) -> Iterator[Change]:
     """The normal part is omega^2."""
     for step, found, omega, _ in normal_sizes(scene):
         square = Step("calc", step.name, (omega, constant(1.0)), "centripetal")
-        yield Change(step.name, {step.name: (*found, square)}, _signs())
+        yield Change(step.name, {step.name: (*found, square)}, SENSES)
 
 
 @mistake("M43")

@@ -5,10 +5,23 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ..board import Step
 from ..names import role
-from .rules import Change, Chapter, Scene, all_scaled, aside, constant, instead, operand, scaled
+from .rules import (
+    Change,
+    Chapter,
+    Scene,
+    all_scaled,
+    aside,
+    constant,
+    each_and_all,
+    instead,
+    operand,
+    scaled,
+    with_operand,
+)
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
@@ -17,14 +30,10 @@ PART = re.compile(r"_part(\d+)")
 CENTIMETRES = (10.0, 0.1)
 
 
-def with_operand(steps: list[Step], place: int, value: float, how: str) -> Iterator[Change]:
+def with_number(steps: list[Step], place: int, value: float, how: str) -> Iterator[Change]:
     """Put a number into each of some steps, and into all of them."""
     name = constant(value)
-    changed = {step.name: (Step(step.verb, step.name, operand(step, place, name), step.law),) for step in steps}
-    for step in steps:
-        yield Change(step.name, {step.name: changed[step.name]}, {name: value}, how)
-    if len(steps) > 1:
-        yield Change(steps[0].name, changed, {name: value}, f"{how}, all")
+    return each_and_all(with_operand(steps, place, name), how, {name: value})
 
 
 def factors(scene: Scene) -> list[Step]:
@@ -36,11 +45,11 @@ def factors(scene: Scene) -> list[Step]:
 def pole_distance_lost(scene: Scene) -> Iterator[Change]:
     """The pole distance is left out of a scale factor, or that of the other integration stands there."""
     found = factors(scene)
-    yield from with_operand(found, 2, MILLIMETRE, "none")
+    yield from with_number(found, 2, MILLIMETRE, "none")
     distances = list(dict.fromkeys(step.operands[2] for step in found))
     if len(distances) == 2 and scene.values[distances[0]] != scene.values[distances[1]]:
         other = dict(zip(distances, reversed(distances), strict=True))
-        steps = {s.name: (Step(s.verb, s.name, operand(s, 2, other[s.operands[2]]), s.law),) for s in found}
+        steps = {s.name: (replace(s, operands=operand(s, 2, other[s.operands[2]])),) for s in found}
         yield Change(found[0].name, steps, {}, "other")
 
 
@@ -50,22 +59,21 @@ def angles_to_another_scale(scene: Scene) -> Iterator[Change]:
     found = factors(scene)
     if found:
         mu = float(scene.values[found[0].operands[1]])
-        yield from with_operand(found, 1, math.degrees(mu), "degrees")
-        yield from with_operand(found, 1, 1.0, "none")
-        yield from with_operand(found, 1, float(scene.values["_phi1"]), "section")
+        yield from with_number(found, 1, math.degrees(mu), "degrees")
+        yield from with_number(found, 1, 1.0, "none")
+        yield from with_number(found, 1, float(scene.values["_phi1"]), "section")
 
 
 @mistake("M85")
 def angular_velocity_lost(scene: Scene) -> Iterator[Change]:
     """The analogue is taken for the velocity, or for the acceleration; or omega is not squared."""
     speeds = list(scene.made_by("calc", law="speed_scale"))
-    yield from with_operand(speeds, 0, 1.0, "none")
+    yield from with_number(speeds, 0, 1.0, "none")
     for step in scene.made_by("calc", law="acceleration_scale"):
-        yield from with_operand([step], 0, 1.0, "none")
+        yield from with_number([step], 0, 1.0, "none")
         yield instead(step, "once", law="speed_scale")
         for other in speeds:
-            one = {s.name: (Step(s.verb, s.name, operand(s, 0, "one"), s.law),) for s in (other, step)}
-            yield Change(other.name, one, {}, "both")
+            yield Change(other.name, with_operand((other, step), 0, "one"), {}, "both")
 
 
 @mistake("M86")
@@ -73,10 +81,10 @@ def ordinates_of_the_wrong_line(scene: Scene) -> Iterator[Change]:
     """The ordinate at the beginning or at the end of a section is taken for its mean."""
     means = {s.name: s for s in scene.made_by("calc", law="part_of_amplitude") if role(s.name).kind == "mean"}
     for how, back, word in (("begin", 1, "after"), ("end", 0, "before")):
-        steps = {}
+        steps: dict[str, tuple[Step, ...]] = {}
         for name, step in means.items():
             part = f"_part{int(role(name).of) - back}_{word}"
-            steps[name] = (Step(step.verb, name, operand(step, 1, part), step.law),)
+            steps |= with_operand((step,), 1, part)
         if steps:
             yield Change(next(scene.made_by("distance")).name, steps, {}, how)
 
@@ -122,13 +130,8 @@ def _line(name: str) -> int:
 def transfer_angle(scene: Scene) -> Iterator[Change]:
     """The line of transfer is inclined by the ratio the wrong way round; or the tangent is given for the angle."""
     steps = list(scene.made_by("calc", law="transfer_angle"))
-    turned = {s.name: (Step(s.verb, s.name, s.operands[::-1], s.law),) for s in steps}
-    ratio = {s.name: (Step(s.verb, s.name, s.operands, "part_of"),) for s in steps}
-    for how, changed in (("inverse", turned), ("tangent", ratio)):
-        for name, step in changed.items():
-            yield Change(name, {name: step}, {}, how)
-        if len(steps) > 1:
-            yield Change(steps[0].name, changed, {}, f"{how}, all")
+    yield from each_and_all({s.name: (replace(s, operands=s.operands[::-1]),) for s in steps}, "inverse")
+    yield from each_and_all({s.name: (replace(s, law="part_of"),) for s in steps}, "tangent")
 
 
 @mistake("M14")
@@ -136,7 +139,7 @@ def scale_factor_upside_down(scene: Scene) -> Iterator[Change]:
     """The scale factor of the travel is millimetres by the stroke."""
     for step in scene.made_by("calc", law="scale_factor"):
         right = aside(step.name)
-        steps = (Step("calc", right, step.operands, step.law), Step("calc", step.name, ("one", right), "part_of"))
+        steps = (replace(step, name=right), Step("calc", step.name, ("one", right), "part_of"))
         yield Change(step.name, {step.name: steps}, {})
 
 
@@ -144,11 +147,7 @@ def scale_factor_upside_down(scene: Scene) -> Iterator[Change]:
 def paper_for_size(scene: Scene) -> Iterator[Change]:
     """An ordinate in millimetres of paper is given for what it shows."""
     steps = [s for s in scene.made_by("calc", law="to_scale") if s.operands[0] in ("mu_s", "mu_ds", "mu_d2s")]
-    changed = {s.name: (Step("calc", s.name, s.operands[1:], "given"),) for s in steps}
-    for name, step in changed.items():
-        yield Change(name, {name: step}, {}, "paper")
-    if len(steps) > 1:
-        yield Change(steps[0].name, changed, {}, "paper, all")
+    yield from each_and_all({s.name: (replace(s, operands=s.operands[1:], law="given"),) for s in steps}, "paper")
 
 
 @mistake("M20")
@@ -180,14 +179,13 @@ def plans_of_sizes(scene: Scene) -> list[str]:
 def unequal_scales(scene: Scene) -> Iterator[Change]:
     """Ordinates of the diagrams are carried over as they are, to plans that need equal scales on both axes."""
     steps = [s for s in scene.made_by("calc", law="ordinate_to_scale") if s.operands[0] == "mu_ds"]
-    changed = {s.name: (Step(s.verb, s.name, operand(s, 0, "mu_s"), s.law),) for s in steps}
-    if changed and SIZES in scene.program.plans:
-        yield Change("r_0", changed, {}, "ds")
+    if steps and SIZES in scene.program.plans:
+        yield Change("r_0", with_operand(steps, 0, "mu_s"), {}, "ds")
     heights = [s for s in scene.made_by("calc", law="part_of_amplitude") if s.operands[0] == "A_1"]
     if heights and "l_A1" in scene.paper.givens:
         first, name = heights[0], "_A_1_unequal"
         paper = Step("calc", name, ("mu_s", "l_A1"), "to_scale")
-        flat = {s.name: (Step(s.verb, s.name, operand(s, 0, name), s.law),) for s in heights}
+        flat = with_operand(heights, 0, name)
         yield Change("r_0_flat_min", {**flat, first.name: (paper, *flat[first.name])}, {}, "d2s")
 
 
@@ -247,11 +245,11 @@ def other_rotation(scene: Scene) -> Iterator[Change]:
     for step in scene.made_by("calc", law="component"):
         if step.name == "e":
             right = aside(step.name)
-            steps = (Step(step.verb, right, step.operands, step.law), Step("calc", step.name, (right,), "negative"))
+            steps = (replace(step, name=right), Step("calc", step.name, (right,), "negative"))
             yield Change(step.name, {step.name: steps}, {}, "sizes")
     for step in scene.made_by("calc", law="sharpest"):
         turned = Step("calc", "_other_e", ("e",), "negative")
-        other = Step(step.verb, step.name, operand(step, 1, "_other_e"), step.law)
+        other = replace(step, operands=operand(step, 1, "_other_e"))
         yield Change(step.name, {step.name: (turned, other)}, {}, "profile")
 
 
@@ -272,11 +270,9 @@ def plate_by_another_line(scene: Scene) -> Iterator[Change]:
     last = scene.steps.get("_touch_plate")
     if last is not None:
         touching = [scene.steps[name] for name in last.operands[1:]]
-        steps = {s.name: (Step(s.verb, s.name, operand(s, 1, "one"), s.law),) for s in touching}
-        steps[last.name] = (Step(last.verb, last.name, operand(last, 0, "one"), last.law),)
-        yield Change("r_0_flat_min", steps, {}, "branch")
-        upright = {s.name: (Step(s.verb, s.name, operand(s, 0, "zero"), s.law),) for s in touching}
-        yield Change("r_0_flat_min", upright, {}, "ordinate")
+        branch = with_operand(touching, 1, "one") | with_operand((last,), 0, "one")
+        yield Change("r_0_flat_min", branch, {}, "branch")
+        yield Change("r_0_flat_min", with_operand(touching, 0, "zero"), {}, "ordinate")
 
 
 @mistake("M97")
@@ -296,10 +292,7 @@ def roller_added(scene: Scene) -> Iterator[Change]:
         radius = float(scene.paper.givens["R_roller"])
         for how, value in (("less", -radius), ("more", radius)):
             right, name = aside(step.name), constant(value)
-            steps = (
-                Step(step.verb, right, step.operands, step.law),
-                Step("calc", step.name, (right, name), "enlarged"),
-            )
+            steps = (replace(step, name=right), Step("calc", step.name, (right, name), "enlarged"))
             yield Change(step.name, {step.name: steps}, {name: value}, how)
 
 

@@ -3,33 +3,37 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 from ..board import Step
 from ..names import role
-from .rules import Change, Chapter, Scene, aside, constant, instead, mirrored, operand, reversed_, scaled
+from .rules import (
+    Change,
+    Chapter,
+    Scene,
+    Steps,
+    aside,
+    constant,
+    each_and_all,
+    instead,
+    mirrored,
+    operand,
+    reversed_,
+    scaled,
+    with_operand,
+)
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
-Steps = Mapping[str, tuple[Step, ...]]
 SHIFTED = {"tip_diameter": 2, "root_diameter": 3}  # laws with a shift, and the place of its operand
 WITH_SHIFT = {"tooth_thickness": 1, "tip_thickness": 2, "constant_chord": 1, **SHIFTED, "boundary_curvature": 4}
 IN_DEGREES = math.degrees(1.0) - 1.0
 
 
-def each_and_all(changed: Steps, how: str = "", givens: Mapping[str, float] | None = None) -> Iterator[Change]:
-    """Change each of some steps, and all of them."""
-    for name, steps in changed.items():
-        yield Change(name, {name: steps}, givens or {}, how)
-    if len(changed) > 1:
-        yield Change(next(iter(changed)), changed, givens or {}, f"{how}, all".lstrip(", "))
-
-
-def with_operand(scene: Scene, law: str, place: int, name: str) -> Steps:
+def in_law(scene: Scene, law: str, place: int, name: str) -> Steps:
     """Put another operand into the steps of a law."""
-    steps = scene.made_by("calc", law=law)
-    return {step.name: (replace(step, operands=operand(step, place, name)),) for step in steps}
+    return with_operand(scene.made_by("calc", law=law), place, name)
 
 
 def after(step: Step, *more: Step) -> tuple[Step, ...]:
@@ -82,7 +86,7 @@ def shifts_exchanged(scene: Scene) -> Iterator[Change]:
 def shift_left_out(scene: Scene) -> Iterator[Change]:
     """A shift is left out, or laid off to the wrong side."""
     for law, place in WITH_SHIFT.items():
-        yield from each_and_all(with_operand(scene, law, place, "zero"), f"none {law}")
+        yield from each_and_all(in_law(scene, law, place, "zero"), f"none {law}")
         for step in scene.made_by("calc", law=law):
             if scene.is_given(step.operands[place]):
                 yield mirrored(step, place, f"side {law}")
@@ -91,15 +95,15 @@ def shift_left_out(scene: Scene) -> Iterator[Change]:
 @mistake("M104")
 def tips_not_shortened(scene: Scene) -> Iterator[Change]:
     """The shortening of the teeth is left out of the tip diameters, or of the depth."""
-    yield from each_and_all(with_operand(scene, "tip_diameter", 3, "zero"), "tip")
-    yield from each_and_all(with_operand(scene, "tooth_depth", 2, "zero"), "depth")
+    yield from each_and_all(in_law(scene, "tip_diameter", 3, "zero"), "tip")
+    yield from each_and_all(in_law(scene, "tooth_depth", 2, "zero"), "depth")
 
 
 @mistake("M105")
 def clearance_left_out(scene: Scene) -> Iterator[Change]:
     """The clearance is left out of the root diameters, or of the depth."""
-    yield from each_and_all(with_operand(scene, "root_diameter", 2, "zero"), "root")
-    yield from each_and_all(with_operand(scene, "tooth_depth", 1, "zero"), "depth")
+    yield from each_and_all(in_law(scene, "root_diameter", 2, "zero"), "root")
+    yield from each_and_all(in_law(scene, "tooth_depth", 1, "zero"), "depth")
 
 
 @mistake("M106")
@@ -117,8 +121,8 @@ def height_counted_once(scene: Scene) -> Iterator[Change]:
 @mistake("M107")
 def base_by_another_angle(scene: Scene) -> Iterator[Change]:
     """The base diameter, or the base pitch, is found with the angle of action."""
-    yield from each_and_all(with_operand(scene, "base_diameter", 1, "alpha_w"), "diameter")
-    yield from each_and_all(with_operand(scene, "base_pitch", 1, "alpha_w"), "pitch")
+    yield from each_and_all(in_law(scene, "base_diameter", 1, "alpha_w"), "diameter")
+    yield from each_and_all(in_law(scene, "base_pitch", 1, "alpha_w"), "pitch")
 
 
 @mistake("M108")

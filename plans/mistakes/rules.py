@@ -61,6 +61,9 @@ class Scene:
         return frozenset(role(s.operands[2]).shown for s in steps if role(s.operands[2]).hidden)
 
 
+Steps = Mapping[str, tuple[Step, ...]]  # in the place of those of the same names
+
+
 @dataclass(frozen=True, slots=True)
 class Change:
     """How a rule is broken at one place: other steps in the place of those of the same names, other data.
@@ -69,7 +72,7 @@ class Change:
     """
 
     at: str
-    steps: Mapping[str, tuple[Step, ...]]
+    steps: Steps
     givens: Mapping[str, Any]
     how: str = ""
 
@@ -184,6 +187,19 @@ def instead(step: Step, how: str = "", **changed: Any) -> Change:
 def operand(step: Step, place: int, name: str) -> tuple[str, ...]:
     """Return the operands of a step with another one at a place."""
     return (*step.operands[:place], name, *step.operands[place + 1 :])
+
+
+def with_operand(steps: Iterable[Step], place: int, name: str) -> dict[str, tuple[Step, ...]]:
+    """Put another operand into each of some steps."""
+    return {step.name: (replace(step, operands=operand(step, place, name)),) for step in steps}
+
+
+def each_and_all(changed: Steps, how: str = "", givens: Mapping[str, float] | None = None) -> Iterator[Change]:
+    """Change each of some steps, and all of them."""
+    for name, steps in changed.items():
+        yield Change(name, {name: steps}, givens or {}, how)
+    if len(changed) > 1:
+        yield Change(next(iter(changed)), changed, givens or {}, f"{how}, all".lstrip(", "))
 
 
 def reversed_(step: Step) -> tuple[Step, ...]:

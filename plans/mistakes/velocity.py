@@ -126,6 +126,7 @@ def of_either_sense(scene: Scene, change: Change, normal: str) -> Iterator[Chang
     yield replace(by_size(scene, change, normal), how=f"against {normal}")
 
 
+@mistake("M117")
 def with_another_length(scene: Scene) -> Iterator[Change]:
     """Calculate an angular velocity or acceleration with the length of another link, or of a part of one."""
     spans = [name for name in lengths(scene) if role(name).kind == "l"]
@@ -134,9 +135,6 @@ def with_another_length(scene: Scene) -> Iterator[Change]:
         for name in spans:
             if name != rate.operands[2]:
                 yield instead(rate, name, operands=operand(rate, 2, name))
-
-
-mistake("M117")(with_another_length)
 
 
 def rates(scene: Scene, plan: str) -> Iterator[tuple[Step, Step]]:

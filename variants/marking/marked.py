@@ -164,11 +164,9 @@ class Marked:
     def slips(self) -> bool:
         """Whether all that is wrong is measured, and misses by so little that only the hand may have slipped."""
         faulty = [line for line in self.marking.lines if line.verdict.faulty]
-        return bool(faulty) and all(map(self._slip, faulty))
-
-    def _slip(self, line: Line) -> bool:
-        measured = self.keyed.key.questions[line.name].step.verb != "calc"
-        return measured and line.verdict is Verdict.WRONG and line.off <= CLEAR
+        measured = all(self.keyed.key.questions[line.name].step.verb != "calc" for line in faulty)
+        near = all(line.verdict is Verdict.WRONG and line.off <= CLEAR for line in faulty)
+        return bool(faulty) and measured and near
 
     def count(self, verdict: Verdict) -> int:
         """Return how many lines have a verdict."""
@@ -248,7 +246,7 @@ class Desk:
             explanation = explain(key.book, marking)
             marking, candidates = explanation.marking, explanation.candidates
         marking, borne = counted_once(marking, found, {line.name for line in self._counted(key, marking, answers)})
-        others = self._other_variants(variant)
+        others = [other for other in self.check.request.task.variants if other != variant][: KEPT - 1]
         fits = fits_other(marking, given, others, lambda other: self.keyed(other, settings, own=False).key)
         marking = bounded(marking, self.keyed(fits, settings, own=False).key if fits else None)
         lines = self._counted(key, marking, answers)
@@ -263,10 +261,6 @@ class Desk:
             notes.append(InputError("marked-directions"))
         all_notes = (*answers.problems, *notes)
         return Marked(answers, entry, key, marking, candidates, lines, marks, parts, all_notes, borne, fits)
-
-    def _other_variants(self, variant: str) -> list[str]:
-        """Return the other variants, as many as there are keys kept."""
-        return [other for other in self.check.request.task.variants if other != variant][: KEPT - 1]
 
     def _sheet(self, answers: Answers, key: Keyed) -> list[KulmanError]:
         """Say where the sheet id is that of another sheet."""

@@ -217,7 +217,8 @@ def _form(grid: Grid, header: int, columns: Mapping[str, int], asked: Asked) -> 
             about.setdefault(kind, grid.text(row, 1))
     sheet = _Sheet(grid, asked)
     over = {kind: split_unit(grid.text(header, column))[1] for kind, column in columns.items()}
-    over["mm"] = over.get("mm") or _bare_unit(grid.text(header, columns["mm"])) if "mm" in columns else ""
+    alone = grid.text(header, columns.get("mm"))  # a header that is itself a unit: "мм"
+    over["mm"] = over.get("mm") or (alone if cells.of_paper(alone) else "")
     for row in range(header + 1, len(grid.rows)):
         _form_row(sheet, row, columns, over)
     if not sheet.lines and not sheet.problems:
@@ -227,11 +228,6 @@ def _form(grid: Grid, header: int, columns: Mapping[str, int], asked: Asked) -> 
         sheet.lines = exchanged
         sheet.problems.append(LocatedError(grid.place(header), InputError("answers-swapped")))
     return sheet.answers(grid.file, about)
-
-
-def _bare_unit(text: str) -> str:
-    """Return the unit that a header is itself: "мм"."""
-    return text if cells.of_paper(text) else ""
 
 
 def _form_row(sheet: _Sheet, row: int, columns: Mapping[str, int], over: Mapping[str, str]) -> None:
@@ -304,17 +300,14 @@ def _class_row(sheet: _Sheet, row: int, parts: Mapping[str, Mapping[str, tuple[i
     """Read the answers of one student, all parts of each quantity together."""
     for name, at in parts.items():
         if name in sheet.asked.scales:
-            mu = sheet.mu(row, *_swap(next(iter(at.values())), name))
+            column, written = next(iter(at.values()))
+            mu = sheet.mu(row, column, name, name, written)
             if mu is not None:
                 sheet.scales[name] = mu
             continue
         columns = {part: column for part, (column, _) in at.items()}
         units = {part: written for part, (_, written) in at.items()}
         sheet.add(sheet.line(row, name, columns, units, sheet.grid.place(row, min(columns.values()))), row, None)
-
-
-def _swap(at: tuple[int, str], name: str) -> tuple[int, str, str, str]:
-    return at[0], name, name, at[1]
 
 
 def _part(asked: Asked, name: str, part: str, written: str) -> str:
@@ -394,10 +387,6 @@ def read_all(names: Sequence[str], task: str, asked: Asked, warn: Callable[[Kulm
             warn(error)
             found.append(Answers(file, Who(), {}, {}, {}, unread=error))
             continue
-        found += map(_of_source, read) if of_source else read
+        # what a source does not print is not missing
+        found += [replace(one, source=PRINTED, columns=tuple(one.lines)) if of_source else one for one in read]
     return found
-
-
-def _of_source(printed: Answers) -> Answers:
-    """Return the answers of a source: what it does not print is not missing."""
-    return replace(printed, source=PRINTED, columns=tuple(printed.lines))

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ...drawing.words import Words
-from ...plans.board import Step
 from ...plans.marking.verdicts import Line, Verdict, behind
 from ...plans.mistakes.rules import Broken
 from ...plans.names import role
@@ -179,11 +178,8 @@ class _Teller:
             return self.said["again.direction"].format(symbol=symbol)
         step = behind(self.marked.keyed.key, line.name)
         key = AGAIN[step.verb]
-        mark = self._mark(step) if "{mark}" in self.said[key] else ""
+        mark = letter(self.words, step.name) if "{mark}" in self.said[key] else ""
         return f"{symbol}: {self.said[key].format(symbol=symbol, mark=mark)}"
-
-    def _mark(self, step: Step) -> str:
-        return letter(self.words, step.name)
 
     def candidates(self) -> Iterator[str]:
         """Go through the mistakes that explain the answers, the simplest first, each with those that look the same."""
