@@ -21,8 +21,7 @@ from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote
 from .checks.basics import Checker, EnoughError, Field, array_of, as_is, label, one_of, record, text
-from .checks.givens import Settings, read_choices, read_givens, read_variants
-from .checks.names import Names
+from .checks.names import Names, Settings, read_choices, read_givens, read_variants
 from .kinds import kind_of, table_in
 from .shelf import bundled, bundled_text
 from .task import WITH_FORCES, Given, LocatedError, Task

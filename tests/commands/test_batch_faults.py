@@ -22,8 +22,7 @@ import pytest
 from kulman import batch, cli
 from kulman.drawing import writers
 from kulman.scales.errors import InputError
-from kulman.variants.batches.student import Made, Making, Student
-from kulman.variants.batches.work import JOURNAL, Outcome
+from kulman.variants.batches.work import JOURNAL, Made, Making, Outcome, Student
 from kulman.variants.journal import Journal
 
 TASK = "nau-slider-crank"

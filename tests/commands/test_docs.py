@@ -23,9 +23,9 @@ from kulman.scales.packaged import packaged
 from kulman.variants import reader
 from kulman.variants.checks import basics as checks
 from kulman.variants.checks import cam as checks_cam
-from kulman.variants.checks import givens as checks_givens
 from kulman.variants.checks import loads as checks_loads
 from kulman.variants.checks import mechanism as checks_mechanism
+from kulman.variants.checks import names as checks_names
 from kulman.variants.kinds import gear, kind
 from kulman.variants.shelf import bundled_text, template
 from kulman.variants.solution import solve
@@ -55,7 +55,7 @@ def keys_read(text: str, monkeypatch: pytest.MonkeyPatch) -> set[str]:
         return checks.record(checker, path, raw, fields)
 
     own = (checks_mechanism, checks_loads, checks_cam, kind)
-    modules: tuple[ModuleType, ...] = (reader, checks_givens, *own)
+    modules: tuple[ModuleType, ...] = (reader, checks_names, *own)
     for module in modules:
         monkeypatch.setattr(module, "record", noting)
     task, faults = reader.read_text(text, "t.toml")

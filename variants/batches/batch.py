@@ -14,8 +14,7 @@ from ...drawing.writers import folder_for, save_all, slug
 from ...scales.errors import InputError, Written
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
-from ..arguments import all_known, by_name, plans_wanted
-from ..case import Settings
+from ..case import Settings, all_known, by_name, plans_wanted
 from ..crew import Advance, on_cluster, shared_out
 from ..kinds import kind_of
 from ..marking.wording import texts
@@ -25,13 +24,11 @@ from ..sheets import said_of
 from ..spreadsheets.cells_out import Cell, csv_table, table_bytes
 from ..spreadsheets.grid import SUFFIXES
 from ..task import Task
-from .student import FORMS, NOTE, Making, Student
-from .work import Batch, Crew, put, run
+from .work import FORMS, NOTE, Batch, Crew, Making, Student, put, run
 
 if TYPE_CHECKING:
     from ..task import Task
-    from .student import Student
-    from .work import Batch, Outcome
+    from .work import Batch, Outcome, Student
 
 MANIFEST, KEY = "manifest.csv", "key.csv"
 One: TypeAlias = str | os.PathLike[str] | Task

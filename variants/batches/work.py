@@ -1,23 +1,223 @@
-"""The work of a batch: what is not in its folder yet is made, written whole, and noted as it comes."""
+"""The work of a batch: files of students that are not there yet are made, written whole, and noted as they come."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import sys
+import traceback
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from ...drawing.writers import sweep_parts, write_whole
-from ...scales.errors import InputError
+from ... import __version__
+from ...drawing.compose import Drawn
+from ...drawing.notes.blocks import Block, Document
+from ...drawing.notes.docx import Drawing, docx_bytes, drawings_of
+from ...drawing.notes.typst import Body, pdf_bytes
+from ...drawing.pens import Norm
+from ...drawing.writers import WRITERS, page_files, slug, sweep_parts, write_whole
+from ...plans.quantities import measured
+from ...scales.errors import InputError, KulmanError
+from ...scales.numbers import SHOWN, quote
+from ...scales.units import format_unit
+from ..case import Case, solve_case
 from ..crew import Advance, Done
+from ..handouts import begun_of_case, drawing_for_print
 from ..journal import Journal, digest_of, remove_stale
-from .student import SUFFIXES, Made, Making, Student
+from ..notes import body_of, title_page
+from ..roster import Entry
+from ..sheets import Sheet, drawing_of, sheet_id, sheet_of, stamp_of
+from ..task import Task
 
+NOTE, HANDOUT = "note", "handout"
+KEPT = 32  # variants whose drawings a process keeps for the next students that have them
+NOTES = {NOTE: ".pdf", "docx": ".docx"}
+FORMS = ("svg", "pdf", "png", *NOTES, HANDOUT)
+SUFFIXES = {*WRITERS, *NOTES.values()}
 JOURNAL = ".kulman-batch.jsonl"
-Crew = Callable[[Making, list[Student]], Iterator[list[Done[Made]]]]
 _OWN = re.compile(rf"[0-9]{{3,}}-.+|(?:manifest|key)\b.*\.csv|{re.escape(JOURNAL)}")  # names of files of a batch
+
+
+@dataclass(frozen=True, slots=True)
+class Student:
+    """A row of the roster, counted from 1."""
+
+    number: int
+    entry: Entry
+
+    @property
+    def data(self) -> tuple[str, str, tuple[tuple[str, str], ...]]:
+        """What the work depends on: task, variant, data of one's own."""
+        return self.entry.task, self.entry.variant, tuple(sorted(self.entry.settings.items()))
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """The files of a student by name, the values of the key by quantity with its unit; or what the problem is."""
+
+    variant: str = ""
+    sheet: str = ""
+    files: Mapping[str, bytes] = field(default_factory=dict)
+    key: Mapping[str, float | None] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    problem: str = ""
+
+
+@dataclass(frozen=True)
+class Work:
+    """What students with the same data share: all but the names; each part is made when it is first asked for."""
+
+    case: Case
+    drawing: Drawn
+    notation: str | None
+    language: str
+
+    @cached_property
+    def body(self) -> tuple[Block, ...]:
+        """The note after its first page."""
+        return body_of(self.case, self.drawing, self.notation, self.language)
+
+    @cached_property
+    def written(self) -> Body:
+        """The same for a note as PDF."""
+        return Body.of(self.body, self.language)
+
+    @cached_property
+    def drawings(self) -> list[Drawing]:
+        """Its figures for a note as DOCX."""
+        return drawings_of(self.body, self.language)
+
+    @cached_property
+    def blank(self) -> Drawn:
+        """The drawing on the paper of handouts."""
+        return drawing_for_print(self.case, notation=self.notation, lang=self.language)
+
+    @cached_property
+    def key(self) -> dict[str, float | None]:
+        """The right values in the units in which they are shown, and the segments on the sheet, mm.
+
+        The names are those of the columns in which a class hands in its answers.
+        """
+        case, found = self.case, dict[str, float | None]()
+        for name, quantity in measured(case.solved.quantities, case.solved.shown_on, self.drawing.scales).items():
+            if quantity.kind != "point":
+                shown = quantity.shown(case.display)
+                unit = format_unit(shown.unit, self.language)
+                found[f"{name} [{unit}]" if unit else name] = shown.value
+                if quantity.mm is not None:
+                    found[f"{name}.mm"] = quantity.mm
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class Making:
+    """What is made for every student of a class, and how; the values of a row go before `settings`.
+
+    `tasks` are those of the class, each once, and `only` the plans wanted of each, by its id.
+    """
+
+    tasks: tuple[Task, ...]
+    kinds: tuple[str, ...]
+    settings: Mapping[str, str | float] = field(default_factory=dict)
+    only: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    scales: Mapping[str, str | float] = field(default_factory=dict)
+    format: str | None = None
+    norm: Norm = "gost"
+    notation: str | None = None
+    language: str = "uk"
+    block: Mapping[str, str] = field(default_factory=dict)
+    _works: dict[Hashable, Work] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    @property
+    def afresh(self) -> bool:
+        """Whether processes for it must be no copies of this one: typst, once at work, stands still in a copy."""
+        return NOTE in self.kinds and "typst" in sys.modules
+
+    def begin(self) -> Callable[[Student], Made]:
+        """Return what makes the files of a student."""
+        return self.make
+
+    def digest(self) -> str:
+        """Return what tells this making from any that would make other files of the same student."""
+        how = (self.kinds, self.settings, self.scales, self.format, self.norm, self.notation, self.language, self.block)
+        return digest_of(repr((__version__, *how)))
+
+    def digest_of_task(self, task: Task) -> str:
+        """Return what tells this making of a task from any that would make other files of it."""
+        return digest_of(repr((self.digest(), task.text, self.only.get(task.id), len(self.tasks) == 1)))
+
+    def make(self, student: Student) -> Made:
+        """Make the files of a student; what cannot be made is told, not raised."""
+        entry = student.entry
+        try:
+            return self._made(student)
+        except KulmanError as error:
+            place = "" if error is entry.problem else f"{entry.place}: "
+            return Made(entry.variant, problem=f"{place}{error.text(self.language)}")
+        except (KeyboardInterrupt, SystemExit):
+            raise
+        except BaseException as error:  # what typst panics with is no Exception
+            return Made(entry.variant, problem=f"{entry.place}: {_crash(error).text(self.language)}")
+
+    def _made(self, student: Student) -> Made:
+        who, work = student.entry.who, self._work(student)
+        case = work.case
+        block = {**self.block, "student": who.student, "group": who.group or self.block.get("group", "")}
+        drawn = sheet_of(case, work.drawing, stamp_of(case, block, self.notation, self.language))
+        what = case.variant if len(self.tasks) == 1 else f"{case.task.id} {case.variant}"
+        stem = f"{student.number:03d}-{slug(f'{who.student} {what}')}"
+        files = {name: data for kind in self.kinds for name, data in self._files(work, block, drawn, kind, stem)}
+        notes = tuple(warning.text(self.language) for warning in drawn.warnings)
+        return Made(case.variant, sheet_id(case.task, case.variant, case.settings), files, work.key, notes)
+
+    def _files(
+        self, work: Work, block: dict[str, str], drawn: Sheet, kind: str, stem: str
+    ) -> Iterator[tuple[str, bytes]]:
+        """Go through the files of one kind: their names and what they hold."""
+        if kind in NOTES:
+            page = {name: text for name, text in block.items() if name != "designation"}
+            document = Document(title_page(work.case, page, self.language), work.body, self.language)
+            data = pdf_bytes(document, work.written) if kind == NOTE else docx_bytes(document, work.drawings)
+            yield f"{stem}-note{NOTES[kind]}", data
+            return
+        if kind == HANDOUT:
+            drawn = begun_of_case(work.case, work.blank, block, notation=self.notation, lang=self.language)
+            stem, kind = f"{stem}-handout", "pdf"
+        yield from ((path.name, data) for path, data in page_files(drawn.pages, Path(f"{stem}.{kind}")))
+
+    def _work(self, student: Student) -> Work:
+        """Return what students with the same data share, from the last ones where it is there.
+
+        Raises
+        ------
+        KulmanError
+            The row was wrong, or its data have no solution.
+        """
+        entry, data = student.entry, student.data
+        if entry.problem is not None:
+            raise entry.problem
+        if data not in self._works:
+            for oldest in [*self._works][: len(self._works) + 1 - KEPT]:
+                del self._works[oldest]
+            task = next(task for task in self.tasks if task.id == entry.task)
+            settings = {**self.settings, **entry.settings}
+            case = solve_case(task, entry.variant, settings, self.only.get(task.id), self.scales)
+            drawing = drawing_of(case, self.format, self.norm, self.notation, self.language)
+            self._works[data] = Work(case, drawing, self.notation, self.language)
+        return self._works[data]
+
+
+def _crash(error: BaseException) -> InputError:
+    """Return what to say of an error of the program, with the place of its source."""
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    said = f"{type(error).__name__}: {error}".rstrip(": ")
+    return InputError("student-crash", error=quote(said, SHOWN), source=f"{Path(last.filename).name}:{last.lineno}")
+
+
+Crew = Callable[[Making, list[Student]], Iterator[list[Done[Made]]]]
 
 
 def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance) -> tuple[Outcome, ...]:

@@ -13,11 +13,23 @@ from ...plans.cams.chords import DRAWINGS, ROUNDING, WAYS, Convergence, Robustne
 from ...plans.cams.rivals import rivals
 from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.contest import FULL, Effort
-from ..arguments import all_known
+from ..case import all_known
 from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
-from .accuracy import AccuracyChart
-from .data import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, error_rows, finite, per_cent, short, wrapped
+from .data import (
+    HANDS,
+    PERCENT,
+    AccuracyChart,
+    Chart,
+    ChartRequest,
+    Gallery,
+    Scene,
+    error_rows,
+    finite,
+    per_cent,
+    short,
+    wrapped,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

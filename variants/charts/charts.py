@@ -18,8 +18,7 @@ from ...scales.arguments import of_kind
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ...scales.units import parse, unit
-from ..arguments import all_known, names_of, positions_of
-from ..case import Case, Settings, solve_case
+from ..case import Case, Settings, all_known, names_of, positions_of, solve_case
 from ..task import LocatedError, Task
 from .data import Chart, ChartRequest, Gallery, Scene
 

@@ -13,7 +13,7 @@ from ...plans.gears.gear import unit_of
 from ...plans.gears.scale_errors import DRAWINGS, MILLI, ScaleErrors, compared, scale_errors
 from ...plans.gears.solve import SolvedGear
 from ...plans.hands.hand import PRESETS
-from ..arguments import all_known
+from ..case import all_known
 from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
 from .data import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, error_rows, finite, wrapped

@@ -24,8 +24,7 @@ from ...scales.errors import InputError
 from ...scales.units import format_unit, unit
 from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
-from .accuracy import AccuracyChart
-from .data import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, finite, per_cent, short, wrapped
+from .data import HANDS, PERCENT, AccuracyChart, Chart, ChartRequest, Gallery, Scene, finite, per_cent, short, wrapped
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

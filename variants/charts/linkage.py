@@ -28,14 +28,13 @@ from ...plans.quantities import BALANCES, unit_of
 from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit
-from ..arguments import all_known
-from ..case import Case
+from ..case import Case, all_known
 from ..spreadsheets.cells_out import Cell
 from ..sweeps.cycles import driver_name
 from ..tables import aligned
-from .accuracy import AccuracyChart
 from .data import (
     HANDS,
+    AccuracyChart,
     Chart,
     ChartRequest,
     Gallery,

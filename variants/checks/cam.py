@@ -29,8 +29,7 @@ from ...scales.units import unit
 from ..task import Bound, Given
 from ..toml_places import Path
 from .basics import Checker, Field, array_of, one_of, record, rows, word
-from .givens import literal, word_or_choice
-from .names import Names, Number, check_numbers
+from .names import Names, Number, check_numbers, literal, word_or_choice
 
 TABLE = "cam"
 WORDS = ("law", "law_fall", "fall", "rotation", "limits")  # keys whose value may be the name of a choice

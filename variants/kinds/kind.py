@@ -17,8 +17,7 @@ from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.scale import Scale
 from ..checks.basics import Checker, Field, record
-from ..checks.givens import word_or_choice
-from ..checks.names import Names, Number, check_numbers
+from ..checks.names import Names, Number, check_numbers, word_or_choice
 from ..task import Given, Instead, Task
 from . import MODULES
 

@@ -16,8 +16,7 @@ from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ...scales.packaged import packaged
 from ...scales.units import format_unit
-from ..arguments import all_known, names_of
-from ..case import Settings
+from ..case import Settings, all_known, names_of
 from ..crew import Advance
 from ..marking.checks import Check, check
 from ..marking.keyed import Keyed, keyed

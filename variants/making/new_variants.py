@@ -15,8 +15,7 @@ from functools import cache
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, KulmanError, messages
 from ...scales.numbers import quote
-from ..arguments import by_name
-from ..case import Settings, solve_case
+from ..case import Settings, by_name, solve_case
 from ..crew import Advance
 from ..kinds import kind_of
 from ..reader import TaskFileError, load_task, read_text

@@ -10,8 +10,7 @@ from pathlib import Path
 from ...drawing.formats import format_named
 from ...drawing.writers import folder_for, save_all
 from ...scales.errors import KulmanError
-from ..arguments import by_name, plans_wanted
-from ..case import Settings
+from ..case import Settings, by_name, plans_wanted
 from ..crew import Advance
 from ..kinds import kind_of
 from ..reader import load_task

@@ -13,7 +13,7 @@ from ...plans.cams.course import columns, cut_at, extremes, lines, sharpest, und
 from ...plans.cams.motion import TURN
 from ...plans.cams.solve import SolvedCam
 from ...plans.solved import Columned
-from .sized import (
+from .sweeps import (
     SizedSweep,
     column_table,
     columns_csv,

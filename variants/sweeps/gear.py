@@ -11,7 +11,7 @@ import numpy as np
 from ...drawing.words import Words
 from ...plans.gears.course import columns, extremes, marks, zones
 from ...plans.gears.solve import SolvedGear
-from .sized import SizedSweep, column_table, columns_csv, columns_json, extremes_json, extremes_table, millimetres
+from .sweeps import SizedSweep, column_table, columns_csv, columns_json, extremes_json, extremes_table, millimetres
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...plans.hoist.course import Course, course, end_of, marks
 from ...plans.hoist.forces import Forces
 from ...plans.hoist.solve import SolvedHoist
-from .sized import SizedSweep, column_table, columns_csv, columns_json
+from .sweeps import SizedSweep, column_table, columns_csv, columns_json
 
 TABLED = 25  # times in the table, beside the marks
 

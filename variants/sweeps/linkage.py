@@ -20,8 +20,7 @@ from ...plans.linkages.mechanism import Driver, Mechanism
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, PositionError
 from ...scales.units import parse, unit
-from ..arguments import all_known, names_of, positions_of
-from ..case import Case
+from ..case import Case, all_known, names_of, positions_of
 from ..kinds.linkage import placed
 from ..sheets import Sheet, sheet_of
 from ..task import LocatedError, Task, plain_number
