@@ -21,14 +21,8 @@ More = Callable[[Array], Mapping[str, Array]]
 class Along:
     """The steps that `wanted` needs, ready to be done for many values of `variable` again and again.
 
-    Parameters
-    ----------
-    givens : mapping of str to float
-        Values in SI, that of `variable` apart.
-    board : type of ArrayBoard
-        A board that notes something besides.
-    more : callable, optional
-        Takes values of the variable, shape (N,), gives other arrays by name that go with them.
+    The `givens` are in SI, and `board` may note something besides. `more` takes values of the variable, shape (N,), and
+    gives other arrays by name that go with them.
     """
 
     def __init__(

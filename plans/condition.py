@@ -21,8 +21,7 @@ from .board import Program
 from .boards.dual import Dual, root, slopes_of, value_of
 from .boards.exact import PlainBoard
 from .laws import cross, dot
-from .quantities import unit_of
-from .references import plans_of, references, results, worst_behind
+from .quantities import plans_of, references, results, unit_of, worst_behind
 
 STEP = 1e-5  # part of a given, of central differences where duals do not reach; what these leave out is its square
 MOST = 2.0**52  # K from which on a value is nothing but rounding

@@ -13,7 +13,7 @@ from ...plans.linkages.legs import guide_letters
 from ...plans.linkages.mechanism import MOMENT, Driver
 from ...plans.linkages.solved import disagreement
 from ...plans.names import FORCES, role
-from ...plans.references import point_of
+from ...plans.quantities import point_of
 from ..handouts import Shown
 from ..notes.blocks import Block, Equations, Heading, Story
 from ..printed import value_text

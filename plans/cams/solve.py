@@ -24,8 +24,7 @@ from ..hands.spread import added_up
 from ..laws import LAWS
 from ..marking.key import rounded
 from ..names import role
-from ..quantities import Quantity, quantities, shown_on
-from ..references import results, worst_behind
+from ..quantities import Quantity, quantities, results, shown_on, worst_behind
 from ..solved import Solved
 from .cam import DIAGRAMS_PART, PLANS, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART, VALUES, Cam
 from .construction import (

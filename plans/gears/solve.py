@@ -23,8 +23,7 @@ from ..hands.shaky import Paper
 from ..hands.spread import added_up
 from ..marking.key import rounded
 from ..names import role
-from ..quantities import Quantity, quantities, shown_on
-from ..references import worst_behind
+from ..quantities import Quantity, quantities, shown_on, worst_behind
 from ..solved import PAPER_MM, Solved, calculated, in_sections
 from .construction import (
     CENTRES,

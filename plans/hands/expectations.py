@@ -11,7 +11,7 @@ import numpy as np
 
 from ..marking.key import Key, answer_key
 from ..names import role
-from ..references import plans_of
+from ..quantities import plans_of
 from .hand import Hand, Tolerance
 from .shaky import Paper
 from .spread import NOTHING, SHARE, Sensitivities, Spread, drawn, sensitivities

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from ..boards.exact import run
 from ..laws import cross, dot
-from ..quantities import POINTS
-from ..references import plans_of, references, results
+from ..quantities import POINTS, plans_of, references, results
 from .hand import Hand, Tolerance, hand_within
 from .shaky import Paper, ShakyBoard, Shape, draw
 

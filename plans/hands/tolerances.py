@@ -12,8 +12,7 @@ import numpy as np
 from ..board import POSITION, Step
 from ..laws import LAWS, dot
 from ..names import role
-from ..quantities import POINTS, RESULTS
-from ..references import results, worst_behind
+from ..quantities import POINTS, RESULTS, results, worst_behind
 from .hand import Tolerance
 from .shaky import Paper
 from .spread import Drawn

@@ -24,8 +24,7 @@ from ..hands.hand import Tolerance
 from ..laws import TURN
 from ..marking.key import rounded
 from ..names import role
-from ..quantities import Quantity, quantities, shown_on
-from ..references import worst_behind
+from ..quantities import Quantity, quantities, shown_on, worst_behind
 from ..solved import PAPER_MM, Solved, in_sections
 from .construction import (
     BENT,

@@ -216,23 +216,17 @@ def _size(board: Board, mechanism: Mechanism, load: Load | Couple) -> str:
 
 def _diagram(board: Board, mechanism: Mechanism, diagram: Diagram) -> None:
     """Read a load diagram in this position."""
-    if diagram.over == ANGLE:
-        _over_angle(board, mechanism, diagram)
+    name, values = f"_diagram_{diagram.name}", _marks(mechanism, diagram.values)
+    if diagram.over == ANGLE:  # behind its last place it runs on to the first one of the next turn
+        board.calc(f"{name}_angle", "within_turn", mechanism.driver.coordinate, diagram.at[0])
+        board.calc(f"{name}_next", "turn_later", diagram.at[0])
+        board.calc(name, "piecewise", f"{name}_angle", *diagram.at, f"{name}_next", *values, values[0])
         return
-    name, forth = f"_diagram_{diagram.name}", f"_diagram_{diagram.name}_forth"
-    board.calc(forth if diagram.back else name, "piecewise", PART, *diagram.at, *_marks(mechanism, diagram.values))
+    forth = f"{name}_forth"
+    board.calc(forth if diagram.back else name, "piecewise", PART, *diagram.at, *values)
     if diagram.back:
         board.calc(f"{name}_back", "piecewise", PART, *diagram.at, *_marks(mechanism, diagram.back))
         board.calc(name, "by_stroke", "_working", forth, f"{name}_back")
-
-
-def _over_angle(board: Board, mechanism: Mechanism, diagram: Diagram) -> None:
-    """Read a diagram over the driver's angle; behind its last place it runs on to the first one of the next turn."""
-    name, first = f"_diagram_{diagram.name}", diagram.at[0]
-    board.calc(f"{name}_angle", "within_turn", mechanism.driver.coordinate, first)
-    board.calc(f"{name}_next", "turn_later", first)
-    values = _marks(mechanism, diagram.values)
-    board.calc(name, "piecewise", f"{name}_angle", *diagram.at, f"{name}_next", *values, values[0])
 
 
 def _marks(mechanism: Mechanism, values: Sequence[str]) -> list[str]:

@@ -12,8 +12,7 @@ from ..board import POSITION, Program
 from ..boards.exact import SMALL, Trouble, run
 from ..laws import cross
 from ..names import Name, role, scale_factor, spelled
-from ..quantities import quantities, shown_on
-from ..references import extent, plans_of, point_of
+from ..quantities import extent, plans_of, point_of, quantities, shown_on
 from ..solved import Solved
 from . import compound
 from .chain import USUAL, constructed, hinged
@@ -203,10 +202,7 @@ def with_moment_centres(mechanism: Mechanism, structure: Structure, values: Mapp
     R_12 normal to CA, so that the parallel to CA may take the place of that to CB, and it meets AB at the angle of the
     triangle ABC in A; about A likewise at that in C. The largest of the three sines is opposite to the longest side.
 
-    Parameters
-    ----------
-    values : mapping of str to number
-        Of a run of its construction in one position: the joints of all groups.
+    The `values` are those of a run of its construction in one position: the joints of all groups.
     """
     found = []
     for group in structure.groups:

@@ -13,8 +13,7 @@ from ..hands.hand import Tolerance
 from ..hands.shaky import Paper
 from ..hands.tolerances import MARKS, same_plan, tolerances
 from ..names import role
-from ..quantities import POINTS, shown_on, unit_of
-from ..references import results, worst_behind
+from ..quantities import POINTS, results, shown_on, unit_of, worst_behind
 
 ROUNDED = 0.005  # part of a value by which three digits are rounded
 COARSER = 2.0  # how much coarser than ours a student's own scale may be for its millimetres to count

@@ -21,7 +21,7 @@ from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import SolvedLinkage, conditions_of, signs, solve_linkage, varied
-from kulman.plans.references import plans_of, references, results
+from kulman.plans.quantities import plans_of, references, results
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.fifty_digits import differences
 from kulman.tests.support.mechanisms import SEED, general_slider_crank, nau_slider_crank, nau_values, one_of

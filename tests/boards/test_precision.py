@@ -15,7 +15,7 @@ from kulman.plans.boards.exact import run
 from kulman.plans.boards.precision import batch_in, run_in
 from kulman.plans.linkages.cycles.swept import swept
 from kulman.plans.linkages.solved import SolvedLinkage
-from kulman.plans.references import references, results
+from kulman.plans.quantities import references, results
 
 ROUNDING = {"single": 2.0**-23, "double": 2.0**-52, "extended": float(np.finfo(np.longdouble).eps)}
 TASKS = ("nau-slider-crank", "scheme-11-slotter", "scheme-20-press-automaton")  # the last has a group of class III

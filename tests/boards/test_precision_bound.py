@@ -26,7 +26,7 @@ from kulman.plans.linkages.cycles.limits import Reach, reach_of
 from kulman.plans.linkages.cycles.strokes import output_motions
 from kulman.plans.linkages.cycles.swept import Swept, swept
 from kulman.plans.linkages.solved import signs
-from kulman.plans.references import results
+from kulman.plans.quantities import results
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.mechanisms import one_of
 from kulman.variants.shelf import bundled

@@ -21,7 +21,7 @@ from kulman.plans.hands.spread import drawn, sensitivities
 from kulman.plans.hands.tolerances import failing
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
-from kulman.plans.references import references, results
+from kulman.plans.quantities import references, results
 from kulman.tests.support.mechanisms import (
     SEED,
     Solved,

@@ -19,7 +19,7 @@ from kulman.plans.linkages.accuracy.comparison import DrawnSheet, by_hand, conte
 from kulman.plans.linkages.accuracy.methods import Rivals, kinds_of
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.solved import solve_linkage
-from kulman.plans.references import references
+from kulman.plans.quantities import references
 from kulman.variants.reader import load_task
 
 LITTLE = Effort((1, 10), 20)

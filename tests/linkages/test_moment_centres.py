@@ -18,7 +18,7 @@ from kulman.plans.hands.shaky import Paper
 from kulman.plans.hands.spread import sensitivities
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.solved import TWICE, SolvedLinkage, sines_of, solve_linkage, with_moment_centres
-from kulman.plans.references import references
+from kulman.plans.quantities import references
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.linkage_points import linkage_faults

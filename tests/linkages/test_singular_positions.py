@@ -17,7 +17,7 @@ from kulman.plans.boards.exact import STATUSES
 from kulman.plans.boards.fifty_digits import fifty_digits
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.solved import SolvedLinkage, conditions_of, solve_linkage
-from kulman.plans.references import references
+from kulman.plans.quantities import references
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.both_sides import Limit, limits
 from kulman.tests.support.singular_cases import CASES

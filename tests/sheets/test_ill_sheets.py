@@ -10,8 +10,7 @@ import pytest
 from kulman import sheet, solve
 from kulman.drawing.words import Words
 from kulman.plans.linkages.solved import conditions_of, worst_condition
-from kulman.plans.quantities import POINTS
-from kulman.plans.references import plans_of
+from kulman.plans.quantities import POINTS, plans_of
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.printed_numbers import decimal
 

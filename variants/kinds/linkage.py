@@ -16,7 +16,7 @@ from ...plans.linkages.mechanism import Mechanism
 from ...plans.linkages.solved import SolvedLinkage, disagreement, scale_symbols, solve_linkage
 from ...plans.linkages.structure import analyse
 from ...plans.names import COUPLE, FORCES, Name, role, spelled
-from ...plans.references import pins_together, point_of
+from ...plans.quantities import pins_together, point_of
 from ...scales.choose import Choosers, Segment, chooser
 from ...scales.errors import InputError
 from ...scales.names import unknown

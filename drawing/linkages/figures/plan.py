@@ -9,7 +9,7 @@ from dataclasses import replace
 from ....plans.board import POSITION, Program
 from ....plans.boards.exact import ILL, SMALL
 from ....plans.names import FORCES, POLE, role
-from ....plans.references import intersections, pins_together, point_of
+from ....plans.quantities import intersections, pins_together, point_of
 from ...shapes import Line, Pen
 from ...view import Canvas, View
 from ..reading import Edge, meetings, read

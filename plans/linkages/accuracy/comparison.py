@@ -23,7 +23,7 @@ from ...hands.hand import Hand
 from ...hands.shaky import Paper, draw
 from ...hands.spread import kept
 from ...laws import TURN
-from ...references import plans_of, references
+from ...quantities import plans_of, references
 from ..cycles.cycle import Cycle
 from ..solved import SolvedLinkage
 from .methods import Newton, Rivals, Values, Way, kinds_of

@@ -11,7 +11,7 @@ Source: Zinoviev, method of closed vector contours; Artobolevsky, Theory of mech
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -257,21 +257,18 @@ class Closure:
 
     def rates(self, pose: Pose, speed: float) -> Pose:
         """Return velocities at a speed of the driver, by a linear system."""
-        own, contours = pose.like(), self.contours
-        self._driver_of(own)[:] = speed
-        found = self._solved(pose, [contours.rate(form, pose, own) for form in contours.closed])
-        return Pose(found.angles + own.angles, found.ways + own.ways)
+        return self._driven_by(pose, speed, lambda form, own: self.contours.rate(form, pose, own))
 
     def changes(self, pose: Pose, rates: Pose, acceleration: float = 0.0) -> Pose:
         """Return accelerations, by a linear system; `acceleration` is the driver's."""
-        own, contours = pose.like(), self.contours
-        self._driver_of(own)[:] = acceleration
-        found = self._solved(pose, [contours.change(form, pose, rates, own) for form in contours.closed])
-        return Pose(found.angles + own.angles, found.ways + own.ways)
+        return self._driven_by(pose, acceleration, lambda form, own: self.contours.change(form, pose, rates, own))
 
-    def _driver_of(self, pose: Pose) -> Array:
-        row: Array = pose.ways[self._way] if self._angle is None else pose.angles[self._angle]
-        return row
+    def _driven_by(self, pose: Pose, driver: float, gap: Callable[[Form, Pose], Array]) -> Pose:
+        own = pose.like()
+        row = own.ways[self._way] if self._angle is None else own.angles[self._angle]
+        row[:] = driver
+        found = self._solved(pose, [gap(form, own) for form in self.contours.closed])
+        return Pose(found.angles + own.angles, found.ways + own.ways)
 
     def _solved(self, pose: Pose, gaps: list[Array]) -> Pose:
         """Return the unknowns that close gaps, to first order."""

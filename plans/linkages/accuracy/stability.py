@@ -16,7 +16,7 @@ from ...hands.hand import Hand
 from ...hands.shaky import Paper, Shape, draw
 from ...hands.spread import kept
 from ...laws import TURN
-from ...references import plans_of, worst_behind
+from ...quantities import plans_of, worst_behind
 from ..cycles.cycle import Cycle
 from ..solved import signs
 

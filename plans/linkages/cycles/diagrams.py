@@ -99,34 +99,21 @@ def differentiate(s: Array, section: float, closed: bool) -> tuple[Array, Array]
     return v, chords(np.concatenate((v[-1:], v)) if closed else v, section)
 
 
-class _Motion:
-    """Names of the travel, velocity and acceleration of what `of` means: a point's letter or the number of a link."""
-
-    def __init__(self, cycle: Cycle, of: str) -> None:
-        mechanism = cycle.mechanism
-        points = dict.fromkeys(point for link in mechanism.links for point in link.points)
-        links = {str(link.number): link.number for link in mechanism.links}
-        sliders = (output for output in cycle.outputs if output.slides)
-        slider = next((x for x in sliders if of in (str(x.link), *mechanism.link(x.link).points)), None)
-        self.angle = of in links and slider is None
-        if slider is not None:
-            self.names = (slider.place, slider.rate, slider.change)
-        elif self.angle:
-            body = moving_bodies(mechanism, cycle.structure)[links[of]]
-            self.names = (body.direction, body.omega, body.epsilon)
-        elif of in points:
-            self.names = (of, mechanism.mark("velocity", of), mechanism.mark("acceleration", of))
-        else:
-            raise unknown("motion-unknown", of, (*points, *links))
-        self.cycle = cycle
-        if not set(filter(None, self.names)) <= set(cycle.program.names):
-            raise InputError("motion-plans", name=of)
-
-    def at(self, places: Array) -> tuple[Array, Array, Array]:
-        """Return travels, velocities and accelerations for places of the driver; angles without jumps."""
-        values = self.cycle.at(places, [name for name in self.names if name])
-        s, v, a = (values[name] if name else np.zeros(len(places)) for name in self.names)
-        return unwound(inclination(s)) if self.angle else s, v, a
+def _named(cycle: Cycle, of: str) -> tuple[tuple[str, str | None, str | None], bool]:
+    """Return the names of travel, velocity and acceleration of a point or a link, and whether they are of an angle."""
+    mechanism = cycle.mechanism
+    points = dict.fromkeys(point for link in mechanism.links for point in link.points)
+    links = {str(link.number): link.number for link in mechanism.links}
+    sliders = (output for output in cycle.outputs if output.slides)
+    slider = next((x for x in sliders if of in (str(x.link), *mechanism.link(x.link).points)), None)
+    if slider is not None:
+        return (slider.place, slider.rate, slider.change), False
+    if of in links:
+        body = moving_bodies(mechanism, cycle.structure)[links[of]]
+        return (body.direction, body.omega, body.epsilon), True
+    if of not in points:
+        raise unknown("motion-unknown", of, (*points, *links))
+    return (of, mechanism.mark("velocity", of), mechanism.mark("acceleration", of)), False
 
 
 def diagrams(cycle: Cycle, of: str, sections: int = 12) -> Diagrams:
@@ -145,16 +132,20 @@ def diagrams(cycle: Cycle, of: str, sections: int = 12) -> Diagrams:
     InputError
         No such point or link; the cycle was computed without velocities or accelerations.
     """
-    motion = _Motion(cycle, of)
+    names, turns = _named(cycle, of)
+    if not set(filter(None, names)) <= set(cycle.program.names):
+        raise InputError("motion-plans", name=of)
     places = cycle.range.low + (cycle.range.high - cycle.range.low) * (np.arange(2 * sections + 1) / (2 * sections))
     closed = cycle.drive.turns
     duration = abs(cycle.range.high - cycle.range.low) / cycle.speed
-    s, v, a = motion.at(places)
+    values = cycle.at(places, [name for name in names if name])
+    s, v, a = (values[name] if name else np.zeros(len(places)) for name in names)
+    s = unwound(inclination(s)) if turns else s
     times = duration * (np.arange(2 * sections + 1) / (2 * sections))
     v_chords, a_chords = differentiate(s[::2], duration / sections, closed)
     inner = slice(0, -1) if closed else slice(1, -1)
     curves = Curve(times[1::2], v[1::2], v_chords), Curve(times[::2][inner], a[::2][inner], a_chords)
-    return Diagrams("rad" if motion.angle else "m", times[::2], s[::2], v[::2], a[::2], *curves)
+    return Diagrams("rad" if turns else "m", times[::2], s[::2], v[::2], a[::2], *curves)
 
 
 def velocities(at: Array, pin: complex, velocity: complex, omega: float) -> Array:

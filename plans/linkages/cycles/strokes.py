@@ -119,13 +119,10 @@ def outputs(mechanism: Mechanism, structure: Structure) -> tuple[Output, ...]:
     for group in structure.groups:
         for pair, before in zip(group.outer, group.before, strict=True):
             link = next(number for number in pair.links if number in group.links)
-            if before != FRAME:
-                continue
-            if isinstance(pair, Prismatic):
+            if before == FRAME and isinstance(pair, Prismatic):
                 found.append(_slider(pair, link))
-            else:
-                body = bodies[link]
-                found.append(Output(link, False, body.direction, body.omega, body.epsilon))
+            elif before == FRAME:
+                found.append(Output(link, False, bodies[link].direction, bodies[link].omega, bodies[link].epsilon))
     return tuple(found)
 
 

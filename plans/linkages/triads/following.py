@@ -120,17 +120,10 @@ def with_special_points(
 ) -> Mechanism:
     """Return the mechanism with two legs chosen for the special point of every triad whose task names none.
 
-    Parameters
-    ----------
-    values : mapping of str to float or float64 array of shape (N,)
-        Its numbers in SI, for one position or for many: of these the worst one counts.
-    near : mapping, optional
-        What `following.followed` gives for them, where it is known already.
-    enough : float
-        The first two legs whose sines are nowhere below are taken, so that one position is constructed like another;
-        without such ones the best two.
-    first : mapping of int to pair of int, optional
-        By the number of the central link two legs that are taken where their lines meet everywhere, however flatly.
+    Its numbers in SI are for one position or, float64 arrays of shape (N,), for many: of these the worst one counts;
+    `near` is what `followed` gives for them, where it is known already. The first two legs whose sines are nowhere
+    below `enough` are taken, so that one position is constructed like another; without such ones the best two. Those
+    that `first` has by the number of the central link are taken where their lines meet everywhere, however flatly.
     """
     for number, (pairs, sines) in _sines(mechanism, values, near).items():
         worst = sines.min(axis=1)
