@@ -1,4 +1,4 @@
-"""The three diagrams over one axis of angles: exact curves, and chords of graphical integration with their poles."""
+"""The three diagrams over one axis of angles: exact curves, and chords of graphical integration; the pressure angle."""
 
 from __future__ import annotations
 
@@ -7,13 +7,15 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from ...plans.cams.construction import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
-from ...plans.cams.course import diagram
+from ...plans.cams.course import courses, diagram, permitted, theta
 from ...plans.cams.motion import PHASES, RISE
 from ...plans.names import role
+from ...scales.scale import Scale, steps
 from ..areas import beside
-from ..diagram import AT_POLE, Axis, Field, Pole, axes, mark_pole, numbers, small
+from ..diagram import AT_POLE, Axis, Field, Pole, axes, divisions, mark_pole, numbers, small
 from ..dimensions import linear
-from ..figure import Figure, Stage
+from ..figure import Figure, Stage, stages
+from ..printed import DEGREES
 from ..shapes import Group, Line, Pen, Polyline, Text
 from ..text import Box, box, lay_out
 from ..view import Canvas, View
@@ -30,6 +32,11 @@ SAME = 1e-6  # mm, of ends of a jump
 APART = 1.2  # heights of letters between the numbers of rays under one another
 AROUND = 0.5  # mm between a number and the broken lines beside it
 RUN = 3  # how many numbers in a row are written with a dash
+SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)  # of the line of a limit at which its text may stand
+CLEAR = 0.8  # mm around that text
+Place = tuple[float, float]
+WIDE = {5.0: 160.0, 3.5: 120.0}  # mm of the axis of angles beyond which it is half as long as on the diagrams
+TALL = {5.0: 60.0, 3.5: 45.0}  # mm of the axis of pressure angles, by the height of letters
 
 
 def diagrams_view(scene: CamScene) -> View:
@@ -304,3 +311,72 @@ DIAGRAMS_FIGURE = Figure(
     ),
     "cam.diagrams",
 )
+
+
+def pressure_view(scene: CamScene) -> View:
+    """Draw theta over phi with the limits dashed over their phases."""
+    solved, words = scene.solved, scene.words
+    canvas, limits = PRESSURE_FIGURE.canvas(scene), permitted(solved)
+    curves = courses(solved)
+    every = [y for points in curves for _, y in points] + [limit for _, limit in limits] + [0.0]
+    field = _pressure_field(scene, min(every), max(every))
+    canvas.part("axes")
+    axes(canvas, field, lettered=False)
+    canvas.part("curve")
+    canvas.add(Group(tuple(Polyline(tuple(field.at(*p) for p in points)) for points in curves), "curve", "theta"))
+    canvas.part("limits")
+    boxes = [_pressure_limit(canvas, scene, field, curves, at) for at in limits]
+    canvas.part("curve")
+    _pressure_sections(canvas, scene, field, [found for found in boxes if found is not None])
+    per_mm = f"{words.symbol('mu_theta')} = {scene.degrees(field.y.scale.mu)}/{words.unit('mm')}"
+    heading = words["heading.cam_pressure"], f"{per_mm};  {scene.factor(field.x.scale)}"
+    return canvas.finish("pressure", heading)
+
+
+def _pressure_field(scene: CamScene, low: float, high: float) -> Field:
+    words = scene.words
+    tall = TALL[scene.style.label]
+    mu = steps((high - low) * DEGREES / tall)[0] / DEGREES
+    last = float(scene.solved.angles[-1])
+    half = scene.across.drawn(last) > WIDE[scene.style.label]
+    scale = Scale("mu_phi", scene.across.measured(2.0 if half else 1.0), "rad")
+    across = Axis(words.symbol("phi"), scale, 0.0, last, {})
+    marks = {x / DEGREES: f"{words.short(x)}°" for x in divisions(high * DEGREES, low * DEGREES, mu * DEGREES, 9.0)}
+    return Field(0j, across, Axis(words.symbol("theta"), Scale("mu_theta", mu, "rad"), low, high, marks))
+
+
+def _pressure_limit(
+    canvas: Canvas, scene: CamScene, field: Field, curves: Sequence[Sequence[Place]], at: tuple[str, float]
+) -> Box | None:
+    """Draw a limit over its phase, and write it on the line; return the box of what stands among section lines."""
+    name, limit = at
+    motion, height = scene.solved.motion, scene.style.text
+    phase = motion.rise if name == RISE else motion.fall
+    ends = field.at(phase.start, limit), field.at(phase.end, limit)
+    canvas.add(Group((Line(*ends, Pen.DASHED),), "limit", f"{name}{'' if limit > 0 else '-'}"))
+    markup = f"[{scene.words.symbol('theta')}] = {scene.degrees(abs(limit))}"
+    points = [field.at(*p) for course in curves for p in course]
+    for share in SHARES if limit < field.y.high else ():  # section lines run through, or their numbers stand below
+        text = Text(ends[0] + share * (ends[1] - ends[0]) + 0.5j * height, markup, height, "middle", role="label")
+        x0, y0, x1, y1 = (side + CLEAR * way for side, way in zip(box(text), (-1, -1, 1, 1), strict=True))
+        if not any(x0 < p.real < x1 and y0 < p.imag < y1 for p in points):
+            canvas.add(text)
+            return x0, y0, x1, y1
+    canvas.label(markup, ends, prefer=complex(0.0, limit), clear=0.8, height=height)
+    return None
+
+
+def _pressure_sections(canvas: Canvas, scene: CamScene, field: Field, boxes: Sequence[Box]) -> None:
+    """Draw the section lines with their numbers, broken where a text stands, and mark the curve on them."""
+    solved, height = scene.solved, scene.style.text
+    values = theta(solved, solved.angles)
+    lines = [field.at(phi, 0.0).real for phi in solved.angles.tolist()]
+    canvas.add(*numbers(lines, field.at(0.0, field.y.low).imag - 2.3 - height, height))
+    for i, (phi, value) in enumerate(zip(solved.angles.tolist(), values.tolist(), strict=True)):
+        foot = field.at(phi, field.y.low) - 1.5j
+        for a, b in beside(field.at(phi, field.y.high), foot, boxes):
+            canvas.add(Line(a, b, Pen.THIN, role="section", name=str(i)))
+        canvas.add(scene.node(field.at(phi, value), str(i)))
+
+
+PRESSURE_FIGURE = Figure("pressure", pressure_view, ("reduction",), stages("axes", "curve", "limits"), "cam.pressure")

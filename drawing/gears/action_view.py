@@ -1,39 +1,54 @@
-"""The line of action straightened: its active part, how many pairs touch where, radii of curvature at its ends."""
+"""The line of action straightened, its active part and who touches where; over it velocities and specific sliding."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
-from ...plans.gears.course import zones
+from ...plans.gears.course import active_area, sliding_curve, zones
+from ...plans.gears.gear import WHEELS
+from ...plans.gears.geometry import POINTS
+from ...scales.scale import Scale
+from ..areas import strokes
+from ..diagram import Axis, Field, axes, curve, divisions, numbers
 from ..dimensions import linear
 from ..figure import ANSWERS, Figure, stages
 from ..printed import DEGREES, Input, calculation
 from ..shapes import Group, Line, Pen, Polyline, Text
+from ..symbols import unit
 from ..text import lay_out
 from ..view import Canvas, View
-from ..words import indexed
-from .scene import GearScene
+from ..words import Words, indexed
+from .scene import CURVES, ENDS, GearScene, Ordinates, cut_of, places, rho_mu, theta_mu
 
 LEVEL = 2.2  # heights of letters for each pair that touches
 ROW = 1.8  # heights of letters between dimension lines
 FIRST = 3.0  # heights of letters from the line to the first of them
 # in which points of the line are marked; all others with the pitches
 STAGE = {"P": "pole", "N1": "line_of_action", "N2": "line_of_action", "A1": "active_line", "A2": "active_line"}
+REDUCTIONS = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02, 0.01)  # of the ordinates of velocities
+TALLEST = {5.0: 130.0, 3.5: 75.0}  # mm of the highest ordinate, by the height of letters
+BETWEEN = 4.4  # heights of letters between the diagrams
+SIDES = {1: 1.0, 2: -1.0}  # of the pole, on which a wheel's profile is the faster one
+PAST = 1.6  # heights of letters by which axes run past their ends
+APART = 1.6  # heights of letters between lines of text
+ALONG = {1: unit(1.0 + 1.0j), 2: unit(-1.0 + 1.0j)}  # of the strokes under each curve
+HATCH = 2.5  # mm between strokes
 
 
 def action_view(overall: GearScene) -> View:
     """Draw N1N2 along the abscissa, N1 on the left."""
     scene = replace(overall, mu_l=overall.rolled)
-    canvas = FIGURE.canvas(scene, coarse=0.0)
+    canvas = ACTION_FIGURE.canvas(scene, coarse=0.0)
     canvas.part(ANSWERS)
     _zones(canvas, scene)
     _line(canvas, scene)
     canvas.part(ANSWERS)
     _dimensions(canvas, scene)
     heading = scene.words["heading.gear_action"], scene.factor(scene.mu_l)
-    return canvas.finish(
-        "action", heading, (*ratios(scene), *scene.words["said.gear_zones"].split("|"), *_lacking(scene))
-    )
+    notes = *ratios(scene), *scene.words["said.gear_zones"].split("|"), *_lacking(scene)
+    return canvas.finish("action", heading, notes)
 
 
 def _lacking(scene: GearScene) -> tuple[str, ...]:
@@ -56,11 +71,11 @@ def ratios(scene: GearScene) -> tuple[str, ...]:
     found = []
     ways = [("g_alpha", "p_b", 1e3, words.unit("mm"))]
     ways += [(f"phi_alpha{i}", f"tau_{i}", DEGREES, "°") for i in (1, 2)]
-    for over, under, times, unit in ways:
+    for over, under, times, sign in ways:
         inputs = [Input(scene.size(name) * times) for name in (over, under)]
         (a, b), result = calculation(words, lambda x, y: x / y, inputs)
-        gap = "" if unit == "°" else " "
-        ratio = f"{words.symbol(over)}/{words.symbol(under)} = {a}{gap}{unit}/{b}{gap}{unit}"
+        gap = "" if sign == "°" else " "
+        ratio = f"{words.symbol(over)}/{words.symbol(under)} = {a}{gap}{sign}/{b}{gap}{sign}"
         found.append(f"{epsilon} = {ratio} = {result}")
     return tuple(found)
 
@@ -122,6 +137,204 @@ def _dimensions(canvas: Canvas, scene: GearScene) -> None:
         y -= ROW * scene.style.label * bool(shown)
 
 
-FIGURE = Figure(
+ACTION_FIGURE = Figure(
     "action", action_view, ("rolled",), stages("pole", "line_of_action", "active_line", "pitches"), "gear.action"
+)
+
+
+def sliding_view(scene: GearScene) -> View:
+    """Draw both diagrams over N1N2, with the points of the table as section lines through both."""
+    canvas, words = SLIDING_FIGURE.canvas(scene, coarse=0.0), scene.words
+    ordinates = _ordinates(scene)
+    above = Field(0j, _across(scene), Axis(words.symbol("V_k"), Scale("", 1.0, "mm"), 0.0, ordinates.highest, {}))
+    below = theta_field(scene, above, BETWEEN * scene.style.label)
+    past = PAST * scene.style.label
+    canvas.part("axes")
+    for field in (above, below):
+        axes(canvas, field, False, past)
+    _sections(canvas, scene, above, below, ordinates)
+    _velocities(canvas, scene, above, ordinates)
+    said = _pole(canvas, scene, above, ordinates)
+    theta_diagram(canvas, scene, below)
+    cut = words["gear.cut"].format(theta=words.number(cut_of(scene.solved), 0))
+    if ordinates.reduction < 1.0:
+        said.insert(0, words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / ordinates.reduction)}"))
+    said.insert(0, words["gear.speeds"].format(length=words.short(scene.solved.values["PW"] * 1e3)))
+    notes = [f"{words['gear.hatched']}; {cut}", "; ".join(said)]
+    theta = theta_said(words, below.y.scale.mu)
+    heading = words["heading.gear_sliding"], f"{words.scale(above.x.scale)};  {theta}"
+    return canvas.finish("sliding", heading, tuple(notes))
+
+
+def _ordinates(scene: GearScene) -> Ordinates:
+    """Return how the ordinates are drawn: as the table has them, or reduced where the highest has no room."""
+    highest = max(scene.size(f"y_{i}_{point}") for i in WHEELS for point in POINTS) * 1e3
+    most = TALLEST[scene.style.label] * scene.part
+    reduction = next((part for part in REDUCTIONS if highest * part <= most), REDUCTIONS[-1])
+    return Ordinates(reduction, highest * reduction)
+
+
+def _across(scene: GearScene) -> Axis:
+    """Return the axis along N1N2, longer where interference puts an end of the active line beyond it."""
+    lengths = places(scene.solved.sizes).values()
+    ends = min(lengths), max(lengths)
+    return Axis(scene.words.symbol("rho_1"), rho_scale(scene), *ends, {})
+
+
+def rho_scale(scene: GearScene) -> Scale:
+    """Return the scale factor of the line of action."""
+    return Scale("mu_rho", rho_mu(scene.solved, scene.style.label, scene.part), "m")
+
+
+def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordinates: Ordinates) -> None:
+    """Draw a line through both diagrams at every point of the table, with its number; the named places with letters.
+
+    The lines begin at the higher ordinate of velocities, so that letters above these stand free.
+    """
+    height = scene.style.text
+    foot = below.at(0.0, below.y.low).imag - 1.5
+    lines = []
+    canvas.part(ANSWERS)
+    for i, point in enumerate(POINTS, start=1):
+        top = above.at(place(scene, point), max(ordinates.mm(scene.size(f"y_{k}_{point}")) for k in WHEELS))
+        canvas.add(Line(top, complex(top.real, foot), Pen.THIN, role="section", name=str(i)))
+        lines.append(top.real)
+    canvas.add(*numbers(lines, foot - 0.8 - height, height, first=1))
+    for name, rho in places(scene.solved.sizes).items():
+        at = above.at(rho, 0.0)
+        canvas.part("active_line" if name in ("A1", "A2") else "axes")
+        canvas.add(scene.node(at, name, "point", pen=Pen.MAIN))
+        canvas.label(indexed(name), at, prefer=-0.6 - 1j if name == "N1" else 0.6 - 1j, clear=1.0, priority=1)
+
+
+def _velocities(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) -> None:
+    """Draw the lines of both velocities from N1 and N2, marked at the points of the table."""
+    words, style, w = scene.words, scene.style, w_of(scene, field, ordinates)
+    for i in WHEELS:
+        heights = [ordinates.mm(scene.size(f"y_{i}_{point}")) for point in POINTS]
+        tips = [field.at(place(scene, point), y) for point, y in zip(POINTS, heights, strict=True)]
+        canvas.part("velocities")
+        canvas.add(Group((Line(tips[0], tips[-1], Pen.MAIN),), "curve", f"V_k{i}"))
+        for point, tip in zip(POINTS, tips, strict=True):
+            canvas.add(scene.node(tip, f"y_{i}_{point}", "ordinate"))
+        far = [tip for tip in tips if (tip - w).real * SIDES[i] > -1e-6]
+        canvas.label(words.symbol(f"V_k{i}"), widest(far, w), prefer=1j, clear=1.0)
+        point, tip = (POINTS[-1], tips[-1]) if i == 1 else (POINTS[0], tips[0])
+        canvas.part(ANSWERS)
+        text = f"{words.symbol(f'y_{i}')} = {words.number(scene.size(f'y_{i}_{point}') * 1e3, 2)}"
+        linear(canvas, (complex(tip.real, 0.0), tip), 2.0 * style.label * SIDES[i], text, f"y_{i}_{point}")
+
+
+def w_of(scene: GearScene, field: Field, ordinates: Ordinates) -> complex:
+    """Return W, over the pole."""
+    return field.at(scene.size("rho_w1"), ordinates.mm(scene.size("PW")))
+
+
+def _pole(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) -> list[str]:
+    """Mark W over the pole, and dimension PW; return its text where it has no room along its line."""
+    w, words = w_of(scene, field, ordinates), scene.words
+    text = f"{words.symbol('PW')} = {words.short(round(scene.size('PW') * 1e3, 6))}"
+    canvas.part(ANSWERS)
+    fits = w.imag - 2.0 * scene.style.arrow > lay_out(text, scene.style.text).width
+    linear(canvas, (complex(w.real, 0.0), w), 0j, text if fits else "", "PW")
+    canvas.part("pole")
+    canvas.add(scene.node(w, "W", "point", pen=Pen.MAIN))
+    canvas.label("W", w, prefer=1j, clear=1.2, priority=1)
+    return [] if fits else [f"{text} {words.unit('mm')}"]
+
+
+def place(scene: GearScene, point: str) -> float:
+    """Return how far a point of the table is from N1, m."""
+    return float(scene.solved.values[f"_rho_1_{point}"])
+
+
+def theta_scale(scene: GearScene) -> Scale:
+    """Return the scale factor of specific sliding."""
+    return Scale("mu_theta", theta_mu(scene.solved, scene.style.label, scene.part), "1")
+
+
+def theta_said(words: Words, mu: float) -> str:
+    """Return the scale factor of specific sliding, which has no unit of its own."""
+    return f"{words.symbol('mu_theta')} = {words.short(mu)} {words.unit('mm')}^{{−1}}"
+
+
+def theta_field(scene: GearScene, above: Field, apart: float) -> Field:
+    """Return the axes of specific sliding under those of the velocities."""
+    words, low, scale = scene.words, cut_of(scene.solved), theta_scale(scene)
+    marks = {value: words.short(value) for value in divisions(1.0, low, scale.mu, 9.0)}
+    origin = above.origin - 1j * (apart + scale.drawn(1.0))
+    return Field(origin, replace(above.x, letter=""), Axis(words.symbol("theta"), scale, low, 1.0, marks))
+
+
+def theta_diagram(canvas: Canvas, scene: GearScene, field: Field) -> None:
+    """Draw both curves with the points of the table, the active part hatched, its extremes with their values."""
+    canvas.part("sliding")
+    for i, name in CURVES.items():
+        curve(canvas, field, sliding_curve(scene.solved, i, field.y.low), name)
+        points = ((p, place(scene, p), scene.size(f"{name}_{p}")) for p in POINTS)
+        canvas.add(
+            *(scene.node(field.at(rho, value), f"{name}_{p}") for p, rho, value in points if value >= field.y.low)
+        )
+        _active(canvas, scene, field, i)
+        canvas.label(scene.words.symbol(name), _free(scene, field, i), prefer=1j, clear=1.0)
+    canvas.part(ANSWERS)
+    _extremes(canvas, scene, field)
+
+
+def _active(canvas: Canvas, scene: GearScene, field: Field, i: int) -> None:
+    """Hatch the area between a curve and the axis over the active line, with lines at both ends."""
+    outline = [field.at(*place) for place in active_area(scene.solved, i, field.y.low)]
+    if outline:
+        canvas.add(Group(tuple(strokes(outline, ALONG[i], HATCH)), "active", CURVES[i]))
+
+
+def _free(scene: GearScene, field: Field, i: int) -> tuple[complex, complex]:
+    """Return a part of a curve above the axis, between lines that are far apart: room for its letter."""
+    pole, side = scene.size("rho_w1"), 1.0 if i == 1 else -1.0
+    beyond = [p for p in POINTS if (place(scene, p) - pole) * side >= 0.0]
+    return widest([field.at(place(scene, p), scene.size(f"{CURVES[i]}_{p}")) for p in beyond], field.at(pole, 0.0))
+
+
+def widest(tips: Sequence[complex], pole: complex) -> tuple[complex, complex]:
+    """Return the two neighbours that are farthest apart across, but for those beside the pole."""
+    pairs = sorted(pairwise(tips), key=lambda ends: abs((ends[0] + ends[1]).real - 2.0 * pole.real))
+    return max(pairs[1:] or pairs, key=lambda ends: abs((ends[1] - ends[0]).real))
+
+
+def _extremes(canvas: Canvas, scene: GearScene, field: Field) -> None:
+    """Carry the ends of the active part of both curves to the right of the diagram, where their values stand."""
+    words, height = scene.words, scene.style.text
+    right = field.at(field.x.high, 0.0).real
+    shown = []
+    for end, rho in ENDS.items():
+        values = {name: scene.size(f"{name}_{end}") for name in CURVES.values()}
+        seen = {name: value for name, value in values.items() if field.y.low <= value <= 1.0}
+        tips = [field.at(scene.size(rho), value) for value in (*seen.values(), 0.0)]
+        low, high = (pick(tips, key=lambda tip: tip.imag) for pick in (min, max))
+        if high != low:
+            canvas.add(Line(low, high, Pen.MAIN, role="end", name=end))
+        for (name, value), at in zip(seen.items(), tips, strict=False):
+            canvas.add(scene.node(at, f"{name}_{end}", "extreme", filled=True))
+            shown.append((at, f"{words.symbol(f'{name}_{end}')} = {words.number(value, 2)}"))
+    levels = spread([at.imag for at, _ in shown], field.origin.imag, APART * height)
+    for (at, text), level in zip(shown, levels, strict=True):
+        corner, start = complex(right + 1.5, at.imag), complex(right + 1.5 + 0.8 * height, level)
+        canvas.add(Line(at, corner, Pen.DASHED, role="projection"), Line(corner, start, Pen.THIN, role="leader"))
+        canvas.add(Text(start + complex(0.4 * height, -0.5 * height), text, height, role="extreme"))
+
+
+def spread(levels: Sequence[float], axis: float, apart: float) -> list[float]:
+    """Return levels of texts, in the order given, so far apart, and from the axis: moved away from this."""
+    found = dict.fromkeys(range(len(levels)), 0.0)
+    for side in (1.0, -1.0):
+        last = axis
+        for n in sorted(range(len(levels)), key=lambda n: side * levels[n]):
+            if side * (levels[n] - axis) >= 0.0 and (side > 0.0 or levels[n] < axis):
+                last = side * max(side * levels[n], side * last + apart)
+                found[n] = last
+    return list(found.values())
+
+
+SLIDING_FIGURE = Figure(
+    "sliding", sliding_view, ("part",), stages("axes", "pole", "velocities", "active_line", "sliding"), "gear.sliding"
 )

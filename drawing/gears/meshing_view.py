@@ -7,17 +7,30 @@ from dataclasses import replace
 from itertools import pairwise
 
 from ...plans.gears.construction import MESHING
-from ...plans.gears.meshing import Wheel
+from ...plans.gears.meshing import CIRCLES, SHOWN, Wheel
+from ...plans.names import role
+from ..dimensions import angle, linear, turning
 from ..figure import ANSWERS, Figure, stages
 from ..page import extent
-from ..shapes import Group, Line, Pen, Polyline
-from ..symbols import arc_between
+from ..shapes import Anchor, Arc, Circle, Group, Line, Pen, Polyline, Text
+from ..symbols import HALF_TURN, arc_between, fixed_pivot, right_angle, unit
 from ..view import Canvas, View
-from . import circles
-from .circles import node
-from .ladders import TOOTH
-from .scene import GearScene
+from ..words import indexed
+from .scene import TOOTH, GearScene
 
+Span = tuple[float, float]
+PENS = {"a": Pen.THIN, "w": Pen.EXTREME, "": Pen.AXIS, "b": Pen.DASHED, "f": Pen.THIN}
+PAST = 8.0  # mm of a line beyond what it goes to
+PITCH = 1.9  # heights of letters between diameters written under one another
+SHELF = 5.0  # mm from the longest arc to the diameters
+SAME = 0.02  # mm between circles that are one line
+STAGE = {"w": "rolling_circles", "b": "line_of_action"}  # of the circles, but for those of the teeth
+WIDEST = 0.9 * HALF_TURN  # half the angle of circles at most
+TURNING = 3.2  # radius of the arrows of omega, in heights of letters
+INSIDE = 1.8  # heights of letters from the root circle to the arc of the pitch
+TAU, PHI = 0.48, 0.76  # parts of the root's radius at which the angles of pitch and of action are dimensioned
+CLOSE = 6.0  # radius of an arc in heights of letters
+Ends = tuple[complex, complex]
 BESIDE = 10.0  # mm from the circles to the dimension of the distance of the centres
 Pair = tuple[Wheel, Wheel]
 STRIP, STROKES = 0.5, 0.5  # width of the strip along an active flank, distance of its strokes, in heights of letters
@@ -25,23 +38,241 @@ ROUNDING = 1.0 + 1e-9
 ENDS = ("start", "end")  # of the engagement
 
 
+def beside_teeth(wheel: Wheel) -> Span:
+    """Return between which angles from the direction to the pole the circles of a wheel are drawn, just beyond teeth.
+
+    The second one lies on the free side, away from the line of action.
+    """
+    lean = abs(wheel.angle(wheel.centre + wheel.facing))
+    reach = 0.5 * SHOWN * wheel.pitch + PAST / wheel.radius("a")
+    return -wheel.side * min(reach + lean, WIDEST), wheel.side * min(reach - lean, WIDEST)
+
+
+def _five_circles(canvas: Canvas, wheel: Wheel, span: Span, to_end: bool) -> None:
+    """Draw arcs of the five circles, each with a line of its own; the base circle `to_end` of the line of action."""
+    for name in CIRCLES:
+        low, high = span
+        if to_end and name == "b":
+            low = -wheel.side * max(abs(low), wheel.sizes["alpha_w"] + PAST / wheel.radius("b"))
+        same = abs(wheel.radius(name) - wheel.radius("")) < SAME
+        arc = Arc(wheel.centre, wheel.radius(name), wheel.direction + low, high - low, PENS["" if same else name])
+        canvas.part(STAGE.get(name, "circles"))
+        canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
+
+
+def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, end: float, others: Sequence[complex]) -> None:
+    """Write the diameters where the circles end on the free side, under one another, each on a leader.
+
+    They stand beyond the `others`, points of teeth and circles, that come as high as they are. Beside the middle of the
+    meshing that is drawn apart they have only their letters.
+    """
+    height, side = scene.style.text, -wheel.up.imag  # in which the wheel is from the pole: +1 above, -1 below
+    out = wheel.side * side  # to the right, or to the left
+    ends = {f"d_{name}{wheel.number}": wheel.on(wheel.radius(name), end) for name in CIRCLES}
+    stage_of = {f"d_{name}{wheel.number}": STAGE.get(name, "circles") for name in CIRCLES}
+    names = sorted(ends, key=lambda name: side * ends[name].imag)
+    apart = _apart([side * ends[name].imag for name in names], PITCH * height)
+    levels = [max(level, (k + 1) * PITCH * height) for k, level in enumerate(apart)]  # clear of t-t and its letters
+    near = [p for p in others if levels[0] - 2.0 * height < side * p.imag < levels[-1] + height]
+    x = max(out * end.real for end in (*ends.values(), *near)) + SHELF
+    anchor: Anchor = "left" if out > 0.0 else "right"
+    for name, level in zip(names, levels, strict=True):
+        at = complex(out * x, side * level)
+        canvas.part(stage_of[name])
+        canvas.add(Line(ends[name], at, Pen.THIN, role="leader", name=name))
+        text = scene.words.symbol(name) if scene.close else scene.stated(name)
+        place = at + complex(out, -0.5 * height)
+        canvas.add(Text(place, text, height, anchor, role="diameter", name=name))
+
+
+def _apart(levels: Sequence[float], least: float) -> list[float]:
+    """Return rising levels moved as little as it takes for them to stand apart."""
+    groups: list[tuple[float, int]] = []  # of levels side by side: their middle, how many they are
+    for level in levels:
+        groups.append((level, 1))
+        while len(groups) > 1:
+            (a, m), (b, n) = groups[-2:]
+            if b - a >= 0.5 * least * (m + n):
+                break
+            groups[-2:] = [((a * m + b * n) / (m + n), m + n)]
+    return [middle + (k - 0.5 * (count - 1)) * least for middle, count in groups for k in range(count)]
+
+
+def centres(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel], left: float) -> None:
+    """Draw both centres on the line of centres, their distance as a dimension at the abscissa `left`."""
+    style, sense = scene.style, scene.meshing.sense
+    below, above = (scene.mm(f"O{wheel.number}") for wheel in pair)
+    canvas.part("centres")
+    canvas.add(Line(below - 2j * PAST, above + 2j * PAST, Pen.AXIS, role="axis", name="O1O2"))
+    for wheel, at in zip(pair, (below, above), strict=True):
+        canvas.add(fixed_pivot(at, f"O{wheel.number}", style, -wheel.up))
+        canvas.label(f"O_{{{wheel.number}}}", at, prefer=complex(1.0, 0.3), clear=style.pair + 0.8)
+        turns = float(sense if wheel.number == 1 else -sense)
+        canvas.part(ANSWERS)
+        name, radius = f"omega_{wheel.number}", TURNING * style.label
+        turning(
+            canvas,
+            wheel.centre,
+            radius,
+            wheel.direction + turns * 0.5 * HALF_TURN,
+            0.9,
+            turns,
+            name,
+            scene.words.symbol(name),
+        )
+        canvas.part("centres")
+    canvas.part(ANSWERS)
+    linear(canvas, (below, above), complex(left, 0.0), scene.stated("a_w"), "a_w")
+
+
+def tangent(canvas: Canvas, left: float, right: float) -> None:
+    """Draw the common tangent t-t of the rolling circles through the pole."""
+    canvas.part("rolling_circles")
+    canvas.add(Line(complex(left, 0.0), complex(right, 0.0), Pen.THIN, role="tangent", name="t"))
+    for end in (left, right):
+        canvas.label("t", complex(end, 0.0), prefer=complex(end, 0.0), clear=0.8)
+
+
+def line_of_action(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel]) -> None:
+    """Draw N1N2 with the radii to its ends."""
+    along, size = scene.meshing.along, 0.6 * scene.style.label
+    ends = [scene.mm(f"N{wheel.number}") for wheel in pair]
+    canvas.part("line_of_action")
+    canvas.add(Line(ends[0] - PAST * along, ends[1] + PAST * along, Pen.THIN, role="line-of-action", name="N1N2"))
+    for wheel, end, inside in zip(pair, ends, (along, -along), strict=True):
+        name = f"N{wheel.number}"
+        canvas.add(Line(wheel.centre, end, Pen.THIN, role="radius", name=name))
+        radius = unit(wheel.centre - end)
+        canvas.part(ANSWERS)
+        canvas.add(right_angle(end, radius, inside, size))
+        canvas.part("line_of_action")
+        node(canvas, scene, name, -radius)
+
+
+def active_line(canvas: Canvas, scene: GearScene, inner: bool = True) -> None:
+    """Draw the active part of the line of action thick, the pole on it, and its `inner` ends of single contact.
+
+    Where undercut or pointed teeth lack a part of their flanks, it is thick only along what is left.
+    """
+    along = scene.meshing.along
+    first, last = scene.mm("A1"), scene.mm("A2")
+    canvas.part("active_line")
+    if inner or scene.lacking:
+        canvas.add(Line(first - PAST * along, last + PAST * along, Pen.THIN, role="line-of-action", name="A1A2"))
+    if scene.lacking:
+        first, last = (scene.meshing.place(rho_1) * (1.0 / scene.mu_l) for rho_1 in scene.touching)
+    canvas.add(Line(first, last, Pen.MAIN, role="active", name="A1A2"))
+    node(canvas, scene, "A1", -along - 1j)
+    node(canvas, scene, "A2", along + 1j)
+    canvas.part("centres")
+    node(canvas, scene, "P", along.conjugate() * -1j)
+    canvas.part("single_contact")
+    for name in ("K1", "K2") if inner else ():
+        node(canvas, scene, name, 1j * along)
+
+
+def middle(canvas: Canvas, pair: tuple[Wheel, Wheel]) -> None:
+    """Draw the line of centres as far as the teeth go."""
+    low, high = (wheel.on(wheel.radius("f") - PAST, 0.0) for wheel in pair)
+    canvas.part("centres")
+    canvas.add(Line(low, high, Pen.AXIS, role="axis", name="O1O2"))
+
+
+def angle_of_action(canvas: Canvas, scene: GearScene) -> None:
+    """Dimension alpha_w between t-t and N1N2, on the side of the farther end of the line."""
+    far = max((scene.mm(name) for name in ("N1", "N2")), key=abs)
+    rays = -1.0 + 0j if far.real < 0.0 else 1.0 + 0j, far
+    canvas.part(ANSWERS)
+    angle(canvas, 0j, rays, 0.85 * abs(far), "alpha_w", scene.angle("alpha_w"))
+
+
+def node(canvas: Canvas, scene: GearScene, name: str, prefer: complex) -> None:
+    """Mark a point of the meshing with its letter."""
+    at, radius = scene.mm(name), scene.style.node
+    canvas.add(Group((Circle(at, radius, Pen.THIN, fill="white"),), "point", name))
+    canvas.label(indexed(name), at, prefer=prefer, clear=radius + 0.6)
+
+
+def thickness(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
+    """Dimension on the reference circle a tooth beside the one in contact, away from N, and the space between both."""
+    radius, i = wheel.radius(""), wheel.number
+    tooth = wheel.at(radius, wheel.side), wheel.at(radius, wheel.side, active=False)
+    along(canvas, scene, wheel, tooth, f"s_{i}")
+    along(canvas, scene, wheel, (tooth[1], wheel.at(radius)), f"e_{i}")
+
+
+def pitch(canvas: Canvas, scene: GearScene, wheel: Wheel, to_centre: bool) -> None:
+    """Dimension the pitch below the root, on lines from the reference circle; these run `to_centre` with its angle."""
+    i, radius = wheel.number, wheel.radius("")
+    ends = wheel.at(radius, wheel.side), wheel.at(radius)
+    low = wheel.radius("f") - INSIDE * scene.style.label
+    for end in ends:
+        foot = wheel.centre if to_centre else wheel.towards(end, low - 0.4 * scene.style.label)
+        canvas.add(Line(end, foot, Pen.THIN, role="extension", name=f"p_{i}"))
+    along(canvas, scene, wheel, _on(wheel, ends, low), f"p_{i}")
+    if to_centre:
+        name = f"tau_{i}"
+        along(canvas, scene, wheel, _on(wheel, ends, TAU * wheel.radius("f")), name)
+
+
+def action(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
+    """Dimension the angles by which the wheels turn while one pair of teeth touches, between rays to its flanks."""
+    for wheel in pair:
+        i = wheel.number
+        ends = scene.mm(f"B{i}_start"), scene.mm(f"B{i}_end")
+        for end in ends:
+            canvas.add(Line(end, wheel.centre, Pen.THIN, role="ray", name=f"phi_alpha{i}"))
+        name = f"phi_alpha{i}"
+        along(canvas, scene, wheel, _on(wheel, ends, PHI * wheel.radius("f")), name)
+
+
+def gaps(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
+    """Dimension the radial gap on the line of centres at the root of both wheels."""
+    text, height = f"{scene.words.symbol('c')}{scene.words.symbol('m')}", scene.style.text
+    for wheel, mate in zip(pair, reversed(pair), strict=True):
+        ends = scene.mm(f"C_f{wheel.number}"), scene.mm(f"C_a{mate.number}")
+        linear(canvas, ends, 0j, "", f"gap_{wheel.number}")
+        canvas.label(text, 0.5 * (ends[0] + ends[1]), prefer=complex(wheel.side, 0.0), clear=2.0, height=height)
+
+
+def along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str) -> None:
+    """Dimension an arc about the wheel's centre between two points of it."""
+    a, b = (end - wheel.centre for end in ends)
+    text = _text(scene, name)
+    spare = text if abs(a) < CLOSE * scene.style.label else ""  # near the centre there may be no room
+    angle(canvas, wheel.centre, (a, b), abs(a), name, text, inside=True, spare=spare)
+
+
+def _text(scene: GearScene, name: str) -> str:
+    """Return what a dimension says; the pitch of both wheels is one."""
+    if role(name).kind in ("tau", "phi"):
+        return scene.angle(name)
+    return scene.stated("p" if role(name).kind == "p" else name)
+
+
+def _on(wheel: Wheel, ends: Ends, radius: float) -> Ends:
+    """Return the points of a circle about the centre that lie on the rays to the ends."""
+    a, b = (wheel.towards(end, radius) for end in ends)
+    return a, b
+
+
 def meshing_view(scene: GearScene) -> View:
     """Draw the pair about its centres while a pair of teeth touches at the pole."""
     canvas, pair = FIGURE.canvas(scene, coarse=0.0), scene.wheels()
     left, right = _circles(canvas, scene, pair, to_end=True)
-    circles.centres(canvas, scene, pair, extent(canvas.shapes)[0] - BESIDE)
-    circles.tangent(canvas, left, right)
-    circles.line_of_action(canvas, scene, pair)
-    circles.active_line(canvas, scene, not scene.apart)
-    circles.angle_of_action(canvas, scene)
+    centres(canvas, scene, pair, extent(canvas.shapes)[0] - BESIDE)
+    tangent(canvas, left, right)
+    line_of_action(canvas, scene, pair)
+    active_line(canvas, scene, not scene.apart)
+    angle_of_action(canvas, scene)
     if scene.apart:
         outlines(canvas, pair)
     else:
         _details(canvas, scene, pair)
     canvas.part(ANSWERS)
     for wheel in pair:
-        circles.pitch(canvas, scene, wheel, to_centre=True)
-    circles.action(canvas, scene, pair)
+        pitch(canvas, scene, wheel, to_centre=True)
+    action(canvas, scene, pair)
     return _finished(canvas, scene, "meshing", not scene.apart)
 
 
@@ -49,12 +280,12 @@ def near_view(overall: GearScene) -> View:
     """Draw the middle of the meshing apart, larger."""
     scene = replace(overall, mu_l=overall.near, close=True)
     canvas, pair = NEAR.canvas(scene, coarse=0.0), scene.wheels()
-    circles.tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
-    circles.middle(canvas, pair)
-    circles.active_line(canvas, scene)
+    tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
+    middle(canvas, pair)
+    active_line(canvas, scene)
     _details(canvas, scene, pair)
     for wheel in pair:
-        circles.pitch(canvas, scene, wheel, to_centre=False)
+        pitch(canvas, scene, wheel, to_centre=False)
     return _finished(canvas, scene, "near", detailed=True)
 
 
@@ -71,12 +302,12 @@ def _finished(canvas: Canvas, scene: GearScene, name: str, detailed: bool) -> Vi
 
 def _circles(canvas: Canvas, scene: GearScene, pair: Pair, to_end: bool) -> tuple[float, float]:
     """Draw the circles with their diameters; return the abscissas between which they lie."""
-    spans = [circles.beside_teeth(wheel) for wheel in pair]
+    spans = [beside_teeth(wheel) for wheel in pair]
     tips = [[wheel.on(wheel.radius("a"), a) for a in span] for wheel, span in zip(pair, spans, strict=True)]
     others = [*tips[0], *tips[1], *(point for wheel in pair for point in wheel.outline())]
     for wheel, span in zip(pair, spans, strict=True):
-        circles.circles(canvas, wheel, span, to_end)
-        circles.diameters(canvas, scene, wheel, span[1], others)
+        _five_circles(canvas, wheel, span, to_end)
+        diameters(canvas, scene, wheel, span[1], others)
     xs = [tip.real for both in tips for tip in both]
     return min(xs), max(xs)
 
@@ -89,8 +320,8 @@ def _details(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
     lowest_points(canvas, scene, pair)
     canvas.part(ANSWERS)
     for wheel in pair:
-        circles.thickness(canvas, scene, wheel)
-    circles.gaps(canvas, scene, pair)
+        thickness(canvas, scene, wheel)
+    gaps(canvas, scene, pair)
 
 
 def outlines(canvas: Canvas, pair: Sequence[Wheel]) -> None:

@@ -20,8 +20,7 @@ from ..pens import Norm
 from ..rungs import Fitting, Found, SheetContents, may_fit, pages
 from ..table import note_block
 from ..view import View
-from .ladders import first_scales, mu_ladder, near_ladder, parts_of, rolled_ladder
-from .scene import GearScene, lettered
+from .scene import GearScene, first_scales, lettered, mu_ladder, near_ladder, parts_of, rolled_ladder
 
 Way = Callable[[list[View], Format, Norm], list[Placement] | None]
 BESIDE = ("rolled", "part")  # ladders of what stands beside the meshing
@@ -98,7 +97,7 @@ class GearFitting(Fitting[SolvedGear, GearScene, Rungs]):
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
-        from .sliding_view import rho_scale, theta_scale
+        from .action_view import rho_scale, theta_scale
 
         scene = self.scene(sheet, rungs)
         made: dict[str, Callable[[GearScene], Scale]] = {
@@ -198,7 +197,7 @@ def _on_the_first_page(layout: Nest, views: list[View], sheet: Format, norm: Nor
 
 
 def _data() -> Iterator[GearFigure]:
-    from .tables import data_table
+    from .text import data_table
 
     yield Figure("data", data_table)
 
@@ -210,14 +209,13 @@ def _meshing(apart: bool) -> Iterator[GearFigure]:
     if apart:
         yield meshing_view.NEAR
     yield rolling_view.FIGURE
-    yield action_view.FIGURE
+    yield action_view.ACTION_FIGURE
 
 
 def _quality(width: float) -> Iterator[GearFigure]:
     from .contour_view import contour_view
-    from .rack_view import rack_view
-    from .tables import checks_table
-    from .text import auxiliary_block, quality_block, sizes_block
+    from .rolling_view import rack_view
+    from .text import auxiliary_block, checks_table, quality_block, sizes_block
 
     yield Figure("checks", checks_table)
     yield Figure("contour", contour_view)
@@ -227,8 +225,8 @@ def _quality(width: float) -> Iterator[GearFigure]:
 
 
 def _sliding() -> Iterator[GearFigure]:
-    from . import sliding_view
-    from .tables import points_table
+    from .action_view import SLIDING_FIGURE
+    from .text import points_table
 
-    yield sliding_view.FIGURE
+    yield SLIDING_FIGURE
     yield Figure("points", points_table)

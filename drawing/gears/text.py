@@ -1,60 +1,232 @@
-"""Calculations of a gear pair with their numbers: main sizes, auxiliary sizes, quality; in the order of the note.
-
-Every line is a step of the construction: its law computes the printed result from the printed numbers.
-"""
+"""Tables, worked calculations and conclusions of a gear pair, and what sentences about its drawings name."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from ...plans.board import Step
-from ...plans.gears.gear import VALUES, unit_of
+from ...plans.check import AT_LEAST, AT_MOST, Check, rule_of
+from ...plans.gears.construction import MESHING, THETA
+from ...plans.gears.gear import SHIFTS, VALUES, WHEELS, unit_of
+from ...plans.gears.geometry import POINTS
 from ...plans.gears.solve import SAME_CENTRES
 from ...plans.names import role
+from ...scales.scale import Scale
+from ..handouts import Shown as Begun
+from ..notes.blocks import Story
 from ..printed import DEGREES, Input, Shown, prints, worked
-from ..table import text_block
+from ..table import table, text_block
 from ..view import View
-from .scene import GearScene
+from ..words import indexed
+from .action_view import theta_said
+from .scene import GearScene, marks, places
 
+MM, DEGREE, NUMBER, WHOLE = "mm", "°", "", "whole"
+DECIMALS = {MM: 3, DEGREE: 3, NUMBER: 4}  # of what is calculated
+TIMES = {MM: 1e3, DEGREE: DEGREES}
+SLIDING = 2  # decimals of ordinates, mm, and of sliding where they show so many
+# rows of the data: names, and what they are given in; of a wheel's quantities the name goes on with its number
+PAIR = (
+    *(("m", MM), ("alpha", DEGREE), ("h_a", NUMBER), ("h_l", NUMBER), ("c", NUMBER), ("x_sum", NUMBER)),
+    *(("y", NUMBER), ("delta_y", NUMBER), ("a_w", MM), ("alpha_w", DEGREE), ("h", MM), ("p", MM), ("p_b", MM)),
+)
+OF_WHEELS = (
+    *(("z", WHOLE), ("x", NUMBER), ("d", MM), ("d_w", MM), ("d_b", MM), ("d_a", MM), ("d_f", MM), ("s", MM)),
+    *(("s_c", MM), ("h_c", MM), ("z_W", WHOLE), ("W", MM)),
+)
 Lines = list[tuple[str, ...]]
-SIZES = "inv_alpha a x_sum inv_alpha_w alpha_w a_w d_1 d_2 u d_w1 d_w2 y delta_y d_a1 d_a2 d_f1 d_f2"
+MAIN_SIZES = "inv_alpha a x_sum inv_alpha_w alpha_w a_w d_1 d_2 u d_w1 d_w2 y delta_y d_a1 d_a2 d_f1 d_f2"
 TEETH = "d_b1 d_b2 tau_1 tau_2 P_1 P_2 p s_1 s_2 h alpha_a1 alpha_a2 rho_p1 rho_p2 nu_p1 nu_p2 p_b"
 MEASURES = "s_c1 s_c2 h_c1 h_c2 s_b1 s_b2 W_1 W_2"
 QUALITY = "x_min1 x_min2 rho_l1 rho_l2 epsilon_alpha s_a1 s_a2 rho_a1 g_alpha phi_alpha1 phi_alpha2"
-SHOWN = {"m": Shown("mm", 1e3, 3), "rad": Shown("deg", DEGREES, 3), "1": Shown("", 1.0, 4)}
+PRINTED = {"m": Shown("mm", 1e3, 3), "rad": Shown("deg", DEGREES, 3), "1": Shown("", 1.0, 4)}
 INV = Shown("", 1.0, 6)  # of the involute function
 SHORT = 4  # decimals of a number that is printed as it is
 NOISE = 1e-9  # by which it may differ
+PAPER = 1  # decimals of segments on paper
+SIZES = ("g_alpha", "p", "p_b", "rho_f", "l_N1N2", "PW", *(f"s_{i}" for i in WHEELS))
+LAID_OFF = tuple(name for name in SIZES if name != "PW")  # at the scale of the meshing; PW is a segment itself
+ANGLES = ("alpha_w", *(f"phi_alpha{i}" for i in WHEELS))
+RADII = tuple(f"{circle}{i}" for circle in ("w", "b", "a", "f", "") for i in WHEELS)
+BROKEN = {AT_LEAST: "<", AT_MOST: ">"}
+RULES = ("undercut", "interference", "contact_ratio", "contact_flanks", "tip")
+# where on the active line a wheel slides most: at the root of its teeth
+STEEPEST = {"theta_12": "A1", "theta_21": "A2"}
+Texts = Mapping[str, str]
+
+
+def data_table(scene: GearScene) -> View:
+    """Return the data of the pair, and below them those of its wheels side by side."""
+    words = scene.words
+    rows: list[list[str | None]] = [[words["table.quantity"], words["table.symbol"], words["table.value"], None]]
+    rows += ([named(scene, name, kind), words.symbol(name), number(scene, name, kind), None] for name, kind in PAIR)
+    rows.append(["", None, words["gear.pinion"], words["gear.wheel"]])
+    for name, kind in OF_WHEELS:
+        numbers = (number(scene, of_wheel(name, i), kind) for i in WHEELS)
+        rows.append([named(scene, name, kind), words.symbol(name), *numbers])
+    return table("data", words["heading.gear_data"], rows, scene.style)
+
+
+def of_wheel(name: str, i: int) -> str:
+    """Return the name of a quantity of one wheel: d_1, d_w1."""
+    return f"{name}{i}" if "_" in name else f"{name}_{i}"
+
+
+def named(scene: GearScene, name: str, kind: str) -> str:
+    """Return what a quantity is called, with the unit in which its row is."""
+    words = scene.words
+    unit = {MM: f", {words.unit('mm')}", DEGREE: f", {DEGREE}"}.get(kind, "")
+    return f"{words[f'gear.{name}']}{unit}"
+
+
+def number(scene: GearScene, name: str, kind: str) -> str:
+    """Return a quantity as its row has it: a given as it is, what is undefined as a dash."""
+    value, words = scene.size(name), scene.words
+    if not math.isfinite(value):
+        return words["table.calculated"]
+    if kind == WHOLE:
+        return words.short(value)
+    value *= TIMES.get(kind, 1.0)
+    if name in scene.givens or name in ("x_1", "x_2", "x_sum"):
+        return words.short(round(value, 9), 6)
+    return words.number(value, DECIMALS[kind])
+
+
+def points_table(scene: GearScene) -> View:
+    """Return the table of the twelve points: ordinates of the velocities, their differences, specific sliding.
+
+    Differences are those of the printed ordinates, and sliding has as many digits as come out of these. Points end in
+    N1 and N2: where A1 or A2 lies beyond, no point has its letter.
+    """
+    words, line = scene.words, scene.size("l_N1N2")
+    on_line = [name for name, rho_1 in places(scene.solved.sizes).items() if 0.0 <= rho_1 <= line]
+    named_points = {name: point for name, point in marks(scene.solved.sizes).items() if name in on_line}
+    mm = words.unit("mm")
+    letters = {point: indexed(name) for name, point in named_points.items()}
+    y_1, y_2 = words.symbol("y_1"), words.symbol("y_2")
+    head = [words["gear.point"], None, *(f"{y}, {mm}" for y in (y_1, y_2, f"{y_1} − {y_2}")), words.symbol("theta_12")]
+    head += [f"{y_2} − {y_1}, {mm}", words.symbol("theta_21")]
+    rows: list[list[str | None]] = [head]
+    for point in POINTS:
+        first, second = (round(_mm(scene, f"y_{i}_{point}"), SLIDING) for i in WHEELS)
+        cells = [words.number(y, SLIDING) for y in (first, second)]
+        for pair, own, mate in (("12", first, second), ("21", second, first)):
+            exact = scene.size(f"theta_{pair}_{point}")
+            cells += [words.number(own - mate, SLIDING), _sliding(scene, own, mate, exact)]
+        rows.append([str(int(point)), letters.get(point, ""), *cells])
+    return table("points", words["heading.gear_points"], rows, scene.style)
+
+
+def _mm(scene: GearScene, name: str) -> float:
+    return scene.size(name) * TIMES[MM]
+
+
+def _sliding(scene: GearScene, own: float, mate: float, exact: float) -> str:
+    """Return specific sliding with the digits with which it comes out of the printed ordinates."""
+    if math.isinf(exact):
+        return "−∞"
+    if own == 0.0 or math.isnan(exact):
+        return scene.words["table.calculated"]
+    printed = (own - mate) / own
+    digits = next((d for d in range(SLIDING, -4, -1) if round(printed, d) == round(exact, d)), -4)
+    return scene.words.number(round(exact, digits), digits)
+
+
+def checks_table(scene: GearScene) -> View:
+    """Return the checks, each with its number, its limit and the verdict."""
+    words = scene.words
+    head = [words[f"table.{name}"] for name in ("check", "condition", "value", "limit", "verdict")]
+    rows = [_check_row(scene, check) for check in scene.solved.checks]
+    return table("checks", words["heading.gear_checks"], [head, *rows], scene.style)
+
+
+def _check_row(scene: GearScene, check: Check) -> list[str]:
+    words = scene.words
+    wheel, about = rule_of(check)[1], words[f"gear.check.{role(check.name).kind}"]
+    if wheel:
+        about += f", {words.symbol(f'z_{wheel}')}"
+    sides = number_of(scene, check, check.value), number_of(scene, check, check.limit)
+    verdict = words["said.ok" if check.ok else "said.fails"]
+    return [about, condition(scene, check), *sides, verdict]
+
+
+def condition(scene: GearScene, check: Check) -> str:
+    """Return what is demanded, in symbols."""
+    words = scene.words
+    if role(check.name).kind == "centre":
+        return f"{words.symbol('a_w')} = {CENTRES[check.quantity](words.symbol)}"
+    if check.of:
+        limit = words.symbol(check.of)
+    elif role(check.name).kind == "tip":
+        limit = f"{words.short(scene.solved.pair.least_tip)}m"
+    else:
+        limit = words.short(check.limit)
+    return f"{words.symbol(check.quantity)} {check.sign} {limit}"
+
+
+def number_of(scene: GearScene, check: Check, value: float) -> str:
+    """Return one side of a check, lengths in mm."""
+    words = scene.words
+    if role(check.quantity).kind in ("epsilon", "x"):
+        return words.number(value, DECIMALS[NUMBER])
+    return f"{words.number(value * TIMES[MM], DECIMALS[MM])} {words.unit('mm')}"
+
+
+Symbol = Callable[[str], str]
+# the distance of the centres in other ways, in symbols
+CENTRES: dict[str, Callable[[Symbol], str]] = {
+    "a_w_rolling": lambda s: f"({s('d_w1')} + {s('d_w2')})/2",
+    "a_w_shift": lambda s: f"({s('d_1')} + {s('d_2')})/2 + {s('y')}·{s('m')}",
+    "a_w_tip1": lambda s: f"({s('d_a1')} + {s('d_f2')})/2 + {s('c')}·{s('m')}",
+    "a_w_tip2": lambda s: f"({s('d_a2')} + {s('d_f1')})/2 + {s('c')}·{s('m')}",
+}
+
+
+def begun(scene: GearScene) -> dict[str, Begun]:
+    """Return what handouts show of the tables: the rows of what is given."""
+    nothing = frozenset[str]()
+    found = {name: Begun(nothing, nothing, rows=nothing) for name in ("points", "checks")}
+    return found | {"data": Begun(nothing, nothing, rows=frozenset(_given(scene)), columns=2)}
+
+
+def _given(scene: GearScene) -> Iterator[str]:
+    """Go through the first cells of the rows of what is given, and of the heads between them."""
+    shifts = [name for name in SHIFTS if name in scene.givens]
+    yield ""
+    for name, kind in (*PAIR, *OF_WHEELS):
+        known = name in ("m", "alpha", "h_a", "h_l", "c", "z") or name in shifts
+        if known or (name == "x" and shifts[:2] == ["x_1", "x_2"]):
+            yield named(scene, name, kind)
 
 
 def sizes_block(scene: GearScene, width: float) -> View:
     """Return the calculation of the main sizes and its checks, sections I and II of the note."""
-    lines = [*_lines(scene, SIZES.split()), *_lines(scene, SAME_CENTRES, "a_w")]
+    lines = [*_calculations(scene, MAIN_SIZES.split()), *_calculations(scene, SAME_CENTRES, "a_w")]
     return text_block("equations_sizes", scene.words["heading.gear_sizes"], lines, scene.style, width)
 
 
 def auxiliary_block(scene: GearScene, width: float) -> View:
     """Return the calculation of the auxiliary sizes, section III, and of the sizes to measure teeth by."""
-    lines = _lines(scene, [*TEETH.split(), *MEASURES.split()])
+    lines = _calculations(scene, [*TEETH.split(), *MEASURES.split()])
     return text_block("equations_auxiliary", scene.words["heading.gear_auxiliary"], lines, scene.style, width)
 
 
 def quality_block(scene: GearScene, width: float) -> View:
     """Return the calculation of what the pair is judged by, sections IV and V."""
-    lines = [*_lines(scene, QUALITY.split()), *_sliding(scene)]
+    lines = [*_calculations(scene, QUALITY.split()), *_sliding_laws(scene)]
     return text_block("equations_quality", scene.words["heading.gear_quality"], lines, scene.style, width)
 
 
-def _lines(scene: GearScene, names: Iterable[str], symbol: str = "") -> Lines:
+def _calculations(scene: GearScene, names: Iterable[str], symbol: str = "") -> Lines:
     """Return the calculations of quantities, under one symbol if that is named; without what is undefined."""
     steps = scene.solved.program.by_name
-    return [_line(scene, steps[name], symbol or name) for name in names if math.isfinite(scene.size(name))]
+    return [_calculation(scene, steps[name], symbol or name) for name in names if math.isfinite(scene.size(name))]
 
 
-def _line(scene: GearScene, step: Step, symbol: str) -> tuple[str, ...]:
+def _calculation(scene: GearScene, step: Step, symbol: str) -> tuple[str, ...]:
     """Return one calculation: symbols, numbers, result."""
-    words, (unit, times, decimals) = scene.words, shown(step.name)
+    words, (unit, times, decimals) = scene.words, printed(step.name)
     if not prints(step.law, len(step.operands)):
         number = words.number(scene.size(step.name) * times, decimals or 0)
         return (f"{words.symbol(symbol)} = {number}{words.unit(unit) if unit else ''}",)
@@ -65,21 +237,21 @@ def _line(scene: GearScene, step: Step, symbol: str) -> tuple[str, ...]:
     return worked(words, symbol, step.law, inputs, Shown(unit, times, decimals))
 
 
-def shown(name: str) -> Shown:
+def printed(name: str) -> Shown:
     """Return how a quantity is printed."""
-    return INV if role(name).kind == "inv" else SHOWN[VALUES[name] or "1" if name in VALUES else unit_of(name)]
+    return INV if role(name).kind == "inv" else PRINTED[VALUES[name] or "1" if name in VALUES else unit_of(name)]
 
 
 def _input(scene: GearScene, name: str) -> Input:
     """Return a quantity with its number as it is printed; a short one as it is."""
-    unit, times, _ = shown(name)
+    unit, times, _ = printed(name)
     value = scene.size(name) * times
     short = round(value, SHORT)
     exact = abs(value - short) < NOISE
     return Input(short if exact else value, exact, name=name, sign="°" * (unit == "deg"), times=times)
 
 
-def _sliding(scene: GearScene) -> Lines:
+def _sliding_laws(scene: GearScene) -> Lines:
     """Return the laws of sliding, and between which values it is on the active line."""
     words = scene.words
     v, omega, rho, y = ([words.symbol(f"{name}{i}") for i in (1, 2)] for name in ("V_k", "omega_", "rho_", "y_"))
@@ -92,3 +264,82 @@ def _sliding(scene: GearScene) -> Lines:
         ranges = f"{texts[0]} ≤ {words.symbol(name)} ≤ {texts[1]}"
         lines.append((law, ranges) if not any(math.isnan(value) for value in values) else (law.rstrip(";"),))
     return lines
+
+
+def story(scene: GearScene, scales: Mapping[str, Scale], texts: Mapping[str, str]) -> Story:
+    """Return what the note of a gear pair says beside its views: the steps of each, lengths of the meshing on paper.
+
+    Parameters
+    ----------
+    scales : mapping of str to Scale
+        By plan.
+    texts : mapping of str to str
+        The sentences, by key.
+    """
+    theta = scales[THETA].mu if THETA in scales else scene.size("mu_theta") * 1e-3
+    said = _said(scene, scales[MESHING].mu if MESHING in scales else 1e-3, theta)
+    return Story(conclusions=tuple(conclusions(scene, texts)), texts=texts, said=said)
+
+
+def _said(scene: GearScene, mu: float, mu_theta: float) -> dict[str, str]:
+    """Return what sentences may name: sizes with letters and units, angles, radii and segments on paper."""
+    words, sizes = scene.words, scene.solved.sizes
+    mm = words.unit("mm")
+    found = {name: f"{scene.stated(name)} {mm}" for name in SIZES} | {name: scene.angle(name) for name in ANGLES}
+    for name in RADII:
+        found[f"r_{name}"] = f"{words.number(0.5 * sizes[f'd_{name}'] / mu, PAPER)} {mm}"
+    for name in LAID_OFF:
+        found[f"{name}_drawn"] = f"{words.number(sizes[name] / mu, PAPER)} {mm}"
+    for i, rolled in zip(WHEELS, scene.solved.layout.rollings, strict=True):
+        found[f"parts_{i}"] = str(rolled.parts)
+    found["mu_theta"] = theta_said(words, mu_theta)
+    return found
+
+
+def conclusions(scene: GearScene, texts: Texts) -> Iterator[str]:
+    """Go through the sentences for the end of the note."""
+    lengths = {name: f"{scene.stated(name)} {scene.words.unit('mm')}" for name in ("a", "a_w")}
+    numbers = {name: _plain(scene, name) for name in ("x_1", "x_2")}
+    yield texts["gear.conclusion.shifts"].format(alpha_w=scene.angle("alpha_w"), **lengths, **numbers)
+    for rule in RULES:
+        yield from _judged(scene, texts, rule)
+    yield from _wear(scene, texts)
+
+
+def _plain(scene: GearScene, name: str) -> str:
+    return f"{scene.words.symbol(name)} = {scene.words.short(round(scene.size(name), 4))}"
+
+
+def _judged(scene: GearScene, texts: Texts, rule: str) -> Iterator[str]:
+    """Tell whether a rule is kept: of all wheels, or of which it is not."""
+    checks = [check for check in scene.solved.checks if rule_of(check)[0] == rule]
+    broken = [check for check in checks if not check.ok]
+    if not checks:
+        return
+    said = "; ".join(_compared(scene, check) for check in broken or checks)
+    yield texts[f"gear.conclusion.{rule}_{'broken' if broken else 'kept'}"].format(said=said)
+    ratio = checks[0].value
+    if rule == "contact_ratio" and 1.0 < ratio < 2.0:
+        part = scene.words.number(100.0 * (ratio - 1.0), 0)
+        yield texts["gear.conclusion.pairs"].format(part=part)
+
+
+def _compared(scene: GearScene, check: Check) -> str:
+    """Return a quantity beside its limit, as they stand to one another."""
+    words = scene.words
+    sign = check.sign if check.ok else BROKEN[check.relation]
+    value, limit = (number_of(scene, check, side) for side in (check.value, check.limit))
+    of = f"{words.symbol(check.of)} = " if check.of else ""
+    return f"{words.symbol(check.quantity)} = {value} {sign} {of}{limit}"
+
+
+def _wear(scene: GearScene, texts: Texts) -> Iterator[str]:
+    """Tell where the wheels slide most, and which of them more."""
+    values = {name: scene.size(f"{name}_{end}") for name, end in STEEPEST.items()}
+    if not all(map(math.isfinite, values.values())):
+        return
+    words = scene.words
+    said = {name: f"{words.symbol(name)} = {words.number(value, 2)}" for name, value in values.items()}
+    sizes = {round(abs(value), 2) for value in values.values()}
+    worse = "both" if len(sizes) == 1 else max(values, key=lambda name: abs(values[name]))
+    yield texts[f"gear.conclusion.wear_{worse}"].format(**said)

@@ -1,16 +1,20 @@
-"""The scheme of the hoist to scale, beams, load, drum and rope, and its dynamic model: a mass between two springs."""
+"""The hoist drawn: its scheme and dynamic model, its beams as they bend, and the flow chart of its calculation."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
-from ...plans.hoist.construction import SCHEME
+from ...plans.hoist.construction import BENT, FORCE, LETTERS, SCHEME, SECTIONS
+from ...plans.hoist.forces import STRENGTH
+from ...plans.hoist.solve import OF_BEAM, bent
 from ..dimensions import linear
 from ..figure import Figure, stages
 from ..hardware import COILS, coils
 from ..page import Layer
 from ..shapes import Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
-from ..symbols import fixed_pivot, hatching, unit
+from ..symbols import fixed_pivot, hatching, revolute, unit
 from ..text import lay_out
 from ..view import Canvas, View
 from .scene import HoistScene
@@ -21,8 +25,16 @@ DRUM = 3.0  # mm, radius
 SPRING, HALF = 26.0, 4.0  # mm: length of a spring, half its width
 MASS = 11.0, 13.0  # mm: half the width and the height of the mass
 LEG = 4.0  # mm, straight ends of a spring
-FORCE = 13.0  # mm, an arrow
-BEAMS = {"0": "support", "2": "bridge"}  # stages
+ARROW = 13.0  # mm, an arrow
+STAGE_OF_BEAM = {"0": "support", "2": "bridge"}  # stages
+APART = 14.0  # mm between the beams
+SAME = 0.5  # mm
+STEP = 5.4  # heights of letters from block to block
+TALL = 2.0  # heights of letters of a block
+PAD = 1.6
+POINTED = 2.4  # heights of other blocks that a diamond has
+KINDS = {"begin": "round", "end": "round", "data": "slanted", "places": "slanted"}
+KINDS |= {"larger": "diamond", "strong": "diamond"}
 
 
 def scheme_view(scene: HoistScene) -> View:
@@ -38,7 +50,7 @@ def scheme_view(scene: HoistScene) -> View:
     canvas.add(Line(at["A0"] + 1j * tall, at["A2"], Pen.MAIN, role="rope", name="L"))
     canvas.add(Group((Circle(at["A2"], DRUM, Pen.MAIN, fill="white"),), "drum", "A2"))
     for left, right, number in (("O1", "O2", "0"), ("B1", "B2", "2")):
-        canvas.part(BEAMS[number])
+        canvas.part(STAGE_OF_BEAM[number])
         canvas.add(Group((Line(at[left], at[right]),), "link", number))
         supports = fixed_pivot(at[left], left, style), rolling_support(at[right], right, scene)
         canvas.add(*(replace(one, layer=Layer.RESULT.value) for one in supports))  # they cover the ends of the beam
@@ -62,7 +74,7 @@ def _dimensions(canvas: Canvas, scene: HoistScene, at: dict[str, complex]) -> No
     layout, drop = scene.solved.layout, -1j * (scene.style.pivot[1] + 2.0 * scene.style.pair + 8.0)
     step = -1j * 3.2 * scene.style.text
     for i, ends, mark in ((0, ("O1", "O2"), "A0"), (2, ("B1", "B2"), "A2")):
-        canvas.part(BEAMS[str(i)])
+        canvas.part(STAGE_OF_BEAM[str(i)])
         near = ends[0] if layout.near[i // 2] == "left" else ends[1]
         pair = tuple(sorted((at[near], at[mark]), key=lambda p: p.real))
         linear(canvas, (pair[0], pair[1]), drop, scene.stated(f"b_{i}", unit="m"), f"b_{i}")
@@ -105,10 +117,10 @@ def model_view(scene: HoistScene) -> View:
     canvas.add(Text(0.5 * (bottom + top) - 0.35j * h, "m", h, "middle", role="label"))
     for name, at in (("C_01", 0.28 * bottom), ("C_12", 0.5 * (top + end))):
         canvas.label(words.symbol(name), at - HALF, prefer=-1.0 + 0j, clear=1.0)
-    _arrow(canvas, end + 6.0, end + 6.0 + 1j * FORCE, f"{words.symbol('V_t')}, a")
-    _arrow(canvas, top + 6.0, top + 6.0 + 1j * FORCE, words.symbol("F_12"))
-    _arrow(canvas, bottom + 6.0, bottom + 6.0 - 1j * FORCE, words.symbol("F_01"))
-    _arrow(canvas, bottom - 8.5, bottom - 8.5 - 1j * FORCE, "mg")
+    _arrow(canvas, end + 6.0, end + 6.0 + 1j * ARROW, f"{words.symbol('V_t')}, a")
+    _arrow(canvas, top + 6.0, top + 6.0 + 1j * ARROW, words.symbol("F_12"))
+    _arrow(canvas, bottom + 6.0, bottom + 6.0 - 1j * ARROW, words.symbol("F_01"))
+    _arrow(canvas, bottom - 8.5, bottom - 8.5 - 1j * ARROW, "mg")
     axis = complex(half + 12.0, 0.0)
     canvas.add(
         Line(axis, axis + end, Pen.THIN, role="axis"), Head(axis + end, 1j), Line(axis - 2.0, axis + 2.0, Pen.THIN)
@@ -131,3 +143,151 @@ def spring(a: complex, b: complex, name: str) -> Group:
 
 
 MODEL = Figure("model", model_view, stages=stages("blank", "model"), key="hoist.model")
+
+
+def beams_view(scene: HoistScene) -> View:
+    """Draw the bent beams under their axes."""
+    canvas, words, low = BEAMS_FIGURE.canvas(scene), scene.words, 0.0
+    for i in scene.solved.layout.bent:
+        low = _beam(canvas, scene, i, low) - APART
+    heading = (words["heading.hoist_beams"], scene.factors("mu_w", "mu_x"))
+    return canvas.finish("beams", heading, (words["hoist.from_farther"],))
+
+
+def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:
+    """Draw one beam with its axis at `top`; return how low it reaches, mm."""
+    plan, words, by = BENT[i], scene.words, 1j * top
+    feet = [scene.mm(f"{plan}.f{n}") + by for n in range(SECTIONS + 1)]
+    canvas.part("axes")
+    canvas.add(Line(feet[0], feet[-1], Pen.AXIS, role="axis", name=plan))
+    canvas.part("bent")
+    for letter, force in zip(LETTERS, FORCE[i], strict=False):
+        points = tuple(place + by for place in scene.places(bent(scene.solved, i, letter, force)))
+        nodes = (scene.node(scene.mm(f"{plan}.{letter}{n}") + by, f"{letter}{n}") for n in range(1, SECTIONS))
+        pen = Pen.MAIN if letter == LETTERS[0] else Pen.THIN
+        canvas.add(Group((Polyline(points, pen),), "curve", f"{plan}_{letter}"), *nodes)
+        canvas.label(words.symbol(force), points[2 * OF_BEAM // 3], prefer=-1j, clear=1.2, height=scene.style.text)
+    canvas.part("axes")
+    for end in (feet[0], feet[-1]):
+        canvas.add(revolute(end, plan, scene.style))
+    canvas.label(words["hoist.beam_0" if i == 0 else "hoist.beam_2"], feet[0], prefer=-1.0 + 0j, clear=2.0)
+    places = [("M", "fM", f"w_{i}_max")]
+    if abs(scene.mm(f"{plan}.A") - scene.mm(f"{plan}.M")) > SAME:  # in the middle of the beam they are one
+        places.insert(0, ("A", "fA", f"w_{i}"))
+    for mark, foot, name in places:
+        canvas.part("bent" if mark == "A" else "greatest")
+        at, above = scene.mm(f"{plan}.{mark}") + by, scene.mm(f"{plan}.{foot}") + by
+        canvas.add(Line(above, at, Pen.THIN, role="deflection", name=name), scene.node(at, name, filled=True))
+        said = scene.stated(name, float(scene.solved.quantities[name].value or 0.0) * 1e3, "mm")
+        canvas.label(said, at, prefer=-1.0 - 1j if mark == "A" else 1.0 - 1j, clear=1.2, height=scene.style.text)
+    canvas.part("greatest")
+    ends = scene.mm(f"{plan}.fM") + by, feet[-1]
+    linear(canvas, ends, 6j, scene.stated(f"x_w{i}", unit="m"), f"x_w{i}")
+    return top + min(scene.mm(f"{plan}.M").imag, 0.0)
+
+
+BEAMS_FIGURE = Figure("beams", beams_view, ("part",), stages("axes", "bent", "greatest"), "hoist.beams")
+
+
+def flow_view(scene: HoistScene) -> View:
+    """Draw the flow chart."""
+    canvas, words, h = Canvas(scene.style), scene.words, scene.style.text
+    found, ok = scene.solved.forces.found, scene.solved.forces.ok[STRENGTH]
+    s = words.symbol
+    texts = {
+        "begin": words["hoist.begin"],
+        "data": words["hoist.data"],
+        "places": f"{s('beta_0')}, {s('beta_2')}",
+        "reduced": f"m (4), {s('C_01')} (5), {s('C_12')} (7)",
+        "roots": f"{s('t_1')} (11), {s('t')}_{{2}} (12)",
+        "resting": f"{s('F_12_max')} (10)",
+        "hanging": f"{s('T_1')}, {s('P_12_max')} (15′)",
+        "larger": f"{s('F_12_max')} > {s('P_12_max')}?",
+        "stress": f"{s('sigma_max')} = {s('F_max')}/S",
+        "strong": f"[σ]/{s('sigma_max')} ≥ K?",
+        "end": words["hoist.end"],
+    }
+    widest = max(lay_out(text, h).width for text in texts.values()) + 2.0 * PAD * h + 2.0 * TALL * h
+    widest = max(widest, 2.0 * _box(scene) + 4.0 * h)
+    order = [*texts]
+    beyond = order.index("stress")  # a level more, for the two boxes before it
+    levels = {name: -(k + (k >= beyond)) * STEP * h for k, name in enumerate(order)}
+    for name, text in texts.items():
+        _block(canvas, name, text, (levels[name], widest), h)
+    _ways(canvas, scene, levels, widest, found["F_12_max"] > found["P_12_max"], ok)
+    return canvas.finish("flow", (words["heading.hoist_flow"],), (words["hoist.taken"],))
+
+
+def _box(scene: HoistScene) -> float:
+    """Return the width of the box that takes one of both forces."""
+    texts = (f"{scene.words.symbol('F_max')} = {scene.words.symbol(name)}" for name in ("F_12_max", "P_12_max"))
+    return max(lay_out(text, scene.style.text).width for text in texts) + 1.4 * scene.style.text
+
+
+def _block(canvas: Canvas, name: str, text: str, place: tuple[float, float], h: float) -> None:
+    """Draw a block: rounded, slanted, a diamond or a rectangle, with its text."""
+    level, wide = place
+    half, up, lean = 0.5 * wide, 0.5 * TALL * h, TALL * h
+    kind = KINDS.get(name, "")
+    corners = {
+        "": ((-half, -up), (half, -up), (half, up), (-half, up)),
+        "slanted": ((-half, -up), (half - lean, -up), (half, up), (-half + lean, up)),
+        "round": ((-half + up, -up), (half - up, -up), (half, 0.0), (half - up, up), (-half + up, up), (-half, 0.0)),
+        "diamond": ((-half - lean, 0.0), (0.0, -POINTED * up), (half + lean, 0.0), (0.0, POINTED * up)),
+    }[kind]
+    outline = tuple(complex(x, level + y) for x, y in corners)
+    canvas.add(Group((Polyline(outline, Pen.MAIN, closed=True, fill="white"),), "block", name))
+    canvas.add(Text(complex(0.0, level - 0.5 * h), text, h, "middle", role="block"))
+
+
+def _ways(canvas: Canvas, scene: HoistScene, levels: dict[str, float], wide: float, resting: bool, ok: bool) -> None:
+    """Draw the ways between the blocks; the one that is taken thick, the others thin."""
+    words, h = scene.words, scene.style.text
+    up, corner = 0.5 * TALL * h, 0.5 * wide + TALL * h
+    for before, after in pairwise(levels):
+        if before == "larger":
+            continue
+        reach = {name: up * (POINTED if KINDS.get(name) == "diamond" else 1.0) for name in (before, after)}
+        ends = 1j * (levels[before] - reach[before]), 1j * (levels[after] + reach[after])
+        _way(canvas, ends, before != "strong" or ok, f"{before}-{after}")
+    _choice(canvas, scene, levels, corner, resting)
+    left = -corner - 2.2 * h
+    back = (
+        complex(-corner, levels["strong"]),
+        complex(left, levels["strong"]),
+        complex(left, levels["places"]),
+        complex(-0.5 * wide + TALL * h * 0.5, levels["places"]),
+    )
+    _way(canvas, back, not ok, "strong-places")
+    canvas.add(Text(complex(left + 0.4 * h, levels["strong"] + 0.4 * h), words["hoist.no"], h, role="answer"))
+    below = levels["strong"] - POINTED * up - 1.4 * h
+    canvas.add(Text(complex(0.8 * h, below), words["hoist.yes"], h, role="answer"))
+
+
+def _choice(canvas: Canvas, scene: HoistScene, levels: dict[str, float], corner: float, resting: bool) -> None:
+    """Draw both ways out of the question which force is the larger, with what each takes, until they meet."""
+    words, h = scene.words, scene.style.text
+    up, level, low = 0.5 * TALL * h, levels["larger"], levels["stress"]
+    middle = level - STEP * h
+    answers = {True: words["hoist.yes"], False: words["hoist.no"]}
+    for side, name, taken in ((-1, "F_12_max", resting), (1, "P_12_max", not resting)):
+        text = f"{words.symbol('F_max')} = {words.symbol(name)}"
+        half = 0.5 * lay_out(text, h).width + 0.7 * h
+        at = complex(side * (half + 0.8 * h), middle)
+        outline = tuple(at + complex(x * half, y * up) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+        canvas.add(Group((Polyline(outline, Pen.MAIN, closed=True, fill="white"),), "block", name))
+        canvas.add(Text(at - 0.5j * h, text, h, "middle", role="block"))
+        first = complex(side * corner, level), complex(side * corner, middle), at + side * half
+        _way(canvas, first, taken, f"larger-{name}")
+        joint = complex(at.real, low + up + 1.6 * h)
+        _way(canvas, (at - 1j * up, joint, complex(0.0, joint.imag), 1j * (low + up)), taken, f"{name}-stress")
+        beside = complex(side * (corner - 0.4 * h), level - 2.2 * h)
+        canvas.add(Text(beside, answers[side < 0], h, "right" if side > 0 else "left", role="answer"))
+
+
+def _way(canvas: Canvas, places: Sequence[complex], taken: bool, name: str) -> None:
+    pen = Pen.MAIN if taken else Pen.THIN
+    canvas.add(
+        Group((Polyline(tuple(places), pen),), "taken" if taken else "way", name),
+        Head(places[-1], places[-1] - places[-2]),
+    )

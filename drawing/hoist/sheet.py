@@ -14,8 +14,7 @@ from ..formats import STYLES, Format
 from ..rungs import Fitting, Found, SheetContents
 from ..table import note_block, text_block
 from ..view import View
-from .ladders import UNITS, first_scales, ladder
-from .scene import HoistScene, lettered
+from .scene import UNITS, HoistScene, first_scales, ladder, lettered
 
 TEXT_WIDTH = 120.0
 PARTS = 1.0, 0.8, 0.63, 0.5, 0.4  # of the usual size of diagrams
@@ -68,7 +67,8 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene, Rungs]):
 
     def figures(self, scene: HoistScene, width: float) -> Iterator[HoistFigure]:
         """Go through the figures of a sheet in the order of the work."""
-        from .tables import checks_table, data_table, results_table, scales_table
+        from . import diagrams_view, scheme_view
+        from .text import checks_table, data_table, results_table, scales_table
 
         contents = self.contents
         layout, plans = contents.solved.layout, contents.plans
@@ -76,40 +76,27 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene, Rungs]):
         if contents.note:
             yield Figure("note", lambda scene: note_block(scene.words, contents.note, scene.style, TEXT_WIDTH))
         if SCHEME_PART in plans:
-            from .scheme_view import MODEL, SCHEME_FIGURE
-
-            yield SCHEME_FIGURE
-            yield MODEL
+            yield from (scheme_view.SCHEME_FIGURE, scheme_view.MODEL)
         yield Figure("results", results_table)
         if FORCES_PART in plans:
-            from .forces_view import FORCES_FIGURE
-
-            yield FORCES_FIGURE
+            yield diagrams_view.FORCES_FIGURE
         if ROOTS_PART in plans and layout.roots is not None:
-            from .roots_view import EXTREMES_FIGURE, LIFT_OFF_FIGURE
-
-            yield LIFT_OFF_FIGURE
+            yield diagrams_view.LIFT_OFF_FIGURE
             if layout.roots.waves:
-                yield EXTREMES_FIGURE
+                yield diagrams_view.EXTREMES_FIGURE
         if CIRCLE_PART in plans:
-            from .circle_view import CIRCLE_FIGURE
-
-            yield CIRCLE_FIGURE
+            yield diagrams_view.CIRCLE_FIGURE
         if BEAMS_PART in plans and layout.bent:
-            from .beams_view import BEAMS
-
-            yield BEAMS
+            yield scheme_view.BEAMS_FIGURE
         if FORCES_PART in plans:
-            from .flow_view import flow_view
-
             yield Figure("strength", strength_block)
             yield Figure("checks", checks_table)
-            yield Figure("flow", flow_view)
+            yield Figure("flow", scheme_view.flow_view)
         yield Figure("scales", scales_table, ("mu_l", "mu_F_circle", "part"))
 
 
 def strength_block(scene: HoistScene) -> View:
     """Return the check of strength."""
-    from .tables import strength_lines
+    from .text import strength_lines
 
     return text_block("strength", scene.words["heading.hoist_safety"], strength_lines(scene), scene.style, TEXT_WIDTH)

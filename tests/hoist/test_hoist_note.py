@@ -9,7 +9,7 @@ import pytest
 from kulman import note
 from kulman.drawing.formats import STYLES
 from kulman.drawing.hoist.scene import HoistScene
-from kulman.drawing.hoist.steps import BENT, DRAWN, HANGING, REDUCED, SLACK, STARTED, formula
+from kulman.drawing.hoist.text import BENT, BY_DRAWING, HANGING, REDUCED, SLACK, STARTED, formula
 from kulman.drawing.notes.blocks import Equations, Figure, Steps, Table
 from kulman.drawing.words import Words
 from kulman.plans.hoist.forces import forces
@@ -35,7 +35,7 @@ def test_expressions_that_are_printed_give_the_results(variant: str) -> None:
     found = dict(forces(solved.givens).found)
     for told in FORMULAS:
         step = solved.program.by_name[told.name]
-        law, names = DRAWN.get(told.name) or (step.law, step.operands)
+        law, names = BY_DRAWING.get(told.name) or (step.law, step.operands)
         value = form_of(law)(*(found[name] for name in names))
         assert value == pytest.approx(found[told.name], rel=1e-12, abs=1e-300), told.name
 

@@ -22,9 +22,9 @@ MODULES = {path: path.read_text(encoding="utf-8") for name in SUBJECTS for path 
 PRINTING = {"ceil", "floor", "inf", "isfinite", "isinf", "isnan", "isclose", "log10", "tau"}
 READING = {"mm", "point", "places", "size", "values", "sizes", "mu", "mus", "mu_l", "found", "motion"}
 # modules that print, or choose scale factors
-TEXTS = {"steps", "tables", "text", "ladders", "sheet"}
+TEXTS = {"steps", "text", "sheet"}
 TO_PAPER = {"mm", "places", "paper"}  # by which scenes take marks to millimetres
-ROUND = {"inversion", "rocker_view", "sizes_view", "text"}
+ROUND = {"inversion", "profile_view", "sizes_view", "text"}
 PRODUCTS = (ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow, ast.MatMult)
 
 

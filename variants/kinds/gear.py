@@ -129,13 +129,13 @@ class Gears(Sized[GearPair, "SolvedGear"]):
 
     def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what is drawn of the tables; drawings have stages."""
-        from ...drawing.gears.tables import begun
+        from ...drawing.gears.text import begun
 
         return begun(self._scene(case, words))
 
     def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
         """Tell the drawing step by step."""
-        from ...drawing.gears.steps import story
+        from ...drawing.gears.text import story
 
         return story(self._scene(case, words), scales, texts)
 

@@ -117,13 +117,13 @@ class Hoists(Sized[Hoist, "SolvedHoist"]):
 
     def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
         """Show what the table of checks asks; drawings have stages."""
-        from ...drawing.hoist.tables import begun
+        from ...drawing.hoist.text import begun
 
         return begun()
 
     def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
         """Tell formulas with their numbers, and the drawings step by step."""
-        from ...drawing.hoist.steps import story
+        from ...drawing.hoist.text import story
 
         return story(self._scene(case, words), scales, texts)
 

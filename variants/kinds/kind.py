@@ -325,7 +325,7 @@ class Sized(Kind[Subject, Answer]):
         self, solved: Answer, choosers: Choosers, plans: tuple[str, ...]
     ) -> tuple[Format, dict[str, Scale]]:
         """Return format and scale factors by plan; those of diagrams follow from the construction."""
-        found: tuple[Format, dict[str, Scale]] = self._in("drawing", "ladders").first_scales(solved, choosers, plans)
+        found: tuple[Format, dict[str, Scale]] = self._in("drawing", "sheet").first_scales(solved, choosers, plans)
         return found
 
     def conditions(self, case: Case) -> dict[str, Condition]:

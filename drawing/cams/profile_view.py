@@ -1,0 +1,439 @@
+"""The plans of a cam by inversion: a roller, a rocker or a plate in all positions about it, and the profile."""
+
+from __future__ import annotations
+
+import math
+
+from ...plans.cams.construction import PLATE_PROFILE, PROFILE
+from ...plans.cams.course import dwelling, on_circle, pole_share, pressed, rests, up_at
+from ..dimensions import angle, linear
+from ..figure import Figure, Stage
+from ..hardware import Rod
+from ..shapes import Arc, Circle, Group, Line, Pen, Polyline, Text
+from ..symbols import fixed_pivot, polar, revolute, swept, unit
+from ..text import Box, box, lay_out
+from ..view import Canvas, View
+from .inversion import (
+    Contact,
+    centre,
+    circle,
+    corners,
+    curves,
+    heading,
+    letter_centre,
+    lettered_sizes,
+    normal,
+    numbers,
+    past_normal,
+    phases,
+    quiet,
+    radius_at,
+    roller_radius,
+    sharpest,
+    undercut_notes,
+)
+from .scene import CamScene, is_aside, is_sharp, needed
+from .sizes_view import SHOWN
+
+OUT = 1.5  # heights of letters from the roller to the dimension of the stroke
+NUMBERS, PHASES = 1.7, 2.8  # heights of letters from the outermost roller to the numbers, and to the arcs of the phases
+ASIDE = 0.45  # rad between the rays of two radii
+OVER = 4.0  # mm of the roller's arcs beyond its extreme places
+SAME = 1e-4  # part of the greatest velocity within which that of the fall is the same
+ANALOGUE = "|s′|"  # letter of the velocity analogue where there is little room
+ABOVE = 2.2, 4.6  # heights of letters from the plate to its dimensions
+STEPS = 60  # along a line, to see what it runs through
+THICK = 0.5  # thickness of the plate, in heights of letters
+
+
+def roller_view(scene: CamScene) -> View:
+    """Draw the cam as it stands when the follower is lowest."""
+    solved, canvas = scene.solved, ROLLER_FIGURE.canvas(scene)
+    roller = needed(solved.roller)
+    e, s_0, stroke = map(scene.drawn, (roller.sizes.e, roller.sizes.s_0, solved.motion.h))
+    R, r_0 = scene.drawn(roller.profile.R), scene.drawn(roller.sizes.r_0)
+    outer = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in solved.layout.division.lines) + R
+    label = scene.style.label
+    rod = Rod(e, s_0, outer + (PHASES + 1.2) * label, stroke, scene.style)
+    reach = outer + NUMBERS * label
+    canvas.part("shaft")
+    centre(canvas, scene, r_0, rod.top + 12.0, offset=abs(e))
+    canvas.part("circles")
+    canvas.add(circle(r_0, "r_0"))
+    if is_aside(scene):
+        canvas.add(circle(abs(e), "e"))
+    _roller_positions(canvas, scene, e, reach - 0.9 * label)
+    curves(canvas, scene, roller.profile)
+    canvas.part("lines")
+    numbers(canvas, scene, e, reach)
+    contact = _contact(scene, pressed(solved, SHOWN))
+    canvas.part("circles")
+    arcs = outer + PHASES * label
+    phases(canvas, scene, on_circle(e, arcs, 1j), arcs, past_normal(contact, scene.style))
+    canvas.part("sharpest")
+    sharpest(canvas, scene)
+    normal(canvas, scene, contact)
+    canvas.part("follower")
+    _roller_follower(canvas, scene, rod, R)
+    left = _roller_sizes(canvas, scene, rod)
+    canvas.part("shaft")
+    letter_centre(canvas, scene, r_0, offset=abs(e))
+    edge = outer + (PHASES + 1.2) * label
+    canvas.bounds = -edge, -edge, edge, rod.top + 16.0
+    notes = (
+        "; ".join([*lettered_sizes(scene, roller.profile, contact.line), *left]),
+        *undercut_notes(scene, roller.profile.undercuts),
+    )
+    return canvas.finish("profile", heading(scene, "heading.cam_profile", PROFILE), notes)
+
+
+def _roller_positions(canvas: Canvas, scene: CamScene, e: float, reach: float) -> None:
+    """Draw the follower's line and the roller in each position; the line touches the circle of the offset."""
+    solved, R = scene.solved, scene.drawn(float(scene.solved.values["R_roller"]))
+    for i, phi in enumerate(solved.angles.tolist()):
+        up = up_at(phi, solved.cam.sense)
+        foot, at = scene.mm(f"{PROFILE}.E{i}"), scene.mm(f"{PROFILE}.B{i}")
+        canvas.part("lines")
+        canvas.add(Line(foot, on_circle(e, reach, up), Pen.THIN, role="position", name=str(i)))
+        if i:
+            canvas.part("profile")
+            canvas.add(Group((Circle(at, R, Pen.THIN),), "roller", str(i)))
+        canvas.part("pitch")
+        canvas.add(scene.node(at, str(i)))
+
+
+def _contact(scene: CamScene, i: int) -> Contact:
+    """Return the position of a section line."""
+    pole, at, touch = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "PBK")
+    return Contact(i, at, touch, pole, up_at(float(scene.solved.angles[i]), scene.solved.cam.sense))
+
+
+def _roller_follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
+    """Draw the roller and its rod in position 0, guided and pressed down by a spring."""
+    at = complex(rod.x, rod.low)
+    canvas.add(Group((Circle(at, R, Pen.MAIN),), "roller", "0"))
+    canvas.add(*rod.shapes())
+    canvas.add(revolute(at, "B0", scene.style))
+
+
+def _roller_sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
+    """Dimension r_0, e, the roller and the stroke; return what has no place in the figure."""
+    solved, words = scene.solved, scene.words
+    roller, sense = needed(solved.roller), solved.cam.sense
+    middle = quiet(solved.motion, sense)
+    r_0, R = scene.drawn(roller.sizes.r_0), scene.drawn(roller.profile.R)
+    canvas.part("circles")
+    left = radius_at(
+        canvas, scene, "r_0", roller.sizes.r_0, middle, (0.0, scene.drawn(roller.sizes.r_0 - roller.profile.R), r_0)
+    )
+    level = rod.top + 6.0
+    ends = complex(0.0, rod.top), complex(rod.x, rod.top)
+    linear(canvas, ends, 1j * (level - rod.top), f"{words.symbol('e')} = {scene.length(abs(roller.sizes.e))}", "e")
+    division = solved.layout.division
+    canvas.part("profile")
+    roller_radius(canvas, scene, [scene.mm(f"{PROFILE}.B{i}") for i in division.lines], roller.profile.R)
+    canvas.part("pitch")
+    if rests(solved.motion):
+        low = complex(rod.x, rod.low)
+        out = complex(-sense * max(R + OUT * scene.style.text, OUT * scene.style.label))
+        ends = low, low + 1j * rod.stroke
+    else:
+        up = up_at(float(solved.angles[division.top]), sense)
+        out = up * (-1j * sense) * (0.5 * R)
+        ends = on_circle(rod.x, r_0, up), scene.mm(f"{PROFILE}.B{division.top}")
+    linear(canvas, ends, out, words.symbol("h"), "h")
+    return [left] if left else []
+
+
+def _central(scene: CamScene) -> str:
+    """Return the ending of the key of a sentence that is another one where the follower's line has no offset."""
+    return "" if is_aside(scene) else "_central"
+
+
+ROLLER_FIGURE = Figure(
+    PROFILE,
+    roller_view,
+    ("mu_l",),
+    (
+        Stage("shaft", "profile.O"),
+        Stage("circles", "_axis#", variant=_central),
+        Stage("lines", "profile.E#", variant=_central),
+        Stage("pitch", "profile.B#"),
+        Stage("normal", "profile.P#"),
+        Stage("profile", "profile.K#"),
+        Stage("sharpest", when=is_sharp),
+        Stage("follower"),
+    ),
+    "cam.profile",
+)
+
+
+def rocker_view(scene: CamScene) -> View:
+    """Draw the cam as it stands when the rocker is lowest."""
+    solved, canvas = scene.solved, ROCKER_FIGURE.canvas(scene)
+    cam = needed(solved.rocker)
+    r_0, label = scene.drawn(cam.sizes.r_0), scene.style.label
+    pivot, start = scene.mm(f"{PROFILE}.A0"), scene.mm(f"{PROFILE}.B0")
+    far = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in solved.layout.division.lines) + scene.drawn(cam.profile.R)
+    outer = max(abs(pivot), far)
+    turned = swept(1j, start)
+    canvas.part("shaft")
+    centre(canvas, scene, r_0, far + 3.0, turned)
+    canvas.part("pivots")
+    canvas.add(circle(r_0, "r_0"), circle(abs(pivot), "l_OC"))
+    _rocker_positions(canvas, scene)
+    curves(canvas, scene, cam.profile)
+    canvas.part("pivots")
+    _rocker_numbers(canvas, scene, outer + NUMBERS * label)
+    reach = outer + (PHASES + 1.0) * label
+    phases(canvas, scene, pivot, reach)
+    canvas.part("sharpest")
+    sharpest(canvas, scene)
+    line = pressed(solved, SHOWN)
+    _rocker_normal(canvas, scene, line)
+    canvas.part("follower")
+    _rocker_follower(canvas, scene)
+    left = _rocker_sizes(canvas, scene, dwelling(solved.motion, solved.cam.sense) + turned)
+    canvas.part("shaft")
+    letter_centre(canvas, scene, r_0, turned)
+    edge = reach + 1.2 * label
+    canvas.bounds = -edge, -edge, edge, edge
+    scale = f"{scene.words.drawn_at(scene.mu_l)};  {scene.factor(scene.scale(PROFILE))}"
+    notes = "; ".join([*_rocker_lettered(scene), *left]), *undercut_notes(scene, cam.profile.undercuts, rocks=True)
+    return canvas.finish("profile", (scene.words["heading.cam_rocker_profile"], scale), notes)
+
+
+def _rocker_positions(canvas: Canvas, scene: CamScene) -> None:
+    """Draw the pivot, the roller's arc about it, and the roller in each position."""
+    solved = scene.solved
+    cam = needed(solved.rocker)
+    l, R, swing = scene.drawn(cam.sizes.l), scene.drawn(cam.profile.R), cam.rocker.motion.h
+    over = OVER / l
+    for i, phi in enumerate(solved.angles.tolist()):
+        pivot, at = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "AB")
+        low = -solved.cam.sense * phi
+        canvas.part("pitch")
+        canvas.add(Arc(pivot, l, low - over, swing + 2.0 * over, Pen.THIN, role="arc", name=str(i)))
+        if i:
+            canvas.part("profile")
+            canvas.add(Group((Circle(at, R, Pen.THIN),), "roller", str(i)))
+            canvas.part("pivots")
+            canvas.add(scene.node(pivot, f"A{i}"))
+        canvas.part("pitch")
+        canvas.add(scene.node(at, f"B{i}"))
+
+
+def _rocker_numbers(canvas: Canvas, scene: CamScene, radius: float) -> None:
+    """Write the number of each position beyond its pivot, with a tick from the pivot towards it."""
+    height = scene.style.text
+    for i in scene.solved.layout.division.lines:
+        pivot = scene.mm(f"{PROFILE}.A{i}")
+        out = unit(pivot)
+        canvas.add(Line(pivot, out * (radius - 0.9 * scene.style.label), Pen.THIN, role="position", name=str(i)))
+        canvas.add(Text(out * radius - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
+
+
+def _rocker_normal(canvas: Canvas, scene: CamScene, i: int) -> None:
+    """Draw the rocker of one position, and its normal through the instant centre on the line of both pivots."""
+    pivot, at, touch = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "ABK")
+    pole = pivot * pole_share(scene.solved, i)
+    canvas.part("normal")
+    canvas.add(Group((Line(pivot, at, Pen.THIN),), "rocker", str(i)))
+    normal(canvas, scene, Contact(i, at, touch, pole, 1j * unit(at - pivot)))
+
+
+def _rocker_follower(canvas: Canvas, scene: CamScene) -> None:
+    """Draw the rocker on its pivot with the roller in position 0."""
+    pivot, at = (scene.mm(f"{PROFILE}.{letter}0") for letter in "AB")
+    cam, style = needed(scene.solved.rocker), scene.style
+    along = unit(at - pivot)
+    canvas.add(Group((Circle(at, scene.drawn(cam.profile.R), Pen.MAIN),), "roller", "0"))
+    canvas.add(Group((Line(pivot + along * style.pair, at - along * style.pair, Pen.MAIN),), "rocker", "0"))
+    canvas.add(fixed_pivot(pivot, "A0", style), revolute(at, "B0", style))
+    canvas.label("C", pivot, prefer=1 - 1j, clear=style.pair + 0.5)
+    canvas.label("B", at, prefer=1 + 1j, clear=style.pair + 0.5)
+
+
+def _rocker_sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
+    """Dimension r_0, l_OC, the rocker, its swing, and the roller; return what has no place in the figure.
+
+    `quiet` is the middle of the lower dwell.
+    """
+    solved, words = scene.solved, scene.words
+    cam, division = needed(solved.rocker), solved.layout.division
+    sizes, R = cam.sizes, cam.profile.R
+    r_0, far = scene.drawn(sizes.r_0), scene.drawn(sizes.l_OC)
+    canvas.part("pivots")
+    left = [radius_at(canvas, scene, "r_0", sizes.r_0, quiet, (0.0, scene.drawn(sizes.r_0 - R), r_0))]
+    left += [radius_at(canvas, scene, "l_OC", sizes.l_OC, quiet + ASIDE * solved.cam.sense, (r_0, far, far))]
+    canvas.part("profile")
+    roller_radius(canvas, scene, [scene.mm(f"{PROFILE}.B{i}") for i in division.lines], R)
+    canvas.part("pitch")
+    top = division.top
+    pivot = scene.mm(f"{PROFILE}.A{top}")
+    low = -solved.cam.sense * float(solved.angles[top])
+    rays = polar(scene.drawn(sizes.l), low), scene.mm(f"{PROFILE}.B{top}") - pivot
+    for ray in rays:
+        canvas.add(Line(pivot, pivot + ray, Pen.THIN, role="rocker", name=str(top)))
+    angle(canvas, pivot, rays, 0.4 * abs(rays[0]), "psi", words.symbol("psi"), clear=0.8)
+    zero, start = scene.mm(f"{PROFILE}.A0"), scene.mm(f"{PROFILE}.B0")
+    canvas.part("follower")
+    canvas.label(words.symbol("l_rocker"), (zero, start), prefer=1j, clear=0.8, height=scene.style.text)
+    return [text for text in left if text]
+
+
+def _rocker_lettered(scene: CamScene) -> list[str]:
+    """Return the numbers of what has only a letter in the figure."""
+    cam, words = needed(scene.solved.rocker), scene.words
+    lengths = {"l_rocker": cam.sizes.l, "R_roller": cam.profile.R, "rho_min": cam.profile.rho_min}
+    said = [f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size)]
+    return [*said, f"{words.symbol('psi')} = {scene.degrees(cam.rocker.motion.h)}"]
+
+
+ROCKER_FIGURE = Figure(
+    PROFILE,
+    rocker_view,
+    ("mu_l",),
+    (
+        Stage("shaft", "profile.O"),
+        Stage("pivots", "profile.A#"),
+        Stage("pitch", "profile.B#"),
+        Stage("normal", "profile.D#"),
+        Stage("profile", "profile.K#"),
+        Stage("sharpest", when=is_sharp),
+        Stage("follower"),
+    ),
+    "cam.rocker_profile",
+)
+
+
+def plate_view(scene: CamScene) -> View:
+    """Draw the cam as it stands when the follower is lowest."""
+    solved, canvas = scene.solved, PLATE_FIGURE.canvas(scene)
+    plate = needed(solved.plate)
+    r_0, stroke, R = map(scene.drawn, (plate.sizes.r_0, solved.motion.h, plate.sizes.R_plate))
+    label = scene.style.label
+    outer = max(abs(end) for i in solved.layout.division.lines for end in _plate(scene, i, R))
+    rod = Rod(0.0, r_0 + THICK * label, outer + (PHASES + 1.2) * label, stroke, scene.style)
+    reach = outer + NUMBERS * label
+    canvas.part("shaft")
+    centre(canvas, scene, r_0, rod.top + 6.0)
+    canvas.part("circles")
+    canvas.add(circle(r_0, "r_0_flat"))
+    _plate_positions(canvas, scene, R, reach - 0.9 * label)
+    canvas.part("profile")
+    outline = scene.curve(plate.profile.outline().tolist())
+    canvas.add(Group((Polyline(outline, Pen.MAIN, closed=True),), "curve", "practical"))
+    corners(canvas, scene, plate.profile.undercuts)
+    canvas.part("circles")
+    numbers(canvas, scene, 0.0, reach)
+    phases(canvas, scene, 1j, outer + PHASES * label)
+    canvas.part("follower")
+    _plate_follower(canvas, scene, rod, R)
+    left = _plate_sizes(canvas, scene, rod, R)
+    notes = "; ".join([*left, *_plate_lettered(scene)]), *undercut_notes(scene, plate.profile.undercuts)
+    canvas.part("shaft")
+    letter_centre(canvas, scene, r_0)
+    edge = outer + (PHASES + 1.2) * label
+    canvas.bounds = -edge, -edge, edge, rod.top + 16.0
+    return canvas.finish("plate_profile", heading(scene, "heading.cam_plate_profile", PLATE_PROFILE), notes)
+
+
+def _plate_positions(canvas: Canvas, scene: CamScene, R: float, reach: float) -> None:
+    """Draw the axis and the plate of each position, its centre, and where it touches the profile."""
+    solved = scene.solved
+    for i, phi in enumerate(solved.angles.tolist()):
+        up = up_at(phi, solved.cam.sense)
+        at, contact = (scene.mm(f"{PLATE_PROFILE}.{letter}{i}") for letter in "BK")
+        canvas.part("circles")
+        canvas.add(Line(0j, up * reach, Pen.THIN, role="position", name=str(i)))
+        canvas.part("profile")
+        if i:
+            canvas.add(Line(*_plate(scene, i, R), Pen.THIN, role="plate", name=str(i)))
+        for role, place, part in (("node", at, "centres"), ("contact", contact, "profile")):
+            canvas.part(part)
+            canvas.add(scene.node(place, str(i), role))
+
+
+def _plate(scene: CamScene, i: int, R: float) -> tuple[complex, complex]:
+    """Return the ends of the plate in a position."""
+    at, up = scene.mm(f"{PLATE_PROFILE}.B{i}"), up_at(float(scene.solved.angles[i]), scene.solved.cam.sense)
+    return at + 1j * up * R, at - 1j * up * R
+
+
+def _plate_follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
+    """Draw the plate and its rod in position 0."""
+    low = rod.low - THICK * scene.style.label
+    corners = (complex(-R, low), complex(R, low), complex(R, rod.low), complex(-R, rod.low))
+    canvas.add(Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "plate", "0"))
+    canvas.add(*rod.shapes())
+
+
+def _plate_sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> list[str]:
+    """Dimension radii, the plate, how far to both sides it touches, the stroke; return what has no place there."""
+    solved, words, sense = scene.solved, scene.words, scene.solved.cam.sense
+    plate, motion = needed(solved.plate), solved.motion
+    middle, r_0 = quiet(motion, sense), scene.drawn(plate.sizes.r_0)
+    canvas.part("circles")
+    left_out = radius_at(canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (0.0, r_0, r_0))
+    canvas.part("follower")
+    level, up = 1j * rod.low, 1j * scene.style.text
+    _over(canvas, (level, level - sense * R), ABOVE[1] * up, words.symbol("R_plate"), "R_plate")
+    right, left = (motion.maximum(0.0, side, 0.0).value for side in (1.0, -1.0))
+    for far, name in ((right, "ds_right"), (-left, "ds_left")):
+        ends = level, level + scene.drawn(far)
+        if (far < 0.0) == (sense > 0):  # where the lower dwell leaves room
+            _over(canvas, ends, ABOVE[0] * up, ANALOGUE, name)
+        else:
+            same = abs(right - left) < SAME * right
+            linear(canvas, ends, ABOVE[0] * up, "" if same else ANALOGUE, name)
+    canvas.part("centres")
+    top = solved.layout.division.top
+    axis = up_at(float(solved.angles[top]), sense)
+    ends = axis * r_0, scene.mm(f"{PLATE_PROFILE}.B{top}")
+    linear(canvas, ends, axis * (-1j * sense) * 4.0, words.symbol("h"), "h")
+    return [left_out] if left_out else []
+
+
+def _over(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: str, name: str) -> None:
+    """Dimension a level distance on a line moved upwards by `out`, the text on the line."""
+    height = canvas.style.text
+    over = Text(0.5 * (ends[0] + ends[1]) + out + 0.5j * height, text, height, "middle", role="label")
+    narrow = abs(ends[1] - ends[0]) < lay_out(text, height).width + 1.0
+    taken = narrow or _crossed(canvas, box(over))
+    linear(canvas, ends, out, text if taken else "", name)
+    if not taken:
+        canvas.add(over)
+
+
+def _crossed(canvas: Canvas, place: Box) -> bool:
+    """Whether the line of a plate or an axis runs through a place."""
+    x0, y0, x1, y1 = place
+    lines = (shape for shape in canvas.shapes if isinstance(shape, Line))
+    ways = ((line.a, line.b - line.a) for line in lines)
+    points = (a + way * (k / STEPS) for a, way in ways for k in range(STEPS + 1))
+    return any(x0 < point.real < x1 and y0 < point.imag < y1 for point in points)
+
+
+def _plate_lettered(scene: CamScene) -> list[str]:
+    """Return the numbers of what has only a letter in the figure."""
+    words, motion, plate = scene.words, scene.solved.motion, needed(scene.solved.plate)
+    sizes = {"h": motion.h, "R_plate": plate.sizes.R_plate}
+    lengths = [f"{words.symbol(name)} = {scene.length(size)}" for name, size in sizes.items()]
+    said = dict.fromkeys(scene.length(motion.maximum(0.0, way, 0.0).value) for way in (1.0, -1.0))
+    return [*lengths, f"{ANALOGUE} = |{words.symbol('ds')}|_{{max}} = {', '.join(said)}"]
+
+
+PLATE_FIGURE = Figure(
+    PLATE_PROFILE,
+    plate_view,
+    ("mu_l",),
+    (
+        Stage("shaft", "plate_profile.O"),
+        Stage("circles", "_axis#"),
+        Stage("centres", "plate_profile.B#"),
+        Stage("profile", "plate_profile.K#"),
+        Stage("follower"),
+    ),
+    "cam.plate_profile",
+)
