@@ -117,10 +117,6 @@ class Extents:
     texts: Sequence[float]
     ladders: Mapping[str, Ladder]
 
-    def of(self, part: int | None) -> Iterable[Extent]:
-        """Return the figures of a part, or all."""
-        return (figure for figure in self.figures if part is None or figure.part == part)
-
     def root(self, symbol: str) -> str:
         """Return the scale factor on whose rung this one stands: itself, or that of lengths where V = omega l."""
         return (symbol and self.ladders[symbol].root) or symbol
@@ -182,7 +178,8 @@ def _on_pages(extents: Extents, sheet: Format, longest: Lengths) -> Rungs:
         return _grown(
             extents, apart, large, lambda r: all(_shrunk(extents, r, sheet, p, FULL * page, False) for p in parts)
         )
-    least = _area(extents, _begun(extents, sheet, longest[0]), sheet)
+    least = float(SMALLER[sheet.letters] ** 1.5) * sum(extents.texts)
+    least += _area(extents, extents.figures, _begun(extents, sheet, longest[0]), sheet)
     pages = 2 if least < 2.0 * CLOSELY * page else math.ceil(min(least / (SHARED * page), MOST))
     for count in range(pages, pages + MORE):
         together = dict(large)
@@ -200,29 +197,26 @@ def _grown(extents: Extents, rungs: dict[str, int], finest: Rungs, fits: Callabl
     return rungs
 
 
-def _area(extents: Extents, rungs: Rungs, sheet: Format) -> float:
-    """Return what all figures and texts take with their gaps, mm^2."""
+def _area(extents: Extents, figures: Iterable[Extent], rungs: Rungs, sheet: Format) -> float:
+    """Return what figures take with their gaps, mm^2."""
     letters, gap = SMALLER[sheet.letters], GAPS[sheet.letters]
-    sizes = (figure.on_paper(extents.mu(figure.symbol, rungs), letters) for figure in extents.figures)
-    return float(letters**1.5) * sum(extents.texts) + sum((wide + gap) * (high + gap) for wide, high in sizes)
+    sizes = (figure.on_paper(extents.mu(figure.symbol, rungs), letters) for figure in figures)
+    return sum((wide + gap) * (high + gap) for wide, high in sizes)
 
 
 def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, part: int | None, most: float, shrink: bool) -> bool:
     """Make long and large plans coarser until all has an area of `most`; tell whether it has."""
-    ladders, letters, gap = extents.ladders, SMALLER[sheet.letters], GAPS[sheet.letters]
+    ladders, letters = extents.ladders, SMALLER[sheet.letters]
     by_symbol: dict[str, list[Extent]] = {}
-    for figure in extents.of(part):
-        by_symbol.setdefault(extents.root(figure.symbol), []).append(figure)
-
-    def area(symbol: str) -> float:
-        sizes = (figure.on_paper(extents.mu(figure.symbol, rungs), letters) for figure in by_symbol[symbol])
-        return sum((wide + gap) * (high + gap) for wide, high in sizes)
+    for figure in extents.figures:
+        if part is None or figure.part == part:
+            by_symbol.setdefault(extents.root(figure.symbol), []).append(figure)
 
     def worth(symbol: str) -> tuple[bool, float]:
         ladder = ladders[symbol]
         return not ladder.chosen, areas[symbol] * ladder.longest / extents.mu(symbol, rungs) / ladder.weight**2
 
-    areas = {symbol: area(symbol) for symbol in by_symbol}
+    areas = {symbol: _area(extents, figures, rungs, sheet) for symbol, figures in by_symbol.items()}
     left = most - letters**1.5 * (sum(extents.texts) if part is None else extents.texts[part])
     while sum(areas.values()) > left:
         free = [s for s in by_symbol if s and shrink and ladders[s].next(rungs[s], sheet)]
@@ -230,7 +224,7 @@ def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, part: int | None, mos
             return False
         coarser = max(free, key=worth)
         rungs[coarser] += 1
-        areas[coarser] = area(coarser)
+        areas[coarser] = _area(extents, by_symbol[coarser], rungs, sheet)
     return True
 
 

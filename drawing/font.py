@@ -151,15 +151,15 @@ def font() -> Font:
     return Font(path.read_bytes())
 
 
-def _parts(outline: bytes) -> list[tuple[int, int]]:
-    """List the places and glyph numbers of the parts of a composite outline."""
+def _parts(outline: bytes) -> tuple[list[tuple[int, int]], int]:
+    """Return the places and glyph numbers of the parts of a composite outline, and where the last part ends."""
     parts, at, flags = [], 10, _MORE
     while flags & _MORE:
         flags, glyph = struct.unpack_from(">HH", outline, at)
         parts.append((at + 2, glyph))
         at += 4 + (4 if flags & _WORDS else 2)
         at += 2 if flags & _SCALE else 4 if flags & _XY_SCALE else 8 if flags & _TWO_BY_TWO else 0
-    return parts
+    return parts, at
 
 
 def _stripped(outline: bytes, numbers: dict[int, int]) -> bytes:
@@ -173,13 +173,10 @@ def _stripped(outline: bytes, numbers: dict[int, int]) -> bytes:
         length = struct.unpack_from(">H", outline, at)[0]
         new[at : at + 2 + length] = b"\0\0"
     else:
-        parts = _parts(outline)
+        parts, end = _parts(outline)
         for at, glyph in parts:
             flags = struct.unpack_from(">H", outline, at - 2)[0]
             struct.pack_into(">HH", new, at - 2, flags & ~_INSTRUCTIONS, numbers[glyph])
-        last, flags = parts[-1][0], struct.unpack_from(">H", outline, parts[-1][0] - 2)[0]
-        end = last + 2 + (4 if flags & _WORDS else 2)
-        end += 2 if flags & _SCALE else 4 if flags & _XY_SCALE else 8 if flags & _TWO_BY_TWO else 0
         del new[end:]
     return bytes(new)
 
@@ -214,9 +211,13 @@ def _name_table() -> bytes:
     return struct.pack(">HHH", 0, len(texts), 6 + len(records)) + records + strings
 
 
+def _padded(data: bytes) -> bytes:
+    return data + b"\0" * (-len(data) % 4)
+
+
 def _checksum(data: bytes) -> int:
-    padded = data + b"\0" * (-len(data) % 4)
-    return int(sum(struct.unpack(f">{len(padded) // 4}L", padded))) & 0xFFFFFFFF
+    words = _padded(data)
+    return int(sum(struct.unpack(f">{len(words) // 4}L", words))) & 0xFFFFFFFF
 
 
 def _closure(source: Font, characters: Iterable[str]) -> tuple[list[tuple[int, int]], dict[int, int]]:
@@ -229,7 +230,7 @@ def _closure(source: Font, characters: Iterable[str]) -> tuple[list[tuple[int, i
     while waiting:
         outline = source.outline(waiting.pop())
         if outline[:1] >= b"\x80":  # a negative number of contours
-            for _, part in _parts(outline):
+            for _, part in _parts(outline)[0]:
                 if part not in numbers:
                     numbers[part] = len(numbers)
                     waiting.append(part)
@@ -270,30 +271,25 @@ def _directory(tables: dict[str, bytes]) -> bytes:
     at = 12 + 16 * len(tables)
     for tag, data in tables.items():
         entries += struct.pack(">4sLLL", tag.encode(), _checksum(data), at, len(data))
-        at += len(data) + -len(data) % 4
+        at += len(_padded(data))
     return entries
-
-
-def _complete(tables: dict[str, bytes]) -> dict[str, bytes]:
-    """Return the tables with the sum of the whole file in `head`."""
-    whole = _directory(tables) + b"".join(data + b"\0" * (-len(data) % 4) for data in tables.values())
-    head = bytearray(tables["head"])
-    struct.pack_into(">L", head, 8, (0xB1B0AFBA - _checksum(whole)) & 0xFFFFFFFF)
-    return tables | {"head": bytes(head)}
 
 
 @lru_cache(maxsize=4)
 def _tables(characters: str) -> tuple[dict[str, bytes], dict[str, bytes]]:
     """Return the tables of a subset without and with the sum of the whole file, which both forms are made of."""
     plain = _subset_tables(font(), characters)
-    return plain, _complete(plain)
+    whole = _directory(plain) + b"".join(map(_padded, plain.values()))
+    head = bytearray(plain["head"])
+    struct.pack_into(">L", head, 8, (0xB1B0AFBA - _checksum(whole)) & 0xFFFFFFFF)
+    return plain, plain | {"head": bytes(head)}
 
 
 @lru_cache(maxsize=64)
 def subset(characters: str) -> bytes:
     """Return a TrueType font with the glyphs of `characters` only: the same outlines and advances, no hinting."""
-    plain, tables = _tables(characters)
-    return _directory(plain) + b"".join(data + b"\0" * (-len(data) % 4) for data in tables.values())
+    plain, whole = _tables(characters)
+    return _directory(plain) + b"".join(map(_padded, whole.values()))
 
 
 @lru_cache(maxsize=64)
@@ -301,11 +297,11 @@ def web_subset(characters: str) -> bytes:
     """Return the same subset in the compressed form of web pages (WOFF 1)."""
     plain, whole = _tables(characters)
     sums = {tag: _checksum(data) for tag, data in plain.items()}
-    size = 12 + sum(16 + len(data) + -len(data) % 4 for data in plain.values())
+    size = 12 + sum(16 + len(_padded(data)) for data in plain.values())
     at, entries, body = 44 + 20 * len(plain), b"", b""
     for tag, data in whole.items():
         packed = min(zlib.compress(data, 9), data, key=len)
         entries += struct.pack(">4sLLLL", tag.encode(), at + len(body), len(packed), len(data), sums[tag])
-        body += packed + b"\0" * (-len(packed) % 4)
+        body += _padded(packed)
     header = struct.pack(">4sLLHHLHH5L", b"wOFF", 0x10000, at + len(body), len(plain), 0, size, 2, 37, 0, 0, 0, 0, 0)
     return header + entries + body

@@ -129,7 +129,7 @@ def layered(shapes: Iterable[Shape]) -> list[tuple[Layer, list[Shape]]]:
         if isinstance(shape, Group) and shape.role == "view":
             _part(shape, found)
         else:
-            found[_on_page(shape)].append(shape)
+            found[Layer.FRAME if getattr(shape, "role", "") == "frame" else layer_of(shape)].append(shape)
     return [(layer, own) for layer, own in found.items() if own]
 
 
@@ -142,11 +142,6 @@ def _part(view: Group, found: dict[Layer, list[Shape]]) -> None:
         parts.setdefault(layer_of(shape), []).append(shape)
     for layer, own in parts.items():
         found[layer].append(Group(tuple(own), "view", view.name, view.title))
-
-
-def _on_page(shape: Shape) -> Layer:
-    """Return the layer of what stands on a page outside of views."""
-    return Layer.FRAME if getattr(shape, "role", "") == "frame" else layer_of(shape)
 
 
 def layer_of(shape: Shape) -> Layer:

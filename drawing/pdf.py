@@ -24,7 +24,7 @@ from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, 
 from .text import Box, lay_out, placer
 
 if TYPE_CHECKING:
-    from reportlab.pdfbase.pdfdoc import PDFDictionary, PDFResourceDictionary, PDFStream
+    from reportlab.pdfbase.pdfdoc import PDFDictionary, PDFResourceDictionary
     from reportlab.pdfbase.ttfonts import TTFont
     from reportlab.pdfgen.canvas import Canvas
 
@@ -41,15 +41,31 @@ OVERLAP = 10.0  # mm of small sheets, to glue on
 MARK = 5.0  # length of a cut mark, mm
 
 
-class _DocumentLayers:
-    """The layers of one document as optional content groups (ISO 32000-1, 8.11), which readers list, show and hide.
+class _Document:
+    """An empty document with the title and language of a page, and its layers.
 
-    Its pages name them as resources, its catalog says which are shown at first.
+    Layers are optional content groups (ISO 32000-1, 8.11), which readers list, show and hide: pages name them as
+    resources, the catalog says which are shown at first.
     """
 
-    def __init__(self, canvas: Canvas, language: str) -> None:
-        self.document = canvas._doc
-        self.language = language
+    def __init__(self, page: Page) -> None:
+        from reportlab.pdfgen.canvas import Canvas
+
+        _font()
+        self.canvas = Canvas(
+            BytesIO(),
+            pagesize=(page.width * POINT, page.height * POINT),
+            invariant=1,
+            pageCompression=1,
+            lang=page.language,
+            initialFontName=FONT,
+            pdfVersion=(1, 5),  # the first with layers
+        )
+        self.canvas.setTitle(page.title)
+        self.canvas.setAuthor("")
+        self.canvas.setCreator("Kulman")
+        self.canvas.setViewerPreference("DisplayDocTitle", "true")
+        self.language = page.language
         self.groups: dict[Layer, PDFDictionary] = {}
 
     def resources(self, layers: Iterable[Layer]) -> PDFResourceDictionary:
@@ -60,18 +76,18 @@ class _DocumentLayers:
         found.basicFonts()
         return found
 
-    def close(self) -> None:
-        """Tell the catalog of the layers of all pages, if there are any."""
+    def data(self) -> bytes:
+        """Return the whole file; its catalog tells of the layers of all pages, if there are any."""
         from reportlab.pdfbase.pdfdoc import PDFArray, PDFDictionary
 
-        if not self.groups:
-            return
-        listed = [layer for layer in Layer if layer in self.groups]
-        hidden = PDFArray([self._reference(layer) for layer in listed if layer.hidden])
-        groups = PDFArray([self._reference(layer) for layer in listed])
-        catalog = self.document.Catalog
-        catalog.__NoDefault__ = [*catalog.__NoDefault__, "OCProperties"]  # it writes the entries that it lists
-        catalog.OCProperties = PDFDictionary({"OCGs": groups, "D": PDFDictionary({"Order": groups, "OFF": hidden})})
+        if self.groups:
+            listed = [layer for layer in Layer if layer in self.groups]
+            hidden = PDFArray([self._reference(layer) for layer in listed if layer.hidden])
+            groups = PDFArray([self._reference(layer) for layer in listed])
+            catalog = self.canvas._doc.Catalog
+            catalog.__NoDefault__ = [*catalog.__NoDefault__, "OCProperties"]  # it writes the entries that it lists
+            catalog.OCProperties = PDFDictionary({"OCGs": groups, "D": PDFDictionary({"Order": groups, "OFF": hidden})})
+        return bytes(self.canvas.getpdfdata())
 
     def _reference(self, layer: Layer) -> object:
         from reportlab.pdfbase.pdfdoc import PDFDictionary, PDFName, PDFString
@@ -79,7 +95,7 @@ class _DocumentLayers:
         if layer not in self.groups:
             title = PDFString(layer.title(self.language))
             self.groups[layer] = PDFDictionary({"Type": PDFName("OCG"), "Name": title})
-        return self.document.Reference(self.groups[layer], f"layer-{layer.value}")
+        return self.canvas._doc.Reference(self.groups[layer], f"layer-{layer.value}")
 
 
 def write_pdf(pages: Sequence[Page], stream: BinaryIO) -> None:
@@ -90,41 +106,20 @@ def write_pdf(pages: Sequence[Page], stream: BinaryIO) -> None:
     ValueError
         A coordinate is not a finite number.
     """
-    canvas, out = _new_canvas(pages[0])
-    document = _DocumentLayers(canvas, pages[0].language)
+    from reportlab.pdfbase.pdfdoc import PDFDictionary, PDFName, PDFStream
+
+    document = _Document(pages[0])
+    canvas = document.canvas
     for page in pages:
         canvas.setPageSize((page.width * POINT, page.height * POINT))
         layers = _draw_page(canvas, page)
         canvas.showPage()
         shown = canvas._doc.Pages.pages[-1]
         shown.Resources = document.resources(layers)
-        shown.Contents = _packed(shown.stream)
-    document.close()
-    canvas.save()
-    stream.write(out.getvalue())
-
-
-def _new_canvas(page: Page) -> tuple[Canvas, BytesIO]:
-    """Return an empty document with the title and language of `page`, and the stream it will fill."""
-    from reportlab.pdfgen.canvas import Canvas
-
-    _font()
-    out = BytesIO()
-    size = (page.width * POINT, page.height * POINT)
-    canvas = Canvas(
-        out,
-        pagesize=size,
-        invariant=1,
-        pageCompression=1,
-        lang=page.language,
-        initialFontName=FONT,
-        pdfVersion=(1, 5),  # the first with layers
-    )
-    canvas.setTitle(page.title)
-    canvas.setAuthor("")
-    canvas.setCreator("Kulman")
-    canvas.setViewerPreference("DisplayDocTitle", "true")
-    return canvas, out
+        # compressed at this level in half the time, and only 3 % larger
+        packed = compress(shown.stream.encode("ascii"), QUICK)
+        shown.Contents = PDFStream(PDFDictionary({"Filter": PDFName("FlateDecode")}), packed)
+    stream.write(document.data())
 
 
 @cache
@@ -139,13 +134,6 @@ def _font() -> TTFont:
     registerFont(face)
     rl_config.useA85 = 0  # its base 85, in Python, takes longer than all the rest of a page
     return face
-
-
-def _packed(code: str) -> PDFStream:
-    """Return what a page draws, compressed: at this level in half the time, and only 3 % larger."""
-    from reportlab.pdfbase.pdfdoc import PDFDictionary, PDFName, PDFStream
-
-    return PDFStream(PDFDictionary({"Filter": PDFName("FlateDecode")}), compress(code.encode("ascii"), QUICK))
 
 
 def _draw_page(canvas: Canvas, page: Page) -> list[Layer]:
@@ -368,8 +356,8 @@ def _count(length: float, room: float) -> int:
 
 def write_tiles(pages: Sequence[Page], stream: BinaryIO, paper: str = "A4") -> None:
     """Write pages as a PDF of small sheets at full size: print it at 100 %, cut at the marks, glue."""
-    canvas, out = _new_canvas(pages[0])
-    document = _DocumentLayers(canvas, pages[0].language)
+    document = _Document(pages[0])
+    canvas = document.canvas
     width, height = PAPERS.get(paper, PAPERS["A4"])
     for number, page in enumerate(pages):
         whole = f"page-{number}"
@@ -391,9 +379,7 @@ def write_tiles(pages: Sequence[Page], stream: BinaryIO, paper: str = "A4") -> N
             marks = _marks(part.name, (left, bottom, left + x1 - x0, bottom + y1 - y0))
             _draw_page(canvas, Page(width, height, tuple(marks), part.name, page.language))
             canvas.showPage()
-    document.close()
-    canvas.save()
-    stream.write(out.getvalue())
+    stream.write(document.data())
 
 
 def _marks(name: str, box: Box) -> list[Shape]:

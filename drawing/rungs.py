@@ -191,15 +191,17 @@ class Fitting(ABC, Generic[Subject, Scene, Rungs]):
             for ladders, size in tight.items():
                 name = next((ladder for ladder in ladders if self.has_next(rungs, ladder)), None)
                 if name is None:
-                    raise self._too_fine(sheet, ladders) or too_small(sheet, size)
+                    raise self._refusal(sheet, ladders, size)
                 rungs = self.lower(rungs, name)
 
-    def _too_fine(self, sheet: Format, ladders: tuple[str, ...]) -> InputError | None:
-        """Return that a drawing has no room because a user has fixed its scale factor, m/mm; None if nobody has."""
+    def _refusal(self, sheet: Format, ladders: tuple[str, ...], size: tuple[float, float]) -> InputError:
+        """Return why a drawing of this size, mm, has no room: its scale factor is fixed, or no format is larger."""
         fixed = next((name for name in ladders if role(name).kind == "mu" and len(self.ladders[name]) == 1), None)
-        if fixed is None:
-            return None
-        return InputError("plan-too-fine", symbol=fixed, mu=f"{self.ladders[fixed][0]:g}", format=sheet.name)
+        if fixed is not None:
+            return InputError("plan-too-fine", symbol=fixed, mu=f"{self.ladders[fixed][0]:g}", format=sheet.name)
+        if sheet.name != SIZES[-1]:
+            return InputError("sheet-too-small", format=sheet.name)
+        return InputError("sheet-too-large", wide=f"{size[0]:.0f}", high=f"{size[1]:.0f}")
 
     def has_next(self, rungs: Rungs, ladder: str) -> bool:
         """Whether a ladder has a further rung."""
@@ -220,10 +222,3 @@ def pages(places: Sequence[Placement]) -> int:
 def may_fit(views: Sequence[View], sheet: Format) -> bool:
     """Whether views have less area than a format."""
     return sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height
-
-
-def too_small(sheet: Format, size: tuple[float, float]) -> InputError:
-    """Return why a drawing of this size, mm, that cannot be smaller has no room on a format, or on any."""
-    if sheet.name != SIZES[-1]:
-        return InputError("sheet-too-small", format=sheet.name)
-    return InputError("sheet-too-large", wide=f"{size[0]:.0f}", high=f"{size[1]:.0f}")

@@ -138,23 +138,14 @@ def blocks_of(views: Iterable[View], story: Story) -> Iterator[Block]:
         elif view.rows:
             yield Table(view.rows)
         else:
-            yield from _plan(view, story)
-            yield Figure(_bare(view), heading, (*view.heading[1:], *view.notes))
-
-
-def _plan(view: View, story: Story) -> Iterator[Block]:
-    equations, steps = story.equations.get(view.name, ()), story.steps_of(view)
-    if equations:
-        yield Equations(tuple(map(tuple, equations)))
-    if steps:
-        yield Steps(steps)
-
-
-def _bare(view: View) -> View:
-    """Return a figure without the lines of its heading."""
-    shapes = tuple(shape for shape in view.shapes if not (isinstance(shape, Text) and shape.role == "heading"))
-    x0, y0, x1, y1 = extent(shapes)
-    return replace(view, shapes=shapes, box=(x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
+            if equations := story.equations.get(view.name):
+                yield Equations(tuple(map(tuple, equations)))
+            if steps := story.steps_of(view):
+                yield Steps(steps)
+            bare = tuple(shape for shape in view.shapes if not (isinstance(shape, Text) and shape.role == "heading"))
+            x0, y0, x1, y1 = extent(bare)
+            figure = replace(view, shapes=bare, box=(x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
+            yield Figure(figure, heading, (*view.heading[1:], *view.notes))
 
 
 def figure_page(figure: Figure, language: str) -> Page:

@@ -57,7 +57,7 @@ def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) ->
         The extra `docx` is not installed.
     """
     _needs_libraries()
-    import docx
+    import docx.shared
 
     word = docx.Document()
     _dress(word, document)
@@ -67,7 +67,9 @@ def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) ->
     pictures = [_picture(word, drawing, number) for number, drawing in enumerate(drawings, 1)]
     _append(word, f"{first_pages(document)}{blocks_in_word(document, pictures)}")
     if any(isinstance(block, Figure) and block.folded for block in document.blocks):
-        _larger_sheets(word)
+        section, sheet = word.add_section(), FORMATS[f"{FOLDED}-portrait"]  # for what is too large for a page
+        section.page_width, section.page_height = docx.shared.Mm(sheet.width), docx.shared.Mm(sheet.height)
+        section.different_first_page_header_footer = False  # numbers of pages go on
         _append(word, folded_in_word(document, pictures))
     stream = BytesIO()
     word.save(stream)
@@ -139,15 +141,6 @@ def _pages(word: Word) -> None:
     section.different_first_page_header_footer = True
     section.footer.is_linked_to_previous = False
     section.footer.part.element[:] = _parsed(_FOOTER)
-
-
-def _larger_sheets(word: Word) -> None:
-    """Begin sheets for what is too large for a page; their numbers go on."""
-    from docx.shared import Mm
-
-    section, sheet = word.add_section(), FORMATS[f"{FOLDED}-portrait"]
-    section.page_width, section.page_height = Mm(sheet.width), Mm(sheet.height)
-    section.different_first_page_header_footer = False
 
 
 def _sign(word: Word, document: Document) -> None:

@@ -59,7 +59,10 @@ class Body:
         said, numbers = packaged(__package__, "texts", language), count(1)
         figures = dict(enumerate((block for block in blocks if isinstance(block, Figure)), 1))
         texts = [_block(block, said, numbers) for block in blocks]
-        texts += [_sheet(figure, said, number) for number, figure in figures.items() if figure.folded]
+        for number, figure in figures.items():
+            if figure.folded:  # on its sheet, with its number
+                text = _figure(figure, said, number, figure.share_of(FOLDED_ROOM), f'numbering: _ => "{number}", ')
+                texts.append(f'#page(paper: "{FOLDED.lower()}")[{text}]\n')
         return cls(
             "\n".join(texts), {f"{number}.svg": figure_svg(figure, language) for number, figure in figures.items()}
         )
@@ -160,12 +163,6 @@ def _figure(figure: Figure, said: dict[str, str], number: int, share: float, mor
         f"#figure({shown}, kind: image, {more}supplement: {_quoted(said['figure'])}, "
         f"caption: [{_line(figure.caption)}{note}])\n"
     )
-
-
-def _sheet(figure: Figure, said: dict[str, str], number: int) -> str:
-    """Return a folded figure on its sheet, with its number."""
-    text = _figure(figure, said, number, figure.share_of(FOLDED_ROOM), f'numbering: _ => "{number}", ')
-    return f'#page(paper: "{FOLDED.lower()}")[{text}]\n'
 
 
 def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
