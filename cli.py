@@ -30,7 +30,7 @@ from .variants.commands.console import (
 from .variants.commands.options import (
     BLOCK,
     Word,
-    count_if_given,
+    count,
     example,
     given,
     of_language,
@@ -234,7 +234,7 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
 @click.option(
     "--positions",
     metavar="N",
-    callback=count_if_given,
+    callback=count,
     help="How many positions: 8, 12, 24, ...; without it 12, of a cam its section lines, and in files of cams 360, "
     "of gears 101, of hoists 361.",
 )
@@ -276,9 +276,7 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     "stability, roots, depth, choice; else all.",
 )
 @click.option("--quantities", metavar="NAME,...", multiple=True, callback=given, help="Only these: V_B,a_B,M_bal.")
-@click.option(
-    "--positions", metavar="N", callback=count_if_given, help="Positions of the cycle: 36 for accuracy, else 360."
-)
+@click.option("--positions", metavar="N", callback=count, help="Positions of the cycle: 36 for accuracy, else 360.")
 @click.option("--tolerance", metavar="%", default="1", show_default=True, help="By how much a simpler model may miss.")
 @click.option("--hand", default="normal", show_default=True, help=f"Who draws: {', '.join(HANDS)}.")
 @output(".charts.charts", "Where to: pictures to .svg, .pdf, .png, rows to .csv; of several charts x-accuracy.svg, ...")

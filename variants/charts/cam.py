@@ -40,13 +40,7 @@ ORDINATES = ("speed_top", "speed_last", "stroke_last")
 
 
 def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
-    """Make one of the charts of a cam.
-
-    Raises
-    ------
-    InputError
-        An unknown quantity, or diagrams that have no errors.
-    """
+    """Make one of the charts of a cam."""
     solved = SolvedCam.of(scene.case.solved)
     if name == "accuracy":
         return cam_accuracy_chart(scene, solved)

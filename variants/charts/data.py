@@ -107,7 +107,8 @@ class ChartRequest:
 class Gallery:
     """The charts that tasks of a kind have, which of them each argument changes, and what makes one by its name.
 
-    `make` raises InputError where the case cannot have a chart.
+    `make` raises InputError where the case cannot have a chart, or no such quantity, PositionError where no position
+    of a cycle can be assembled.
     """
 
     charts: tuple[str, ...]

@@ -25,13 +25,7 @@ PARTS = {hand: preset.tolerance.part for hand, preset in PRESETS.items()}  # tha
 
 
 def make(name: str, scene: Scene, asked: ChartRequest) -> ScaleChart:
-    """Draw the meshing at one scale after the other.
-
-    Raises
-    ------
-    InputError
-        An unknown quantity, or no meshing to draw.
-    """
+    """Draw the meshing at one scale after the other."""
     solved = SolvedGear.of(scene.case.solved)
     all_known("quantity-unknown", asked.quantities, compared(solved))
     return ScaleChart(scene, scale_errors(solved, HANDS, asked.quantities))

@@ -35,13 +35,7 @@ TABLED = (("F_max", "kN"), ("sigma_max", "MPa"))
 
 
 def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
-    """Make one of the charts of a hoist.
-
-    Raises
-    ------
-    InputError
-        A support that is rigid has no phase 1 to integrate; formulas that are not valid have no rivals.
-    """
+    """Make one of the charts of a hoist."""
     return hoist_chart(name, scene, asked.tolerance)
 
 

@@ -56,15 +56,7 @@ LOOKED = 12  # positions at which scale factors are looked for
 
 
 def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
-    """Make one of the charts of a linkage; a cycle of so many positions is looked at once for all of them.
-
-    Raises
-    ------
-    InputError
-        An unknown quantity, or a chart that the plans of the case do not allow.
-    PositionError
-        No position at all can be assembled.
-    """
+    """Make one of the charts of a linkage; a cycle of so many positions is looked at once for all of them."""
     count = asked.positions or POSITIONS[name]
     if count not in scene.cycles:
         scene.cycles[count] = _cycle(scene.case, count)

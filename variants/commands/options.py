@@ -132,24 +132,19 @@ def example(*lines: str) -> str:
     return "\b\nExample:\n" + "\n".join(f"  {line}" for line in lines)
 
 
-def count(ctx: click.Context, param: click.Parameter, value: str) -> int:
-    """Read a whole number."""
+def count(ctx: click.Context, param: click.Parameter, value: str | None) -> int | None:
+    """Read a whole number where there is one."""
     try:
-        return int(value)
+        return None if value is None else int(value)
     except ValueError:
         raise InputError("cli-number", option=param.opts[0], text=quote(value)) from None
 
 
-def count_if_given(ctx: click.Context, param: click.Parameter, value: str | None) -> int | None:
-    """Read a whole number where there is one."""
-    return None if value is None else count(ctx, param, value)
-
-
 def processes(ctx: click.Context, param: click.Parameter, value: str | None) -> int:
     """Read a number of processes; 0, for as many as cores, where there is none."""
-    if value is None:
-        return 0
     number = count(ctx, param, value)
+    if number is None:
+        return 0
     if number < 1:
         raise InputError("cli-from-one", option=param.opts[0], text=quote(value))
     return number

@@ -16,7 +16,6 @@ from .options import (
     BLOCK,
     Word,
     count,
-    count_if_given,
     example,
     given,
     of_check,
@@ -92,7 +91,7 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
 )
 @of_task
 @click.option("--quantities", metavar="NAME,...", multiple=True, callback=given, help="Only these: V_B,a_B,M_bal.")
-@click.option("--make", metavar="N", callback=count_if_given, help="Make N new variants, each a good exercise.")
+@click.option("--make", metavar="N", callback=count, help="Make N new variants, each a good exercise.")
 @click.option(
     "--range",
     "ranges",
@@ -101,7 +100,7 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     callback=pairs,
     help="From, to and step of a given of new variants: 'l_OA=25..60/5 mm'; without it what the task's variants span.",
 )
-@click.option("--seed", metavar="N", callback=count_if_given, help="Another number makes other variants; else 1.")
+@click.option("--seed", metavar="N", callback=count, help="Another number makes other variants; else 1.")
 @click.option(
     "--from",
     "table",
