@@ -108,8 +108,8 @@ def main() -> None:
     from by_hand import slider_crank_moment
 
     import kulman
+    from kulman.plans.boards.batch import values_of
     from kulman.plans.boards.exact import run
-    from kulman.plans.boards.one import values_of
     from kulman.plans.hands.hand import preset
     from kulman.plans.hands.shaky import Paper, draw
     from kulman.plans.linkages.chain import construct

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .exact import ILL, NAN, RIGHT, STATUSES, PlainBoard, Status
-from .protractor import FARTHEST, MARKS, TURN, graduation
+from .exact import FARTHEST, ILL, MARKS, NAN, RIGHT, STATUSES, TURN, PlainBoard, Status, graduation
 
 
 @cache

@@ -16,7 +16,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from .arrays import ORDERS, cosine_of, mark_of, sine_of
-from .protractor import MARKS, ROUND, graduation
+from .exact import MARKS, ROUND, graduation
 from .trace import Calm, Entry, Rare, Trace
 
 DEEPEST = 12  # brackets within brackets

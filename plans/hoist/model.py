@@ -21,7 +21,6 @@ import numpy as np
 from ..board import Board, Program, RecordingBoard
 from ..boards.arrays import ArrayBoard
 from ..boards.exact import ExactBoard
-from ..boards.fifty_digits import DIGITS, fifty_digits
 from ..laws import define
 from ..names import is_shown, role
 from ..solved import calculated
@@ -252,6 +251,8 @@ def rest_of_root(values: Mapping[str, Any]) -> Any:
 def _rest(program: Program, values: Mapping[str, float], t_1: float) -> float:
     """Return the rest of one root: Newton's steps in a bracket that closes, for the function never falls."""
     from mpmath import mp, mpf
+
+    from ..boards.precision import DIGITS, fifty_digits
 
     with mp.workdps(DIGITS):
         found = fifty_digits(program, values)

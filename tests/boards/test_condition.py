@@ -15,7 +15,7 @@ from mpmath import mp, mpf
 
 from kulman import solve
 from kulman.plans.boards.exact import run
-from kulman.plans.boards.fifty_digits import DIGITS, fifty_digits
+from kulman.plans.boards.precision import DIGITS, fifty_digits
 from kulman.plans.condition import conditions, derivatives
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens

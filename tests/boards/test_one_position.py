@@ -15,9 +15,8 @@ import pytest
 import quickjs
 
 from kulman.plans.board import Program, Step
-from kulman.plans.boards.batch import batch
+from kulman.plans.boards.batch import batch, script_names, script_of, values_of
 from kulman.plans.boards.exact import STATUSES, ExactBoard, run
-from kulman.plans.boards.one import script_names, script_of, values_of
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.scales.errors import InputError, KulmanError
 from kulman.variants import load_task

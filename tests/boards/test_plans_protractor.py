@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.boards.arrays import ArrayBoard
-from kulman.plans.boards.exact import ExactBoard
-from kulman.plans.boards.protractor import FARTHEST, MARKS, graduation
+from kulman.plans.boards.exact import FARTHEST, MARKS, ExactBoard, graduation
 
 
 def turn(angle: float) -> complex:

@@ -14,8 +14,7 @@ from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import run
 from kulman.plans.boards.printers import ARRAYS as FUNCTIONS
 from kulman.plans.boards.printers import Chunked, Plain, compiled, in_order, plain_names
-from kulman.plans.boards.trace import Real, Trace, Vector
-from kulman.plans.boards.tracing import TracingBoard
+from kulman.plans.boards.trace import Real, Trace, TracingBoard, Vector
 from kulman.plans.laws import LAWS, cross, dot
 
 ARRAYS = {name: np.array(values) for name, values in {"x": [3.0, -2.0, 0.5], "y": [7.0, 0.25, -8.0]}.items()}

@@ -18,7 +18,7 @@ from mpmath import mp
 from kulman import solve
 from kulman.plans.board import Program
 from kulman.plans.boards.exact import run
-from kulman.plans.boards.fifty_digits import DIGITS, fifty_digits
+from kulman.plans.boards.precision import DIGITS, fifty_digits
 from kulman.plans.condition import derivatives, sizes_beside
 from kulman.plans.laws import LAWS, TURN
 from kulman.plans.linkages.chain import construct

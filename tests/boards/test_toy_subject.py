@@ -11,9 +11,8 @@ import pytest
 
 from kulman.drawing.printed import Symbol
 from kulman.drawing.words import Words
-from kulman.plans.boards.batch import batch
+from kulman.plans.boards.batch import batch, script_of, values_of
 from kulman.plans.boards.exact import run
-from kulman.plans.boards.one import script_of, values_of
 from kulman.plans.laws import LAWS, define, form_of
 from kulman.plans.quantities import quantities, shown_on
 from kulman.tests.boards.test_names import ROOT, agree

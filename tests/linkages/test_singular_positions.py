@@ -14,7 +14,7 @@ import pytest
 from kulman import cli
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES
-from kulman.plans.boards.fifty_digits import fifty_digits
+from kulman.plans.boards.precision import fifty_digits
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.solved import SolvedLinkage, conditions_of, solve_linkage
 from kulman.plans.quantities import references

@@ -9,7 +9,7 @@ from typing import Any
 from mpmath import mp, mpf
 
 from kulman.plans.board import Program
-from kulman.plans.boards.fifty_digits import FiftyDigits
+from kulman.plans.boards.precision import FiftyDigits
 from kulman.plans.linkages.solved import SolvedLinkage
 
 DIGITS = 100

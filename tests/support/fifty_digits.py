@@ -8,7 +8,7 @@ from typing import Any
 from mpmath import mp, mpf
 
 from kulman.plans.board import Program
-from kulman.plans.boards.fifty_digits import DIGITS, fifty_digits
+from kulman.plans.boards.precision import DIGITS, fifty_digits
 
 STEP = mpf(10) ** -13  # part of a given, more than a right angle is rounded by; the error of a difference is its square
 
