@@ -12,7 +12,7 @@ from .key import Key
 
 
 class Verdict(StrEnum):
-    """What a line is."""
+    """What a line is; `passed` where it counts as right, `faulty` where there is an error in this very line."""
 
     RIGHT = "right"
     CARRIED = "carried"
@@ -22,15 +22,12 @@ class Verdict(StrEnum):
     SCALE = "scale"
     MISSING = "missing"
 
-    @property
-    def passed(self) -> bool:
-        """Whether the line counts as right."""
-        return self in (Verdict.RIGHT, Verdict.CARRIED)
+    passed: bool
+    faulty: bool
 
-    @property
-    def faulty(self) -> bool:
-        """Whether there is an error in this very line."""
-        return self in (Verdict.WRONG, Verdict.ARITHMETIC, Verdict.SCALE)
+    def __init__(self, value: str) -> None:
+        """Say once what is asked of every line again and again."""
+        self.passed, self.faulty = value in ("right", "carried"), value in ("wrong", "arithmetic", "scale")
 
 
 @dataclass(frozen=True, slots=True)

@@ -55,9 +55,15 @@ def boxes(vectors: Sequence[tuple[complex, complex, int]], figure: complex) -> I
     """
     taken: list[Box] = []
     for tail, tip, letters in vectors:
-        spots = list(_spots(tail, tip, 0.5 * WIDTH * letters, figure * 0.5))
-        within = [spot for spot in spots if spot.lies_in(figure)] or spots
-        box = next((spot for spot in within if not any(map(spot.meets, taken))), within[0])
+        within: list[Box] = []
+        for box in _spots(tail, tip, 0.5 * WIDTH * letters, figure * 0.5):
+            if box.lies_in(figure):
+                within.append(box)
+                if not any(map(box.meets, taken)):
+                    break
+        else:
+            spots = within or list(_spots(tail, tip, 0.5 * WIDTH * letters, figure * 0.5))
+            box = next((spot for spot in spots if not any(map(spot.meets, taken))), spots[0])
         taken.append(box)
         yield box
 
