@@ -106,13 +106,7 @@ def moving_bodies(mechanism: Mechanism, structure: Structure) -> Bodies:
 
 
 def require_couplers(mechanism: Mechanism, structure: Structure) -> None:
-    """Refuse to split motions where no link with two joints hangs on one that turns.
-
-    Raises
-    ------
-    InputError
-        With the key `no-coupler`.
-    """
+    """Refuse, with an InputError, to split motions where no link with two joints hangs on one that turns."""
     if not hinged(mechanism, structure):
         raise InputError("no-coupler")
 

@@ -199,7 +199,11 @@ class Slide:
     def path(self, board: Board) -> tuple[str, str, str]:
         """Lay down the guide's direction and the line along which the pin runs: a mark of it, no arc, direction."""
         self.lay_guide(board)
-        start, shift = self._origin(board), self._offset(board)
+        start, pair = self._origin(board), self.pair
+        if self.carries:
+            shift = _excess(board, f"_offset_{self.u}", across_guide(board, pair, self.link, self.pin), pair.offset)
+        else:
+            shift = _with_height(board, pair, self.link, self.pin, pair.offset)
         if shift == ZERO:
             return start, ZERO, self.u
         board.lay(f"{start}_{self.pin}", start, normal_of(self.u), shift)
@@ -217,14 +221,6 @@ class Slide:
             board.normal(normal_of(self.known.direction), self.known.direction)
             lay_off(board, start, self.known.pin, self.known.direction, along, across)
         return start
-
-    def _offset(self, board: Board) -> str:
-        """Return the name of the distance of the pin's line to the left of the mark on the known link."""
-        if not self.carries:
-            return _with_height(board, self.pair, self.link, self.pin, self.pair.offset)
-        return _excess(
-            board, f"_offset_{self.u}", across_guide(board, self.pair, self.link, self.pin), self.pair.offset
-        )
 
     def place(self, board: Board) -> None:
         """Mark the other points of the sliding link."""

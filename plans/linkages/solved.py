@@ -19,7 +19,7 @@ from .chain import USUAL, constructed, hinged
 from .givens import board_givens
 from .legs import guide_letters
 from .mechanism import FRAME, ZERO, Mechanism, Prismatic, Revolute, SlidingDriver
-from .structure import TRIAD, Structure
+from .structure import TRIAD, Structure, listed
 
 if TYPE_CHECKING:
     from ..condition import Condition
@@ -44,10 +44,8 @@ class SolvedLinkage(Solved):
 
     def guide_name(self, pair: Prismatic) -> str:
         """Return the name of the direction of a pair's guide."""
-        a, b = pair.links
-        return next(
-            name for name in (self.mechanism.pair("u", *links) for links in ((a, b), (b, a))) if name in self.values
-        )
+        names = (self.mechanism.pair("u", *links) for links in (pair.links, pair.links[::-1]))
+        return next(name for name in names if name in self.values)
 
     def reason(self, trouble: Trouble) -> PositionError:
         """Return why the position has no plan."""
@@ -60,16 +58,14 @@ class SolvedLinkage(Solved):
             pins = [step.operands[i] for i in COINCIDENT[step.verb]]
             return PositionError("singular-pins", status_word="singular", first=pins[0], second=pins[1])
         key = f"singular-{step.plan}" if step.plan in (POSITION, "velocity", "acceleration") else "singular-forces"
-        lines = [_spoken(step.operands[i], self.program) for i in (1, 3)]
-        return PositionError(
-            key, status_word="singular", point=role(step.name).letters, first=lines[0], second=lines[1]
-        )
+        first, second = (_spoken(step.operands[i], self.program) for i in (1, 3))
+        return PositionError(key, status_word="singular", point=role(step.name).letters, first=first, second=second)
 
     def _template_error(self, trouble: Trouble) -> PositionError:
         """Return why the central link of a group of class III is not where its legs would hold it."""
         group = next(g for g in self.structure.groups if g.kind == TRIAD and trouble.name in g.joints)
         if trouble.status == "singular":
-            legs = ", ".join(map(str, group.legs))
+            legs = listed(group.legs)
             return PositionError("singular-triad", status_word="singular", link=group.central, legs=legs)
         from .triads.following import Follower
 
@@ -208,8 +204,9 @@ def with_moment_centres(mechanism: Mechanism, structure: Structure, values: Mapp
     for group in structure.groups:
         if group.kind == "RRR":
             A, C = (pair.point for pair in group.outer)
-            centre = _centre(A, group.inner[0].point, C, values)
-            found += [(group.name, centre)] if centre else []
+            at_a, at_b, at_c = sines_of(*(complex(values[point]) for point in (A, group.inner[0].point, C)))
+            if at_b < SMALL and max(at_a, at_c) >= TWICE * at_b:
+                found.append((group.name, C if at_a >= at_c else A))
     return replace(mechanism, centres=tuple(found)) if found else mechanism
 
 
@@ -222,14 +219,6 @@ def sines_of(a: complex, b: complex, c: complex) -> tuple[float, float, float]:
         return (float("nan"),) * 3
     first, second, third = (doubled * side / product for side in sides)
     return first, second, third
-
-
-def _centre(A: str, B: str, C: str, values: Mapping[str, Any]) -> str | None:
-    """Return the joint about which to take moments, None for the usual plan."""
-    at_a, at_b, at_c = sines_of(*(complex(values[point]) for point in (A, B, C)))
-    if at_b >= SMALL or not max(at_a, at_c) >= TWICE * at_b:
-        return None
-    return C if at_a >= at_c else A
 
 
 def signs(mechanism: Mechanism) -> frozenset[str]:

@@ -165,8 +165,7 @@ def joints_of(pairs: Iterable[Pair]) -> tuple[Joint | Prismatic, ...]:
         found.insert(place, one)
     for made in found:
         if isinstance(made, Joint) and len(made.named) >= len(made.links) > 2:
-            links_of = ", ".join(map(str, sorted(made.links)))
-            raise InputError("joint-closed", point=made.point, links=links_of, n=len(made.links) - 1)
+            raise InputError("joint-closed", point=made.point, links=listed(made.links), n=len(made.links) - 1)
     return tuple(found)
 
 
@@ -190,11 +189,6 @@ def pairs_of(
         elif {*joint.links} & {*links} and {*joint.links} & {*known}:
             outer.append(joint)
     return tuple(inner), tuple(outer), named
-
-
-def letter(pair: Pair) -> str:
-    """Return R for a revolute pair, P for a prismatic one."""
-    return "R" if isinstance(pair, Revolute) else "P"
 
 
 def analyse(mechanism: Mechanism) -> Structure:
@@ -258,10 +252,10 @@ def _dyad(links: tuple[int, ...], inner: tuple[Pair, ...], outer: tuple[Pair, ..
     by_link = {_within(pair, links): pair for pair in outer}
     for first, second in (links, links[::-1]):
         pairs = (by_link[first], inner[0], by_link[second])
-        kind = "".join(map(letter, pairs))
+        kind = "".join("R" if isinstance(pair, Revolute) else "P" for pair in pairs)
         if kind in KINDS:
             return Group((first, second), inner, (pairs[0], pairs[2]), kind)
-    raise InputError("no-revolute", links=", ".join(map(str, links)))
+    raise InputError("no-revolute", links=listed(links))
 
 
 def no_structure(mechanism: Mechanism, mobility: int, left: Collection[int] = ()) -> InputError:
@@ -272,23 +266,17 @@ def no_structure(mechanism: Mechanism, mobility: int, left: Collection[int] = ()
         count = sum(number in pair.links for pair in mechanism.pairs)
         if count < 2 and number != mechanism.driver.link:
             return InputError("link-loose", link=number, count=count, **data)
-    apart = _apart(mechanism.pairs, numbers)
-    if apart:
-        return InputError("links-apart", links=_listed(apart), **data)
+    held, reached = {FRAME}, {FRAME}  # links to which a way leads over pairs from the frame
+    while reached:
+        reached = {n for pair in mechanism.pairs if held & {*pair.links} for n in pair.links} - held
+        held |= reached
+    if apart := {*numbers} - held:
+        return InputError("links-apart", links=listed(apart), **data)
     rigid = _rigid(mechanism.pairs, numbers)
     if rigid:
-        return InputError("links-rigid", links=_listed(rigid), **data)
+        return InputError("links-rigid", links=listed(rigid), **data)
     key = "no-group" if mobility == 1 else "links-free" if mobility > 1 and left else "mobility"
-    return InputError(key, links=_listed(left), **data)
-
-
-def _apart(pairs: Collection[Pair], numbers: Iterable[int]) -> list[int]:
-    """Return the links from which no way leads over pairs to the frame."""
-    held, found = {FRAME}, {FRAME}
-    while found:
-        found = {n for pair in pairs if held & {*pair.links} for n in pair.links} - held
-        held |= found
-    return [number for number in numbers if number not in held]
+    return InputError(key, links=listed(left), **data)
 
 
 def _rigid(pairs: Collection[Pair], numbers: Collection[int]) -> tuple[int, ...]:
@@ -301,5 +289,6 @@ def _rigid(pairs: Collection[Pair], numbers: Collection[int]) -> tuple[int, ...]
     return ()
 
 
-def _listed(numbers: Iterable[int]) -> str:
+def listed(numbers: Iterable[int]) -> str:
+    """Return numbers of links in order, with commas."""
     return ", ".join(map(str, sorted(numbers)))

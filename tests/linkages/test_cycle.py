@@ -8,9 +8,9 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from kulman.plans.linkages.cycles.cycle import Cycle, cycle, stroke_of
+from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.cycles.limits import Arc, limiting_places, reach_of
-from kulman.plans.linkages.cycles.strokes import OutputMotion, output_motions
+from kulman.plans.linkages.cycles.strokes import OutputMotion, output_motions, stroke_of
 from kulman.plans.linkages.cycles.swept import swept
 from kulman.plans.linkages.mechanism import Mechanism, Stroke
 from kulman.plans.linkages.solved import solve_linkage

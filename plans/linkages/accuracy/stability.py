@@ -145,7 +145,5 @@ def _misses(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand: 
 def spots(cycle: Cycle) -> tuple[Spot, ...]:
     """Return the special places of the driver."""
     found = [Spot(DEAD, dead.angle, motion.output.link) for motion in cycle.motions for dead in motion.dead]
-    found += [Spot(CHANGE, place) for place in cycle.reach.changes]
-    found += [Spot(POLE, place) for place in cycle.reach.poles]
-    found += [Spot(LIMIT, place) for place in cycle.reach.limits]
-    return tuple(found)
+    places = {CHANGE: cycle.reach.changes, POLE: cycle.reach.poles, LIMIT: cycle.reach.limits}
+    return (*found, *(Spot(kind, place) for kind, at in places.items() for place in at))

@@ -25,10 +25,9 @@ from ..chain import USUAL, constructed
 from ..mechanism import Mechanism
 from ..structure import Structure
 from .limits import NEAR_LIMIT, Arc, Reach, reach_of
-from .strokes import Output, OutputMotion, Travel, measured, output_motions, outputs, stroke_of, zero_position
+from .strokes import Output, OutputMotion, measured, output_motions, outputs, zero_position
 from .swept import Swept, swept
 
-__all__ = ["Arc", "Cycle", "Extreme", "Travel", "cycle", "stroke_of"]
 Array = NDArray[Any]
 VANISHES = 1e-9  # part of the largest magnitude below which the smallest is zero
 BESIDE_CHANGE = 1e-4  # radians from a change point within which velocities are lost in rounding: it goes as 1 / angle^2
@@ -183,7 +182,8 @@ def _wanted(mechanism: Mechanism, program: Program, motions: Iterable[OutputMoti
     """Return what a cycle keeps of every position: quantities, points, the motion of the outputs."""
     named = quantities(program, defaultdict(float), {})
     points = [point for link in mechanism.links for point in link.points] + [*mechanism.frame_points]
-    measures = [name for motion in motions for name in motion.output.measures]
+    moved = [motion.output for motion in motions]
+    measures = [name for output in moved for name in (output.place, output.rate, output.change) if name]
     known = set(program.names)
     return [name for name in dict.fromkeys((*named, *points, *measures)) if name in known]
 

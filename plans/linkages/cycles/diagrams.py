@@ -163,16 +163,11 @@ def velocity_field(solved: SolvedLinkage, link: int, columns: int = 9, rows: int
     The grid covers the link's lettered points in the plan of the mechanism, and a margin around them.
     """
     body = moving_bodies(solved.mechanism, solved.structure)[link]
-    points = [solved.point(point) for point in body.link.points]
-    places = _grid(np.array(points), columns, rows)
+    points = np.array([solved.point(point) for point in body.link.points])
+    beside = MARGIN * (max(np.ptp(points.real), np.ptp(points.imag)) or 1.0)
+    xs = np.linspace(points.real.min() - beside, points.real.max() + beside, columns)
+    ys = np.linspace(points.imag.min() - beside, points.imag.max() + beside, rows)
+    places = xs[None, :] + 1j * ys[:, None]
     omega = float(solved.values[body.omega]) if body.omega else 0.0
     velocity = solved.point(solved.mechanism.mark("velocity", body.pin))
     return places, velocities(places, solved.point(body.pin), velocity, omega)
-
-
-def _grid(points: Array, columns: int, rows: int) -> Array:
-    side = max(np.ptp(points.real), np.ptp(points.imag)) or 1.0
-    xs = np.linspace(points.real.min() - MARGIN * side, points.real.max() + MARGIN * side, columns)
-    ys = np.linspace(points.imag.min() - MARGIN * side, points.imag.max() + MARGIN * side, rows)
-    grid: Array = xs[None, :] + 1j * ys[:, None]
-    return grid

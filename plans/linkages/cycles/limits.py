@@ -167,9 +167,8 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     if drive.turns:
         changes, poles = ([0.0 if TURN - x % TURN < SAME else x % TURN for x in places] for places in (changes, poles))
     apart = _gaps(whole, stretches)
-    limits = {end for arc in apart for end in (arc.low, arc.high)} - (
-        set() if whole.closed else {whole.low, whole.high}
-    )
+    ends = set() if whole.closed else {whole.low, whole.high}
+    limits = {end for arc in apart for end in (arc.low, arc.high)} - ends
     return Reach(whole, tuple(stretches), apart, tuple(sorted(changes)), tuple(sorted(poles)), tuple(sorted(limits)))
 
 

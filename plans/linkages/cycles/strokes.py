@@ -52,11 +52,6 @@ class Output:
         """Unit of its places: metres of a slider, radians of a rocker."""
         return "m" if self.slides else "rad"
 
-    @property
-    def measures(self) -> tuple[str, ...]:
-        """Names of its place, velocity and acceleration, as far as it moves."""
-        return tuple(name for name in (self.place, self.rate, self.change) if name)
-
     def places(self, values: Mapping[str, Array]) -> Array:
         """Return its places in successive positions, angles without jumps."""
         if self.slides:

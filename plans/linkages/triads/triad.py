@@ -36,7 +36,7 @@ from ..parts import (
     local_mark,
     moments_about,
 )
-from ..structure import Group
+from ..structure import Group, listed
 
 
 def named(mechanism: Mechanism, group: Group, bodies: Bodies) -> AssurGroup:
@@ -50,21 +50,17 @@ def named(mechanism: Mechanism, group: Group, bodies: Bodies) -> AssurGroup:
     """
     central = mechanism.link(group.central)
     if not all(isinstance(pair, Revolute) for pair in group.inner):
-        raise InputError("triad-slide", links=_listed(group.links), link=central.number)
+        raise InputError("triad-slide", links=listed(group.links), link=central.number)
     start = mechanism.start(central.number)
     if start is None:
-        raise InputError("start-missing", links=_listed(group.links), link=central.number)
+        raise InputError("start-missing", links=listed(group.links), link=central.number)
     legs = legs_of(mechanism, group, bodies)
     first = legs[:2] if start.legs is None else [leg for number in start.legs for leg in legs if leg.number == number]
     if len({leg.number for leg in first}) != 2:
-        raise InputError("start-legs", link=central.number, known=_listed(group.legs))
+        raise InputError("start-legs", link=central.number, known=listed(group.legs))
     third = next(leg for leg in legs if leg not in first)
     B, C = [leg.end for leg in legs if leg != third]
     return Triad(mechanism, group.name, (first[0], first[1], third), Central(central, B, C, third.end))
-
-
-def _listed(numbers: tuple[int, ...]) -> str:
-    return ", ".join(map(str, numbers))
 
 
 @dataclass(frozen=True, slots=True)
