@@ -130,7 +130,10 @@ def with_initials(plain: str) -> str:
     """
     words = plain.split()
     at = _surname_at(words)
-    return " ".join(word if place == at else _initial(word) for place, word in enumerate(words))
+    names = (place != at and word[:1].isalpha() and not word.endswith(".") for place, word in enumerate(words))
+    return " ".join(
+        re.sub(r"(\w)\w+", r"\1.", word) if short else word for word, short in zip(words, names, strict=True)
+    )
 
 
 def _surname_at(words: Sequence[str]) -> int:
@@ -141,8 +144,3 @@ def _surname_at(words: Sequence[str]) -> int:
     if last > first + 1 and _PATRONYMIC.fullmatch(words[last - 1]):
         return last
     return last if words and re.match("[A-Za-z]", words[first]) else first
-
-
-def _initial(word: str) -> str:
-    """Return the first letter of each part of a name; what is no name stays."""
-    return re.sub(r"(\w)\w+", r"\1.", word) if word[:1].isalpha() and not word.endswith(".") else word

@@ -6,13 +6,12 @@ import math
 
 from ...plans.cams.construction import PLATE_PROFILE, PROFILE
 from ...plans.cams.course import dwelling, on_circle, pole_share, pressed, rests, up_at
-from ..dimensions import angle, linear
 from ..figure import Figure, Stage
 from ..hardware import Rod
 from ..shapes import Arc, Circle, Group, Line, Pen, Polyline, Text
 from ..symbols import fixed_pivot, polar, revolute, swept, unit
 from ..text import Box, box, lay_out
-from ..view import Canvas, View
+from ..view import Canvas, View, angle, linear
 from .inversion import (
     Contact,
     centre,

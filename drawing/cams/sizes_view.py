@@ -32,12 +32,11 @@ from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.sizes import HalfPlane, wedge
 from ..areas import hatched
 from ..diagram import small
-from ..dimensions import angle, linear, turning
 from ..figure import Figure, Stage
 from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, arc_between, at_level, fixed_pivot, nearer, swept, unit
 from ..text import Box, lay_out
-from ..view import Canvas, View
+from ..view import Canvas, View, angle, linear, turning
 from .diagrams_view import jumps
 from .scene import CamScene, given, needed
 from .text import transfer

@@ -12,13 +12,12 @@ from ...plans.gears.geometry import POINTS
 from ...scales.scale import Scale
 from ..areas import strokes
 from ..diagram import Axis, Field, axes, curve, divisions, numbers
-from ..dimensions import linear
 from ..figure import ANSWERS, Figure, stages
 from ..printed import DEGREES, Input, calculation
 from ..shapes import Group, Line, Pen, Polyline, Text
 from ..symbols import unit
 from ..text import lay_out
-from ..view import Canvas, View
+from ..view import Canvas, View, linear
 from ..words import Words, indexed
 from .scene import CURVES, ENDS, GearScene, Ordinates, cut_of, places, rho_mu, theta_mu
 

@@ -6,12 +6,11 @@ from dataclasses import replace
 
 from ...plans.gears.course import Rack
 from ...plans.gears.meshing import Wheel
-from ..dimensions import angle, linear
 from ..figure import ANSWERS, Figure, stages
 from ..page import extent
 from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, right_angle, unit
-from ..view import Canvas, View
+from ..view import Canvas, View, angle, linear
 from .meshing_view import PAST, PENS, WIDEST, node
 from .scene import GearScene
 

@@ -12,11 +12,10 @@ from ...plans.hoist.solve import POINTS, equation, forces_over
 from ...plans.solved import PAPER_MM
 from ..areas import clipped
 from ..diagram import Axis, Field, divisions, drawn_through
-from ..dimensions import angle
 from ..figure import Figure, Stage, stages
 from ..shapes import Arc, Group, Head, Line, Pen, Polyline, Shape, Text
 from ..symbols import arc_between
-from ..view import Canvas, View
+from ..view import Canvas, View, angle
 from .scene import HoistScene
 
 MANY, BESIDE_CROSSING = 48, 4  # section lines

@@ -9,14 +9,13 @@ from itertools import pairwise
 from ...plans.hoist.construction import BENT, FORCE, LETTERS, SCHEME, SECTIONS
 from ...plans.hoist.forces import STRENGTH
 from ...plans.hoist.solve import OF_BEAM, bent
-from ..dimensions import linear
 from ..figure import Figure, stages
 from ..hardware import COILS, coils
 from ..page import Layer
 from ..shapes import Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import fixed_pivot, hatching, revolute, unit
 from ..text import lay_out
-from ..view import Canvas, View
+from ..view import Canvas, View, linear
 from .scene import HoistScene
 
 LOAD = 0.45  # of the rope's length, the height of the load at most

@@ -41,7 +41,9 @@ def _block(block: Block, said: dict[str, str], files: Iterator[tuple[int, str]])
             yield "\n".join(ruled)
         case Figure(caption=caption, under=under):
             number, name = next(files)
-            yield f"![{_plain(letters(caption))}]({_target(name)})"
+            if re.search(r"[\s()<>]", name):  # the target of a link holds these only within signs of its own
+                name = "<" + re.sub(r"([<>\\])", r"\\\1", name) + ">"
+            yield f"![{_plain(letters(caption))}]({name})"
             yield "  \n".join((f"*{said['figure']} {number} – {_line(caption)}*", *map(_line, under)))
 
 
@@ -64,11 +66,6 @@ RULED: dict[str, Callable[[str], str]] = {
     "u": "<u>{}</u>".format,
     "uu": lambda text: re.sub(r"(\w\u0305?)", "\\1\u0333", text, count=1),  # under the first one: tags know one line
 }
-
-
-def _target(name: str) -> str:
-    """Return the name of a file as the target of a link, which may hold a space only within signs of its own."""
-    return "<" + re.sub(r"([<>\\])", r"\\\1", name) + ">" if re.search(r"[\s()<>]", name) else name
 
 
 def _plain(text: str) -> str:
