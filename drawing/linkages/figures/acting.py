@@ -56,13 +56,9 @@ def loads(scene: Scene, number: int) -> Hung:
 
 def handed(scene: Scene, number: int) -> Hung:
     """Return (force, point) of the reactions of groups attached to a link, the last group first."""
-    moments = {moment.force: moment.at for moment in moments_of(scene, (number,))}
-    found = []
-    for group, pair, own in _attached(scene, number):
-        force = f"R_{scene.mechanism.index(own, number)}"
-        if scene.defined(force):
-            found.append((force, moments.get(force) or group.pin(pair)))
-    return found
+    at = {moment.force: moment.at for moment in moments_of(scene, (number,))}
+    attached = ((f"R_{scene.mechanism.index(own, number)}", g.pin(pair)) for g, pair, own in _attached(scene, number))
+    return [(force, at.get(force) or pin) for force, pin in attached if scene.defined(force)]
 
 
 def _attached(scene: Scene, number: int) -> Iterator[tuple[Group, Pair, int]]:
@@ -109,12 +105,9 @@ def moments_of(scene: Scene, numbers: tuple[int, ...]) -> list[Moment]:
 
 def _link_of(scene: Scene, force: str) -> int | None:
     """Return the link on which a force acts."""
-    mechanism = scene.mechanism
-    for load in mechanism.loads:
-        if load.name == force:
-            return load.link
-    links = role(force).links
-    return next((on for on in links[-1:] if on in {link.number for link in mechanism.links}), None)
+    own = [load.link for load in scene.mechanism.loads if load.name == force]
+    moving = {link.number for link in scene.mechanism.links}
+    return next(iter(own + [on for on in role(force).links[-1:] if on in moving]), None)
 
 
 def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int) -> Contact | None:

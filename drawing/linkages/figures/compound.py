@@ -35,8 +35,7 @@ FAR = 0.75  # part of the mechanism's size within which an instant centre is dra
 def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
     """Draw v = v^e + v^r at every point of the couplers, instant centres with their rays, and all rates of turning."""
     canvas = Canvas(scene.style)
-    numbers = [link.number for link in scene.mechanism.links]
-    figures = _mechanism(canvas, scene, numbers)
+    figures = _mechanism(canvas, scene, [link.number for link in scene.mechanism.links])
     points = [At(scene, c, point, "V") for c in couplers for point in c.letters]
     busy = _busy(scene, points, figures)
     shown = {at.point for at in points}  # a hinge may be a point of another coupler, which shows its velocity
@@ -67,13 +66,10 @@ def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
     _at_points(canvas, scene, [at])
     busy = _busy(scene, [at], figures)
     _sliding_sense(canvas, scene, at, busy)
-    for rate, centre in (
-        (coupler.omega_e, coupler.pivot),
-        (coupler.epsilon_e, coupler.pivot),
-        (f"omega_r_{coupler.number}", coupler.hinge),
-        (f"epsilon_r_{coupler.number}", coupler.hinge),
-    ):
-        _turn(canvas, scene, rate, centre, busy)
+    for rate in (coupler.omega_e, coupler.epsilon_e):
+        _turn(canvas, scene, rate, coupler.pivot, busy)
+    for kind in ("omega", "epsilon"):
+        _turn(canvas, scene, f"{kind}_r_{coupler.number}", coupler.hinge, busy)
     heading = scene.heading("heading.compound_acceleration", POSITION, at.plan, point=scene.words.mark(point))
     notes = tuple(_said(scene, at.vectors()))
     return with_insets(canvas, f"compound_a_{at.letter}", heading, notes, shown_of([at]))

@@ -78,12 +78,9 @@ class Sketch(Arrows):
 
         return max(places, key=lambda at: min(room(at), 1.5)), (b - a) / abs(b - a)
 
-    def contact(self, found: Contact | None, reaction: str) -> complex:
+    def contact(self, found: Contact, reaction: str) -> complex:
         """Draw how far from its pin the reaction of a guide acts, and hang it there; return the place."""
-        scene = self.scene
-        if found is None:
-            return 0j
-        pin = scene.mm(found.pin)
+        scene, pin = self.scene, self.scene.mm(found.pin)
         at = pin + found.u * (found.offset / scene.scales[POSITION].mu)
         if found.couple:
             return pin

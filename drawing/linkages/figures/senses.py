@@ -247,6 +247,3 @@ def obstacles(shapes: Iterable[Shape]) -> Iterator[Obstacle]:
                 yield from obstacles(parts)
             case Head() | Text():
                 pass
-
-
-__all__ = ["Obstacle", "Place", "crowd", "free_arc", "obstacles", "place_arcs"]
