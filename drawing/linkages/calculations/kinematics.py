@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 
 from ....plans.board import POSITION, Step
 from ....plans.linkages.compound import found_here
@@ -34,6 +33,11 @@ from .equations import (
 )
 
 PLANS = ("velocity", "acceleration")
+TOLD = (
+    *("circular_speed", "centripetal", "circular_acceleration", "normal_part", "turning", "coriolis"),
+    *("transport_speed", "transport_normal", "transport_tangential"),
+)
+BEFORE_MEETING = ("normal_part", "coriolis")
 STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 
 
@@ -53,12 +57,27 @@ def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> L
 
     `told` are the lengths of which other lines have told already.
     """
-    story = _Story(scene, told if told is not None else set())
-    apart = found_here(scene.program)
-    for step in scene.program:
-        if stage_of(step) == plan and step.name not in apart:
-            story.tell(step)
-    return story.lines
+    told, apart = told if told is not None else set(), found_here(scene.program)
+    lines: Lines = []
+    held: Lines = []  # of a group's known parts, which come after its vector equation
+    for step in (s for s in scene.program if stage_of(s) == plan and s.name not in apart):
+        if step.verb == "meet":
+            lines += [*_special_point(scene, step), meeting(scene, step), *held]
+            held.clear()
+        elif step.law in TOLD:
+            here = held if step.law in BEFORE_MEETING or _is_met(scene, step) else lines
+            here += [*_lengths(scene, step, told), _formula(scene, step)]
+        elif step.law == "given":
+            lines.append(_given(scene, step))
+        elif step.law in ("signed", "same_turning"):
+            lines += _turning_alike(scene, step)
+        elif step.verb in ("divide", "similar"):
+            lines += _similarity(scene, step)
+        elif step.verb == "read":
+            lines += _absolute(scene, step)
+        if role(step.name).kind == "epsilon" and step.law != "same_turning":
+            lines.append(_comparison(scene, step.name))
+    return lines
 
 
 def stage_of(step: Step) -> str:
@@ -68,63 +87,28 @@ def stage_of(step: Step) -> str:
     return STAGES.get(role(step.name).kind, "") if step.verb == "calc" else ""
 
 
-@dataclass(slots=True)
-class _Story:
-    """Lines as they are told; `held` are those of a group's known parts, which come after its vector equation."""
-
-    scene: Scene
-    told: set[str]
-    lines: Lines = field(default_factory=list)
-    held: Lines = field(default_factory=list)
-
-    def tell(self, step: Step) -> None:
-        """Tell one step."""
-        if step.verb == "meet":
-            self.lines += [*_special_point(self.scene, step), meeting(self.scene, step), *self.held]
-            self.held.clear()
-        elif step.law in TOLD:
-            told = self.held if step.law in BEFORE_MEETING or self._is_met(step) else self.lines
-            told += [*self._lengths(step), _formula(self.scene, step)]
-        elif step.law == "given":
-            self.lines.append(_given(self.scene, step))
-        elif step.law in ("signed", "same_turning"):
-            self.lines += _turning_alike(self.scene, step)
-        elif step.verb in ("divide", "similar"):
-            self.lines += _similarity(self.scene, step)
-        elif step.verb == "read":
-            self.lines += _absolute(self.scene, step)
-        if role(step.name).kind == "epsilon" and step.law != "same_turning":
-            self.lines.append(_comparison(self.scene, step.name))
-
-    def _is_met(self, step: Step) -> bool:
-        """Whether a line that finds a point begins at the end of the vector of a step, where no point has its end."""
-        hung = [user.name for user in self.scene.reading.users(step.name) if user.verb == "chain"]
-        ends = [end for end in hung if self.scene.reading.absolute(end) is None]
-        return any(user.verb == "meet" for end in ends for user in self.scene.reading.users(end))
-
-    def _lengths(self, step: Step) -> Iterator[tuple[str, ...]]:
-        """Go through the lengths for this step that are not given, each told once.
-
-        They are measured on the plan of the mechanism, or follow from the coordinates of a link's joints.
-        """
-        words = self.scene.words
-        for name in step.operands:
-            made = self.scene.reading.made.get(name)
-            if made is None or made.verb != "measure" or name in self.told:
-                continue
-            self.told.add(name)
-            symbol = words.symbol(role(name).shown)
-            if role(made.operands[0]).hidden:
-                yield (stated(words, symbol, size_of(self.scene, name), "m"),)
-            else:
-                yield worked(words, symbol, [distance(self.scene, *made.operands)], "m")
+def _is_met(scene: Scene, step: Step) -> bool:
+    """Whether a line that finds a point begins at the end of the vector of a step, where no point has its end."""
+    users, absolute = scene.reading.users, scene.reading.absolute
+    ends = [user.name for user in users(step.name) if user.verb == "chain" and absolute(user.name) is None]
+    return any(user.verb == "meet" for end in ends for user in users(end))
 
 
-TOLD = (
-    *("circular_speed", "centripetal", "circular_acceleration", "normal_part", "turning", "coriolis"),
-    *("transport_speed", "transport_normal", "transport_tangential"),
-)
-BEFORE_MEETING = ("normal_part", "coriolis")
+def _lengths(scene: Scene, step: Step, told: set[str]) -> Iterator[tuple[str, ...]]:
+    """Go through the lengths for a step that are not given, each told once.
+
+    They are measured on the plan of the mechanism, or follow from the coordinates of a link's joints.
+    """
+    for name in step.operands:
+        made = scene.reading.made.get(name)
+        if made is None or made.verb != "measure" or name in told:
+            continue
+        told.add(name)
+        symbol = scene.words.symbol(role(name).shown)
+        if role(made.operands[0]).hidden:
+            yield (stated(scene.words, symbol, size_of(scene, name), "m"),)
+        else:
+            yield worked(scene.words, symbol, [distance(scene, *made.operands)], "m")
 
 
 def _formula(scene: Scene, step: Step) -> tuple[str, ...]:
