@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,7 +46,8 @@ def _field(axes: Axes, found: ScaleErrors, name: str, words: Words, tolerances: 
         hand: None if ratio is None else (ratio, errors[hand][found.ratios.index(ratio)])
         for hand, ratio in enough.items()
     }
-    labels, points = curves_of_hands(axes, np.array(found.ratios), errors, ringed, words, BESIDE)
+    labels, points = curves_of_hands(axes, np.array(found.ratios), errors, ringed, words)
+    labels = [replace(label, x=BESIDE * label.x) for label in labels]
     logarithmic(axes, found.ratios, words)
     low, high = axes.get_ylim()
     axes.set_ylim(low, high * 1.3)

@@ -65,6 +65,14 @@ class Abscissa:
         found: Array = np.degrees(places % TURN)
         return np.where(found > 360.0 - 1e-9, 0.0, found)
 
+    def limit(self, axes: Axes, x: Array) -> None:
+        """Let a field show a turn, or all travels `x`."""
+        if self.turns:
+            axes.set_xlim(0.0, 360.0)
+            axes.set_xticks(range(0, 361, 30))
+        else:
+            axes.set_xlim(float(x.min()), float(x.max()))
+
 
 def stability_page(
     found: Stability, apart: Sequence[Arc], words: Words, title: str, along: Abscissa, note: str
@@ -96,11 +104,7 @@ def stability_page(
             axes.set_ylim(top=min(axes.get_ylim()[1], FARTHEST))
             _log(axes, words[f"chart.{key}"], words)
         for axes in fields:
-            if along.turns:
-                axes.set_xlim(0.0, 360.0)
-                axes.set_xticks(range(0, 361, 30))
-            else:
-                axes.set_xlim(float(x.min()), float(x.max()))
+            along.limit(axes, x)
             _special(axes, found.spots, apart, along)
         _named(fields[0], found.spots, along, words)
         fields[-1].set_xlabel(along.label)

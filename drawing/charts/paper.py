@@ -248,14 +248,13 @@ def curves_of_hands(
     errors: Mapping[str, NDArray[Any]],
     ringed: Mapping[str, tuple[float, float] | None],
     words: Words,
-    beside: float = 1.0,
 ) -> tuple[list[Label], list[tuple[float, float]]]:
     """Draw what every hand keeps of a quantity, per cent, one place of each in a ring.
 
     Returns
     -------
     labels, points
-        For `put`; the labels stand at `beside` times the last abscissa.
+        For `put`; the labels stand at the ends of the curves.
     """
     labels, points = [], []
     for hand, (line, marker) in HANDS.items():
@@ -263,5 +262,5 @@ def curves_of_hands(
         if (place := ringed[hand]) is not None:
             axes.plot(*place, "o", **RING)
         points += list(zip(x.tolist(), errors[hand].tolist(), strict=True))
-        labels.append(Label(beside * float(x[-1]), float(errors[hand][-1]), words[f"hand.{hand}"], must=True))
+        labels.append(Label(float(x[-1]), float(errors[hand][-1]), words[f"hand.{hand}"], must=True))
     return labels, points
