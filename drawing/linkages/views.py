@@ -59,7 +59,7 @@ def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
     if "lever" in plans:
         yield Figure("lever", lever_view, ("mu_V",))
         lines = partial(lever_lines, with_loads="forces" not in plans)
-        yield _text("equations_lever", lines, width, "equations_lever")
+        yield _text("equations_lever", lines, width, "heading.equations_lever")
     yield from _results(solved, [kind for kind in ("forces", "lever") if kind in plans])
 
 
@@ -69,7 +69,7 @@ def _text(
     """Return lines of text with their heading, or with that of this key."""
 
     def draw(scene: Scene) -> View:
-        said = scene.words[f"heading.{heading}"] if isinstance(heading, str) else heading(scene)
+        said = scene.words[heading] if isinstance(heading, str) else heading(scene)
         return text_block(name, said, lines(scene), scene.style, width)
 
     return Figure(name, draw)
@@ -89,7 +89,7 @@ def _kinematics(solved: SolvedLinkage, plans: Sequence[str], width: float) -> It
     """Go through what is given, the mechanism, its plans, and their equations: for each plan where groups are many."""
     if "structure" in plans:
         yield Figure("givens", givens_table)
-        yield _text("structure", structure_lines, width, "structure")
+        yield _text("structure", structure_lines, width, "heading.structure")
     if "position" in plans:
         yield Figure("position", scheme, ("mu_l",))
     drawn = [plan for plan in PLANS if plan in plans]
@@ -99,7 +99,8 @@ def _kinematics(solved: SolvedLinkage, plans: Sequence[str], width: float) -> It
         own = drawn if single else [plan]
         lines = partial(kinematics_text, plans=own, before=drawn[:i])
         name = "equations_kinematics" if single else f"equations_{plan}"
-        yield _text(name, lines, width, "equations_kinematics" if len(own) > 1 else f"equations_{plan}")
+        heading = "heading.equations_kinematics" if len(own) > 1 else f"heading.equations_{plan}"
+        yield _text(name, lines, width, heading)
     yield from _results(solved, drawn)
 
 
