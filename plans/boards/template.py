@@ -177,6 +177,11 @@ def rotated(turn: Any, angle: Any) -> Any:
     return turn * ((1.0 - half * half) * inverse) + (turn * 1j) * (angle * inverse)
 
 
+def _read(field: str) -> Callable[..., Any]:
+    """Return the verb that reads how a template lies that is laid down: a field of `Laid`."""
+    return lambda board, *marks: getattr(board._lay_template(board._operands, marks), field)
+
+
 class TemplateBoard(Board):
     """The verbs of templates on boards that compute.
 
@@ -204,23 +209,8 @@ class TemplateBoard(Board):
         place, turn = self._finished[names]
         return place + turned(turn, point - marks[ASTRAY + 1])
 
-    def _template_place(self, *marks: Any) -> Any:
-        return self._lay_template(self._operands, marks).place
-
-    def _template_turn(self, *marks: Any) -> Any:
-        return self._lay_template(self._operands, marks).turn
-
-    def _template_determinant(self, *marks: Any) -> Any:
-        return self._lay_template(self._operands, marks).determinant
-
-    def _template_apart(self, *marks: Any) -> Any:
-        return self._lay_template(self._operands, marks).apart
-
-    def _template_doubt(self, *marks: Any) -> Any:
-        return self._lay_template(self._operands, marks).doubt
-
-    def _template_missing(self, *marks: Any) -> Any:
-        return self._lay_template(self._operands, marks).missing
+    _template_place, _template_turn, _template_determinant = map(_read, ("place", "turn", "determinant"))
+    _template_apart, _template_doubt, _template_missing = map(_read, ("apart", "doubt", "missing"))
 
     def _lay_template(self, names: tuple[str, ...], marks: tuple[Any, ...]) -> Laid:
         """Lay a template down once for all its points."""

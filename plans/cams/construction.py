@@ -80,20 +80,6 @@ def axes(board: Board, plan: str, sections: Iterable[int]) -> None:
         board.lay(foot(plan, i), f"{plan}.0", RIGHT, f"_x{i}")
 
 
-def given_means(board: Board, plan: str, sections: Iterable[int]) -> None:
-    """Mark on the given diagram the mean ordinate of every section, in its middle."""
-    for i in sections:
-        board.calc(f"_middle{i}", "on_axis", f"_phi_middle{i}", "mu_phi")
-        board.calc(mean(i), "part_of_amplitude", "l_A1", f"_part{i}")
-        board.place(f"{plan}.m{i}", f"_middle{i}", mean(i))
-
-
-def drawn_means(board: Board, plan: str, sections: Iterable[int]) -> None:
-    """Mark on a curve of chords the mean ordinate of every section: the middle of the chord."""
-    for i in sections:
-        board.divide(f"{plan}.m{i}", f"{plan}.{i - 1}", f"{plan}.{i}", "one", "_two")
-
-
 def integrate(board: Board, plan: str, onto: str, pole_distance: str, sections: Iterable[int]) -> None:
     """Integrate the diagram `plan`, whose mean ordinates are marked, by chords onto the diagram `onto`."""
     origin, pole = f"{plan}.0", f"{plan}.O"
@@ -112,10 +98,14 @@ def diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:
     board.normal(UP, RIGHT)
     for plan in DIAGRAMS[DIAGRAMS.index(given) :]:
         axes(board, plan, sections)
-    given_means(board, given, sections)
+    for i in sections:  # mean ordinates, each in the middle of its section
+        board.calc(f"_middle{i}", "on_axis", f"_phi_middle{i}", "mu_phi")
+        board.calc(mean(i), "part_of_amplitude", "l_A1", f"_part{i}")
+        board.place(f"{given}.m{i}", f"_middle{i}", mean(i))
     if given == ACCELERATION:
         integrate(board, ACCELERATION, VELOCITY, "H_a", sections)
-        drawn_means(board, VELOCITY, sections)
+        for i in sections:  # of a curve of chords they are the middles of the chords
+            board.divide(f"{VELOCITY}.m{i}", f"{VELOCITY}.{i - 1}", f"{VELOCITY}.{i}", "one", "_two")
     integrate(board, VELOCITY, TRAVEL, "H_v", sections)
 
 

@@ -199,9 +199,10 @@ def smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> RockerSiz
     least, most = (0.0, LOWEST), (math.pi - rocker.motion.h, HIGHEST)
     for limit in rocker.limits(limits):
         bounds = _Bounds(rocker, limit, l_OC)
-        if bounds.most_sine() > 1.0:
+        ends = (bounds.free, bounds.low, bounds.high)
+        free, low, high = (min(one.value for one in minima(end, limit.phase.corners)) for end in ends)
+        if free < -1.0:
             return NoPlace((limit.name,))
-        low, high = (min(one.value for one in minima(end, limit.phase.corners)) for end in (bounds.low, bounds.high))
         least, most = max(least, (-low, limit.name)), min(most, (high, limit.name))
     beta, name = least
     if beta > most[0]:
@@ -228,9 +229,9 @@ class _Bounds:
         q: Array = (self.rocker.l / self.d) * math.sin(self.limit.gamma) * way * (dpsi - self.rocker.sense)
         return q
 
-    def most_sine(self) -> float:
-        """Return the greatest q: above 1 nothing is permitted."""
-        return -min(one.value for one in minima(lambda phi, side: -self.sine(phi, side), self.limit.phase.corners))
+    def free(self, phi: Any, side: int) -> Array:
+        """Return -q: below -1 nothing is permitted."""
+        return -self.sine(phi, side)
 
     def low(self, phi: Any, side: int) -> Array:
         """Return the least beta of the positions, negative so that the greatest of them is a minimum."""

@@ -59,15 +59,9 @@ def on_lines(motion: Motion, sections: int) -> Cut:
     return Cut(*motion.division(sections))
 
 
-def beside_lines(motion: Motion, sections: int) -> Cut:
-    """Return a turn divided into equal sections, jumps within them."""
-    return Cut(*equal_division(motion, sections + 1))
-
-
 def midpoint(motion: Motion, given: str, cut: Cut) -> Course:
     """Integrate by mean ordinates, as the chords do, without a board."""
-    width, begin, middle, end = cut.fractions(motion, 2 if given == ACCELERATION else 1)
-    del begin, end
+    width, _, middle, _ = cut.fractions(motion, 2 if given == ACCELERATION else 1)
     if given != ACCELERATION:
         return _summed(middle * width), motion.at(cut.angles, -1)[1]
     speed = _summed(middle * width)
@@ -153,7 +147,7 @@ class _Race:
             (SIMPSON, simpson, on_lines),
         ]
         if inner_jumps(motion):
-            ways.append((MISSED, midpoint, beside_lines))
+            ways.append((MISSED, midpoint, lambda motion, sections: Cut(*equal_division(motion, sections + 1))))
         for method, way, divided in ways:
             for sections in NUMERICAL:
                 cut = divided(motion, sections)

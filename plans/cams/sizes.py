@@ -80,13 +80,12 @@ def nearest(planes: Sequence[HalfPlane]) -> Nearest | None:
     for first, second in combinations(planes, 2):
         if (place := meeting(first, second)) is not None:
             found.append(Nearest(place, (first, second)))
-    inside = [one for one in found if _inside(one, planes, size)]
-    return min(inside, key=lambda one: abs(one.place), default=None)
 
+    def is_inside(one: Nearest) -> bool:
+        slack = ON * max(size, abs(one.place))
+        return math.isfinite(slack) and all(plane.lack(one.place) <= slack for plane in planes if plane not in one.on)
 
-def _inside(one: Nearest, planes: Sequence[HalfPlane], size: float) -> bool:
-    slack = ON * max(size, abs(one.place))
-    return math.isfinite(slack) and all(plane.lack(one.place) <= slack for plane in planes if plane not in one.on)
+    return min(filter(is_inside, found), key=lambda one: abs(one.place), default=None)
 
 
 RIGHT_ANGLE = 0.5 * math.pi

@@ -132,11 +132,14 @@ def sliding_places(board: Board) -> None:
         board.calc(f"_rho_2_{point}", "excess", "l_N1N2", f"_rho_1_{point}")
 
 
-def calculated_ordinates(board: Board) -> None:
-    """Ordinates of the velocities along the profiles at the twelve points, by proportion."""
+def calculated_sliding(board: Board) -> None:
+    """Ordinates of the velocities along the profiles at the twelve points, by proportion, and specific sliding."""
     for point in POINTS:
         for i in WHEELS:
             board.calc(ordinate(i, point), "velocity_ordinate", "PW", f"_rho_{i}_{point}", f"_rho_at_P{i}")
+    for point in POINTS:
+        for i in WHEELS:
+            sliding_at(board, point, i)
 
 
 def sliding_at(board: Board, point: str, i: int) -> None:
@@ -145,22 +148,14 @@ def sliding_at(board: Board, point: str, i: int) -> None:
     board.calc(f"theta_{i}{mate}_{point}", "sliding_by_ordinates", f"y_{i}_{point}", f"y_{mate}_{point}")
 
 
-def specific_sliding(board: Board) -> None:
-    """Specific sliding at the twelve points."""
-    for point in POINTS:
-        for i in WHEELS:
-            sliding_at(board, point, i)
-
-
 SIZES = (main_sizes, centre_again, auxiliary_sizes, quality, action, measures)
-TABLE = (sliding_places, calculated_ordinates, specific_sliding)
 
 
 @cache
 def geometry_program() -> Program:
     """Return all calculations, in order, recorded."""
     board = RecordingBoard()
-    for part in (*SIZES, *TABLE):
+    for part in (*SIZES, sliding_places, calculated_sliding):
         part(board)
     return Program(board.steps)
 

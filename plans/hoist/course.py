@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -39,15 +39,13 @@ class Course:
         return {column.name: column.values for column in self.columned}
 
 
-def _phase_1(board: Board) -> None:
+def _forces(board: Board) -> None:
+    """The forces of both phases at a time, each as if it were in its own."""
     board.calc("_mu", "support_share", "C_12", "C_01")
     board.calc("_C_osc", "product", "_mu", "C_12")
     rope_force(board, "_rope_1", "t")
     board.calc("_lagging", "lagging", "V_t", "a", "k", "t")
     board.calc("_support_1", "support_force", "C", "_lagging", "P_st")
-
-
-def _phase_2(board: Board) -> None:
     board.calc("_T", "excess", "t", "t_1")
     board.calc("_swing", "swing", "D_0", "D_1", "k_1", "_T")
     board.calc("_rope_2", "suspended_force", "P_m", "_swing")
@@ -64,14 +62,10 @@ def _after(board: Board) -> None:
 
 
 @cache
-def _programs() -> tuple[Program, Program]:
-    found = []
-    for parts in ((_phase_1, _phase_2), (_after,)):
-        board = RecordingBoard()
-        for part in parts:
-            part(board)
-        found.append(Program(board.steps))
-    return found[0], found[1]
+def _program(part: Callable[[Board], None]) -> Program:
+    board = RecordingBoard()
+    part(board)
+    return Program(board.steps)
 
 
 def rope_forces(found: Mapping[str, Any], t: Any) -> tuple[Any, Any]:
@@ -85,7 +79,7 @@ def rope_forces(found: Mapping[str, Any], t: Any) -> tuple[Any, Any]:
         Times, s.
     """
     board = ExactBoard({**found, "t": t})
-    board.follow(_programs()[0])
+    board.follow(_program(_forces))
     resting = t < found["t_1"]
     values = board.values
     return np.where(resting, values["_support_1"], 0.0), np.where(resting, values["_rope_1"], values["_rope_2"])
@@ -125,7 +119,7 @@ def _course(
 ) -> Course:
     """Return the course that follows from times and forces, with columns that are known better."""
     board = ExactBoard({**found, **known})
-    board.follow(_programs()[1])
+    board.follow(_program(_after))
     values = {**board.values, **instead}
     return Course(
         tuple(Columned(name, of, np.asarray(values[name], float)) for name, of in COLUMN_UNITS.items()), states

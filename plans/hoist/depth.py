@@ -179,7 +179,8 @@ class Row:
         still = np.zeros((*frequencies.shape[:-1], 1))  # one mode more than there are masses
         present = c > 0.0
         relaxed = np.where(present, 1.0 / np.where(present, c, 1.0), 0.0)
-        parts = (_in_modes(modes, np.asarray(value, float) * relaxed) for value in (start, rates, self.drive))
+        driven = (np.asarray(value, float) * relaxed for value in (start, rates, self.drive))
+        parts = ((modes * value[..., None, :]).sum(axis=-1) for value in driven)
         return RowMotion(np.concatenate((frequencies, still), axis=-1), modes, c, *parts)
 
 
@@ -224,11 +225,6 @@ def _yielding(masses: Array) -> Array:
     """Return 1/a of the masses, with the ends, which do not yield."""
     none = np.zeros((*masses.shape[:-1], 1))
     return np.concatenate((none, 1.0 / masses, none), axis=-1)
-
-
-def _in_modes(modes: Array, values: Array) -> Array:
-    found: Array = (modes * values[..., None, :]).sum(axis=-1)
-    return found
 
 
 def _sinc(x: Array) -> Array:
