@@ -63,18 +63,19 @@ class Judged:
             return judge(key, self.answers, first)
         anew = self._anew(self._different(key))
         steps = self._steps(key.paper.program, anew)
+        unlikely = first and not self._marker.likely(first, key)
+        if unlikely and self._marker.again(key, anew, self._behind(first, steps, key)).misses(first):
+            return None
         marker = self._marker.again(key, anew, steps)
-        if first:
-            alone = marker if marker.likely(first) else self._marker.again(key, anew, self._behind(first, steps, key))
-            alone.go_on(first)
-            if alone.misses(first):
-                return None
-            passed = any(
-                line.name in faulty and not line.verdict.faulty for line in self._lines if line.name not in anew
-            )
-            if not passed and not any(marker.passes(name) for name in key.questions if name in anew and name in faulty):
-                return None
+        if first and (marker.misses(first) or not self._mends(marker, anew, faulty)):
+            return None
         return tuple(marker.lines(self._lines, anew))
+
+    def _mends(self, marker: Marker, anew: Collection[str], faulty: Collection[str]) -> bool:
+        """Whether any of some faulty lines passes: those made anew are judged in order, until one does."""
+        kept = (line for line in self._lines if line.name in faulty and line.name not in anew)
+        asked = (name for name in marker.key.questions if name in faulty and name in anew)
+        return any(not line.verdict.faulty for line in kept) or any(map(marker.passes, asked))
 
     def _steps(self, program: Program, anew: set[str]) -> tuple[Step, ...]:
         return tuple(step for step in program.steps if step.name in anew)

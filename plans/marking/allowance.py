@@ -83,9 +83,7 @@ class Allowance:
             (self._inputs, other._inputs),
             (self._calculated, other._calculated),
         ):
-            found |= before  # type: ignore[operator]
-            for name in anew:
-                found.pop(name, None)
+            found |= {name: x for name, x in before.items() if name not in anew}  # type: ignore[assignment]
 
     def of(self, name: str, value: Any, right: bool = False) -> float:
         """Return by how much an answer may miss a value, SI.

@@ -71,11 +71,7 @@ def judge(key: Key, answers: Iterable[Answer], first: str = "") -> tuple[Line, .
     marker = Marker.of(key, answers)
     marker.settle_scales(redraw=False)
     marker.begin()
-    if first:
-        marker.go_on(first)
-        if marker.misses(first):
-            return None
-    return tuple(marker.lines())
+    return None if first and marker.misses(first) else tuple(marker.lines())
 
 
 def count_right(key: Key, answers: Iterable[Answer], least: float) -> int:
@@ -308,13 +304,14 @@ class Marker:
         return not self._faulty(name)
 
     def misses(self, name: str) -> bool:
-        """Whether a line that is judged is clearly wrong by itself."""
+        """Judge the lines up to that of `name`; whether it is clearly wrong by itself."""
+        self.go_on(name)
         held = self.held.get(name)
         return held is not None and held.verdict.faulty and held.miss.off > CLEAR
 
-    def likely(self, name: str) -> bool:
-        """Whether a line is of the right size, so that it probably passes."""
-        size, most = abs(self.key[name]), self.key.allowed[name]
+    def likely(self, name: str, key: Key) -> bool:
+        """Whether a line is of the size that is right under another key, so that it probably passes."""
+        size, most = abs(key[name]), key.allowed[name]
         return any(way.size is None or abs(way.size - size) <= most for way in self.ways.get(name, ()))
 
     def lines(self, before: Iterable[Line] = (), anew: Collection[str] = ()) -> Iterator[Line]:
