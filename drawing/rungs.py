@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any, Generic, TypeVar
+from dataclasses import dataclass, field
+from typing import Generic, TypeVar
 
 from ..plans.names import role
 from ..plans.solved import Solved
@@ -14,7 +14,7 @@ from ..scales.choose import Choosers
 from ..scales.errors import InputError
 from ..scales.scale import Scale
 from .compose import Drawn, arrange, arrange_closely, compose
-from .extents import from_format
+from .extents import Rungs, from_format
 from .figure import Figure, Scene
 from .formats import Format, Style, room
 from .packing import Placement
@@ -65,12 +65,11 @@ class SubjectScene(Generic[Subject]):
         return Group((Circle(at, self.style.node, pen, fill="black" if filled else "white"),), role, name)
 
 
-Rungs = TypeVar("Rungs")  # a dataclass with a field for each ladder
 Found = tuple[Rungs, list[View], list[Placement]]
 TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}  # mm of lines of text, by the letters of a format
 
 
-class Fitting(ABC, Generic[Subject, Scene, Rungs]):
+class Fitting(ABC, Generic[Subject, Scene]):
     """Draws what a sheet shows for any format: a figure again only where a ladder it depends on has another rung.
 
     Parameters
@@ -81,20 +80,15 @@ class Fitting(ABC, Generic[Subject, Scene, Rungs]):
         The words of the contents with the letters of the subject.
     ladders : mapping of str to tuple of float
         How small things may be drawn, by name; the wanted size first.
-    wanted : Rungs
-        The first rungs, a field for each ladder.
     """
 
     first_scales: Callable[..., tuple[Format, Mapping[str, Scale]]]  # of what is solved, by choosers, for plans
 
     def __init__(
-        self,
-        contents: SheetContents[Subject],
-        words: Words,
-        ladders: Mapping[str, tuple[float, ...]],
-        wanted: Rungs,
+        self, contents: SheetContents[Subject], words: Words, ladders: Mapping[str, tuple[float, ...]]
     ) -> None:
-        self.contents, self.words, self.ladders, self.wanted = contents, words, ladders, wanted
+        self.contents, self.words, self.ladders = contents, words, ladders
+        self.wanted = dict.fromkeys(ladders, 0)  # the first rung of each
         self._drawn: dict[tuple[object, ...], View] = {}
 
     @abstractmethod
@@ -110,7 +104,7 @@ class Fitting(ABC, Generic[Subject, Scene, Rungs]):
         """Return the scale factors of the plans as they are drawn."""
 
     @abstractmethod
-    def on_a_page(self, sheet: Format, last: bool) -> Found[Rungs] | None:
+    def on_a_page(self, sheet: Format, last: bool) -> Found | None:
         """Place everything on one page; on the `last` format what may give way is smaller where that helps."""
 
     def part(self, rungs: Rungs) -> float:
@@ -128,7 +122,7 @@ class Fitting(ABC, Generic[Subject, Scene, Rungs]):
         return [(self._view(scene, sheet, rungs, figure), figure) for figure in self.figures(scene, width)]
 
     def _view(self, scene: Scene, sheet: Format, rungs: Rungs, figure: Figure[Scene]) -> View:
-        key = sheet.name, figure.name, *(getattr(rungs, ladder) for ladder in figure.ladders)
+        key = sheet.name, figure.name, *(rungs[ladder] for ladder in figure.ladders)
         if key not in self._drawn:
             self._drawn[key] = figure.draw(scene)
         return self._drawn[key]
@@ -155,7 +149,7 @@ class Fitting(ABC, Generic[Subject, Scene, Rungs]):
         rungs, views, places = found or self.on_pages(candidate)
         return compose(views, places, self.scales(candidate, rungs), candidate, contents.norm, self.part(rungs))
 
-    def on_pages(self, sheet: Format) -> Found[Rungs]:
+    def on_pages(self, sheet: Format) -> Found:
         """Take several pages in reading order, or fewer on which views stand closely.
 
         Raises
@@ -205,13 +199,11 @@ class Fitting(ABC, Generic[Subject, Scene, Rungs]):
 
     def has_next(self, rungs: Rungs, ladder: str) -> bool:
         """Whether a ladder has a further rung."""
-        return bool(getattr(rungs, ladder) + 1 < len(self.ladders[ladder]))
+        return rungs[ladder] + 1 < len(self.ladders[ladder])
 
     def lower(self, rungs: Rungs, ladder: str) -> Rungs:
         """Return the rungs with the next one of a ladder, where it has one."""
-        own: Any = rungs  # a dataclass
-        lowered: Rungs = replace(own, **{ladder: getattr(rungs, ladder) + self.has_next(rungs, ladder)})
-        return lowered
+        return rungs | {ladder: rungs[ladder] + self.has_next(rungs, ladder)}
 
 
 def pages(places: Sequence[Placement]) -> int:

@@ -436,3 +436,5 @@ PLATE_FIGURE = Figure(
     ),
     "cam.plate_profile",
 )
+
+FIGURES = {"roller": ROLLER_FIGURE, "rocker": ROCKER_FIGURE, "plate": PLATE_FIGURE}

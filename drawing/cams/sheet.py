@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 
-from ...plans.cams.cam import DIAGRAMS_PART, PRESSURE_PART, PROFILE_PART, SIZES_PART
+from ...plans.cams.cam import DIAGRAMS_PART, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART
+from ...plans.cams.course import rolls
 from ...plans.cams.solve import EQUAL, SolvedCam, reduced
 from ...scales.choose import Choosers, Fixed, From
 from ...scales.scale import Scale, rounded, steps
 from ..compose import BLOCK, TURNED, arrange, column, row, zoned
-from ..extents import not_a_point, smallest, visible
+from ..extents import Rungs, not_a_point, smallest, visible
 from ..figure import Figure
 from ..formats import STYLES, Format, room
 from ..rungs import Fitting, Found, SheetContents, may_fit
@@ -109,42 +110,54 @@ def size_of(solved: SolvedCam, symbol: str) -> float:
     return max(sizes, default=MU_L)
 
 
-@dataclass(frozen=True, slots=True)
-class Rungs:
-    """How small things are drawn: the diagrams, the plans made of two of them, the profiles; each a rung."""
-
-    reduction: int = 0
-    mu_s_ds: int = 0
-    mu_s_d2s: int = 0
-    mu_l: int = 0
-
-
-class CamFitting(Fitting[SolvedCam, CamScene, Rungs]):
+class CamFitting(Fitting[SolvedCam, CamScene]):
     """Draws what the sheet of a cam shows: its diagrams may be reduced, and with them the plans made of them."""
 
     first_scales = staticmethod(first_scales)
 
     def __init__(self, contents: SheetContents[SolvedCam]) -> None:
-        self._scenes: dict[tuple[str, Rungs], CamScene] = {}
+        self._scenes: dict[tuple[str, tuple[int, ...]], CamScene] = {}
         ladders = {"reduction": REDUCTIONS, **_chosen(contents.solved, contents.choosers)}
-        super().__init__(contents, lettered(contents.words), ladders, Rungs())
+        super().__init__(contents, lettered(contents.words), ladders)
 
     def scene(self, sheet: Format, rungs: Rungs) -> CamScene:
         """Return the scene of a sheet on a format: of the construction with lengths as they are drawn there."""
-        key, contents = (sheet.letters, rungs), self.contents
+        key, contents = (sheet.letters, tuple(rungs.values())), self.contents
         if key not in self._scenes:
             part = self.part(rungs)
             solved = reduced(contents.solved, part)
             # coarser diagrams leave no fewer rungs to the plans made of them
             chosen = _chosen(solved, contents.choosers)
-            mus = {symbol: values[getattr(rungs, symbol)] for symbol, values in chosen.items()}
+            mus = {symbol: values[rungs[symbol]] for symbol, values in chosen.items()}
             self._scenes[key] = CamScene(solved, self.words, STYLES[sheet.letters], contents.givens, mus, part)
         return self._scenes[key]
 
     def figures(self, scene: CamScene, width: float) -> Iterator[CamFigure]:
         """Go through the figures of a sheet in the order of the work; lines of text are at most `width` mm long."""
-        made = {DIAGRAMS_PART: _diagrams, SIZES_PART: _sizes, PROFILE_PART: _profiles, PRESSURE_PART: _pressure}
-        return (figure for plan in self.contents.plans for figure in made[plan](self.contents, width))
+        return (figure for plan in self.contents.plans for figure in self._figures_of(plan, width))
+
+    def _figures_of(self, plan: str, width: float) -> Iterator[CamFigure]:
+        """Go through the figures of one part of a sheet."""
+        from . import diagrams_view, profile_view, sizes_view, text
+
+        solved, narrow = self.contents.solved, NARROW * width
+        if plan == DIAGRAMS_PART:
+            yield Figure("givens", _givens)
+            yield Figure("choices", partial(text.choices_block, note=self.contents.note, width=narrow), ("reduction",))
+            yield Figure("motion", text.motion_table)
+            yield diagrams_view.DIAGRAMS_FIGURE
+            yield Figure("equations_scales", partial(text.scales_block, width=width), ("reduction",))
+        elif plan == PRESSURE_PART and rolls(solved):
+            yield diagrams_view.PRESSURE_FIGURE
+        for follower in (ROLLER, ROCKER, PLATE):
+            if getattr(solved, follower) is None:
+                continue
+            if plan == SIZES_PART:
+                yield sizes_view.FIGURES[follower]
+                block = partial(text.SIZES_OF[follower], width=width if follower == PLATE else narrow)
+                yield Figure(f"equations_{follower}", block)
+            elif plan == PROFILE_PART:
+                yield profile_view.FIGURES[follower]
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
@@ -153,21 +166,21 @@ class CamFitting(Fitting[SolvedCam, CamScene, Rungs]):
 
     def part(self, rungs: Rungs) -> float:
         """Return what a millimetre of the task's diagrams is on the sheet."""
-        return REDUCTIONS[rungs.reduction]
+        return REDUCTIONS[rungs["reduction"]]
 
     def enlarged(self, sheet: Format, rungs: Rungs, first: bool) -> Rungs:
         """Return rungs at which plans made of two diagrams are as large as a page has room for; these are small now."""
         wide, high = room(sheet, self.contents.norm, first)
         for name in EQUAL:
-            for rung in range(getattr(rungs, name)):
-                larger = replace(rungs, **{name: rung})
+            for rung in range(rungs[name]):
+                larger = rungs | {name: rung}
                 sizes = [view.size for view, figure in self.sized(sheet, larger) if name in figure.ladders]
                 if all(own[0] <= wide and own[1] <= high for own in sizes):
                     rungs = larger
                     break
         return rungs
 
-    def on_a_page(self, sheet: Format, last: bool) -> Found[Rungs] | None:
+    def on_a_page(self, sheet: Format, last: bool) -> Found | None:
         """Try one page as large as wanted, then with plans and, on the `last` format, diagrams and profiles smaller."""
         wanted, *smaller = self._ways(last)
         found = self._placed(sheet, wanted)
@@ -176,7 +189,7 @@ class CamFitting(Fitting[SolvedCam, CamScene, Rungs]):
         tried = (self._placed(sheet, rungs) for rungs in smaller if self._legible(sheet, rungs))
         return next((page for page in tried if page is not None), None)
 
-    def _placed(self, sheet: Format, rungs: Rungs) -> Found[Rungs] | None:
+    def _placed(self, sheet: Format, rungs: Rungs) -> Found | None:
         """Try one page at these rungs: in customary zones, in reading order, or wherever there is room."""
         views, norm = self.views(sheet, rungs), self.contents.norm
         if not may_fit(views, sheet):
@@ -191,13 +204,13 @@ class CamFitting(Fitting[SolvedCam, CamScene, Rungs]):
         asked = ["mu_l"] * isinstance(self.contents.choosers.get("mu_l"), Fixed)
         most = {name: rungs for name, rungs in GIVING.items() if name not in asked and (last or name in EQUAL)}
         ranges = (range(min(rungs + 1, len(self.ladders[name]))) for name, rungs in most.items())
-        ways = (Rungs(**dict(zip(most, steps, strict=True))) for steps in product(*ranges))
+        ways = (self.wanted | dict(zip(most, steps, strict=True)) for steps in product(*ranges))
         return sorted(ways, key=_missed)
 
     def _legible(self, sheet: Format, rungs: Rungs) -> bool:
         """Whether no plan made of two diagrams becomes too small to be read for the sake of one page."""
         scene = self.scene(sheet, rungs)
-        smaller = (name for name in EQUAL if getattr(rungs, name))
+        smaller = (name for name in EQUAL if rungs[name])
         return all(size_of(scene.solved, name) >= LEGIBLE[name] * scene.mus[name] for name in smaller)
 
 
@@ -207,54 +220,9 @@ def _chosen(solved: SolvedCam, choosers: Choosers) -> dict[str, tuple[float, ...
 
 def _missed(rungs: Rungs) -> tuple[int, int]:
     """Return how much is given up at these rungs; of equal losses that of the diagrams is the least."""
-    return 3 * (rungs.mu_l + rungs.reduction) + rungs.mu_s_ds + rungs.mu_s_d2s, rungs.mu_l
+    return 3 * (rungs["mu_l"] + rungs["reduction"]) + sum(rungs[name] for name in EQUAL), rungs["mu_l"]
 
 
 def _givens(scene: CamScene) -> View:
     numbers = {name: given for name, given in scene.givens.items() if not isinstance(given.value, str)}
     return givens_view(numbers, scene.words, scene.style)
-
-
-def _diagrams(contents: SheetContents[SolvedCam], width: float) -> Iterator[CamFigure]:
-    from .diagrams_view import DIAGRAMS_FIGURE
-    from .text import choices_block, motion_table, scales_block
-
-    yield Figure("givens", _givens)
-    yield Figure("choices", lambda scene: choices_block(scene, contents.note, NARROW * width), ("reduction",))
-    yield Figure("motion", motion_table)
-    yield DIAGRAMS_FIGURE
-    yield Figure("equations_scales", lambda scene: scales_block(scene, width), ("reduction",))
-
-
-def _sizes(contents: SheetContents[SolvedCam], width: float) -> Iterator[CamFigure]:
-    from . import sizes_view
-    from .text import plate_block, rocker_block, roller_block
-
-    if contents.solved.roller is not None:
-        yield sizes_view.FIGURE
-        yield Figure("equations_roller", lambda scene: roller_block(scene, NARROW * width))
-    if contents.solved.rocker is not None:
-        yield sizes_view.ROCKER_FIGURE
-        yield Figure("equations_rocker", lambda scene: rocker_block(scene, NARROW * width))
-    if contents.solved.plate is not None:
-        yield sizes_view.PLATE_FIGURE
-        yield Figure("equations_plate", lambda scene: plate_block(scene, width))
-
-
-def _profiles(contents: SheetContents[SolvedCam], width: float) -> Iterator[CamFigure]:
-    from .profile_view import PLATE_FIGURE, ROCKER_FIGURE, ROLLER_FIGURE
-
-    if contents.solved.roller is not None:
-        yield ROLLER_FIGURE
-    if contents.solved.rocker is not None:
-        yield ROCKER_FIGURE
-    if contents.solved.plate is not None:
-        yield PLATE_FIGURE
-
-
-def _pressure(contents: SheetContents[SolvedCam], width: float) -> Iterator[CamFigure]:
-    from ...plans.cams.course import rolls
-    from .diagrams_view import PRESSURE_FIGURE
-
-    if rolls(contents.solved):
-        yield PRESSURE_FIGURE

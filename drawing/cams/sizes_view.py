@@ -453,3 +453,5 @@ ROCKER_FIGURE = Figure(
     ),
     "cam.rocker_sizes",
 )
+
+FIGURES = {"roller": FIGURE, "rocker": ROCKER_FIGURE, "plate": PLATE_FIGURE}

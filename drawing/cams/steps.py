@@ -21,28 +21,19 @@ Said = dict[str, str]
 Texts = Mapping[str, str]
 
 
-def story(scene: CamScene, texts: Mapping[str, str]) -> Story:
+def story(scene: CamScene, texts: Texts) -> Story:
     """Return what the note of a cam says beside its views, and what their stages are told with: lengths as drawn.
 
-    Parameters
-    ----------
-    texts : mapping of str to str
-        The sentences, by key.
+    The sentences of `texts` are by key.
     """
-    aim = Sentences((_aim(scene, texts),))
-    return Story(
-        conclusions=tuple(conclusions(scene, texts)), before={"givens": (aim,)}, texts=texts, said=_said(scene, texts)
-    )
-
-
-def _aim(scene: CamScene, texts: Mapping[str, str]) -> str:
-    """Return for which followers cams are designed."""
     followers = scene.solved.cam.followers
     named = texts["cam.and"].join(texts[f"cam.for.{follower}"] for follower in followers)
-    return texts["cam.aims" if len(followers) > 1 else "cam.aim"].format(followers=named)
+    aim = Sentences((texts["cam.aims" if len(followers) > 1 else "cam.aim"].format(followers=named),))
+    said = _said(scene, texts)
+    return Story(conclusions=tuple(conclusions(scene, texts)), before={"givens": (aim,)}, texts=texts, said=said)
 
 
-def _said(scene: CamScene, texts: Mapping[str, str]) -> Said:
+def _said(scene: CamScene, texts: Texts) -> Said:
     """Return what sentences may name: quantities with letters and units, lengths on paper."""
     solved = scene.solved
     found = _of_task(scene) | _of_diagrams(scene, texts)
@@ -90,7 +81,7 @@ def _of_task(scene: CamScene) -> Said:
     return found
 
 
-def _of_diagrams(scene: CamScene, texts: Mapping[str, str]) -> Said:
+def _of_diagrams(scene: CamScene, texts: Texts) -> Said:
     """Return poles, greatest ordinates and closing errors, mm of paper."""
     solved, words = scene.solved, scene.words
     names = ("H_a", "H_v", "v_close", "s_close", "S_max_chord", "l_A1", "l_A2")
@@ -121,7 +112,7 @@ def _of_pressure(scene: CamScene) -> Said:
     return found | {"line": str(line), "rho_min": scene.stated("rho_min", rolling(solved)[0].rho_min)}
 
 
-def _of_roller(scene: CamScene, texts: Mapping[str, str]) -> Said:
+def _of_roller(scene: CamScene, texts: Texts) -> Said:
     """Return what is read from S over ds/dphi, and what the plan of the cam begins with."""
     solved, words, roller = scene.solved, scene.words, needed(scene.solved.roller)
     sizes, sides = roller.sizes, (texts["cam.right"], texts["cam.left"])

@@ -221,6 +221,9 @@ def rocker_block(scene: CamScene, width: float) -> View:
     return text_block("equations_rocker", words["heading.cam_rocker"], lines, scene.style, width)
 
 
+SIZES_OF = {"roller": roller_block, "rocker": rocker_block, "plate": plate_block}
+
+
 def transfer(scene: CamScene, plan: str) -> tuple[str, ...]:
     """Return by how much the ordinates of both diagrams are multiplied, and the angle of the projecting line."""
     words = scene.words

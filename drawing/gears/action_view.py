@@ -19,7 +19,7 @@ from ..symbols import unit
 from ..text import lay_out
 from ..view import Canvas, View, linear
 from ..words import Words, indexed
-from .scene import CURVES, ENDS, GearScene, Ordinates, cut_of, places, rho_mu, theta_mu
+from .scene import CURVES, ENDS, GearScene, cut_of, places, rho_mu, theta_mu
 
 LEVEL = 2.2  # heights of letters for each pair that touches
 ROW = 1.8  # heights of letters between dimension lines
@@ -144,20 +144,20 @@ ACTION_FIGURE = Figure(
 def sliding_view(scene: GearScene) -> View:
     """Draw both diagrams over N1N2, with the points of the table as section lines through both."""
     canvas, words = SLIDING_FIGURE.canvas(scene, coarse=0.0), scene.words
-    ordinates = _ordinates(scene)
-    above = Field(0j, _across(scene), Axis(words.symbol("V_k"), Scale("", 1.0, "mm"), 0.0, ordinates.highest, {}))
+    reduction, highest = _reduction(scene)
+    above = Field(0j, _across(scene), Axis(words.symbol("V_k"), Scale("", 1.0, "mm"), 0.0, highest, {}))
     below = theta_field(scene, above, BETWEEN * scene.style.label)
     past = PAST * scene.style.label
     canvas.part("axes")
     for field in (above, below):
         axes(canvas, field, False, past)
-    _sections(canvas, scene, above, below, ordinates)
-    _velocities(canvas, scene, above, ordinates)
-    said = _pole(canvas, scene, above, ordinates)
+    _sections(canvas, scene, above, below, reduction)
+    _velocities(canvas, scene, above, reduction)
+    said = _pole(canvas, scene, above, reduction)
     theta_diagram(canvas, scene, below)
     cut = words["gear.cut"].format(theta=words.number(cut_of(scene.solved), 0))
-    if ordinates.reduction < 1.0:
-        said.insert(0, words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / ordinates.reduction)}"))
+    if reduction < 1.0:
+        said.insert(0, words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / reduction)}"))
     said.insert(0, words["gear.speeds"].format(length=words.short(scene.solved.values["PW"] * 1e3)))
     notes = [f"{words['gear.hatched']}; {cut}", "; ".join(said)]
     theta = theta_said(words, below.y.scale.mu)
@@ -165,12 +165,17 @@ def sliding_view(scene: GearScene) -> View:
     return canvas.finish("sliding", heading, tuple(notes))
 
 
-def _ordinates(scene: GearScene) -> Ordinates:
-    """Return how the ordinates are drawn: as the table has them, or reduced where the highest has no room."""
+def _ordinate(scene: GearScene, name: str, reduction: float) -> float:
+    """Return an ordinate of velocities as it is drawn, `reduction` times that of the table, mm."""
+    return scene.size(name) * 1e3 * reduction
+
+
+def _reduction(scene: GearScene) -> tuple[float, float]:
+    """Return how many times ordinates are reduced, so that the highest has room, and the height of that, mm."""
     highest = max(scene.size(f"y_{i}_{point}") for i in WHEELS for point in POINTS) * 1e3
     most = TALLEST[scene.style.label] * scene.part
     reduction = next((part for part in REDUCTIONS if highest * part <= most), REDUCTIONS[-1])
-    return Ordinates(reduction, highest * reduction)
+    return reduction, highest * reduction
 
 
 def _across(scene: GearScene) -> Axis:
@@ -185,7 +190,7 @@ def rho_scale(scene: GearScene) -> Scale:
     return Scale("mu_rho", rho_mu(scene.solved, scene.style.label, scene.part), "m")
 
 
-def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordinates: Ordinates) -> None:
+def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, reduction: float) -> None:
     """Draw a line through both diagrams at every point of the table, with its number; the named places with letters.
 
     The lines begin at the higher ordinate of velocities, so that letters above these stand free.
@@ -195,7 +200,7 @@ def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordi
     lines = []
     canvas.part(ANSWERS)
     for i, point in enumerate(POINTS, start=1):
-        top = above.at(place(scene, point), max(ordinates.mm(scene.size(f"y_{k}_{point}")) for k in WHEELS))
+        top = above.at(place(scene, point), max(_ordinate(scene, f"y_{k}_{point}", reduction) for k in WHEELS))
         canvas.add(Line(top, complex(top.real, foot), Pen.THIN, role="section", name=str(i)))
         lines.append(top.real)
     canvas.add(*numbers(lines, foot - 0.8 - height, height, first=1))
@@ -206,11 +211,11 @@ def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, ordi
         canvas.label(indexed(name), at, prefer=-0.6 - 1j if name == "N1" else 0.6 - 1j, clear=1.0, priority=1)
 
 
-def _velocities(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) -> None:
+def _velocities(canvas: Canvas, scene: GearScene, field: Field, reduction: float) -> None:
     """Draw the lines of both velocities from N1 and N2, marked at the points of the table."""
-    words, style, w = scene.words, scene.style, w_of(scene, field, ordinates)
+    words, style, w = scene.words, scene.style, w_of(scene, field, reduction)
     for i in WHEELS:
-        heights = [ordinates.mm(scene.size(f"y_{i}_{point}")) for point in POINTS]
+        heights = [_ordinate(scene, f"y_{i}_{point}", reduction) for point in POINTS]
         tips = [field.at(place(scene, point), y) for point, y in zip(POINTS, heights, strict=True)]
         canvas.part("velocities")
         canvas.add(Group((Line(tips[0], tips[-1], Pen.MAIN),), "curve", f"V_k{i}"))
@@ -224,14 +229,14 @@ def _velocities(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordin
         linear(canvas, (complex(tip.real, 0.0), tip), 2.0 * style.label * SIDES[i], text, f"y_{i}_{point}")
 
 
-def w_of(scene: GearScene, field: Field, ordinates: Ordinates) -> complex:
+def w_of(scene: GearScene, field: Field, reduction: float) -> complex:
     """Return W, over the pole."""
-    return field.at(scene.size("rho_w1"), ordinates.mm(scene.size("PW")))
+    return field.at(scene.size("rho_w1"), _ordinate(scene, "PW", reduction))
 
 
-def _pole(canvas: Canvas, scene: GearScene, field: Field, ordinates: Ordinates) -> list[str]:
+def _pole(canvas: Canvas, scene: GearScene, field: Field, reduction: float) -> list[str]:
     """Mark W over the pole, and dimension PW; return its text where it has no room along its line."""
-    w, words = w_of(scene, field, ordinates), scene.words
+    w, words = w_of(scene, field, reduction), scene.words
     text = f"{words.symbol('PW')} = {words.short(round(scene.size('PW') * 1e3, 6))}"
     canvas.part(ANSWERS)
     fits = w.imag - 2.0 * scene.style.arrow > lay_out(text, scene.style.text).width

@@ -130,9 +130,7 @@ def _legend(scene: GearScene, names: Sequence[str]) -> Iterator[str]:
     texts = [f"{n}: {limit(scene, name)}" for n, name in enumerate(names, start=1)]
     for k in range(0, len(texts), IN_A_LINE):
         yield ";  ".join(texts[k : k + IN_A_LINE])
-    words = scene.words
-    shifts = (f"{words.symbol(name)} = {words.short(round(scene.size(name), 4))}" for name in ("x_1", "x_2"))
-    yield f"●  {';  '.join(shifts)}"
+    yield f"●  {';  '.join(map(scene.shift, ('x_1', 'x_2')))}"
 
 
 def limit(scene: GearScene, name: str) -> str:

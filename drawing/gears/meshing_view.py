@@ -374,14 +374,7 @@ def lowest_points(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> No
 
 
 STAGES = stages(
-    "centres",
-    "rolling_circles",
-    "line_of_action",
-    "circles",
-    "active_line",
-    "teeth",
-    "lowest_points",
-    "single_contact",
+    "centres", "rolling_circles", "line_of_action", "circles", "active_line", "teeth", "lowest_points", "single_contact"
 )
 FIGURE = Figure(MESHING, meshing_view, ("mu_l",), STAGES, "gear.meshing")
 NEAR = Figure("near", near_view, ("near",), STAGES)  # told with the meshing

@@ -42,18 +42,6 @@ UNITS = {MESHING: "m", SLIDING: "m", THETA: "1"}
 
 
 @dataclass(frozen=True, slots=True)
-class Ordinates:
-    """Ordinates of velocities on the paper: `reduction` times those of the table, whose `highest` is so many mm."""
-
-    reduction: float
-    highest: float
-
-    def mm(self, value: float) -> float:
-        """Return an ordinate of the table, m, as it is drawn."""
-        return value * 1e3 * self.reduction
-
-
-@dataclass(frozen=True, slots=True)
 class GearScene(SubjectScene[SolvedGear]):
     """A solved pair on a certain format, in certain words.
 
@@ -121,6 +109,10 @@ class GearScene(SubjectScene[SolvedGear]):
     def length(self, value: float, decimals: int = 2) -> str:
         """Return a length in mm."""
         return self.words.number(value * 1e3, decimals)
+
+    def shift(self, name: str) -> str:
+        """Return a profile shift with its letter: x_1 = 0.5."""
+        return f"{self.words.symbol(name)} = {self.words.short(round(self.size(name), 4))}"
 
     def angle(self, name: str) -> str:
         """Return an angle with its letter: alpha_w = 26.65°."""

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import product
+from typing import Any
 
 from ...plans.gears.construction import MESHING, SLIDING, THETA
 from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
@@ -13,6 +14,7 @@ from ...plans.gears.solve import SolvedGear
 from ...scales.errors import InputError
 from ...scales.scale import Scale
 from ..compose import BLOCK, TURNED, Nest, arrange, arrange_rest, column, names, row, zoned
+from ..extents import Rungs
 from ..figure import Figure
 from ..formats import STYLES, Format, room
 from ..packing import Placement
@@ -31,10 +33,7 @@ GearFigure = Figure[GearScene]
 # everything on one page, for sheets without the worked formulas
 LAYOUT = row(
     column(TURNED, "meshing"),
-    column(
-        row("rolling", "data"),
-        row(column("action", "sliding"), column("points", "checks", "contour", BLOCK)),
-    ),
+    column(row("rolling", "data"), row(column("action", "sliding"), column("points", "checks", "contour", BLOCK))),
 )
 # what is drawn, where the calculations need a further page; where it has no room, the meshing with what belongs to it
 FIRST_PAGES = (
@@ -50,17 +49,7 @@ FIRST_PAGES = (
 LAYOUTS = (LAYOUT,)
 
 
-@dataclass(frozen=True, slots=True)
-class Rungs:
-    """How small things are drawn: the meshing, its middle apart, the involutes, diagrams of sliding; each a rung."""
-
-    mu_l: int = 0
-    near: int = 0
-    rolled: int = 0
-    part: int = 0
-
-
-class GearFitting(Fitting[SolvedGear, GearScene, Rungs]):
+class GearFitting(Fitting[SolvedGear, GearScene]):
     """Draws what the sheet of a gear pair shows."""
 
     first_scales = staticmethod(first_scales)
@@ -73,27 +62,37 @@ class GearFitting(Fitting[SolvedGear, GearScene, Rungs]):
             "rolled": rolled_ladder(solved),
             "part": parts_of(contents.plans),
         }
-        super().__init__(contents, lettered(contents.words), ladders, Rungs())
+        super().__init__(contents, lettered(contents.words), ladders)
 
     def scene(self, sheet: Format, rungs: Rungs) -> GearScene:
         """Return the scene of a sheet on a format."""
-        mus = {name: self.ladders[name][getattr(rungs, name)] for name in self.ladders}
+        mus: dict[str, Any] = {name: self.ladders[name][rung] for name, rung in rungs.items()}
         return GearScene(self.contents.solved, self.words, STYLES[sheet.letters], self.contents.givens, **mus)
 
     def figures(self, scene: GearScene, width: float) -> Iterator[GearFigure]:
         """Go through the figures of a sheet in the order of the work; lines of text are at most `width` mm long."""
-        contents = self.contents
-        made: tuple[tuple[str, Callable[[], Iterator[GearFigure]]], ...] = (
-            (GEOMETRY_PART, _data),
-            (MESHING_PART, partial(_meshing, scene.apart)),
-            (GEOMETRY_PART, partial(_quality, width)),
-            (SLIDING_PART, _sliding),
-        )
-        if contents.note:
-            yield Figure("note", lambda scene: note_block(scene.words, contents.note, scene.style, width))
-        for part, figures_of in made:
-            if part in contents.plans:
-                yield from figures_of()
+        from . import action_view, meshing_view, rolling_view, text
+        from .contour_view import contour_view
+
+        note, plans = self.contents.note, self.contents.plans
+        if note:
+            yield Figure("note", lambda scene: note_block(scene.words, note, scene.style, width))
+        if GEOMETRY_PART in plans:
+            yield Figure("data", text.data_table)
+        if MESHING_PART in plans:
+            yield meshing_view.FIGURE
+            if scene.apart:
+                yield meshing_view.NEAR
+            yield from (rolling_view.FIGURE, action_view.ACTION_FIGURE)
+        if GEOMETRY_PART in plans:
+            yield Figure("checks", text.checks_table)
+            yield Figure("contour", contour_view)
+            yield Figure("rack", rolling_view.rack_view, ("near",))
+            for name in text.CALCULATED:
+                yield Figure(f"equations_{name}", partial(text.calculations_block, name=name, width=width))
+        if SLIDING_PART in plans:
+            yield action_view.SLIDING_FIGURE
+            yield Figure("points", text.points_table)
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
@@ -107,11 +106,11 @@ class GearFitting(Fitting[SolvedGear, GearScene, Rungs]):
         }
         return {plan: made[plan](scene) for plan in self.contents.solved.scale_of_plan}
 
-    def on_a_page(self, sheet: Format, last: bool) -> Found[Rungs] | None:
+    def on_a_page(self, sheet: Format, last: bool) -> Found | None:
         """Place everything on one page as large as wanted; on the `last` format it is tried with several pages."""
         return None if last else self._placed(sheet, self.wanted, _on_a_page)
 
-    def on_pages(self, sheet: Format) -> Found[Rungs]:
+    def on_pages(self, sheet: Format) -> Found:
         """Take one page, with what is beside the meshing smaller where it must be, or several.
 
         Raises
@@ -135,13 +134,11 @@ class GearFitting(Fitting[SolvedGear, GearScene, Rungs]):
     def _least(self, sheet: Format) -> Rungs:
         """Return the first rungs at which the lines that size the views have room, before any view is drawn."""
         wide, high = room(sheet, self.contents.norm)
-        sizes = self.contents.solved.sizes
+        rungs, sizes = dict(self.wanted), self.contents.solved.sizes
         lines = {"mu_l": (sizes["a_w"], high), "near": (2.0 * sizes["p"], wide), "rolled": (sizes["l_N1N2"], wide)}
-        rungs = {
-            name: next((k for k, mu in enumerate(self.ladders[name]) if length / mu < most), 0)
-            for name, (length, most) in lines.items()
-        }
-        return Rungs(**rungs)
+        for name, (length, most) in lines.items():
+            rungs[name] = next((k for k, mu in enumerate(self.ladders[name]) if length / mu < most), 0)
+        return rungs
 
     def _may_fit(self, sheet: Format, rungs: Rungs) -> bool:
         """Whether one page may hold everything at any of the rungs that are tried, by the areas of the views."""
@@ -157,7 +154,7 @@ class GearFitting(Fitting[SolvedGear, GearScene, Rungs]):
                 rungs = self.lower(rungs, ladder)
         return rungs
 
-    def _placed(self, sheet: Format, rungs: Rungs, way: Way) -> Found[Rungs] | None:
+    def _placed(self, sheet: Format, rungs: Rungs, way: Way) -> Found | None:
         views = self.views(sheet, rungs)
         places = way(views, sheet, self.contents.norm)
         return None if places is None else (rungs, views, places)
@@ -194,39 +191,3 @@ def _on_the_first_page(layout: Nest, views: list[View], sheet: Format, norm: Nor
         return None
     places = iter(own), (replace(place, page=place.page + 1) for place in others)
     return [next(places[view.name not in names_there]) for view in views]
-
-
-def _data() -> Iterator[GearFigure]:
-    from .text import data_table
-
-    yield Figure("data", data_table)
-
-
-def _meshing(apart: bool) -> Iterator[GearFigure]:
-    from . import action_view, meshing_view, rolling_view
-
-    yield meshing_view.FIGURE
-    if apart:
-        yield meshing_view.NEAR
-    yield rolling_view.FIGURE
-    yield action_view.ACTION_FIGURE
-
-
-def _quality(width: float) -> Iterator[GearFigure]:
-    from .contour_view import contour_view
-    from .rolling_view import rack_view
-    from .text import auxiliary_block, checks_table, quality_block, sizes_block
-
-    yield Figure("checks", checks_table)
-    yield Figure("contour", contour_view)
-    yield Figure("rack", rack_view, ("near",))
-    for name, block in (("sizes", sizes_block), ("auxiliary", auxiliary_block), ("quality", quality_block)):
-        yield Figure(f"equations_{name}", partial(block, width=width))
-
-
-def _sliding() -> Iterator[GearFigure]:
-    from .action_view import SLIDING_FIGURE
-    from .text import points_table
-
-    yield SLIDING_FIGURE
-    yield Figure("points", points_table)

@@ -36,10 +36,14 @@ OF_WHEELS = (
     *(("s_c", MM), ("h_c", MM), ("z_W", WHOLE), ("W", MM)),
 )
 Lines = list[tuple[str, ...]]
-MAIN_SIZES = "inv_alpha a x_sum inv_alpha_w alpha_w a_w d_1 d_2 u d_w1 d_w2 y delta_y d_a1 d_a2 d_f1 d_f2"
-TEETH = "d_b1 d_b2 tau_1 tau_2 P_1 P_2 p s_1 s_2 h alpha_a1 alpha_a2 rho_p1 rho_p2 nu_p1 nu_p2 p_b"
-MEASURES = "s_c1 s_c2 h_c1 h_c2 s_b1 s_b2 W_1 W_2"
-QUALITY = "x_min1 x_min2 rho_l1 rho_l2 epsilon_alpha s_a1 s_a2 rho_a1 g_alpha phi_alpha1 phi_alpha2"
+# what is calculated: the main sizes, sections I and II of the note; the auxiliary ones, III, and those to measure teeth
+# by; what the pair is judged by, IV and V
+CALCULATED = {
+    "sizes": "inv_alpha a x_sum inv_alpha_w alpha_w a_w d_1 d_2 u d_w1 d_w2 y delta_y d_a1 d_a2 d_f1 d_f2",
+    "auxiliary": "d_b1 d_b2 tau_1 tau_2 P_1 P_2 p s_1 s_2 h alpha_a1 alpha_a2 rho_p1 rho_p2 nu_p1 nu_p2 p_b "
+    "s_c1 s_c2 h_c1 h_c2 s_b1 s_b2 W_1 W_2",
+    "quality": "x_min1 x_min2 rho_l1 rho_l2 epsilon_alpha s_a1 s_a2 rho_a1 g_alpha phi_alpha1 phi_alpha2",
+}
 PRINTED = {"m": Shown("mm", 1e3, 3), "rad": Shown("deg", DEGREES, 3), "1": Shown("", 1.0, 4)}
 INV = Shown("", 1.0, 6)  # of the involute function
 SHORT = 4  # decimals of a number that is printed as it is
@@ -63,14 +67,9 @@ def data_table(scene: GearScene) -> View:
     rows += ([named(scene, name, kind), words.symbol(name), number(scene, name, kind), None] for name, kind in PAIR)
     rows.append(["", None, words["gear.pinion"], words["gear.wheel"]])
     for name, kind in OF_WHEELS:
-        numbers = (number(scene, of_wheel(name, i), kind) for i in WHEELS)
+        numbers = (number(scene, f"{name}{i}" if "_" in name else f"{name}_{i}", kind) for i in WHEELS)  # d_1, d_w1
         rows.append([named(scene, name, kind), words.symbol(name), *numbers])
     return table("data", words["heading.gear_data"], rows, scene.style)
-
-
-def of_wheel(name: str, i: int) -> str:
-    """Return the name of a quantity of one wheel: d_1, d_w1."""
-    return f"{name}{i}" if "_" in name else f"{name}_{i}"
 
 
 def named(scene: GearScene, name: str, kind: str) -> str:
@@ -109,17 +108,13 @@ def points_table(scene: GearScene) -> View:
     head += [f"{y_2} − {y_1}, {mm}", words.symbol("theta_21")]
     rows: list[list[str | None]] = [head]
     for point in POINTS:
-        first, second = (round(_mm(scene, f"y_{i}_{point}"), SLIDING) for i in WHEELS)
+        first, second = (round(scene.size(f"y_{i}_{point}") * TIMES[MM], SLIDING) for i in WHEELS)
         cells = [words.number(y, SLIDING) for y in (first, second)]
         for pair, own, mate in (("12", first, second), ("21", second, first)):
             exact = scene.size(f"theta_{pair}_{point}")
             cells += [words.number(own - mate, SLIDING), _sliding(scene, own, mate, exact)]
         rows.append([str(int(point)), letters.get(point, ""), *cells])
     return table("points", words["heading.gear_points"], rows, scene.style)
-
-
-def _mm(scene: GearScene, name: str) -> float:
-    return scene.size(name) * TIMES[MM]
 
 
 def _sliding(scene: GearScene, own: float, mate: float, exact: float) -> str:
@@ -200,22 +195,14 @@ def _given(scene: GearScene) -> Iterator[str]:
             yield named(scene, name, kind)
 
 
-def sizes_block(scene: GearScene, width: float) -> View:
-    """Return the calculation of the main sizes and its checks, sections I and II of the note."""
-    lines = [*_calculations(scene, MAIN_SIZES.split()), *_calculations(scene, SAME_CENTRES, "a_w")]
-    return text_block("equations_sizes", scene.words["heading.gear_sizes"], lines, scene.style, width)
-
-
-def auxiliary_block(scene: GearScene, width: float) -> View:
-    """Return the calculation of the auxiliary sizes, section III, and of the sizes to measure teeth by."""
-    lines = _calculations(scene, [*TEETH.split(), *MEASURES.split()])
-    return text_block("equations_auxiliary", scene.words["heading.gear_auxiliary"], lines, scene.style, width)
-
-
-def quality_block(scene: GearScene, width: float) -> View:
-    """Return the calculation of what the pair is judged by, sections IV and V."""
-    lines = [*_calculations(scene, QUALITY.split()), *_sliding_laws(scene)]
-    return text_block("equations_quality", scene.words["heading.gear_quality"], lines, scene.style, width)
+def calculations_block(scene: GearScene, name: str, width: float) -> View:
+    """Return a calculation of the note by its key in `CALCULATED`; sizes have checks, the quality laws of sliding."""
+    lines = _calculations(scene, CALCULATED[name].split())
+    if name == "sizes":
+        lines += _calculations(scene, SAME_CENTRES, "a_w")
+    if name == "quality":
+        lines += _sliding_laws(scene)
+    return text_block(f"equations_{name}", scene.words[f"heading.gear_{name}"], lines, scene.style, width)
 
 
 def _calculations(scene: GearScene, names: Iterable[str], symbol: str = "") -> Lines:
@@ -267,14 +254,9 @@ def _sliding_laws(scene: GearScene) -> Lines:
 
 
 def story(scene: GearScene, scales: Mapping[str, Scale], texts: Mapping[str, str]) -> Story:
-    """Return what the note of a gear pair says beside its views: the steps of each, lengths of the meshing on paper.
+    """Return what the note of a gear pair says beside its views, and what tells their stages: segments on paper.
 
-    Parameters
-    ----------
-    scales : mapping of str to Scale
-        By plan.
-    texts : mapping of str to str
-        The sentences, by key.
+    The `scales` are by plan, the sentences of `texts` by key.
     """
     theta = scales[THETA].mu if THETA in scales else scene.size("mu_theta") * 1e-3
     said = _said(scene, scales[MESHING].mu if MESHING in scales else 1e-3, theta)
@@ -299,15 +281,11 @@ def _said(scene: GearScene, mu: float, mu_theta: float) -> dict[str, str]:
 def conclusions(scene: GearScene, texts: Texts) -> Iterator[str]:
     """Go through the sentences for the end of the note."""
     lengths = {name: f"{scene.stated(name)} {scene.words.unit('mm')}" for name in ("a", "a_w")}
-    numbers = {name: _plain(scene, name) for name in ("x_1", "x_2")}
+    numbers = {name: scene.shift(name) for name in ("x_1", "x_2")}
     yield texts["gear.conclusion.shifts"].format(alpha_w=scene.angle("alpha_w"), **lengths, **numbers)
     for rule in RULES:
         yield from _judged(scene, texts, rule)
     yield from _wear(scene, texts)
-
-
-def _plain(scene: GearScene, name: str) -> str:
-    return f"{scene.words.symbol(name)} = {scene.words.short(round(scene.size(name), 4))}"
 
 
 def _judged(scene: GearScene, texts: Texts, rule: str) -> Iterator[str]:
@@ -318,9 +296,8 @@ def _judged(scene: GearScene, texts: Texts, rule: str) -> Iterator[str]:
         return
     said = "; ".join(_compared(scene, check) for check in broken or checks)
     yield texts[f"gear.conclusion.{rule}_{'broken' if broken else 'kept'}"].format(said=said)
-    ratio = checks[0].value
-    if rule == "contact_ratio" and 1.0 < ratio < 2.0:
-        part = scene.words.number(100.0 * (ratio - 1.0), 0)
+    if rule == "contact_ratio" and 1.0 < checks[0].value < 2.0:
+        part = scene.words.number(100.0 * (checks[0].value - 1.0), 0)
         yield texts["gear.conclusion.pairs"].format(part=part)
 
 

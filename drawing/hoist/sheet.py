@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PART, SCHEME_PART
 from ...plans.hoist.solve import SCALES, SolvedHoist, reduced
 from ...scales.scale import Scale
 from ..compose import arrange
+from ..extents import Rungs
 from ..figure import Figure
 from ..formats import STYLES, Format
 from ..rungs import Fitting, Found, SheetContents
@@ -21,16 +21,7 @@ PARTS = 1.0, 0.8, 0.63, 0.5, 0.4  # of the usual size of diagrams
 HoistFigure = Figure[HoistScene]
 
 
-@dataclass(frozen=True, slots=True)
-class Rungs:
-    """How small things are drawn: the scheme, the circle, the diagrams; each a rung."""
-
-    mu_l: int = 0
-    mu_F_circle: int = 0
-    part: int = 0
-
-
-class HoistFitting(Fitting[SolvedHoist, HoistScene, Rungs]):
+class HoistFitting(Fitting[SolvedHoist, HoistScene]):
     """Draws what the sheet of a hoist shows."""
 
     first_scales = staticmethod(first_scales)
@@ -40,14 +31,14 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene, Rungs]):
         chosen = {symbol: ladder(contents.solved, contents.choosers, symbol) for symbol in UNITS}
         words = lettered(contents.words, len(roots.times) if roots else 0)
         self._solved = {1.0: contents.solved}
-        super().__init__(contents, words, {**chosen, "part": PARTS}, Rungs())
+        super().__init__(contents, words, {**chosen, "part": PARTS})
 
     def scene(self, sheet: Format, rungs: Rungs) -> HoistScene:
         """Return the scene of a sheet on a format: of the hoist with diagrams as large as they are drawn."""
         part = self.part(rungs)
         if part not in self._solved:
             self._solved[part] = reduced(self.contents.solved, part)
-        mus = {name: values[getattr(rungs, name)] for name, values in self.ladders.items()}
+        mus = {name: values[rungs[name]] for name, values in self.ladders.items()}
         return HoistScene(self._solved[part], self.words, STYLES[sheet.letters], self.contents.givens, mus)
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
@@ -57,9 +48,9 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene, Rungs]):
 
     def part(self, rungs: Rungs) -> float:
         """Return how large diagrams are drawn, in their usual size."""
-        return PARTS[rungs.part]
+        return PARTS[rungs["part"]]
 
-    def on_a_page(self, sheet: Format, last: bool) -> Found[Rungs] | None:
+    def on_a_page(self, sheet: Format, last: bool) -> Found | None:
         """Place everything on one page, wherever there is room."""
         views = self.views(sheet, self.wanted)
         places = arrange([view.size for view in views], sheet, self.contents.norm, 1, any_order=True)

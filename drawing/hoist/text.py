@@ -160,12 +160,7 @@ BY_DRAWING = {"R": ("hypotenuse", ("D_0", "D_1"))}  # what is read from a drawin
 def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, str]) -> Story:
     """Return what the note of a hoist says beside its views: formulas with numbers, and how each drawing is made.
 
-    Parameters
-    ----------
-    scales : mapping of str to Scale
-        By plan.
-    texts : mapping of str to str
-        The sentences, by key.
+    The `scales` are by plan, the sentences of `texts` by key.
     """
     moved = scene.solved.forces.motion is not None
     slack = (SLACK,) if scene.size("slack") > 0.0 else ()
@@ -177,9 +172,8 @@ def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, st
         "circle": circle if moved else (*circle, *_lines(scene, HANGING)),
         "beams": _lines(scene, BENT),
     }
-    return Story(
-        equations=equations, conclusions=tuple(conclusions(scene, texts)), texts=texts, said=_said(scene, scales)
-    )
+    said = _said(scene, scales)
+    return Story(equations=equations, conclusions=tuple(conclusions(scene, texts)), texts=texts, said=said)
 
 
 def formula(scene: HoistScene, told: Formula) -> tuple[str, ...]:

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from kulman import note
-from kulman.drawing.cams.sheet import CamFitting, Rungs
+from kulman.drawing.cams.sheet import CamFitting
 from kulman.drawing.figure import Figure, family
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts import begun_pages
@@ -63,7 +63,7 @@ def tables(case: Case) -> dict[str, tuple[Figure[Any], Any]]:
     """Return the figures that are drawn in stages, each with its scene, by name."""
     contents = SheetContents(cam(case), case.plans, case.choosers, case.givens, case.words("en"))
     fitting = CamFitting(contents)
-    scene = fitting.scene(FORMATS["A1"], Rungs())
+    scene = fitting.scene(FORMATS["A1"], fitting.wanted)
     return {figure.name: (figure, scene) for figure in fitting.figures(scene, 200.0) if figure.stages}
 
 
