@@ -1,4 +1,4 @@
-"""A sheet of a cam, a gear pair or a hoist: down the ladders of scale factors until every view has room."""
+"""What sheets show, and a sheet of a cam, a gear pair or a hoist: down the ladders until every view has room."""
 
 from __future__ import annotations
 
@@ -25,6 +25,8 @@ from .view import View
 from .words import Given, Words
 
 Subject = TypeVar("Subject", bound=Solved)
+Found = tuple[Rungs, list[View], list[Placement]]
+TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}  # mm of lines of text, by the letters of a format
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,10 +65,6 @@ class SubjectScene(Generic[Subject]):
     def node(self, at: complex, name: str, role: str = "node", filled: bool = False, pen: Pen = Pen.THIN) -> Group:
         """Return the mark of a point of a figure."""
         return Group((Circle(at, self.style.node, pen, fill="black" if filled else "white"),), role, name)
-
-
-Found = tuple[Rungs, list[View], list[Placement]]
-TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}  # mm of lines of text, by the letters of a format
 
 
 class Fitting(ABC, Generic[Subject, Scene]):
