@@ -13,7 +13,7 @@ from ..scales.choices import SIZES
 from ..scales.choose import Choosers
 from ..scales.errors import InputError
 from ..scales.scale import Scale
-from .compose import Drawn, arrange, arrange_closely, compose
+from .compose import Drawn, Nest, arrange, arrange_closely, compose, zoned
 from .extents import Rungs, from_format
 from .figure import Figure, Scene
 from .formats import Format, Style, room
@@ -128,6 +128,14 @@ class Fitting(ABC, Generic[Subject, Scene]):
     def views(self, sheet: Format, rungs: Rungs) -> list[View]:
         """Return the views of a sheet in the order of the work."""
         return [view for view, _ in self.sized(sheet, rungs)]
+
+    def placed(self, sheet: Format, rungs: Rungs, layouts: Sequence[Nest] = (), any_order: bool = True) -> Found | None:
+        """Try one page at these rungs: in the zones of a layout, in reading order or, if need be, in `any_order`."""
+        views, norm = self.views(sheet, rungs), self.contents.norm
+        places = zoned(layouts, views, sheet, norm)
+        if places is None and may_fit(views, sheet):
+            places = arrange([view.size for view in views], sheet, norm, 1, any_order)
+        return None if places is None else (rungs, views, places)
 
     def draw(self, sheet: Format | None = None) -> Drawn:
         """Draw on `sheet`, or on the smallest format of which one page holds everything, from the usual one on.

@@ -12,7 +12,7 @@ from ...plans.cams.course import rolls
 from ...plans.cams.solve import EQUAL, SolvedCam, reduced
 from ...scales.choose import Choosers, Fixed, From
 from ...scales.scale import Scale, rounded, steps
-from ..compose import BLOCK, TURNED, arrange, column, row, zoned
+from ..compose import BLOCK, TURNED, column, row
 from ..extents import Rungs, not_a_point, smallest, visible
 from ..figure import Figure
 from ..formats import STYLES, Format, room
@@ -183,21 +183,11 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
     def on_a_page(self, sheet: Format, last: bool) -> Found | None:
         """Try one page as large as wanted, then with plans and, on the `last` format, diagrams and profiles smaller."""
         wanted, *smaller = self._ways(last)
-        found = self._placed(sheet, wanted)
+        found = self.placed(sheet, wanted, LAYOUTS)
         if found is not None or not smaller or not may_fit(self.views(sheet, smaller[-1]), sheet):
             return found
-        tried = (self._placed(sheet, rungs) for rungs in smaller if self._legible(sheet, rungs))
+        tried = (self.placed(sheet, rungs, LAYOUTS) for rungs in smaller if self._legible(sheet, rungs))
         return next((page for page in tried if page is not None), None)
-
-    def _placed(self, sheet: Format, rungs: Rungs) -> Found | None:
-        """Try one page at these rungs: in customary zones, in reading order, or wherever there is room."""
-        views, norm = self.views(sheet, rungs), self.contents.norm
-        if not may_fit(views, sheet):
-            return None
-        places = zoned(LAYOUTS, views, sheet, norm)
-        if places is None:
-            places = arrange([view.size for view in views], sheet, norm, 1, any_order=True)
-        return None if places is None else (rungs, views, places)
 
     def _ways(self, last: bool) -> list[Rungs]:
         """Return rungs to be tried: first what is least missed gives way, what the task asks for at the end."""

@@ -59,7 +59,7 @@ def sizes_view(scene: CamScene) -> View:
     """Draw the diagram, with the centre of the cam that is built."""
     solved, words = scene.solved, scene.words
     roller = needed(solved.roller)
-    canvas = FIGURE.canvas(scene)
+    canvas = ROLLER_FIGURE.canvas(scene)
     centre = scene.mm(f"{SIZES}.C")
     canvas.part("points")
     outline = _curve(canvas, scene)
@@ -190,7 +190,7 @@ def permitted_offsets(canvas: Canvas, scene: CamScene) -> None:
         canvas.label(scene.words.symbol(name), end, prefer=complex(side, -1.0), height=scene.style.text)
 
 
-FIGURE = Figure(
+ROLLER_FIGURE = Figure(
     SIZES,
     sizes_view,
     ("mu_s_ds", "reduction"),
@@ -454,4 +454,4 @@ ROCKER_FIGURE = Figure(
     "cam.rocker_sizes",
 )
 
-FIGURES = {"roller": FIGURE, "rocker": ROCKER_FIGURE, "plate": PLATE_FIGURE}
+FIGURES = {"roller": ROLLER_FIGURE, "rocker": ROCKER_FIGURE, "plate": PLATE_FIGURE}

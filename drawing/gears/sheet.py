@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import product
+from itertools import chain, product
 from typing import Any
 
 from ...plans.gears.construction import MESHING, SLIDING, THETA
@@ -19,7 +19,7 @@ from ..figure import Figure
 from ..formats import STYLES, Format, room
 from ..packing import Placement
 from ..pens import Norm
-from ..rungs import Fitting, Found, SheetContents, may_fit, pages
+from ..rungs import Fitting, Found, SheetContents, pages
 from ..table import note_block
 from ..view import View
 from .scene import GearScene, first_scales, lettered, mu_ladder, near_ladder, parts_of, rolled_ladder
@@ -108,7 +108,7 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
 
     def on_a_page(self, sheet: Format, last: bool) -> Found | None:
         """Place everything on one page as large as wanted; on the `last` format it is tried with several pages."""
-        return None if last else self._placed(sheet, self.wanted, _on_a_page)
+        return None if last else self.placed(sheet, self.wanted, LAYOUTS, any_order=False)
 
     def on_pages(self, sheet: Format) -> Found:
         """Take one page, with what is beside the meshing smaller where it must be, or several.
@@ -119,11 +119,12 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
             When a view has no room on any page.
         """
         first = self.fitted(sheet, self._least(sheet))
-        first_pages: list[Way] = [partial(_on_the_first_page, layout) for layout in FIRST_PAGES]
-        one: list[Way] = [_on_a_page] if self._may_fit(sheet, first) else []
-        ways = [(steps, way) for way in (*one, *first_pages) for steps in SMALLER]
-        tried = (self._placed(sheet, self._stepped(first, steps), way) for steps, way in ways)
-        found = next(filter(None, tried), None)
+        smaller = [self._stepped(first, steps) for steps in SMALLER]
+        one = smaller if self._may_fit(sheet, first) else []
+        on_one = (self.placed(sheet, rungs, LAYOUTS, any_order=False) for rungs in one)
+        ways = [partial(_on_the_first_page, layout) for layout in FIRST_PAGES]
+        on_more = (self._placed(sheet, rungs, way) for way in ways for rungs in smaller)
+        found = next(filter(None, chain(on_one, on_more)), None)
         while found is None:  # the first page has less room than the others
             found = self._placed(sheet, first, _in_order)
             if found is None and not self.has_next(first, "mu_l"):
@@ -170,14 +171,6 @@ def _in_order(views: list[View], sheet: Format, norm: Norm) -> list[Placement] |
             by_name = {view.name: place for view, place in zip(order, places, strict=True)}
             found.append([by_name[view.name] for view in views])
     return min(found, key=pages, default=None)
-
-
-def _on_a_page(views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Place views on one page, in the customary zones or in reading order."""
-    places = zoned(LAYOUTS, views, sheet, norm)
-    if places is None and may_fit(views, sheet):
-        places = arrange([view.size for view in views], sheet, norm, 1)
-    return places
 
 
 def _on_the_first_page(layout: Nest, views: list[View], sheet: Format, norm: Norm) -> list[Placement] | None:

@@ -7,16 +7,13 @@ from collections.abc import Iterator
 from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PART, SCHEME_PART
 from ...plans.hoist.solve import SCALES, SolvedHoist, reduced
 from ...scales.scale import Scale
-from ..compose import arrange
 from ..extents import Rungs
 from ..figure import Figure
 from ..formats import STYLES, Format
 from ..rungs import Fitting, Found, SheetContents
-from ..table import note_block, text_block
-from ..view import View
+from ..table import note_block
 from .scene import UNITS, HoistScene, first_scales, ladder, lettered
 
-TEXT_WIDTH = 120.0
 PARTS = 1.0, 0.8, 0.63, 0.5, 0.4  # of the usual size of diagrams
 HoistFigure = Figure[HoistScene]
 
@@ -52,23 +49,20 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
 
     def on_a_page(self, sheet: Format, last: bool) -> Found | None:
         """Place everything on one page, wherever there is room."""
-        views = self.views(sheet, self.wanted)
-        places = arrange([view.size for view in views], sheet, self.contents.norm, 1, any_order=True)
-        return None if places is None else (self.wanted, views, places)
+        return self.placed(sheet, self.wanted)
 
     def figures(self, scene: HoistScene, width: float) -> Iterator[HoistFigure]:
         """Go through the figures of a sheet in the order of the work."""
-        from . import diagrams_view, scheme_view
-        from .text import checks_table, data_table, results_table, scales_table
+        from . import diagrams_view, scheme_view, text
 
         contents = self.contents
         layout, plans = contents.solved.layout, contents.plans
-        yield Figure("givens", data_table)
+        yield Figure("givens", text.data_table)
         if contents.note:
-            yield Figure("note", lambda scene: note_block(scene.words, contents.note, scene.style, TEXT_WIDTH))
+            yield Figure("note", lambda scene: note_block(scene.words, contents.note, scene.style, text.WIDTH))
         if SCHEME_PART in plans:
             yield from (scheme_view.SCHEME_FIGURE, scheme_view.MODEL)
-        yield Figure("results", results_table)
+        yield Figure("results", text.results_table)
         if FORCES_PART in plans:
             yield diagrams_view.FORCES_FIGURE
         if ROOTS_PART in plans and layout.roots is not None:
@@ -80,14 +74,7 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
         if BEAMS_PART in plans and layout.bent:
             yield scheme_view.BEAMS_FIGURE
         if FORCES_PART in plans:
-            yield Figure("strength", strength_block)
-            yield Figure("checks", checks_table)
+            yield Figure("strength", text.strength_block)
+            yield Figure("checks", text.checks_table)
             yield Figure("flow", scheme_view.flow_view)
-        yield Figure("scales", scales_table, ("mu_l", "mu_F_circle", "part"))
-
-
-def strength_block(scene: HoistScene) -> View:
-    """Return the check of strength."""
-    from .text import strength_lines
-
-    return text_block("strength", scene.words["heading.hoist_safety"], strength_lines(scene), scene.style, TEXT_WIDTH)
+        yield Figure("scales", text.scales_table, ("mu_l", "mu_F_circle", "part"))

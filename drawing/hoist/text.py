@@ -17,7 +17,7 @@ from ...scales.scale import Scale
 from ..handouts import NOTHING, Shown
 from ..notes.blocks import Story
 from ..printed import Input, Symbol, calculation
-from ..table import givens_view, table
+from ..table import givens_view, table, text_block
 from ..view import View
 from ..words import Given
 from .scene import HoistScene
@@ -25,6 +25,7 @@ from .scene import HoistScene
 USUAL = {"Pa": (1e-6, "MPa"), "m^2": (1e6, "mm^2")}
 ROUNDING = 12  # digits
 READING = 0.3  # mm by which a drawing is read
+WIDTH = 120.0  # mm of lines of text
 MM = 1e3
 Texts = Mapping[str, str]
 LARGE, SMALL, DIGITS, PAPER = 1e8, 1e-3, 4, 1  # sizes from which on a number has a power of ten; decimals
@@ -98,8 +99,8 @@ def scales_table(scene: HoistScene) -> View:
     return table("scales", words["heading.scales"], [head, *rows], scene.style)
 
 
-def strength_lines(scene: HoistScene) -> list[tuple[str, ...]]:
-    """Return the check of strength as lines: force, stress, safety, verdict; and what the article would say."""
+def strength_block(scene: HoistScene) -> View:
+    """Return the check of strength: force, stress, safety, verdict; and what the article would say."""
     words, found = scene.words, scene.solved.forces.found
     greatest = words.symbol("P_12_max" if found["P_12_max"] >= found["F_12_max"] else "F_12_max")
     lines: list[tuple[str, ...]] = [
@@ -115,7 +116,7 @@ def strength_lines(scene: HoistScene) -> list[tuple[str, ...]]:
     printed = strength({"safety": scene.solved.size("_safety_printed"), "K": found["K"]})
     if printed.ok != scene.solved.forces.ok[STRENGTH]:
         lines.append((words["hoist.disagrees"].format(safety=scene.value(printed.value)),))
-    return lines
+    return text_block("strength", words["heading.hoist_safety"], lines, scene.style, WIDTH)
 
 
 def _ratio(
