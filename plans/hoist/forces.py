@@ -1,7 +1,7 @@
 """The forces of a hoist as they are: by the formulas where these are valid, else by the motion; and where it may stand.
 
 A hoist is judged by whether its formulas are valid, and whether its rope is strong enough. Where load and drum stand is
-chosen by the greatest force and stress over beta_0 and beta_2, and by what is permitted: the article's loop changes
+chosen by the greatest force and stress over beta_0 and beta_2, and by what is permitted. The article's loop changes
 beta_0 and beta_2 until the rope is safe enough: it tries the places of a grid, the nearest to the given ones first.
 Where a rope that pushes or a support that pulls makes the formulas invalid, the motion of a one-sided rope and support
 is taken.

@@ -208,7 +208,7 @@ def solve_hoist(
     hoist : Hoist
         With its sides chosen.
     values : mapping of str to float
-        Its numbers in SI, as `givens.complete` takes them.
+        Its numbers in SI, as `hoist.complete` takes them.
     plans : iterable of str
         Plans wanted, of `hoist.PLANS`: the numbers, with the circle, need none of them.
     part_of : float
