@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Mapping
 
 import numpy as np
 import pytest
 
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
-from kulman.plans.linkages.cycles.limits import Arc, limiting_places, reach_of
+from kulman.plans.linkages.cycles.limits import Arc, limiting_places, reach_of, size_of
 from kulman.plans.linkages.cycles.strokes import OutputMotion, output_motions, stroke_of
 from kulman.plans.linkages.cycles.swept import swept
 from kulman.plans.linkages.mechanism import Mechanism, Stroke
@@ -381,3 +382,11 @@ def test_a_crank_that_cannot_turn_round_has_the_stroke_of_where_it_stands(phi: f
 def test_a_number_of_positions_that_makes_no_cycle_is_refused(positions: int) -> None:
     with pytest.raises(InputError, match="positions"):
         cycle(slider_crank(), slider_crank_values(1.0, 3.0, 0.8), positions=positions)
+
+
+def test_the_length_that_no_distance_exceeds_is_the_same_in_every_process() -> None:
+    names, dice = ("l_OA", "l_AB", "l_CB", "x_E", "y_E", "x_O", "y_O", "x_C", "y_C"), random.Random(7)
+
+    for _ in range(100):  # the order of a set of names is that of one process
+        values = four_bar_values(*(dice.uniform(0.01, 1.0) for _ in range(4)))
+        assert size_of(four_bar(), values) == math.fsum(abs(values[name]) for name in names)

@@ -8,6 +8,7 @@ Groups of class III are followed from their start to their dead positions on eit
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -204,7 +205,7 @@ def size_of(mechanism: Mechanism, values: Mapping[str, float]) -> float:
         elif isinstance(pair, Prismatic):
             names += [*pair.through, pair.offset]
     given = board_givens(replace(mechanism.without_loads, starts=()), values)
-    return sum(abs(given.get(name, 0.0)) for name in set(names)) or 1.0
+    return math.fsum(abs(given.get(name, 0.0)) for name in set(names)) or 1.0  # the same in any order
 
 
 def _split(margins: Margins, name: str, lines: bool, stretch: Stretch) -> tuple[list[Stretch], list[float]]:
