@@ -17,6 +17,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from ..scales.errors import InputError
+from ..scales.numbers import SHOWN, quote
 
 FAMILY = "DejaVu Sans"
 SIZE = 2048 / 1493  # font size of letters whose capitals are 1 mm high: H has 1493 of 2048 units
@@ -147,7 +148,7 @@ def font() -> Font:
         raise InputError("font-missing", file="DejaVuSans.ttf")
     path = Path(spec.origin).parent / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf"
     if not path.is_file():
-        raise InputError("font-missing", file=str(path))
+        raise InputError("font-missing", file=quote(path, SHOWN))
     return Font(path.read_bytes())
 
 

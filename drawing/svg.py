@@ -23,21 +23,19 @@ _CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 0xFFFE, 0xFFFF), "
 _ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"}) | _CONTROLS
 
 
-def write_svg(page: Page, stream: BinaryIO, with_font: bool = True) -> None:
+def write_svg(page: Page, stream: BinaryIO) -> None:
     """Write one page as SVG in UTF-8; the same page gives the same bytes.
-
-    Without its font the file is for a reader that has it.
 
     Raises
     ------
     ValueError
         A coordinate is not a finite number.
     """
-    stream.write(svg_text(page, with_font).encode("utf-8", "replace"))
+    stream.write(svg_text(page).encode("utf-8", "replace"))
 
 
 def svg_text(page: Page, with_font: bool = True) -> str:
-    """Return one page as the text of an SVG file."""
+    """Return one page as the text of an SVG file; without its font it is for a reader that has it."""
     writer = _Writer(page.height, page.pens)
     for layer, shapes in parts_of(page):
         if layer is not None:

@@ -211,8 +211,8 @@ def _number(scene: HoistScene, value: float) -> str:
     return f"{scene.words.short(float(f'{value * 10.0**-power:.{DIGITS}g}'))}·10^{{{power}}}".replace("{-", "{−")
 
 
-def _value(scene: HoistScene, name: str, expression: str, unit: str = "N") -> tuple[str, ...]:
-    number = f"= {scene.value(scene.size(name))} {scene.words.unit(unit)}"
+def _value(scene: HoistScene, name: str, expression: str) -> tuple[str, ...]:
+    number = f"= {scene.value(scene.size(name))} {scene.words.unit('N')}"
     return f"{scene.words.symbol(name)} = {expression}", number
 
 

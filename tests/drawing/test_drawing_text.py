@@ -2,6 +2,7 @@
 
 import string
 from io import BytesIO
+from types import SimpleNamespace
 
 import pytest
 from fontTools.pens.recordingPen import DecomposingRecordingPen
@@ -174,3 +175,15 @@ def test_a_box_turns_with_its_text():
     x0, y0, x1, y1 = box(upright)
 
     assert box(lying) == pytest.approx((-y1, x0, -y0, x1))
+
+
+@pytest.mark.parametrize("language", ["uk", "ru", "en"])
+def test_a_font_that_is_missing_is_named_by_its_path_as_it_is(language: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    place = SimpleNamespace(origin="/opt/python 3.11/matplotlib/__init__.py")
+    monkeypatch.setattr("kulman.drawing.font.find_spec", lambda name: place)
+    font.cache_clear()
+
+    with pytest.raises(InputError) as refused:
+        font()
+
+    assert "python 3.11/matplotlib" in refused.value.text(language)

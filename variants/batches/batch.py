@@ -27,8 +27,7 @@ from ..task import Task
 from .work import FORMS, NOTE, Batch, Crew, Making, Student, put, run
 
 if TYPE_CHECKING:
-    from ..task import Task
-    from .work import Batch, Outcome, Student
+    from .work import Outcome
 
 MANIFEST, KEY = "manifest.csv", "key.csv"
 One: TypeAlias = str | os.PathLike[str] | Task

@@ -33,7 +33,6 @@ _HEADER = re.compile(r"\s*\[")
 _VARIANT = re.compile(r"\s*\[\[\s*variant\s*\]\]|\s*\[\s*variant\s*\.")
 _ARRAY = re.compile(r"\s*variant\s*=\s*\[")
 _STRING = re.compile(r'"(?:\\.|[^"\\])*"|\'[^\']*\'')
-_ID = re.compile(r"^id\s*=.*$", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -364,14 +363,8 @@ def most_pages(task: Task) -> Callable[[], int]:
     return own
 
 
-def with_variants(text: str, rows: Iterable[tuple[str, Mapping[str, str]]], name: str | None = None) -> str:
-    """Return the text of a task file with `rows` in the place of its variants: ids, and givens as they are written.
-
-    Parameters
-    ----------
-    name : str, optional
-        Another id of the task.
-    """
+def with_variants(text: str, rows: Iterable[tuple[str, Mapping[str, str]]]) -> str:
+    """Return the text of a task file with `rows` in the place of its variants: ids, and givens as they are written."""
     kept, inside, depth = [], False, 0
     for line in text.splitlines():
         if depth or _ARRAY.match(line):  # variant = [ ... ]
@@ -383,8 +376,6 @@ def with_variants(text: str, rows: Iterable[tuple[str, Mapping[str, str]]], name
         if not inside:
             kept.append(line)
     whole = "\n".join(kept).rstrip("\n")
-    if name is not None:
-        whole = _ID.sub(lambda found: f"id = {_quoted(name)}", whole, count=1)
     tables = ("\n".join(("[[variant]]", *_lines({"id": number, **row}))) for number, row in rows)
     return "\n\n".join((whole, *tables)) + "\n"
 

@@ -238,7 +238,7 @@ def students_scales(marked: Marked) -> dict[str, float]:
     return found
 
 
-def result_of(marked: Marked, language: str, reports: tuple[str, ...] = ()) -> Result:
+def result_of(marked: Marked, language: str) -> Result:
     """Return what is kept of a student who was marked."""
     key, first = marked.keyed, marked.marking.first_wrong
     follows = {line.name: abs(line.follows) for line in marked.marking.lines if line.follows == line.follows}
@@ -256,7 +256,7 @@ def result_of(marked: Marked, language: str, reports: tuple[str, ...] = ()) -> R
         tuple(note.text(language) for note in marked.notes),
         too_exact(segments),
         segments,
-        reports,
+        (),
         marked.fits,
     )
 

@@ -151,11 +151,11 @@ def rate_of(scene: Scene, name: str) -> float:
     return 0.0 if still else float(scene.solved.values[name])
 
 
-def factor(scene: Scene, name: str, power: int = 1, symbol: str | None = None) -> Factor:
+def factor(scene: Scene, name: str, power: int = 1) -> Factor:
     """Return a value of the construction as a factor in the units shown; a given is exact."""
     plain = role(name).shown
     value = scene.words.display.value(size_of(scene, name), unit_of(plain))
-    return Factor(scene.words.symbol(plain) if symbol is None else symbol, value, is_given(scene, name), power)
+    return Factor(scene.words.symbol(plain), value, is_given(scene, name), power)
 
 
 def segment(scene: Scene, symbol: str, plan: str, size: float) -> Factor:
