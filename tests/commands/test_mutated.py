@@ -168,7 +168,7 @@ def test_a_case_is_the_same_every_time_and_no_two_are_alike() -> None:
 def test_a_crash_a_flood_and_a_hang_are_faults(fault: Any, kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kulman.cli.refuse", fault)
 
-    found = list(faults(range(6), method="fork", seconds=0.5))  # with what is planted here
+    found = list(faults(range(3), method="fork", seconds=0.5))  # with what is planted here
 
     assert kind in {fault.what.partition(":")[0] for fault in found}
 

@@ -125,7 +125,7 @@ def test_right_lines_are_counted_as_marked_unless_they_are_too_few(task: str) ->
 @pytest.mark.parametrize("task", TASKS)
 def test_what_mends_no_faulty_line_is_given_up(task: str) -> None:
     of, given_up = mistakes(task), 0
-    for found in of.signatures[7::30]:
+    for found in of.signatures[7::60]:
         marking = mark(of.key, planted(of, found, 1))
         first, faulty = str(marking.first_wrong), [line.name for line in marking.lines if line.verdict.faulty][-1:]
         judged = Judged(marking.marker, marking.lines)
