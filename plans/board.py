@@ -34,9 +34,11 @@ class Step:
 
     def __init__(self, verb: str, name: str, operands: Iterable[str], law: str = "") -> None:
         """Note a step; names without a role have that of their letters."""
-        fields = verb, role(name), tuple(map(role, operands)), law
-        for field, value in zip(self.__slots__, fields, strict=True):
-            object.__setattr__(self, field, value)
+        put = object.__setattr__  # one by one: constructions are recorded for every position that is looked at
+        put(self, "verb", verb)
+        put(self, "name", role(name))
+        put(self, "operands", tuple([x if isinstance(x, Name) else role(x) for x in operands]))
+        put(self, "law", law)
 
     @property
     def plan(self) -> Name:
