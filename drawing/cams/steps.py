@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from ...plans.cams.cam import PLATE
 from ...plans.cams.construction import ACCELERATION, OUTWARDS, PLATE_SIZES, ROCKER_SIZES, SIZES
 from ...plans.cams.course import analogue, permitted, pressed, rolling, rolls, theta, transmission, turning
 from ...plans.cams.rules import Rule, rules_of
+from ...scales.scale import Scale
+from ..handouts import NOTHING
+from ..handouts import Shown as Begun
 from ..notes.blocks import Sentences, Story
 from ..printed import segment_decimals
 from .inversion import undercut_notes
@@ -21,7 +25,7 @@ Said = dict[str, str]
 Texts = Mapping[str, str]
 
 
-def story(scene: CamScene, texts: Texts) -> Story:
+def story(scene: CamScene, scales: Mapping[str, Scale], texts: Texts) -> Story:
     """Return what the note of a cam says beside its views, and what their stages are told with: lengths as drawn.
 
     The sentences of `texts` are by key.
@@ -31,6 +35,11 @@ def story(scene: CamScene, texts: Texts) -> Story:
     aim = Sentences((texts["cam.aims" if len(followers) > 1 else "cam.aim"].format(followers=named),))
     said = _said(scene, texts)
     return Story(conclusions=tuple(conclusions(scene, texts)), before={"givens": (aim,)}, texts=texts, said=said)
+
+
+def begun(scene: CamScene, steps: int) -> dict[str, Begun]:
+    """Return what handouts show of the table: section lines, and their angles from the first step on."""
+    return {"motion": replace(NOTHING, columns=2 if steps else 1)}
 
 
 def _said(scene: CamScene, texts: Texts) -> Said:

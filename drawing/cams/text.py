@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 from ...plans.cams.construction import ACCELERATION, PLATE_SIZES, SIZES
@@ -11,8 +10,6 @@ from ...plans.cams.course import rolls, theta
 from ...plans.cams.formulas import ARC
 from ...plans.cams.rules import Rule, rules_of
 from ...plans.cams.solve import SCALES
-from ..handouts import NOTHING
-from ..handouts import Shown as Begun
 from ..printed import DEGREES, Input, Shown, calculation, worked
 from ..symbols import swept
 from ..table import table, text_block, words_of
@@ -257,11 +254,6 @@ def motion_table(scene: CamScene) -> View:
         head.append(f"{words.symbol('theta')}, °")
     rows = [[str(i), *cells] for i, cells in enumerate(zip(*columns, strict=True))]
     return table("motion", words["heading.cam_table"], [head, *rows], scene.style)
-
-
-def begun(steps: int) -> dict[str, Begun]:
-    """Return what handouts show of the table: section lines, and their angles from the first step on."""
-    return {"motion": replace(NOTHING, columns=2 if steps else 1)}
 
 
 def _column(scene: CamScene, limits: Sequence[Any]) -> list[str]:

@@ -50,9 +50,9 @@ class GearScene(SubjectScene[SolvedGear]):
     m/mm. `part` is how much of their usual size the diagrams of sliding have; `close` is the scene of that middle.
     """
 
-    mu_l: float
-    near: float
-    rolled: float
+    mu_l: float = 1.0
+    near: float = 1.0
+    rolled: float = 1.0
     part: float = 1.0
     close: bool = False
 

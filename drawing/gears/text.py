@@ -178,7 +178,7 @@ CENTRES: dict[str, Callable[[Symbol], str]] = {
 }
 
 
-def begun(scene: GearScene) -> dict[str, Begun]:
+def begun(scene: GearScene, steps: int) -> dict[str, Begun]:
     """Return what handouts show of the tables: the rows of what is given."""
     nothing = frozenset[str]()
     found = {name: Begun(nothing, nothing, rows=nothing) for name in ("points", "checks")}

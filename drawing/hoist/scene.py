@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from numpy.typing import NDArray
@@ -33,7 +33,7 @@ UNITS = {SCALES[SCHEME]: "m", SCALES[CIRCLE]: "N"}  # of the scale factors that 
 class HoistScene(SubjectScene[SolvedHoist]):
     """A solved hoist on a certain format, in certain words; `mus` are the chosen scale factors, SI per mm."""
 
-    mus: Mapping[str, float]
+    mus: Mapping[str, float] = field(default_factory=dict)
 
     def size(self, name: str) -> float:
         """Return a quantity or a given, SI."""

@@ -68,7 +68,7 @@ def checks_table(scene: HoistScene) -> View:
     return table("checks", words["heading.hoist_checks"], [head, *rows], scene.style)
 
 
-def begun() -> dict[str, Shown]:
+def begun(scene: HoistScene, steps: int) -> dict[str, Shown]:
     """Return what handouts show of the tables: the two columns in which the checks are asked."""
     return {"checks": replace(NOTHING, rows=frozenset(), columns=2)}
 

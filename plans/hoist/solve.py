@@ -21,6 +21,7 @@ from ..board import Board, Program
 from ..boards.exact import run
 from ..condition import Condition, by_solving_again, ratio
 from ..hands.hand import Tolerance
+from ..hands.shaky import Paper
 from ..laws import TURN
 from ..marking.key import rounded
 from ..names import role
@@ -282,7 +283,7 @@ def conditions_of(solved: SolvedHoist) -> dict[str, Condition]:
     return {name: Condition(ratio(total, abs(own[name])), worst.get(name, 1.0)) for name, total in totals.items()}
 
 
-def tolerances_of(solved: SolvedHoist, tolerance: Tolerance) -> dict[str, float]:
+def tolerances_of(solved: SolvedHoist, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
     """Return by how much times may miss, SI: what chords err by, and the error of a segment of the drawing."""
     return dict(_times(solved, tolerance))
 

@@ -15,20 +15,15 @@ from ...scales.numbers import quote
 from ...scales.scale import Scale
 from ...scales.units import unit
 from ..checks.cam import NUMBERS, WORDS, impossible, read_cam
-from ..task import Given, Task
+from ..task import Given
 from .kind import Sized
 
 if TYPE_CHECKING:
+    from ...drawing.cams.scene import CamScene
     from ...drawing.compose import Drawn
-    from ...drawing.formats import Format
-    from ...drawing.handouts import Shown
-    from ...drawing.notes.blocks import Story
-    from ...drawing.pens import Norm
     from ...drawing.words import Words
     from ...plans.cams.profile import PlateProfile, RollerProfile
     from ...plans.cams.solve import SolvedCam
-    from ...plans.hands.hand import Tolerance
-    from ...plans.hands.shaky import Paper
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
@@ -58,10 +53,10 @@ class Cams(Sized[Cam, "SolvedCam"]):
     """Disk cams with translating roller and flat-faced followers, or with a rocker."""
 
     table, plans, choosing = "cam", PLANS, WORDS
-    room, symbols = "cams", SYMBOLS
+    room, symbols, told, unasked = "cams", SYMBOLS, "steps", UNASKED
     display = Display(size="mm", angle="deg")
     names = frozenset((*NUMBERS, *WORDS))
-    segments = False
+    segments, limits_add_up = False, True
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Cam | None:
         """Read `[cam]`."""
@@ -78,21 +73,17 @@ class Cams(Sized[Cam, "SolvedCam"]):
             elif name not in SYMBOLS:
                 checker.fault(("scales", name), unknown("scale-unknown", name, SYMBOLS, task=head.get("id", "")))
 
-    def varies(self, checker: Checker, task: Task) -> None:
-        """Check that every variant is one of a cam."""
-        for row, variant in enumerate(task.variants):
-            for error in impossible(task.values(variant)):
-                checker.fault(("variant", row), error)
+    def impossible(self, values: Mapping[str, float]) -> Iterator[tuple[str, InputError]]:
+        """Go through what no cam can have."""
+        return (("", error) for error in impossible(values))
 
     def solve(
         self, subject: Cam, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
     ) -> SolvedCam:
         """Solve a cam; numbers that belong to none are refused."""
-        from ...plans.cams.solve import solve_cam  # needs numpy
-
         for error in impossible(values):
             raise error
-        solved = solve_cam(subject.chosen(words), {**values, "mu_phi": values["mu_phi"] * PER_MM}, plans)
+        solved = super().solve(subject, {**values, "mu_phi": values["mu_phi"] * PER_MM}, words, plans)
         if "R_roller" in values and "r_0" in solved.values:
             for error in impossible({**values, "r_0": solved.values["r_0"]}):
                 raise error
@@ -159,18 +150,6 @@ class Cams(Sized[Cam, "SolvedCam"]):
         named = {"profile": "profiles"} | ({"roller": "rocker"} if solved.rocker is not None else {})
         return named.get(section, section)
 
-    def asks(self, solved: SolvedCam, question: Question) -> bool:
-        """Ask for what is found, not for what is given, nor by how much a drawing does not close."""
-        return question.name not in UNASKED and question.name not in solved.givens
-
-    limits_add_up = True
-
-    def limits(self, drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
-        """Let pass what the errors of all chords add up to."""
-        from ...plans.cams.solve import tolerances_of
-
-        return tolerances_of(drawn, paper, tolerance)
-
     def form_notes(self, solved: SolvedCam) -> tuple[str, ...]:
         """Tell that sizes may be drawn or calculated, and of the sign of e."""
         return ("cam",)
@@ -185,12 +164,6 @@ class Cams(Sized[Cam, "SolvedCam"]):
             return words["heading.cam_rocker_profile"]
         return super().plan_heading(solved, DIAGRAMS_PART if plan in AXES else plan, words)
 
-    def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
-        """Draw the sheet of a cam."""
-        from ...drawing.cams.sheet import CamFitting
-
-        return CamFitting(self.contents(case, words, norm)).draw(paper)
-
     def fitted(self, solved: SolvedCam, drawn: Drawn) -> tuple[SolvedCam, tuple[InputError, ...]]:
         """Return the cam with diagrams as small as the format has room for, and with what lengths these are drawn."""
         from ...plans.cams.solve import REDUCED, reduced
@@ -202,16 +175,9 @@ class Cams(Sized[Cam, "SolvedCam"]):
         said |= {"angle": _degrees(smaller.givens["mu_phi"]), "part": f"{drawn.reduction:g}"}
         return smaller, (InputError("cam-smaller", format=drawn.format, **said),)
 
-    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
-        """Show of the table of the motion the section lines, and their angles from the first step on."""
-        from ...drawing.cams.text import begun
-
-        return begun(steps)
-
-    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
-        """Tell the drawing stage by stage, with the lengths that it has on the sheet."""
+    def scene(self, case: Case, scales: Mapping[str, Scale], words: Words) -> CamScene:
+        """Return the cam with its letters, with the lengths that it has on the sheet."""
         from ...drawing.cams.scene import CamScene
-        from ...drawing.cams.steps import story
         from ...drawing.formats import STYLES
         from ...plans.cams.construction import TRAVEL
         from ...plans.cams.solve import SolvedCam, reduced
@@ -219,9 +185,7 @@ class Cams(Sized[Cam, "SolvedCam"]):
         solved = SolvedCam.of(case.solved)
         part = round(float(solved.values["mu_s"]) / scales[TRAVEL].mu, REDUCED_TO)
         mus = {scale.symbol: scale.mu for scale in scales.values() if scale.symbol in SYMBOLS}
-        drawn = reduced(solved, part)
-        scene = CamScene(drawn, self.lettered(words, solved), STYLES["A4"], case.givens, mus, part)
-        return story(scene, texts)
+        return CamScene(reduced(solved, part), self.lettered(words, solved), STYLES["A4"], case.givens, mus, part)
 
 
 KIND = Cams()

@@ -2,33 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from ...plans.check import Check, rule_of
 from ...plans.gears.gear import MATERIALS, MODULES, PLANS, ROTATIONS, SHIFTS, STANDARD, VALUES, GearPair, impossible
 from ...scales.display import Display
 from ...scales.errors import InputError
-from ...scales.scale import Scale
 from ..checks.basics import Checker
 from ..checks.names import Names, Number
-from ..task import Bound, Given, Task
+from ..task import Bound, Given
 from .kind import Sized
 
 if TYPE_CHECKING:
-    from ...drawing.compose import Drawn
-    from ...drawing.formats import Format
-    from ...drawing.gears.scene import GearScene
-    from ...drawing.handouts import Shown
-    from ...drawing.notes.blocks import Story
-    from ...drawing.pens import Norm
-    from ...drawing.words import Words
     from ...plans.gears.solve import SolvedGear
-    from ...plans.hands.hand import Tolerance
-    from ...plans.hands.shaky import Paper
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
-    from ..case import Case
 
 RULES = {  # checks that are told when they fail
     "undercut": "gear-rule-undercut",
@@ -76,27 +65,9 @@ class Gears(Sized[GearPair, "SolvedGear"]):
         checker.fault(("givens",), InputError("gear-shifts", given="-"))
         return None
 
-    def varies(self, checker: Checker, task: Task) -> None:
-        """Check that every variant is one of a pair."""
-        told: set[str] = set()  # what is at fault in a default is so in every variant
-        for row, variant in enumerate(task.variants.values()):
-            for name, error in impossible(task.values(variant.id)):
-                given = task.givens.get(name)
-                if name in variant.values:
-                    checker.fault(("variant", row, name), error)
-                elif given is None or given.default is None:
-                    checker.fault(("variant", row), error)
-                elif name not in told:
-                    told.add(name)
-                    checker.fault(("givens", name, "default"), error)
-
-    def solve(
-        self, subject: GearPair, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
-    ) -> SolvedGear:
-        """Solve a pair; numbers that belong to none are refused."""
-        from ...plans.gears.solve import solve_gear
-
-        return solve_gear(subject.chosen(words), values, plans)
+    def impossible(self, values: Mapping[str, float]) -> Iterable[tuple[str, InputError]]:
+        """Go through what no pair can have."""
+        return impossible(values)
 
     def warnings(self, solved: SolvedGear) -> tuple[InputError, ...]:
         """Tell which limits are not kept, and of teeth that are pointed."""
@@ -117,42 +88,9 @@ class Gears(Sized[GearPair, "SolvedGear"]):
         """Return what the pair is judged by: the compared value, its limit, how they have to stand, SI."""
         return solved.checks
 
-    def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
-        """Draw the sheet of a pair."""
-        from ...drawing.gears.sheet import GearFitting
-
-        return GearFitting(self.contents(case, words, norm)).draw(paper)
-
     def asks(self, solved: SolvedGear, question: Question) -> bool:
         """Ask not for what is given, nor for ordinates that are nothing or PW by construction."""
-        return question.name not in solved.givens and question.step.operands != ("_zero",)
-
-    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
-        """Return what is drawn of the tables; drawings have stages."""
-        from ...drawing.gears.text import begun
-
-        return begun(self._scene(case, words))
-
-    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
-        """Tell the drawing step by step."""
-        from ...drawing.gears.text import story
-
-        return story(self._scene(case, words), scales, texts)
-
-    def _scene(self, case: Case, words: Words) -> GearScene:
-        """Return the pair with its letters, for what is said of it: no scale factor counts there."""
-        from ...drawing.formats import STYLES
-        from ...drawing.gears.scene import GearScene
-        from ...plans.gears.solve import SolvedGear
-
-        solved = SolvedGear.of(case.solved)
-        return GearScene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, 1.0, 1.0, 1.0)
-
-    def limits(self, drawn: SolvedGear, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
-        """Let pass of angles what the errors of the marks they hang on add up to."""
-        from ...plans.gears.solve import tolerances_of
-
-        return tolerances_of(drawn, paper, tolerance)
+        return super().asks(solved, question) and question.step.operands != ("_zero",)
 
 
 KIND = Gears()

@@ -2,35 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from ...plans.check import Check
-from ...plans.hoist.hoist import DRAWN, MAY_BE_RIGID, NOT_NEGATIVE, PARTS, PLANS, SIDES, USUAL, VALUES, Hoist
+from ...plans.hoist.hoist import (
+    DRAWN,
+    MAY_BE_RIGID,
+    NOT_NEGATIVE,
+    PARTS,
+    PLANS,
+    SIDES,
+    USUAL,
+    VALUES,
+    Hoist,
+    complete,
+)
 from ...plans.names import role
 from ...scales.errors import InputError
-from ...scales.scale import Scale
 from ..checks.names import Number
-from ..task import Bound, Task
+from ..task import Bound
 from .kind import Sized
 
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
-    from ...drawing.formats import Format
-    from ...drawing.handouts import Shown
-    from ...drawing.hoist.scene import HoistScene
-    from ...drawing.notes.blocks import Story
-    from ...drawing.pens import Norm
     from ...drawing.words import Words
-    from ...plans.hands.hand import Tolerance
-    from ...plans.hands.shaky import Paper
     from ...plans.hoist.solve import SolvedHoist
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
-    from ..case import Case
-    from ..checks.basics import Checker
 
-UNASKED = ("s_min", "t_P12_max")
 RULES = {  # what is told of a check that fails
     "rope_phase_1": "hoist-rule-rope-phase-1",
     "rope_phase_2": "hoist-rule-rope-phase-2",
@@ -54,24 +54,14 @@ class Hoists(Sized[Hoist, "SolvedHoist"]):
     known: ClassVar[Mapping[str, tuple[str, ...]]] = {"near_0": SIDES, "near_2": SIDES}
     choosing = tuple(known)
     symbols = ("mu_l", "mu_F_circle")  # those of the diagrams are found
+    unasked = ("s_min", "t_P12_max")
 
-    def varies(self, checker: Checker, task: Task) -> None:
-        """Check that every variant moves its load."""
-        from ...plans.hoist.hoist import complete
-
-        for row, variant in enumerate(task.variants):
-            try:
-                complete(task.values(variant))
-            except InputError as error:
-                checker.fault(("variant", row), error)
-
-    def solve(
-        self, subject: Hoist, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
-    ) -> SolvedHoist:
-        """Solve a hoist; numbers that belong to none are refused."""
-        from ...plans.hoist.solve import solve_hoist  # needs numpy
-
-        return solve_hoist(subject.chosen(words), values, plans)
+    def impossible(self, values: Mapping[str, float]) -> Iterator[tuple[str, InputError]]:
+        """Say why no hoist has these numbers."""
+        try:
+            complete(values)
+        except InputError as error:
+            yield "", error
 
     def warnings(self, solved: SolvedHoist) -> tuple[InputError, ...]:
         """Tell where the formulas are not valid, and of a rope that is not strong enough."""
@@ -92,13 +82,7 @@ class Hoists(Sized[Hoist, "SolvedHoist"]):
 
     def asks(self, solved: SolvedHoist, question: Question) -> bool:
         """Ask for what is calculated rather than for what a drawing gives in its place, and for no check."""
-        return role(question.name).part != DRAWN and question.name not in UNASKED
-
-    def limits(self, drawn: SolvedHoist, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
-        """Let pass of the times that solve equations what is read off their drawings."""
-        from ...plans.hoist.solve import tolerances_of
-
-        return tolerances_of(drawn, tolerance)
+        return super().asks(solved, question) and role(question.name).part != DRAWN
 
     def fitted(self, solved: SolvedHoist, drawn: Drawn) -> tuple[SolvedHoist, tuple[InputError, ...]]:
         """Return the hoist with diagrams as small as the format has room for, and tell how small that is."""
@@ -114,33 +98,6 @@ class Hoists(Sized[Hoist, "SolvedHoist"]):
         from ...drawing.hoist.scene import lettered
 
         return lettered(words, len(solved.layout.roots.times) if solved.layout.roots else 0)
-
-    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
-        """Show what the table of checks asks; drawings have stages."""
-        from ...drawing.hoist.text import begun
-
-        return begun()
-
-    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
-        """Tell formulas with their numbers, and the drawings step by step."""
-        from ...drawing.hoist.text import story
-
-        return story(self._scene(case, words), scales, texts)
-
-    def _scene(self, case: Case, words: Words) -> HoistScene:
-        """Return the hoist with its letters, for what is said of it: no scale factor counts there."""
-        from ...drawing.formats import STYLES
-        from ...drawing.hoist.scene import HoistScene
-        from ...plans.hoist.solve import SolvedHoist
-
-        solved = SolvedHoist.of(case.solved)
-        return HoistScene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, {})
-
-    def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
-        """Draw the sheet of a hoist."""
-        from ...drawing.hoist.sheet import HoistFitting
-
-        return HoistFitting(self.contents(case, words, norm)).draw(paper)
 
 
 KIND = Hoists()

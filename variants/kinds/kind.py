@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
@@ -27,7 +27,6 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...drawing.handouts import Shown
     from ...drawing.notes.blocks import Story
     from ...drawing.pens import Norm
-    from ...drawing.rungs import SheetContents
     from ...drawing.words import Words
     from ...plans.condition import Condition
     from ...plans.hands.hand import Tolerance
@@ -286,7 +285,8 @@ class Kind(ABC, Generic[Subject, Answer]):
 class Sized(Kind[Subject, Answer]):
     """A kind whose subjects are described by words, and by numbers that all have names: cams, gear pairs, hoists.
 
-    `room` is the folder of its plans and of its drawings, in which modules and functions of one use are called alike.
+    `room` is the folder of its plans and of its drawings. There what has one use is called alike, after the table:
+    `solve_cam`, `CamScene`, `CamFitting` of `[cam]`.
     """
 
     room: ClassVar[str]
@@ -295,10 +295,12 @@ class Sized(Kind[Subject, Answer]):
     known: ClassVar[Mapping[str, tuple[str, ...]]]  # what the keys of the table may say, or what choices between may
     numbers: ClassVar[Mapping[str, Number]]
     units: ClassVar[Mapping[str, str]]  # of the numbers, SI
+    unasked: ClassVar[tuple[str, ...]] = ()  # quantities that no form asks for
+    told: ClassVar[str] = "text"  # the module of the drawings that tells them
 
-    def _in(self, layer: str, module: str) -> Any:
-        """Return a module of this kind's plans or drawings; most need numpy."""
-        return import_module(f"...{layer}.{self.room}.{module}", __package__)
+    def _in(self, layer: str, module: str, name: str) -> Any:
+        """Return what a module of this kind's plans or drawings calls `name`; most need numpy."""
+        return getattr(import_module(f"...{layer}.{self.room}.{module}", __package__), name)
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Subject | None:
         """Read the table, and hold the numbers of the task against those that such a subject has."""
@@ -306,16 +308,38 @@ class Sized(Kind[Subject, Answer]):
         fields = {key: Field(word_or_choice(known, givens), required=False) for key, known in self.known.items()}
         read = record(checker, (self.table,), raw, fields)
         check_numbers(checker, names, self.numbers, self.units, f"{self.table}-number-unknown")
-        if len(checker.faults) > before:
-            return None
-        subject: Subject = self.made(**read)
-        return subject
+        return self.made(**read) if len(checker.faults) == before else None
 
     def fits(self, checker: Checker, subject: Subject, head: Mapping[str, Any]) -> None:
         """Check that the scale factors are those that may be chosen."""
         for name in head.get("scales", {}):
             if name not in self.symbols:
                 checker.fault(("scales", name), unknown("scale-unknown", name, self.symbols, task=head.get("id", "")))
+
+    @abstractmethod
+    def impossible(self, values: Mapping[str, float]) -> Iterable[tuple[str, InputError]]:
+        """Go through what no such subject can have, each with the name of the number at fault, or without one."""
+
+    def varies(self, checker: Checker, task: Task) -> None:
+        """Check that every variant is one of such a subject."""
+        told: set[str] = set()  # what is at fault in a default is so in every variant
+        for row, variant in enumerate(task.variants.values()):
+            for name, error in self.impossible(task.values(variant.id)):
+                given = task.givens.get(name)
+                if name in variant.values:
+                    checker.fault(("variant", row, name), error)
+                elif given is None or given.default is None:
+                    checker.fault(("variant", row), error)
+                elif name not in told:
+                    told.add(name)
+                    checker.fault(("givens", name, "default"), error)
+
+    def solve(
+        self, subject: Any, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
+    ) -> Answer:
+        """Solve a variant; numbers that belong to none are refused."""
+        solved: Answer = self._in("plans", "solve", f"solve_{self.table}")(subject.chosen(words), values, plans)
+        return solved
 
     def scale_symbols(self, solved: Answer) -> tuple[str, ...]:
         """Return the symbols of the scale factors that may be chosen."""
@@ -325,23 +349,53 @@ class Sized(Kind[Subject, Answer]):
         self, solved: Answer, choosers: Choosers, plans: tuple[str, ...]
     ) -> tuple[Format, dict[str, Scale]]:
         """Return format and scale factors by plan; those of diagrams follow from the construction."""
-        found: tuple[Format, dict[str, Scale]] = self._in("drawing", "sheet").first_scales(solved, choosers, plans)
+        found: tuple[Format, dict[str, Scale]]
+        found = self._in("drawing", "sheet", "first_scales")(solved, choosers, plans)
         return found
 
     def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity."""
-        found: dict[str, Condition] = self._in("plans", "solve").conditions_of(case.solved)
+        found: dict[str, Condition] = self._in("plans", "solve", "conditions_of")(case.solved)
         return found
 
-    def contents(self, case: Case, words: Words, norm: Norm) -> SheetContents[Any]:
-        """Return what stands on the sheet of a case."""
+    def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
+        """Draw the sheet of a case."""
         from ...drawing.rungs import SheetContents
 
         note = case.task.note_in(words.language)
-        return SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm, note=note)
+        contents = SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm, note=note)
+        drawn: Drawn = self._in("drawing", "sheet", f"{self.table.title()}Fitting")(contents).draw(paper)
+        return drawn
+
+    def scene(self, case: Case, scales: Mapping[str, Scale], words: Words) -> Any:
+        """Return the case with its letters, for what is said of it."""
+        from ...drawing.formats import STYLES
+
+        made = self._in("drawing", "scene", f"{self.table.title()}Scene")
+        solved: Any = case.solved
+        return made(solved, self.lettered(words, solved), STYLES["A4"], case.givens)
+
+    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
+        """Tell the drawings step by step, and what is calculated with its numbers."""
+        story: Story = self._in("drawing", self.told, "story")(self.scene(case, scales, words), scales, texts)
+        return story
+
+    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
+        """Return what is drawn of the tables; drawings have stages."""
+        shown: Mapping[str, Shown] = self._in("drawing", self.told, "begun")(self.scene(case, scales, words), steps)
+        return shown
+
+    def asks(self, solved: Answer, question: Question) -> bool:
+        """Ask for what is found, not for what is given."""
+        return question.name not in self.unasked and question.name not in solved.givens
+
+    def limits(self, drawn: Answer, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
+        """Let pass what the errors of chords and marks add up to."""
+        limits: dict[str, float] = self._in("plans", "solve", "tolerances_of")(drawn, paper, tolerance)
+        return limits
 
     def _section_of(self, name: str) -> str:
-        section: str = self._in("plans", "solve").section_of(name)
+        section: str = self._in("plans", "solve", "section_of")(name)
         return section
 
     def headings(self, solved: Answer, words: Words) -> dict[str, str]:
@@ -365,5 +419,5 @@ class Sized(Kind[Subject, Answer]):
 
     def lettered(self, words: Words, solved: Answer) -> Words:
         """Return the words with the letters of the subject's quantities."""
-        found: Words = self._in("drawing", "scene").lettered(words)
-        return found
+        letters: Words = self._in("drawing", "scene", "lettered")(words)
+        return letters
