@@ -22,7 +22,7 @@ from .layout.ladders import DRIVER
 from .reading import Edge, Reading, read
 
 if TYPE_CHECKING:
-    from ...plans.linkages.cycles.swept import Runs
+    from ...plans.linkages.cycles.limits import Runs
 
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 

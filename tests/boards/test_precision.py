@@ -13,7 +13,7 @@ from mpmath import mp, mpc, mpf
 from kulman import solve
 from kulman.plans.boards.exact import run
 from kulman.plans.boards.precision import batch_in, run_in
-from kulman.plans.linkages.cycles.swept import swept
+from kulman.plans.linkages.cycles.limits import swept
 from kulman.plans.linkages.solved import SolvedLinkage
 from kulman.plans.quantities import references, results
 

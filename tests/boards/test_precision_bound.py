@@ -22,9 +22,8 @@ from kulman.plans.boards.precision import DIGITS, fifty_digits
 from kulman.plans.condition import derivatives, sizes_beside
 from kulman.plans.laws import LAWS, TURN
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.cycles.limits import Reach, reach_of
+from kulman.plans.linkages.cycles.limits import Reach, Swept, reach_of, swept
 from kulman.plans.linkages.cycles.strokes import output_motions
-from kulman.plans.linkages.cycles.swept import Swept, swept
 from kulman.plans.linkages.solved import signs
 from kulman.plans.quantities import results
 from kulman.tests.support.dyads import random_dyads

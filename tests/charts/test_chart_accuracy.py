@@ -15,8 +15,7 @@ from kulman.drawing.words import Words
 from kulman.plans import contest as contests
 from kulman.plans.contest import Contest, Effort, Entry
 from kulman.plans.hands.hand import preset
-from kulman.plans.linkages.accuracy.comparison import DrawnSheet, by_hand, contest, places_of, truth
-from kulman.plans.linkages.accuracy.methods import Rivals, kinds_of
+from kulman.plans.linkages.accuracy.comparison import DrawnSheet, Rivals, by_hand, contest, kinds_of, places_of, truth
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.plans.quantities import references
@@ -156,7 +155,7 @@ def test_errors_are_found_to_extended_precision() -> None:
     whole = of_task("madi-four-bar")
     places = places_of(whole, 3)
     exact = truth(whole, places, ["V_C"])
-    plan = Rivals.of(whole).plan(places, ["V_C"])
+    plan = Rivals(whole).plan(places, ["V_C"])
 
     off = exact.errors({"V_C": plan["V_C"] + exact.sizes["V_C"] * 1e-6})
 
@@ -170,11 +169,11 @@ def test_a_crank_that_speeds_up_is_differentiated_with_its_acceleration() -> Non
     driver = replace(task.mechanism.driver, acceleration="alpha")  # type: ignore[type-var]
     mechanism = replace(task.mechanism, driver=driver)
     values = {**task.values(None, {}), "alpha": 1e4}
-    rivals = Rivals.of(cycle(mechanism, values, ("acceleration",), 12))
+    rivals = Rivals(cycle(mechanism, values, ("acceleration",), 12))
     places = places_of(rivals.cycle, 6)
 
     plan = rivals.plan(places, ["a_C", "epsilon_3"])
-    steady = Rivals.of(cycle(task.mechanism, values, ("acceleration",), 12)).plan(places, ["a_C"])
+    steady = Rivals(cycle(task.mechanism, values, ("acceleration",), 12)).plan(places, ["a_C"])
 
     assert abs(plan["a_C"] - steady["a_C"]).max() > 0.1 * abs(plan["a_C"]).max()
     for way in (rivals.differences(1e-4), rivals.chords(4000)):

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from kulman.plans.boards.exact import run
-from kulman.plans.linkages.accuracy.comparison import places_of
-from kulman.plans.linkages.accuracy.contours import Closure, Pose
-from kulman.plans.linkages.accuracy.methods import Newton, Rivals, kinds_of
+from kulman.plans.linkages.accuracy.comparison import Rivals, kinds_of, places_of
+from kulman.plans.linkages.accuracy.contours import Contours
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.givens import board_givens
@@ -47,9 +46,9 @@ def differences(found: Any, exact: Any) -> float:
 
 def both(whole: Cycle, tolerance: float) -> tuple[Any, Any]:
     """Return motion by Newton's method and by plans, half a step off the ends of the cycle."""
-    rivals, places = Rivals.of(whole), places_of(whole, 24)
+    rivals, places = Rivals(whole), places_of(whole, 24)
     names = [name for kind in kinds_of(whole) if kind.name in MOTION for name in kind.names]
-    return Newton(rivals).way(tolerance)(places, names), rivals.plan(places, names)
+    return rivals.newton(tolerance)(places, names), rivals.plan(places, names)
 
 
 FEW = (  # every kind of dyad, and a slide that drives
@@ -94,23 +93,24 @@ def test_newton_agrees_with_plans_of_dyads_on_links_that_move(kind: str, carries
     for i in range(len(places)):
         own = {name: float(np.broadcast_to(value, len(places))[i]) for name, value in values.items()}
         exact = run(program, board_givens(mechanism, own)).values
-        closure = Closure(mechanism, own)
+        contours = Contours(mechanism, own)
         at = np.array([own[mechanism.driver.coordinate]])
         points = {point: np.array([exact[point]]) for link in mechanism.links for point in link.points}
         turns = {link.number: np.exp(1j * places[i, k, 2:]) for k, link in enumerate(mechanism.links)}
-        start = closure.contours.pose(turns, points)
-        pose = closure.solve(Pose(start.angles + 1e-3, start.ways), at, 1e-6)
+        near = contours.pose(turns, points)
+        near[: contours.count] += 1e-3
+        pose = contours.solve(near, at, 1e-6)
         speed = exact[f"omega_{mechanism.driver.link}"]
-        rates = closure.rates(pose, speed)
+        rates = contours.rates(pose, speed)
         epsilon = exact.get(f"epsilon_{mechanism.driver.link}", 0.0)
-        changes = closure.changes(pose, rates, epsilon)
+        changes = contours.changes(pose, rates, epsilon)
 
         moving = [point for point in points if f"a_{point}" in exact]
         most = max(abs(exact[f"a_{point}"]) for point in moving)
         for point in moving:
-            form = closure.contours.point(point)
-            assert abs(closure.contours.value(form, pose)[0] - exact[point]) < 1e-8
-            assert abs(closure.contours.change(form, pose, rates, changes)[0] - exact[f"a_{point}"]) < 1e-6 * most
+            form = contours.point(point)
+            assert abs(contours.value(form, pose)[0] - exact[point]) < 1e-8
+            assert abs(contours.change(form, pose, rates, changes)[0] - exact[f"a_{point}"]) < 1e-6 * most
 
 
 def test_newton_takes_a_driver_that_slides_and_speeds_up() -> None:
@@ -136,16 +136,16 @@ def test_error_falls_with_the_tolerance() -> None:
 def test_what_newton_does_not_find_is_not_a_number() -> None:
     whole = of_task("madi-four-bar")
     places = places_of(whole, 24)
-    newton = Newton(Rivals.of(whole))
+    rivals = Rivals(whole)
 
-    found = newton.way(0.0)(places, ("V_C",))["V_C"]
+    found = rivals.newton(0.0)(places, ("V_C",))["V_C"]
 
     assert np.isnan(found).all()
 
 
 def test_contours_are_no_more_than_loops() -> None:
     whole = of_task("scheme-09-shaper")
-    closure = Newton(Rivals.of(whole))._closure
+    contours = Rivals(whole).contours
 
-    assert len(closure.contours.closed) == 2
-    assert closure.contours.count == 4  # frame and slide, crank, lever and block, rod
+    assert len(contours.closed) == 2
+    assert contours.count == 4  # frame and slide, crank, lever and block, rod

@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
-from kulman.plans.linkages.cycles.limits import Arc, limiting_places, reach_of, size_of
+from kulman.plans.linkages.cycles.limits import Arc, limiting_places, reach_of, size_of, swept
 from kulman.plans.linkages.cycles.strokes import OutputMotion, output_motions, stroke_of
-from kulman.plans.linkages.cycles.swept import swept
 from kulman.plans.linkages.mechanism import Mechanism, Stroke
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.scales.errors import InputError

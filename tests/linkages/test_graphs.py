@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from kulman.plans.linkages.cycles.cycle import cycle
-from kulman.plans.linkages.cycles.diagrams import (
+from kulman.plans.linkages.cycles.cycle import (
     chords,
+    cycle,
     diagrams,
     differentiate,
     pole_distance,

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from kulman.plans.board import Program
 from kulman.plans.boards.batch import batch
 from kulman.plans.linkages.chain import construct, moving_bodies
-from kulman.plans.linkages.cycles.swept import swept
+from kulman.plans.linkages.cycles.limits import swept
 from kulman.plans.linkages.mechanism import FORCE, Driver, Link, Mechanism
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled, summary

@@ -12,7 +12,7 @@ import pytest
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.cycles.swept import swept
+from kulman.plans.linkages.cycles.limits import swept
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Mechanism, Prismatic, Revolute, SlidingDriver, Start
 from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage

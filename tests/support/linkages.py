@@ -7,8 +7,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from kulman.plans.linkages.cycles.limits import Reach, reach_of
-from kulman.plans.linkages.cycles.swept import swept
+from kulman.plans.linkages.cycles.limits import Reach, reach_of, swept
 from kulman.plans.linkages.mechanism import (
     ZERO,
     Driver,

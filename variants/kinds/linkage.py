@@ -283,8 +283,7 @@ def _hindered(mechanism: Mechanism, values: Mapping[str, float], lined: bool = F
 
     Nothing is told of a crank that reaches no place at all.
     """
-    from ...plans.linkages.cycles.limits import reach_of
-    from ...plans.linkages.cycles.swept import swept
+    from ...plans.linkages.cycles.limits import reach_of, swept
 
     drive = swept(mechanism, values)
     found = reach_of(drive, values)

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...drawing.words import Words
-from ...plans.linkages.cycles.cycle import Cycle
-from ...plans.linkages.cycles.diagrams import Curve, Diagrams
+from ...plans.linkages.cycles.cycle import Curve, Cycle, Diagrams
 from ...plans.linkages.cycles.strokes import Output, OutputMotion
 from ...plans.linkages.mechanism import Mechanism
 from ...plans.names import role

@@ -14,8 +14,7 @@ from ...drawing.linkages.views import Contents
 from ...drawing.titleblock import Stamp
 from ...drawing.words import Words
 from ...drawing.writers import Files, page_files, save_all
-from ...plans.linkages.cycles.cycle import Cycle, cycle
-from ...plans.linkages.cycles.diagrams import Diagrams, diagrams
+from ...plans.linkages.cycles.cycle import Cycle, Diagrams, cycle, diagrams
 from ...plans.linkages.mechanism import Driver, Mechanism
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, PositionError

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....plans.linkages.cycles.cycle import Cycle
-from ....plans.linkages.cycles.diagrams import Diagrams, diagrams, pole_distance
+from ....plans.linkages.cycles.cycle import Cycle, Diagrams, diagrams, pole_distance
 from ....plans.linkages.cycles.strokes import OutputMotion
 from ....plans.linkages.mechanism import ANGLE, BOTH, FRAME, WORKING, Couple, Diagram, Load, Prismatic
 from ....plans.names import role

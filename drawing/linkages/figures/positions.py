@@ -10,8 +10,7 @@ import numpy as np
 
 from ....plans.board import POSITION
 from ....plans.laws import dot
-from ....plans.linkages.cycles.cycle import Cycle
-from ....plans.linkages.cycles.diagrams import MARGIN, velocity_field
+from ....plans.linkages.cycles.cycle import MARGIN, Cycle, velocity_field
 from ....plans.linkages.cycles.strokes import OutputMotion
 from ....plans.linkages.mechanism import FRAME, Driver, Prismatic
 from ....plans.linkages.solved import SolvedLinkage, solve_linkage

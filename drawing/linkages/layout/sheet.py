@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from ....plans.linkages.cycles.swept import Runs, slider_runs
+from ....plans.linkages.cycles.limits import Runs, slider_runs
 from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.structure import Structure
 from ....plans.names import role

@@ -1,4 +1,8 @@
-"""Speed against accuracy: the rivals over the cycle of one mechanism, their errors beside fifty digits, their times.
+"""Speed against accuracy: the methods by which a user could find the motion of a mechanism, and their race.
+
+Plans in several precisions; Newton's method on closed contours; finite differences of positions; graphical
+differentiation by chords: each is a function of the driver's places, and all give the same quantities. They run over
+the cycle of one mechanism, their errors beside fifty digits, with their times.
 
 The error of a quantity counts in parts of the largest vector of its plan, of a number that no plan shows in parts of
 its unit's largest over the cycle; of a method the worst one counts, over all quantities of a kind and all positions.
@@ -7,37 +11,200 @@ What a hand misses stands beside the methods of a computer.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...board import POSITION, Program
-from ...boards.exact import ExactBoard, run
-from ...boards.precision import run_in
+from ...boards.batch import batch
+from ...boards.exact import STATUSES, ExactBoard, run
+from ...boards.precision import batch_in, run_in
 from ...contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
 from ...hands.hand import Hand
 from ...hands.shaky import Paper, draw
 from ...hands.spread import kept
-from ...laws import TURN
-from ...quantities import plans_of, references
-from ..cycles.cycle import Cycle
+from ...laws import TURN, inclination
+from ...names import LEVER, role
+from ...quantities import BALANCES, plans_of, references
+from ..chain import construct, moving_bodies
+from ..cycles.cycle import Cycle, chords
+from ..mechanism import ZERO, Driver
 from ..solved import SolvedLinkage
-from .methods import Newton, Rivals, Values, Way, kinds_of
+from .contours import Contours
 
 Array = NDArray[Any]
+Values = dict[str, Array]
+Way = Callable[[Array, Sequence[str]], Values]
 SINGLE, EXTENDED = "plan-single", "plan-extended"
 PLAN, NEWTON, DIFFERENCES, CHORDS, HAND = "plan", "newton", "differences", "chords", "hand"
 TOLERANCES = (1e-1, 1e-2, 1e-4, 1e-8)
 STEPS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 SECTIONS = (12, 24, 48, 96, 192, 384)
 LONG = 1.0  # seconds that are too many
+FEW = 100  # positions on which it is tried how long a method takes
 SEED = 1  # the same hand on every paper
 NEAR_DEAD = 0.01  # part of the cycle
 DRAWN, DRAWINGS = 12, 400  # positions that are drawn, how many times
+GRID = 72  # places round the cycle at which Newton's method knows where the links lie
+ORDERS = {"V": 1, "omega": 1, "a": 2, "epsilon": 2}  # how many times a quantity is a derivative of a place
+
+
+def kinds_of(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Kind, ...]:
+    """Return the quantities of a cycle that are compared, kind by kind.
+
+    Those are velocities and accelerations of points, angular ones of links, reactions and what balances the driver;
+    of them the `chosen` ones only.
+    """
+    chosen = tuple(chosen)
+    known = [name for name in cycle.quantities if not chosen or name in chosen]
+    points = {point for link in cycle.mechanism.links for point in link.points}
+    links = {str(link.number) for link in cycle.mechanism.links}
+    known_of = {"V": points, "omega": links, "a": points, "epsilon": links}
+    found: dict[str, tuple[str, ...]] = {"velocity": (), "acceleration": ()}
+    for name in known:
+        its = role(name)
+        if not its.about + its.part and its.of in known_of.get(its.kind, ()):
+            found["velocity" if _order(name) == 1 else "acceleration"] += (name,)
+    planned = [name for name in BALANCES if name.part != LEVER]
+    found["forces"] = tuple(name for name in known if role(name).kind == "R" or name in planned)
+    return tuple(Kind(kind, names) for kind, names in found.items() if names)
+
+
+class Rivals:
+    """A mechanism over its cycle, ready for all methods."""
+
+    def __init__(self, cycle: Cycle) -> None:
+        self.cycle = cycle
+        self._bodies = moving_bodies(cycle.mechanism, cycle.structure)
+        self._bare = construct(cycle.mechanism, ("position",))[1]
+        driver, given = cycle.mechanism.driver, {"one": 1.0, ZERO: 0.0, **cycle.givens}
+        sense = float(given[driver.sense]) if isinstance(driver, Driver) else 1.0
+        self.speed, self.acceleration = (float(given[x or ZERO]) * sense for x in (driver.speed, driver.acceleration))
+
+    def plan(self, places: Array, names: Sequence[str], precision: str = "double") -> Values:
+        """Return quantities by plans in a precision, many positions at once."""
+        givens = self.cycle.drive.givens(self.cycle.givens, places, self.cycle.program)
+        return batch_in(self.cycle.program, givens, tuple(names), precision)[0]
+
+    def differences(self, step: float) -> Way:
+        """Return central differences of positions by plans; `step` is in radians, of a slide a part of its range."""
+        step = step if self.cycle.drive.turns else step * abs(self.cycle.range.high - self.cycle.range.low)
+
+        def found(places: Array, names: Sequence[str]) -> Values:
+            offsets = (-step, step) if all(_order(name) == 1 for name in names) else (-step, 0.0, step)
+            slopes = self._curves(places + np.array(offsets)[:, None], names)
+            for name, curve in slopes.items():
+                slopes[name] = (curve[-1] - curve[0]) * (0.5 / step)
+                if _order(name) == 1:
+                    slopes[name] = slopes[name] * self.speed
+                else:
+                    second = (curve[2] - curve[1] - (curve[1] - curve[0])) * (1.0 / step**2)
+                    slopes[name] = second * self.speed**2 + slopes[name] * self.acceleration
+            return slopes
+
+        return found
+
+    def chords(self, sections: int) -> Way:
+        """Return slopes of the chords of a drawn curve over so many sections of the cycle, and chords of these.
+
+        A velocity belongs to the middle of its section, an acceleration to the end of two: both as if the sections lay
+        there.
+        """
+        section = abs(self.cycle.range.high - self.cycle.range.low) / sections
+
+        def found(places: Array, names: Sequence[str]) -> Values:
+            slopes: Values = {}
+            for order, offsets in ((1, (-0.5, 0.5)), (2, (-1.0, 0.0, 1.0))):
+                wanted = [name for name in names if _order(name) == order]
+                curves = self._curves(places + np.array(offsets)[:, None] * section, wanted) if wanted else {}
+                slopes |= {name: self._sloped(name, curve, section)[0] for name, curve in curves.items()}
+            return slopes
+
+        return found
+
+    def chords_of_cycle(self, sections: int, names: Sequence[str]) -> Values:
+        """Return the same for a whole cycle, whose sections share their ends: the work of it, to be timed."""
+        low, high = self.cycle.range.low, self.cycle.range.high
+        curves = self._curves(low + (high - low) * (np.arange(-1, sections + 2) / sections), names)
+        return {name: self._sloped(name, curve, abs(high - low) / sections) for name, curve in curves.items()}
+
+    def _sloped(self, name: str, curve: Array, section: float) -> Array:
+        """Return rates of a curve by chords, along its first axis."""
+        slopes = chords(curve, section)
+        found: Array = slopes * self.speed
+        if _order(name) == 2:
+            middles = (slopes[1:] + slopes[:-1]) * 0.5
+            found = chords(slopes, section) * self.speed**2 + middles * self.acceleration
+        return found
+
+    def _curves(self, places: Array, names: Sequence[str]) -> Values:
+        """Return where the point of each quantity stands, or its link's angle, without jumps along the first axis."""
+        marks = {name: role(name).of for name in names}
+        marks |= {name: self._bodies[int(of)].direction for name, of in marks.items() if _turns(name)}
+        givens = self.cycle.drive.givens(self.cycle.givens, places.ravel())
+        values, codes = batch(self._bare, givens, tuple(dict.fromkeys(marks.values())))
+        fails = codes == STATUSES.index("no-assembly")
+        curves = {name: np.where(fails, np.nan, values[of]).reshape(places.shape) for name, of in marks.items()}
+        for name in filter(_turns, curves):
+            turns = inclination(curves[name][1:] * np.conj(curves[name][:-1]))
+            curves[name] = np.concatenate((np.zeros_like(turns[:1]), np.cumsum(turns, axis=0)))
+        return curves
+
+    def newton(self, tolerance: float) -> Way:
+        """Return Newton's method on closed contours; it begins at a place of a grid half a step before, or more."""
+        contours, grid, turns = self.contours, self._grid, self.cycle.drive.turns
+        low, high = self.cycle.range.low, self.cycle.range.high
+
+        def found(places: Array, names: Sequence[str]) -> Values:
+            which = np.floor((places - low) * (GRID / (high - low)) - 1.0).astype(int)
+            pose = contours.solve(grid[:, which % GRID if turns else np.clip(which, 0, GRID - 1)], places, tolerance)
+            rates, changes = contours.rates(pose, self.speed), None
+            if any(_order(name) == 2 for name in names):
+                changes = contours.changes(pose, rates, self.acceleration)
+            return {name: self._of_pose(name, pose, rates, changes) for name in names}
+
+        return found
+
+    @cached_property
+    def contours(self) -> Contours:
+        """The mechanism as closed contours."""
+        return Contours(self.cycle.mechanism, self.cycle.givens)
+
+    @cached_property
+    def _grid(self) -> Array:
+        """How the links lie at places round the cycle."""
+        cycle = self.cycle
+        points = [point for link in cycle.mechanism.links for point in link.points]
+        names = [mark for body in self._bodies.values() for mark in (body.direction, body.local) if mark]
+        wanted = tuple(name for name in dict.fromkeys((*names, *points)) if name in cycle.program.names)
+        found = cycle.at(places_of(cycle, GRID), wanted)
+        directions = {
+            number: found[body.direction] * (np.conj(found[body.local]) if body.local else 1.0)
+            for number, body in self._bodies.items()
+        }
+        return self.contours.pose(directions, found)
+
+    def _of_pose(self, name: str, pose: Array, rates: Array, changes: Array | None) -> Array:
+        contours, of = self.contours, role(name).of
+        poses = rates if _order(name) == 1 else changes
+        assert poses is not None
+        if _turns(name):
+            row: Array = poses[contours.angle_of[int(of)]]
+            return row
+        form = contours.point(of)
+        return contours.rate(form, pose, rates) if poses is rates else contours.change(form, pose, rates, poses)
+
+
+def _order(name: str) -> int:
+    return ORDERS[role(name).kind]
+
+
+def _turns(name: str) -> bool:
+    return role(name).kind in ("omega", "epsilon")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,15 +262,13 @@ def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (
     Errors are looked at in so many `positions`, of the quantities `names`, of all that can be compared when empty;
     `clock` returns seconds, best those of the processor, and `effort` says on what times are measured.
     """
-    rivals, places = Rivals.of(cycle), places_of(cycle, positions)
+    rivals, places, kinds = Rivals(cycle), places_of(cycle, positions), kinds_of(cycle, names)
     found: list[Entry] = []
-    kinds = kinds_of(cycle, names)
-    newton = Newton(rivals)
     for kind in kinds:
         race = _Race(rivals, kind, places, truth(cycle, places, kind.names), effort, clock)
         found += race.plans()
         if kind.name != "forces":
-            found += race.others(newton)
+            found += race.others()
     return Contest(kinds, places, tuple(found), effort)
 
 
@@ -120,13 +285,16 @@ class _Race:
 
     def plans(self) -> Iterator[Entry]:
         """Go through plans: in batches of all sizes, then in other precisions."""
-        names, rivals = self.kind.names, self.rivals
-        found = rivals.plan(self.places, names)
-        spent = 0.0
+        names, rivals, cycle = self.kind.names, self.rivals, self.rivals.cycle
+        found, program = rivals.plan(self.places, names), cycle.program.needed_for(names)
+        spent, each = 0.0, cycle.each(self.places)
         for size in self.effort.batches:
             if spent * size > LONG * 10.0:  # groups of class III are followed at length
                 break
-            spent = self._one_by_one() if size == 1 else self._time(rivals.plan, size)
+            if size == 1:  # on Python numbers
+                spent = timed(lambda: [run(program, here) for here in each], self.clock) / len(each)
+            else:
+                spent = self._time(rivals.plan, size)
             yield self.entry(PLAN, size, found, spent, size)
         # a coarse clock may not notice what takes so little
         size = min(self.effort.at_once, max(int(LONG / spent), 100)) if spent else self.effort.at_once
@@ -134,42 +302,27 @@ class _Race:
         if np.finfo(np.longdouble).eps < np.finfo(float).eps:  # not so on every machine
             precisions[EXTENDED] = "extended"
         for method, precision in precisions.items():
-
-            def way(places: Array, wanted: Sequence[str], precision: str = precision) -> Values:
-                return rivals.plan(places, wanted, precision)
-
+            way = partial(rivals.plan, precision=precision)
             yield self.entry(method, size, way(self.places, names), self._time(way, size), size)
 
-    def others(self, newton: Newton) -> Iterator[Entry]:
+    def others(self) -> Iterator[Entry]:
         """Go through the methods that are no plans."""
         names, rivals = self.kind.names, self.rivals
-        ways = [(NEWTON, tolerance, newton.way(tolerance)) for tolerance in TOLERANCES]
-        ways += [(DIFFERENCES, step, rivals.differences(step)) for step in STEPS]
-        sizes: dict[str, int] = {}
-        for method, setting, way in ways:
-            size = sizes.setdefault(method, self._affordable(way))
-            yield self.entry(method, setting, way(self.places, names), self._time(way, size), size)
+        ways = (NEWTON, rivals.newton, TOLERANCES), (DIFFERENCES, rivals.differences, STEPS)
+        for method, way_of, settings in ways:
+            spent = self._time(way_of(settings[0]), FEW)  # it may not be bearable at more positions at once
+            size = self.effort.at_once if spent * self.effort.at_once < LONG * 10.0 else FEW
+            for setting in settings:
+                way = way_of(setting)
+                yield self.entry(method, setting, way(self.places, names), self._time(way, size), size)
         for sections in SECTIONS:
             found = rivals.chords(sections)(self.places, names)
             spent = timed(partial(rivals.chords_of_cycle, sections, names), self.clock) / sections
             yield self.entry(CHORDS, sections, found, spent, sections)
 
-    def _affordable(self, way: Way) -> int:
-        """Return how many positions at once a method is timed at."""
-        few = 100
-        spent = timed(lambda: way(places_of(self.rivals.cycle, few), self.kind.names), self.clock)
-        return self.effort.at_once if spent * self.effort.at_once / few < LONG * 10.0 else few
-
     def _time(self, way: Way, size: int) -> float:
         places = places_of(self.rivals.cycle, size)
         return timed(lambda: way(places, self.kind.names), self.clock) / size
-
-    def _one_by_one(self) -> float:
-        """Return the time of one position on Python numbers."""
-        cycle = self.rivals.cycle
-        program = cycle.program.needed_for(self.kind.names)
-        each = cycle.each(self.places)
-        return timed(lambda: [run(program, here) for here in each], self.clock) / len(each)
 
     def entry(self, method: str, setting: float, found: Values, seconds: float, at_once: int) -> Entry:
         """Sum up the errors of what a method has found."""

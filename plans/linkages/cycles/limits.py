@@ -1,38 +1,114 @@
-"""Where a mechanism can be assembled: stretches of the driver's range, arcs it cannot reach, change points.
+"""A mechanism ready for a sweep, and where it can be assembled: stretches of the driver's range, change points.
+
+The driver's variable has its own name, groups of class III are followed from their start to their dead positions.
 
 Every arc and tangent of the position plan has a margin, the square of what the compass has to spare: where it falls
 below zero the links come apart. Its zeros are the limiting positions. Where it only touches zero the links lie in line
 and may go on in either of two ways: a change point. Where two guides become parallel a joint runs off to infinity.
-Groups of class III are followed from their start to their dead positions on either side.
+
+A sweep tells how far sliders run along their guides while the driver goes through its cycle: guides are drawn so long.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...along import remembering
+from ...along import Along, remembering
+from ...board import Program
 from ...boards.arrays import ArrayBoard
 from ...boards.exact import TANGENT
-from ...laws import TURN
+from ...laws import TURN, dot
+from ...names import role
 from ...zeros import Stretch, zeros
 from ..chain import constructed
 from ..givens import board_givens
-from ..mechanism import FRAME, Mechanism, Prismatic, Revolute
-from .swept import Swept, swept
+from ..mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic, Revolute
+from ..solved import SolvedLinkage
 
+if TYPE_CHECKING:
+    from ..triads.following import Follower
+
+Runs = Mapping[str, tuple[float, float]]
 Array = NDArray[Any]
 SAME = 1e-9  # radians, or parts of a slide's range, within which two places of the driver are one, but for rounding
 NEAR_CHANGE, NEAR_LIMIT = 1e-7, 1e-12  # the same: how well change points and limits are known
 TURN_CELLS, SLIDE_CELLS = 360, 720  # grid on which a margin is looked at first: a full turn, the range of a slide
+POSITIONS = 72
+SWAY = 0.3  # part of the mechanism's size by which a sliding driver is moved to and fro
+LEAP = 0.12  # part of that size which no slider runs between two positions, unless the guides are nearly parallel
+OWN = "_driver"  # the driver's variable where the mechanism has a literal in its place
 
-Margins = Callable[[Array], Mapping[str, Array]]
+
+@dataclass(frozen=True, slots=True)
+class Swept:
+    """A mechanism whose driver's variable may be swept: an angle that turns round, or the travel of a slide.
+
+    `follower` knows where groups of class III lie at places of the driver.
+    """
+
+    mechanism: Mechanism
+    variable: str
+    turns: bool
+    start: float  # the variable's value as given
+    sense: float  # of the driver's motion, +1 or -1
+    follower: Follower | None = field(default=None, repr=False)
+
+    def givens(
+        self, values: Mapping[str, Any], places: Any, program: Program | None = None, mechanism: Mechanism | None = None
+    ) -> dict[str, Any]:
+        """Return the board's givens for places of the driver; `mechanism` is this one in another form."""
+        near = self.follower.near(np.atleast_1d(places)) if self.follower else {}
+        there = {**values, self.variable: places, **near}
+        return board_givens(mechanism or self.mechanism, there, program, follow=False)
+
+    def along(
+        self,
+        program: Program,
+        values: Mapping[str, Any],
+        wanted: Sequence[str],
+        board: type[ArrayBoard] = ArrayBoard,
+        mechanism: Mechanism | None = None,
+    ) -> Along:
+        """Return a program of `mechanism`, this one in any form, as a function of the driver's variable."""
+        there = {**values, self.variable: self.start}
+        givens = board_givens(mechanism or self.mechanism, there, program, follow=False)
+        return Along(program, givens, self.variable, wanted, board, self.follower.near if self.follower else None)
+
+
+def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
+    """Return `mechanism` ready for a sweep.
+
+    A literal may stand in other places too, so that the driver gets a variable of its own; a given that also stands
+    elsewhere, as the direction of a load, changes there as well. The special points of triads are made by the legs that
+    make them in the task's own position, where these do for the whole circle; else by others that do.
+    """
+    driver = mechanism.driver
+    turns = isinstance(driver, Driver)
+    name = driver.coordinate
+    start = float(values.get(name, 0.0))
+    sense = values.get(driver.sense, 1.0) if isinstance(driver, Driver) else values.get(driver.speed, 1.0)
+    if name == ZERO or role(name).hidden:
+        name = OWN
+        key = "angle" if turns else "travel"
+        mechanism = replace(mechanism, driver=replace(driver, **{key: name}))  # type: ignore[arg-type]
+    follower = None
+    if mechanism.starts:  # few mechanisms have groups of class III
+        from ..triads.following import Follower, triads, with_special_points
+
+        if triads(mechanism):
+            follower = Follower(mechanism, {**values, name: start})
+            there, places = {**values, name: start}, follower.places
+            own = with_special_points(mechanism, there, follower.near(np.array([start])))
+            legs = {begin.link: begin.legs for begin in own.starts}  # so that names are those of the task's position
+            mechanism = with_special_points(mechanism, {**values, name: places}, follower.near(places), first=legs)
+    return Swept(mechanism, name, turns, start, -1.0 if sense < 0.0 else 1.0, follower)
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,12 +230,12 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     changes: list[float] = []
     poles: list[float] = []
 
-    def margins_at(at: Array) -> dict[str, Array]:
+    @remembering
+    def margins(at: Array) -> Mapping[str, Array]:
         board = position.run(at)
         assert isinstance(board, MarginBoard)
         return board.margins
 
-    margins = remembering(margins_at)
     for step in position.steps:
         if step.verb in ("arc", "arcs", "tangent", "meet"):
             parts = [_split(margins, step.name, step.verb == "meet", stretch) for stretch in stretches]
@@ -208,7 +284,9 @@ def size_of(mechanism: Mechanism, values: Mapping[str, float]) -> float:
     return math.fsum(abs(given.get(name, 0.0)) for name in set(names)) or 1.0  # the same in any order
 
 
-def _split(margins: Margins, name: str, lines: bool, stretch: Stretch) -> tuple[list[Stretch], list[float]]:
+def _split(
+    margins: Callable[[Array], Mapping[str, Array]], name: str, lines: bool, stretch: Stretch
+) -> tuple[list[Stretch], list[float]]:
     """Cut a stretch where the margin of one step changes its sign or touches zero; keep the parts that assemble."""
 
     def margin(at: Array) -> Array:
@@ -265,3 +343,35 @@ def limiting_places(mechanism: Mechanism, values: Mapping[str, float]) -> tuple[
     below = [(stretch.high - drive.start) % TURN - TURN for stretch in found.stretches]
     above = [(stretch.low - drive.start) % TURN for stretch in found.stretches]
     return drive.start + max(below), drive.start + min(above)
+
+
+def slider_runs(solved: SolvedLinkage) -> Runs:
+    """Return for each guide how far the slider's point runs back (negative) and forth from its place now, metres."""
+    pairs = [pair for pair in solved.mechanism.pairs if isinstance(pair, Prismatic)]
+    if not pairs:
+        return {}
+    drive = swept(solved.mechanism, solved.givens)
+    free = drive.mechanism.without_loads
+    _, program = constructed(free, ("position",))
+    # a slider's way is measured from a point of the guide's link, from none on the frame
+    first = {link.number: next(iter(link.points)) for link in solved.mechanism.links}
+    marks = {solved.guide_name(pair): (pair.point, first.get(pair.links[1], "")) for pair in pairs}
+    wanted = sorted({mark for u, (point, at) in marks.items() for mark in (u, point, at) if mark})
+    steps = np.arange(-POSITIONS // 2, POSITIONS // 2 + 1) * (1.0 / POSITIONS)
+    size = solved.extent
+    whole = TURN if isinstance(solved.mechanism.driver, Driver) else 2.0 * SWAY * size
+    places: Array = drive.start + steps * whole
+    moved = drive.along(program, solved.givens, wanted, mechanism=free)(places)
+    ways = {u: moved[point] - moved[at] if at else moved[point] for u, (point, at) in marks.items()}
+    return {u: _run(dot(way, moved[u]), LEAP * size) for u, way in ways.items()}
+
+
+def _run(along: Array, leap: float) -> tuple[float, float]:
+    """Return how far it goes back and forth from the middle position, without a leap and while it can be assembled."""
+    middle = len(along) // 2
+    steps = np.abs(np.diff(along))
+    stops = np.flatnonzero(~(steps < leap))
+    first = int(max((k + 1 for k in stops if k < middle), default=0))
+    last = int(min((k for k in stops if k >= middle), default=len(along) - 1))
+    way = along[first : last + 1] - along[middle]
+    return float(way.min()), float(way.max())

@@ -24,8 +24,7 @@ from ...zeros import Stretch, zeros
 from ..chain import constructed, moving_bodies
 from ..mechanism import FRAME, ZERO, Mechanism, Prismatic
 from ..structure import Structure
-from .limits import Reach, reach_of, size_of
-from .swept import Swept, swept
+from .limits import Reach, Swept, reach_of, size_of, swept
 
 Array = NDArray[Any]
 INSIDE = 1e-14  # part of a stretch by which its end may lie beyond a limit of assembly, by rounding
