@@ -17,9 +17,8 @@
     ['M37', 'M38']
 
 `book.MISTAKES`
-    All `Mistake(id, breaks, by_scale)` by id, `M01` ...; `inputs`, `reading`, `velocity`, `acceleration`, `forces` and
-    `lever` hold the rules of linkages, `cams` and `gears` those of these. Whether one
-    concerns a task follows from the steps of its program alone.
+    All `Mistake(id, rules, by_scale)` by id, `M01` ...; `data`, `motion` and `forces` hold the rules of linkages,
+    `cams` and `gears` those of these. Whether one concerns a task follows from the steps of its program alone.
 `rules.Broken(mistake, paper, change)`
     One rule broken at one place: `at` names the step, the quantity or the given; `program` and `givens` are those of
     the construction with the rule broken.

@@ -21,11 +21,13 @@ from ..boards.exact import SMALL, ExactBoard
 from ..hands.shaky import Paper
 from ..hands.tolerances import tolerances
 from ..marking.key import Key
-from . import acceleration, cams, forces, gears, inputs, lever, reading, velocity
-from .rules import Broken, Change, Mistake, Scene, breaks, put_together
+from . import cams, data, forces, gears, motion
+from .rules import Broken, Change, Chapter, Scene, breaks
 
-CHAPTERS = (inputs, reading, velocity, acceleration, forces, lever, cams, gears)
-MISTAKES: dict[str, Mistake] = put_together(chapter.MISTAKES for chapter in CHAPTERS)
+CHAPTERS = (data, motion, forces, cams, gears)
+MISTAKES = Chapter()
+for _mistake in (mistake for chapter in CHAPTERS for mistake in chapter.MISTAKES.values()):
+    MISTAKES.add(_mistake)
 NOTHING = 1e-9  # part of a tolerance that is rounding
 FLATTER = 0.7  # of the flattest angle of the right construction: lines meet more flatly than they should
 UNDRAWN = 1e-9  # scale factor of what is only calculated, SI per mm
@@ -119,8 +121,7 @@ class Turned:
     @cached_property
     def name(self) -> str:
         """The given that is the crank's angle; empty where there is none."""
-        name = inputs.angle_of_driver(Scene(self.key.paper, self.key.values))
-        return "" if name in (None, "zero") else str(name)
+        return data.angle_of_driver(Scene(self.key.paper, self.key.values))
 
     @cached_property
     def angles(self) -> Floats:

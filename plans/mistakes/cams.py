@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from ..board import Step
@@ -20,44 +20,43 @@ from .rules import (
     instead,
     operand,
     scaled,
+    then,
     with_operand,
+    with_other,
 )
 
 MISTAKES = Chapter()
-mistake = MISTAKES.enter
+mistake, each = MISTAKES.enter, MISTAKES.each
 MILLIMETRE = 1e-3  # m of paper: a pole distance that is left out
 PART = re.compile(r"_part(\d+)")
 CENTIMETRES = (10.0, 0.1)
+SIZES, PLATE = "sizes", "plate_sizes"
+OTHERS = ("mu_s", "mu_ds", "mu_d2s")  # scale factors of diagrams
+RIGHT_ANGLE = 0.5 * math.pi
 
 
-def with_number(steps: list[Step], place: int, value: float, how: str) -> Iterator[Change]:
+def with_number(steps: Iterable[Step], place: int, value: float, how: str) -> Iterator[Change]:
     """Put a number into each of some steps, and into all of them."""
     name = constant(value)
     return each_and_all(with_operand(steps, place, name), how, {name: value})
 
 
-def factors(scene: Scene) -> list[Step]:
-    """Return the scale factors of the diagrams that are integrated: each is that of the next one over mu_phi H."""
-    return list(scene.made_by("calc", law="derived_scale"))
-
-
 @mistake("M83")
 def pole_distance_lost(scene: Scene) -> Iterator[Change]:
     """The pole distance is left out of a scale factor, or that of the other integration stands there."""
-    found = factors(scene)
+    found = scene.calculated("derived_scale")
     yield from with_number(found, 2, MILLIMETRE, "none")
     distances = list(dict.fromkeys(step.operands[2] for step in found))
     if len(distances) == 2 and scene.values[distances[0]] != scene.values[distances[1]]:
         other = dict(zip(distances, reversed(distances), strict=True))
-        steps = {s.name: (replace(s, operands=operand(s, 2, other[s.operands[2]])),) for s in found}
+        steps = {s.name: (operand(s, 2, other[s.operands[2]]),) for s in found}
         yield Change(found[0].name, steps, {}, "other")
 
 
 @mistake("M84")
 def angles_to_another_scale(scene: Scene) -> Iterator[Change]:
     """The scale factor of angles is in degrees, or left out, or is the angle of a whole section."""
-    found = factors(scene)
-    if found:
+    if found := scene.calculated("derived_scale"):
         mu = float(scene.values[found[0].operands[1]])
         yield from with_number(found, 1, math.degrees(mu), "degrees")
         yield from with_number(found, 1, 1.0, "none")
@@ -67,9 +66,9 @@ def angles_to_another_scale(scene: Scene) -> Iterator[Change]:
 @mistake("M85")
 def angular_velocity_lost(scene: Scene) -> Iterator[Change]:
     """The analogue is taken for the velocity, or for the acceleration; or omega is not squared."""
-    speeds = list(scene.made_by("calc", law="speed_scale"))
+    speeds = scene.calculated("speed_scale")
     yield from with_number(speeds, 0, 1.0, "none")
-    for step in scene.made_by("calc", law="acceleration_scale"):
+    for step in scene.calculated("acceleration_scale"):
         yield from with_number([step], 0, 1.0, "none")
         yield instead(step, "once", law="speed_scale")
         for other in speeds:
@@ -79,74 +78,52 @@ def angular_velocity_lost(scene: Scene) -> Iterator[Change]:
 @mistake("M86")
 def ordinates_of_the_wrong_line(scene: Scene) -> Iterator[Change]:
     """The ordinate at the beginning or at the end of a section is taken for its mean."""
-    means = {s.name: s for s in scene.made_by("calc", law="part_of_amplitude") if role(s.name).kind == "mean"}
+    means = [s for s in scene.calculated("part_of_amplitude") if role(s.name).kind == "mean"]
     for how, back, word in (("begin", 1, "after"), ("end", 0, "before")):
-        steps: dict[str, tuple[Step, ...]] = {}
-        for name, step in means.items():
-            part = f"_part{int(role(name).of) - back}_{word}"
-            steps |= with_operand((step,), 1, part)
+        steps = {s.name: (operand(s, 1, f"_part{int(role(s.name).of) - back}_{word}"),) for s in means}
         if steps:
-            yield Change(next(scene.made_by("distance")).name, steps, {}, how)
+            yield Change(scene.made_by("distance")[0].name, steps, {}, how)
 
 
 @mistake("M88")
 def second_amplitude(scene: Scene) -> Iterator[Change]:
     """The ratio of the amplitudes is the wrong way round, or A_2 = A_1 u; in the calculation, or drawn so, too."""
-    for step in scene.made_by("calc", law="second_amplitude"):
+    for step in scene.calculated("second_amplitude"):
         u = float(scene.values[step.operands[1]])
         right = u / (1.0 - u)
         for how, ratio in (("inverse", 1.0 / right), ("u", u), ("equal", 1.0)):
             if abs(ratio - right) > 1e-3 * right:
                 alone = scaled(step, ratio / right, f"{how}, calculated")
+                higher = _second_lobes(scene, right, ratio / right)
                 yield alone
-                yield _drawn(scene, alone, ratio / right, right, how)
+                yield replace(alone, givens={**alone.givens, **higher}, how=how)
 
 
-def _drawn(scene: Scene, alone: Change, times: float, right: float, how: str) -> Change:
-    """Return the change in which the second lobes are drawn as high as they have been calculated."""
-    givens = scene.paper.givens
-    parts = {name: float(givens[name]) for name in givens if PART.match(name)}
-    highest = next(scene.made_by("distance")).operands[1]  # of the travel, at the end of the rise
-    second = set(_second_lobe(parts, right, int(role(highest).of)))
-    higher = {name: value * times for name, value in parts.items() if name in second}
-    return Change(alone.at, alone.steps, {**alone.givens, **higher}, how)
-
-
-def _second_lobe(parts: dict[str, float], ratio: float, top: int) -> Iterator[str]:
-    """Go through the parts of ordinates in the second lobe of each phase: the one whose height has the ratio."""
+def _second_lobes(scene: Scene, ratio: float, times: float) -> dict[str, float]:
+    """Return the ordinates in the second lobe of each phase, the one whose height has the ratio, drawn higher."""
+    givens, higher = scene.paper.givens, dict[str, float]()
+    lines = {name: int(found[1]) for name in givens if (found := PART.match(name))}
+    top = int(role(scene.made_by("distance")[0].operands[1]).of)  # of the travel, at the end of the rise
     for rises in (True, False):
-        phase = {n: v for n, v in parts.items() if (_line(n) <= top) is rises}
+        phase = {name: float(givens[name]) for name, line in lines.items() if (line <= top) is rises}
         lobes = [{n: v for n, v in phase.items() if sign * v > 0.0} for sign in (-1.0, 1.0)]
-        yield from min(lobes, key=lambda lobe: abs(max(map(abs, lobe.values()), default=0.0) - ratio))
-
-
-def _line(name: str) -> int:
-    found = PART.match(name)
-    assert found is not None
-    return int(found[1])
+        second = min(lobes, key=lambda lobe: abs(max(map(abs, lobe.values()), default=0.0) - ratio))
+        higher |= {name: value * times for name, value in second.items()}
+    return higher
 
 
 @mistake("M89")
 def transfer_angle(scene: Scene) -> Iterator[Change]:
     """The line of transfer is inclined by the ratio the wrong way round; or the tangent is given for the angle."""
-    steps = list(scene.made_by("calc", law="transfer_angle"))
+    steps = scene.calculated("transfer_angle")
     yield from each_and_all({s.name: (replace(s, operands=s.operands[::-1]),) for s in steps}, "inverse")
     yield from each_and_all({s.name: (replace(s, law="part_of"),) for s in steps}, "tangent")
-
-
-@mistake("M14")
-def scale_factor_upside_down(scene: Scene) -> Iterator[Change]:
-    """The scale factor of the travel is millimetres by the stroke."""
-    for step in scene.made_by("calc", law="scale_factor"):
-        right = aside(step.name)
-        steps = (replace(step, name=right), Step("calc", step.name, ("one", right), "part_of"))
-        yield Change(step.name, {step.name: steps}, {})
 
 
 @mistake("M17")
 def paper_for_size(scene: Scene) -> Iterator[Change]:
     """An ordinate in millimetres of paper is given for what it shows."""
-    steps = [s for s in scene.made_by("calc", law="to_scale") if s.operands[0] in ("mu_s", "mu_ds", "mu_d2s")]
+    steps = [s for s in scene.calculated("to_scale") if s.operands[0] in OTHERS]
     yield from each_and_all({s.name: (replace(s, operands=s.operands[1:], law="given"),) for s in steps}, "paper")
 
 
@@ -165,11 +142,6 @@ def sizes_scaled(scene: Scene, plan: str, factor: float, how: str) -> Change:
     return all_scaled(steps[0].name, steps, factor, how)
 
 
-SIZES, PLATE = "sizes", "plate_sizes"
-OTHERS = ("mu_s", "mu_ds", "mu_d2s")
-RIGHT_ANGLE = 0.5 * math.pi
-
-
 def plans_of_sizes(scene: Scene) -> list[str]:
     """Return the plans from which sizes are read to a scale."""
     return [plan for plan in (SIZES, PLATE) if plan in scene.program.plans and plan in scene.paper.mus]
@@ -178,10 +150,10 @@ def plans_of_sizes(scene: Scene) -> list[str]:
 @mistake("M90")
 def unequal_scales(scene: Scene) -> Iterator[Change]:
     """Ordinates of the diagrams are carried over as they are, to plans that need equal scales on both axes."""
-    steps = [s for s in scene.made_by("calc", law="ordinate_to_scale") if s.operands[0] == "mu_ds"]
+    steps = [s for s in scene.calculated("ordinate_to_scale") if s.operands[0] == "mu_ds"]
     if steps and SIZES in scene.program.plans:
         yield Change("r_0", with_operand(steps, 0, "mu_s"), {}, "ds")
-    heights = [s for s in scene.made_by("calc", law="part_of_amplitude") if s.operands[0] == "A_1"]
+    heights = [s for s in scene.calculated("part_of_amplitude") if s.operands[0] == "A_1"]
     if heights and "l_A1" in scene.paper.givens:
         first, name = heights[0], "_A_1_unequal"
         paper = Step("calc", name, ("mu_s", "l_A1"), "to_scale")
@@ -242,15 +214,12 @@ def other_rotation(scene: Scene) -> Iterator[Change]:
 
     The first shows in the sign of e, the others in the curvature.
     """
-    for step in scene.made_by("calc", law="component"):
+    for step in scene.calculated("component"):
         if step.name == "e":
-            right = aside(step.name)
-            steps = (replace(step, name=right), Step("calc", step.name, (right,), "negative"))
-            yield Change(step.name, {step.name: steps}, {}, "sizes")
-    for step in scene.made_by("calc", law="sharpest"):
+            yield Change(step.name, {step.name: then(step, "negative", aside(step.name))}, {}, "sizes")
+    for step in scene.calculated("sharpest"):
         turned = Step("calc", "_other_e", ("e",), "negative")
-        other = replace(step, operands=operand(step, 1, "_other_e"))
-        yield Change(step.name, {step.name: (turned, other)}, {}, "profile")
+        yield Change(step.name, {step.name: (turned, operand(step, 1, "_other_e"))}, {}, "profile")
 
 
 @mistake("M95")
@@ -278,9 +247,9 @@ def plate_by_another_line(scene: Scene) -> Iterator[Change]:
 @mistake("M97")
 def not_added(scene: Scene) -> Iterator[Change]:
     """What is to be added to a size is left out, or twice the size is given: a diameter."""
-    for step in scene.made_by("calc", law="enlarged"):
+    for step in scene.calculated("enlarged"):
         if not role(step.name).hidden:
-            yield instead(step, "none", operands=operand(step, 1, "zero"))
+            yield with_other(step, 1, "zero", "none")
             yield scaled(step, 2.0, "diameter")
 
 
@@ -291,9 +260,8 @@ def roller_added(scene: Scene) -> Iterator[Change]:
         step = scene.steps["rho_min"]
         radius = float(scene.paper.givens["R_roller"])
         for how, value in (("less", -radius), ("more", radius)):
-            right, name = aside(step.name), constant(value)
-            steps = (replace(step, name=right), Step("calc", step.name, (right, name), "enlarged"))
-            yield Change(step.name, {step.name: steps}, {name: value}, how)
+            steps = then(step, "enlarged", aside(step.name), constant(value))
+            yield Change(step.name, {step.name: steps}, {constant(value): value}, how)
 
 
 @mistake("M99")
@@ -307,15 +275,6 @@ def curvature_of_a_dwell(scene: Scene) -> Iterator[Change]:
         yield Change("rho_min", {"rho_min": (highest, far)}, {}, "upper")
 
 
-@mistake("M13")
-def sides_exchanged(scene: Scene) -> Iterator[Change]:
-    """An angle of a triangle is found at another corner."""
-    for step in scene.made_by("calc", law="angle_of_triangle"):
-        a, b, opposite = step.operands
-        yield instead(step, "first", operands=(opposite, b, a))
-        yield instead(step, "second", operands=(a, opposite, b))
-
-
 @mistake("M15", by_scale=True)
 def another_scale_of_sizes(scene: Scene) -> Iterator[Change]:
     """Sizes are read with the scale factor of a diagram."""
@@ -326,16 +285,18 @@ def another_scale_of_sizes(scene: Scene) -> Iterator[Change]:
                 yield sizes_scaled(scene, plan, factor, other)
 
 
-@mistake("M17", by_scale=True)
-def paper_for_sizes(scene: Scene) -> Iterator[Change]:
-    """Sizes are given in millimetres of paper."""
-    for plan in plans_of_sizes(scene):
-        yield sizes_scaled(scene, plan, 1e-3 / scene.mu(plan), "paper")
-
-
-@mistake("M20")
-def sizes_in_centimetres(scene: Scene) -> Iterator[Change]:
-    """Sizes are read in centimetres."""
-    for plan in plans_of_sizes(scene):
-        for factor in (10.0, 0.1):
-            yield sizes_scaled(scene, plan, factor, f"{factor}")
+# sizes are given in millimetres of paper
+mistake("M17", by_scale=True)(
+    lambda scene: (sizes_scaled(scene, p, 1e-3 / scene.mu(p), "paper") for p in plans_of_sizes(scene))
+)
+# sizes are read in centimetres
+mistake("M20")(lambda scene: (sizes_scaled(scene, p, x, f"{x}") for p in plans_of_sizes(scene) for x in CENTIMETRES))
+# an angle of a triangle is found at another corner
+each(
+    "M13",
+    "angle_of_triangle",
+    lambda step: instead(step, "first", operands=step.operands[::-1]),
+    lambda step: instead(step, "second", operands=(step.operands[0], *step.operands[:0:-1])),
+)
+# the scale factor of the travel is millimetres by the stroke
+each("M14", "scale_factor", lambda s: Change(s.name, {s.name: then(s, "part_of", "one", aside(s.name))}, {}))

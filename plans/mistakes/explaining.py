@@ -20,7 +20,7 @@ from ..marking.again import Judged
 from ..marking.answers import FREE, Answer, Said, known, measured, nearest
 from ..marking.verdicts import Line, Marking, Verdict, behind
 from .book import MISTAKES, Book, Signature, broken, key_of, signatures
-from .reading import other_orders, transposed
+from .data import other_orders, transposed
 from .rules import Broken, Scene
 
 MOST = 4.0  # tolerances beyond which a miss counts no more

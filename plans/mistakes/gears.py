@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from functools import partial
 
 from ..board import Step
 from ..names import role
@@ -13,6 +14,7 @@ from .rules import (
     Chapter,
     Scene,
     Steps,
+    after,
     aside,
     constant,
     each_and_all,
@@ -21,11 +23,12 @@ from .rules import (
     operand,
     reversed_,
     scaled,
+    then,
     with_operand,
 )
 
 MISTAKES = Chapter()
-mistake = MISTAKES.enter
+mistake, each = MISTAKES.enter, MISTAKES.each
 SHIFTED = {"tip_diameter": 2, "root_diameter": 3}  # laws with a shift, and the place of its operand
 WITH_SHIFT = {"tooth_thickness": 1, "tip_thickness": 2, "constant_chord": 1, **SHIFTED, "boundary_curvature": 4}
 IN_DEGREES = math.degrees(1.0) - 1.0
@@ -33,37 +36,30 @@ IN_DEGREES = math.degrees(1.0) - 1.0
 
 def in_law(scene: Scene, law: str, place: int, name: str) -> Steps:
     """Put another operand into the steps of a law."""
-    return with_operand(scene.made_by("calc", law=law), place, name)
+    return with_operand(scene.calculated(law), place, name)
 
 
-def after(step: Step, *more: Step) -> tuple[Step, ...]:
-    """Return a step aside, then others, of which the last one makes what it made."""
-    return (replace(step, name=aside(step.name)), *more)
+def halved_sum(step: Step, other: str) -> tuple[Step, ...]:
+    """Return the steps that make half the sum of what one step makes and something else."""
+    both = f"_both_{step.name}"
+    total = Step("calc", both, (other, aside(step.name)), "sum")
+    return after(step, total, Step("calc", step.name, (both,), "half_of"))
 
 
 @mistake("M100")
 def involute_in_degrees(scene: Scene) -> Iterator[Change]:
     """In tan(alpha) - alpha the angle is subtracted in degrees."""
-    for step in scene.made_by("calc", law="involute"):
-        if role(step.name).hidden:
-            continue
-        right, more, factor = aside(step.name), f"_more_{step.name}", constant(IN_DEGREES)
-        degrees = Step("calc", more, (factor, *step.operands), "along")
-        steps = after(step, degrees, Step("calc", step.name, (right, more), "excess"))
-        yield Change(step.name, {step.name: steps}, {factor: IN_DEGREES})
+    for step in scene.calculated("involute"):
+        if not role(step.name).hidden:
+            right, more, factor = aside(step.name), f"_more_{step.name}", constant(IN_DEGREES)
+            degrees = Step("calc", more, (factor, *step.operands), "along")
+            steps = after(step, degrees, Step("calc", step.name, (right, more), "excess"))
+            yield Change(step.name, {step.name: steps}, {factor: IN_DEGREES})
 
 
-@mistake("M101")
-def angle_of_action(scene: Scene) -> Iterator[Change]:
-    """The profile angle is taken for the angle of action, or the shifts count once in its involute."""
-    for step in scene.made_by("calc", law="angle_of_involute"):
-        yield instead(step, "profile", operands=("alpha",), law="given")
-    for step in scene.made_by("calc", law="working_involute"):
-        right, both = aside(step.name), f"_both_{step.name}"
-        steps = after(
-            step, Step("calc", both, (step.operands[0], right), "sum"), Step("calc", step.name, (both,), "half_of")
-        )
-        yield Change(step.name, {step.name: steps}, {}, "once")
+# the profile angle is taken for the angle of action; the shifts count once in its involute
+each("M101", "angle_of_involute", lambda step: instead(step, "profile", operands=("alpha",), law="given"))
+each("M101", "working_involute", lambda s: Change(s.name, {s.name: halved_sum(s, s.operands[0])}, {}, "once"))
 
 
 @mistake("M102")
@@ -72,13 +68,12 @@ def shifts_exchanged(scene: Scene) -> Iterator[Change]:
     givens = scene.paper.givens
     if not {"x_1", "x_2"} <= givens.keys() or givens["x_1"] == givens["x_2"]:
         return
-    if any(True for _ in scene.made_by("calc", law="tip_diameter")):
+    if scene.calculated("tip_diameter"):
         yield Change("d_a1", {}, {"x_1": givens["x_2"], "x_2": givens["x_1"]}, "everywhere")
     other = {"x_1": "x_2", "x_2": "x_1"}
     for law, place in WITH_SHIFT.items():
-        steps = list(scene.made_by("calc", law=law))
-        if steps:
-            changed = {s.name: (replace(s, operands=operand(s, place, other[s.operands[place]])),) for s in steps}
+        if steps := scene.calculated(law):
+            changed = {s.name: (operand(s, place, other[s.operands[place]]),) for s in steps}
             yield Change(steps[0].name, changed, {}, law)
 
 
@@ -87,49 +82,38 @@ def shift_left_out(scene: Scene) -> Iterator[Change]:
     """A shift is left out, or laid off to the wrong side."""
     for law, place in WITH_SHIFT.items():
         yield from each_and_all(in_law(scene, law, place, "zero"), f"none {law}")
-        for step in scene.made_by("calc", law=law):
+        for step in scene.calculated(law):
             if scene.is_given(step.operands[place]):
                 yield mirrored(step, place, f"side {law}")
-
-
-@mistake("M104")
-def tips_not_shortened(scene: Scene) -> Iterator[Change]:
-    """The shortening of the teeth is left out of the tip diameters, or of the depth."""
-    yield from each_and_all(in_law(scene, "tip_diameter", 3, "zero"), "tip")
-    yield from each_and_all(in_law(scene, "tooth_depth", 2, "zero"), "depth")
-
-
-@mistake("M105")
-def clearance_left_out(scene: Scene) -> Iterator[Change]:
-    """The clearance is left out of the root diameters, or of the depth."""
-    yield from each_and_all(in_law(scene, "root_diameter", 2, "zero"), "root")
-    yield from each_and_all(in_law(scene, "tooth_depth", 1, "zero"), "depth")
 
 
 @mistake("M106")
 def height_counted_once(scene: Scene) -> Iterator[Change]:
     """The height above or below the reference circle is added to the diameter once, as to a radius."""
     for law in SHIFTED:
-        changed = {}
-        for step in scene.made_by("calc", law=law):
-            right, both = aside(step.name), f"_both_{step.name}"
-            joined = Step("calc", both, (step.operands[0], right), "sum")
-            changed[step.name] = after(step, joined, Step("calc", step.name, (both,), "half_of"))
-        yield from each_and_all(changed, law)
+        yield from each_and_all({s.name: halved_sum(s, s.operands[0]) for s in scene.calculated(law)}, law)
 
 
-@mistake("M107")
-def base_by_another_angle(scene: Scene) -> Iterator[Change]:
-    """The base diameter, or the base pitch, is found with the angle of action."""
-    yield from each_and_all(in_law(scene, "base_diameter", 1, "alpha_w"), "diameter")
-    yield from each_and_all(in_law(scene, "base_pitch", 1, "alpha_w"), "pitch")
+def _with_operands(scene: Scene, name: str, places: Iterable[tuple[str, int, str]]) -> Iterator[Change]:
+    for law, place, how in places:
+        yield from each_and_all(in_law(scene, law, place, name), how)
+
+
+for _id, _name, *_places in (
+    # the shortening of the teeth is left out of the tip diameters, or of the depth; the clearance of the root diameters
+    ("M104", "zero", ("tip_diameter", 3, "tip"), ("tooth_depth", 2, "depth")),
+    ("M105", "zero", ("root_diameter", 2, "root"), ("tooth_depth", 1, "depth")),
+    # the base diameter, or the base pitch, is found with the angle of action
+    ("M107", "alpha_w", ("base_diameter", 1, "diameter"), ("base_pitch", 1, "pitch")),
+):
+    mistake(_id)(partial(_with_operands, name=_name, places=_places))
 
 
 @mistake("M108")
 def chord_of_the_whole_angle(scene: Scene) -> Iterator[Change]:
     """The chord of the pitch is half the sine of the whole angle, or its arc."""
     halved = {}
-    for step in scene.made_by("calc", law="pitch_chord"):
+    for step in scene.calculated("pitch_chord"):
         d, tau = step.operands
         whole, chord = f"_whole_{step.name}", f"_chord_{step.name}"
         halved[step.name] = (
@@ -144,7 +128,7 @@ def chord_of_the_whole_angle(scene: Scene) -> Iterator[Change]:
 def sine_of_half_the_angle(scene: Scene) -> Iterator[Change]:
     """In the curvature at the boundary point d sin(alpha / 2) stands for d sin(alpha) / 2."""
     changed = {}
-    for step in scene.made_by("calc", law="boundary_curvature"):
+    for step in scene.calculated("boundary_curvature"):
         d, alpha, *_ = step.operands
         name = step.name
         right, whole, long, short, more = (f"_{word}_{name}" for word in ("right", "whole", "long", "short", "more"))
@@ -163,31 +147,31 @@ def sine_of_half_the_angle(scene: Scene) -> Iterator[Change]:
 @mistake("M110")
 def curvature_of_the_mate(scene: Scene) -> Iterator[Change]:
     """The curvature at the lower point is found with the wheel's own tip, not with that of its mate."""
-    steps = list(scene.made_by("calc", law="lower_curvature"))
     own = {"1": "2", "2": "1"}
     changed = {
         s.name: (replace(s, operands=(*s.operands[:2], *(f"{o[:-1]}{own[o[-1]]}" for o in s.operands[2:]))),)
-        for s in steps
+        for s in scene.calculated("lower_curvature")
     }
     yield from each_and_all(changed)
 
 
-@mistake("M111")
-def contact_ratio(scene: Scene) -> Iterator[Change]:
-    """The sum is divided by pi, or not divided, or multiplied by pi; or the angle of action is added."""
-    for step in scene.made_by("calc", law="contact_ratio"):
-        for how, times in (("pi", 2.0), ("none", 2.0 * math.pi), ("times", math.pi**2)):
-            yield scaled(step, times, how)
-        yield mirrored(step, 4, "sign")
+# the sum is divided by pi, or not divided, or multiplied by pi; or the angle of action is added
+each(
+    "M111",
+    "contact_ratio",
+    lambda step: scaled(step, 2.0, "pi"),
+    lambda step: scaled(step, 2.0 * math.pi, "none"),
+    lambda step: scaled(step, math.pi**2, "times"),
+    lambda step: mirrored(step, 4, "sign"),
+)
 
 
 @mistake("M112")
 def normal_over_one_more(scene: Scene) -> Iterator[Change]:
     """The common normal has one base pitch too many, or too few."""
-    found = list(scene.made_by("calc", law="common_normal"))
     for how, law in (("more", "sum"), ("less", "excess")):
-        last = {s.name: Step("calc", s.name, (aside(s.name), s.operands[1]), law) for s in found}
-        yield from each_and_all({s.name: after(s, last[s.name]) for s in found}, how)
+        steps = scene.calculated("common_normal")
+        yield from each_and_all({s.name: then(s, law, aside(s.name), s.operands[1]) for s in steps}, how)
 
 
 @mistake("M113")
@@ -210,13 +194,11 @@ def rows_exchanged(scene: Scene) -> Iterator[Change]:
 @mistake("M114")
 def sliding_by_the_other_ordinate(scene: Scene) -> Iterator[Change]:
     """The difference of the ordinates is divided by that of the mate, or has the other sign, or both are exchanged."""
-    steps = list(scene.made_by("calc", law="sliding_by_ordinates"))
-    steps += [s for law in ("sliding_of_pinion", "sliding_of_wheel") for s in scene.made_by("calc", law=law)]
+    by_ordinates = scene.calculated("sliding_by_ordinates")
+    steps = (*by_ordinates, *scene.calculated("sliding_of_pinion"), *scene.calculated("sliding_of_wheel"))
+    exchanged = {s.name: replace(s, operands=(s.operands[1], s.operands[0], *s.operands[2:])) for s in by_ordinates}
     if steps:
-        exchanged = {s.name: replace(s, operands=(s.operands[1], s.operands[0], *s.operands[2:])) for s in steps}
-        by_ordinates = [s for s in steps if s.law == "sliding_by_ordinates"]
         yield Change(steps[0].name, {s.name: reversed_(s) for s in steps}, {}, "sign")
-        if by_ordinates:
-            first = by_ordinates[0].name
-            yield Change(first, {s.name: reversed_(exchanged[s.name]) for s in by_ordinates}, {}, "mate")
-            yield Change(first, {s.name: (exchanged[s.name],) for s in by_ordinates}, {}, "exchanged")
+    for first in by_ordinates[:1]:
+        yield Change(first.name, {name: reversed_(s) for name, s in exchanged.items()}, {}, "mate")
+        yield Change(first.name, {name: (s,) for name, s in exchanged.items()}, {}, "exchanged")

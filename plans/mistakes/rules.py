@@ -5,7 +5,7 @@ The mistakes have numbers, M01 to M125; the other modules here, a chapter each, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -32,9 +32,13 @@ class Scene:
         """The steps by the names they make."""
         return self.program.by_name
 
-    def made_by(self, *verbs: str, law: str = "", plan: str = "") -> Iterator[Step]:
-        """Go through the steps of some verbs, of one law, on the plans whose names begin so."""
-        return iter(self.program.which(verbs, law, plan))
+    def made_by(self, *verbs: str, plan: str = "") -> tuple[Step, ...]:
+        """Return the steps of some verbs, on the plans of a kind."""
+        return self.program.which(verbs, plan=plan)
+
+    def calculated(self, law: str) -> tuple[Step, ...]:
+        """Return the steps that calculate by a law."""
+        return self.program.which(("calc",), law)
 
     def mu(self, plan: str) -> float:
         """Return the scale factor of a plan, SI per mm."""
@@ -82,10 +86,10 @@ Rule = Callable[[Scene], Iterable[Change]]
 
 @dataclass(frozen=True, slots=True)
 class Mistake:
-    """A mistake; where `by_scale` it hangs on the scale factors that the student has chosen."""
+    """A mistake, and the rules that it breaks; where `by_scale` it hangs on the scale factors of the student."""
 
     id: str
-    breaks: Rule
+    rules: tuple[Rule, ...] = ()
     by_scale: bool = False
 
 
@@ -107,6 +111,11 @@ class Broken:
         """In which of several ways."""
         return self.change.how
 
+    @property
+    def place(self) -> tuple[str, str, str]:
+        """What tells it apart from others of the same construction."""
+        return self.mistake, self.at, self.how
+
     @cached_property
     def program(self) -> Program:
         """The construction with the rule broken: put together for the few that are looked at closely."""
@@ -118,11 +127,6 @@ class Broken:
         """The data with those that are other ones."""
         return {**self.paper.givens, **self.change.givens}
 
-    @property
-    def place(self) -> tuple[str, str, str]:
-        """What tells it apart from others of the same construction."""
-        return self.mistake, self.at, self.how
-
 
 class Chapter(dict[str, Mistake]):
     """The mistakes of one module by their numbers."""
@@ -131,39 +135,25 @@ class Chapter(dict[str, Mistake]):
         """Enter the function that follows; several may break the rule of one mistake."""
 
         def entered(rule: Rule) -> Rule:
-            self.add(Mistake(id, rule, by_scale))
+            self.add(Mistake(id, (rule,), by_scale))
             return rule
 
         return entered
 
     def add(self, mistake: Mistake) -> None:
-        """Add a mistake, to another of its number if there is one."""
-        before = self.get(mistake.id)
-        if before is not None:
-            mistake = Mistake(mistake.id, _both(before.breaks, mistake.breaks), before.by_scale or mistake.by_scale)
-        self[mistake.id] = mistake
+        """Add a mistake, to another of its number if there is one: a drawing of another kind has rules of its own."""
+        before = self.get(mistake.id, Mistake(mistake.id))
+        by_scale = before.by_scale or mistake.by_scale
+        self[mistake.id] = Mistake(mistake.id, before.rules + mistake.rules, by_scale)
 
-
-def put_together(chapters: Iterable[Chapter]) -> Chapter:
-    """Return the mistakes of all chapters: one that is made on drawings of several kinds has rules in several."""
-    found = Chapter()
-    for chapter in chapters:
-        for mistake in chapter.values():
-            found.add(mistake)
-    return found
-
-
-def _both(first: Rule, second: Rule) -> Rule:
-    def rule(scene: Scene) -> Iterator[Change]:
-        yield from first(scene)
-        yield from second(scene)
-
-    return rule
+    def each(self, id: str, law: str, *changes: Callable[[Step], Change]) -> None:
+        """Enter a rule that is broken at each step of a law, in one way after the other."""
+        self.enter(id)(lambda scene: (change(step) for step in scene.calculated(law) for change in changes))
 
 
 def breaks(scene: Scene, mistake: Mistake) -> Iterator[Broken]:
-    """Go through all ways in which the rule of one mistake can be broken here."""
-    return (Broken(mistake.id, scene.paper, change) for change in mistake.breaks(scene))
+    """Go through all ways in which the rules of one mistake can be broken here."""
+    return (Broken(mistake.id, scene.paper, change) for rule in mistake.rules for change in rule(scene))
 
 
 # Rewrites that many rules share.
@@ -179,19 +169,31 @@ def constant(value: float) -> str:
     return f"_times_{value!r}"
 
 
+def operand(step: Step, place: int, name: str) -> Step:
+    """Return a step with another operand at a place."""
+    return replace(step, operands=(*step.operands[:place], name, *step.operands[place + 1 :]))
+
+
+def with_operand(steps: Iterable[Step], place: int, name: str) -> dict[str, tuple[Step, ...]]:
+    """Put another operand into each of some steps."""
+    return {step.name: (operand(step, place, name),) for step in steps}
+
+
 def instead(step: Step, how: str = "", **changed: Any) -> Change:
     """Do one step otherwise: another verb, other operands, another law."""
     return Change(step.name, {step.name: (replace(step, **changed),)}, {}, how)
 
 
-def operand(step: Step, place: int, name: str) -> tuple[str, ...]:
-    """Return the operands of a step with another one at a place."""
-    return (*step.operands[:place], name, *step.operands[place + 1 :])
+def with_other(step: Step, place: int, name: str, how: str = "") -> Change:
+    """Do one step with another operand."""
+    return Change(step.name, {step.name: (operand(step, place, name),)}, {}, how)
 
 
-def with_operand(steps: Iterable[Step], place: int, name: str) -> dict[str, tuple[Step, ...]]:
-    """Put another operand into each of some steps."""
-    return {step.name: (replace(step, operands=operand(step, place, name)),) for step in steps}
+def mirrored(step: Step, place: int, how: str = "") -> Change:
+    """Do one step with the opposite of an operand."""
+    right = step.operands[place]
+    opposite = Step("calc", f"_other_{right}", (right,), "opposite")
+    return Change(step.name, {step.name: (opposite, operand(step, place, opposite.name))}, {}, how)
 
 
 def each_and_all(changed: Steps, how: str = "", givens: Mapping[str, float] | None = None) -> Iterator[Change]:
@@ -202,28 +204,29 @@ def each_and_all(changed: Steps, how: str = "", givens: Mapping[str, float] | No
         yield Change(next(iter(changed)), changed, givens or {}, f"{how}, all".lstrip(", "))
 
 
+def after(step: Step, *more: Step) -> tuple[Step, ...]:
+    """Return a step that makes what is `aside`, then others, of which the last one makes what it made."""
+    return (replace(step, name=aside(step.name)), *more)
+
+
+def then(step: Step, law: str, *operands: str) -> tuple[Step, ...]:
+    """Return a step that makes what is `aside`, and the law that makes of it what it made."""
+    return after(step, Step("calc", step.name, operands, law))
+
+
 def reversed_(step: Step) -> tuple[Step, ...]:
     """Return the steps that make the opposite of what one step makes."""
-    right = aside(step.name)
-    return replace(step, name=right), Step("calc", step.name, (right,), "opposite")
+    return then(step, "opposite", aside(step.name))
 
 
-def times(step: Step, factor: float) -> tuple[tuple[Step, ...], dict[str, float]]:
-    """Return the steps that make so many times what one step makes, and the data they need."""
-    right, name = aside(step.name), constant(factor)
-    return (replace(step, name=right), Step("calc", step.name, (name, right), "along")), {name: factor}
+def nothing(step: Step) -> tuple[Step, ...]:
+    """Return the steps that make nothing of what one step makes."""
+    return then(step, "along", "zero", aside(step.name))
 
 
-def scaled(step: Step, factor: float, how: str = "") -> Change:
-    """Make so many times what one step makes."""
-    steps, givens = times(step, factor)
-    return Change(step.name, {step.name: steps}, givens, how)
-
-
-def all_scaled(at: str, steps: Iterator[Step] | list[Step], factor: float, how: str = "") -> Change:
-    """Make so many times what each of some steps makes."""
-    found = [(step.name, times(step, factor)) for step in steps]
-    return Change(at, {name: new for name, (new, _) in found}, {constant(factor): factor}, how)
+def times(step: Step, factor: float) -> tuple[Step, ...]:
+    """Return the steps that make so many times what one step makes."""
+    return then(step, "along", constant(factor), aside(step.name))
 
 
 def opposed(step: Step, how: str = "") -> Change:
@@ -231,33 +234,32 @@ def opposed(step: Step, how: str = "") -> Change:
     return Change(step.name, {step.name: reversed_(step)}, {}, how)
 
 
-def nothing(step: Step) -> tuple[Step, ...]:
-    """Return the steps that make nothing of what one step makes."""
-    right = aside(step.name)
-    return replace(step, name=right), Step("calc", step.name, ("zero", right), "along")
+def scaled(step: Step, factor: float, how: str = "") -> Change:
+    """Make so many times what one step makes."""
+    return Change(step.name, {step.name: times(step, factor)}, {constant(factor): factor}, how)
 
 
-def mirrored(step: Step, place: int, how: str = "") -> Change:
-    """Do one step with the opposite of an operand."""
-    right = step.operands[place]
-    other = f"_other_{right}"
-    turned = replace(step, operands=operand(step, place, other))
-    return Change(step.name, {step.name: (Step("calc", other, (right,), "opposite"), turned)}, {}, how)
+def all_scaled(at: str, steps: Iterable[Step], factor: float, how: str = "") -> Change:
+    """Make so many times what each of some steps makes."""
+    return Change(at, {step.name: times(step, factor) for step in steps}, {constant(factor): factor}, how)
+
+
+def one_and_all_scaled(at: str, steps: Sequence[Step], factor: float) -> Iterator[Change]:
+    """Make so many times what one of some steps makes, and what all of them make."""
+    yield from (scaled(step, factor) for step in steps)
+    if len(steps) > 1:
+        yield all_scaled(at, steps, factor, "all")
 
 
 def with_sign(step: Step, size: tuple[Step, ...], value: Any, how: str = "") -> Change:
     """Make the scalar of a step anew, its size by other steps (the last one makes it), with the sign of `value`."""
-    sense = constant(-1.0 if value < 0.0 else 1.0)
-    given = {sense: -1.0 if value < 0.0 else 1.0}
-    signed = Step("calc", step.name, (size[-1].name, sense), "signed")
-    return Change(step.name, {step.name: (*size, signed)}, given, how)
+    sense = -1.0 if value < 0.0 else 1.0
+    signed = Step("calc", step.name, (size[-1].name, constant(sense)), "signed")
+    return Change(step.name, {step.name: (*size, signed)}, {constant(sense): sense}, how)
 
 
 def length_of(vector: str) -> tuple[Step, ...]:
     """Return the steps that find the size of a vector; the last one makes it."""
     pole, tip = f"_aside_{vector}.0", f"_aside_{vector}.1"
-    return (
-        Step("pole", pole, ()),
-        Step("chain", tip, (pole, vector)),
-        Step("distance", f"_size_{vector}", (pole, tip)),
-    )
+    chain = Step("chain", tip, (pole, vector))
+    return Step("pole", pole, ()), chain, Step("distance", f"_size_{vector}", (pole, tip))

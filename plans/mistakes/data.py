@@ -1,0 +1,308 @@
+"""Data, units, position, scales and reading: mistakes M01 to M22, M74, M117 and M123."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+from itertools import combinations
+from operator import add, neg
+
+from ..board import POSITION, Step
+from ..boards.exact import run
+from ..names import FORCES, ORIGIN, POLE, role
+from .motion import rate_from, rates
+from .rules import Broken, Change, Chapter, Scene, all_scaled, constant, instead, mirrored, scaled, with_other
+
+MISTAKES = Chapter()
+mistake = MISTAKES.enter
+TWELFTH = math.pi / 6.0  # between positions
+ROUNDED = (1.03, 0.97)
+PRINTED = 0.955  # of a sheet that the printer has fitted to its page
+# which operands of a step are lengths, in the laws too
+LENGTHS = {"place": (0, 1), "arc": (1,), "arcs": (1, 3), "tangent": (2,), "divide": (2, 3)}
+IN_LAWS = {
+    "circular_speed": 1,
+    "centripetal": 1,
+    "normal_part": 1,
+    "turning": 2,
+    "moment_equation": 0,
+    "crank_moment": 1,
+}
+
+
+def _given_times(scene: Scene, name: str, factor: float, how: str = "") -> Change:
+    return Change(name, {}, {name: scene.paper.givens[name] * factor}, how)
+
+
+def _speed_times(factor: float, scene: Scene) -> Iterator[Change]:
+    """Change the number of revolutions of the crank, where it is that which is given."""
+    step = next((s for s in scene.calculated("signed") if role(s.name).kind == "omega"), None)
+    if step and step.operands[0].startswith("n") and scene.is_given(step.operands[0]):
+        yield _given_times(scene, step.operands[0], factor)
+
+
+# n in rpm is taken for omega; n / 60; 2 pi n; pi n / 60; 6 n in degrees a second
+for _id, _factor in (
+    ("M01", 30.0 / math.pi),
+    ("M02", 0.5 / math.pi),
+    ("M03", 60.0),
+    ("M04", 0.5),
+    ("M05", 180.0 / math.pi),
+):
+    mistake(_id)(partial(_speed_times, _factor))
+
+
+def lengths(scene: Scene) -> list[str]:
+    """Return the data that are lengths, in order of use."""
+    found: dict[str, None] = {}
+    for step in scene.program:
+        places = LENGTHS.get(step.verb, ())
+        if step.verb in ("lay", "back") and step.plan == POSITION:
+            places = (2,)
+        if step.law in IN_LAWS:
+            places = (IN_LAWS[step.law],)
+        found.update((step.operands[i], None) for i in places if scene.is_given(step.operands[i]))
+        if step.law in ("opposite", "excess", "sum") and role(step.name).kind in ("minus", "offset", "slope"):
+            found.update((name, None) for name in step.operands if scene.is_given(name))
+    if "_stroke_travel" in scene.steps:
+        found.update({"_stroke_begin": None, "_stroke_end": None})
+    return [name for name in found if isinstance(scene.paper.givens[name], float)]
+
+
+@mistake("M05")
+def rates_in_degrees(scene: Scene) -> Iterator[Change]:
+    """Angular velocities and accelerations of links are given in degrees."""
+    if steps := scene.calculated("turning"):
+        yield all_scaled("", steps, 180.0 / math.pi, "degrees")
+
+
+@mistake("M07")
+def diameter_for_radius(scene: Scene) -> Iterator[Change]:
+    """The stroke, or the diameter of the crank circle, is taken for the crank, or half the crank."""
+    for step in scene.calculated("circular_speed"):
+        if scene.is_given(step.operands[1]):
+            yield _given_times(scene, step.operands[1], 2.0, "x2")
+            yield _given_times(scene, step.operands[1], 0.5, "x1/2")
+
+
+def angle_of_driver(scene: Scene) -> str:
+    """Return the given that is the crank's angle; nothing where a slider drives, or an angle is calculated."""
+    crank = next((s for s in scene.made_by("lay", plan=POSITION) if s.name == scene.pin and s.plan == POSITION), None)
+    turn = scene.steps.get(crank.operands[1]) if crank else None
+    name = turn.operands[0] if turn and turn.verb == "turn" else "zero"
+    return name if name in scene.paper.givens and name != "zero" else ""
+
+
+def _turned(id: str, how: str, turn: Callable[[float], float]) -> None:
+    """Enter a mistake that lays off the crank's angle otherwise."""
+
+    def rule(scene: Scene) -> Iterator[Change]:
+        if name := angle_of_driver(scene):
+            yield Change(name, {}, {name: turn(float(scene.paper.givens[name]))}, how)
+
+    mistake(id)(rule)
+
+
+_turned("M08", "", math.degrees)  # degrees are given to a function of radians
+_turned("M09", "angle", neg)  # the angle is laid off clockwise
+for _how, _shift in (("+180", math.pi), ("+90", 0.5 * math.pi), ("-90", -0.5 * math.pi)):
+    _turned("M10", _how, partial(add, _shift))  # it is counted from the other dead position, or from the other axis
+for _number in (1, -1, 2, -2, 4, -4, 5, -5):
+    # the positions are numbered from another one: the whole plan is that of another position
+    _turned("M10", f"{30 * _number:+}", partial(add, _number * TWELFTH))
+_turned("M10", "180-", lambda angle: math.pi - angle)  # the angle is laid off from the other end of the axis
+
+
+@mistake("M09")
+def turning_the_other_way(scene: Scene) -> Iterator[Change]:
+    """The crank turns the other way."""
+    for step in scene.calculated("signed"):
+        if role(step.name).kind == "omega":
+            sense, against = constant(-1.0), f"_against_{step.name}"
+            again = Step("calc", step.name, (against, sense), "signed")
+            yield Change(step.name, {step.name: (replace(step, name=against), again)}, {sense: -1.0}, "sense")
+
+
+@mistake("M12")
+def offset_lost(scene: Scene) -> Iterator[Change]:
+    """The offset of a guide is forgotten, or laid off on the wrong side."""
+    for step in scene.made_by("lay", "back", plan=POSITION):
+        if step.plan == POSITION and role(step.operands[1]).across_guide and scene.values[step.operands[2]]:
+            yield with_other(step, 2, "zero", "none")
+            yield instead(step, "side", verb="back" if step.verb == "lay" else "lay")
+    for step in scene.made_by("tangent"):
+        if scene.values[step.operands[2]]:
+            yield from _offset_at(step, 2)
+    for step in scene.made_by("place"):
+        if role(step.name).kind == ORIGIN:
+            yield from (x for i in (0, 1) if scene.is_given(step.operands[i]) for x in _offset_at(step, i))
+
+
+def _offset_at(step: Step, place: int) -> tuple[Change, Change]:
+    return with_other(step, place, "zero", f"none {place}"), mirrored(step, place, f"side {place}")
+
+
+@mistake("M13")
+def lengths_exchanged(scene: Scene) -> Iterator[Change]:
+    """The lengths of two links are exchanged."""
+    given = scene.paper.givens
+    whole = {s.operands[i] for s in scene.made_by("arc", "arcs") for i in LENGTHS[s.verb]}
+    whole |= {s.operands[1] for s in scene.calculated("circular_speed")}
+    whole |= {s.operands[2] for s in scene.made_by("divide")}
+    for first, second in combinations((name for name in lengths(scene) if name in whole), 2):
+        yield Change(first, {}, {first: given[second], second: given[first]}, second)
+
+
+@mistake("M117")
+def with_another_length(scene: Scene) -> Iterator[Change]:
+    """Calculate an angular velocity or acceleration with the length of another link, or of a part of one."""
+    spans = [name for name in lengths(scene) if role(name).kind == "l"]
+    spans += [s.name for s in scene.made_by("measure") if role(s.name).kind == "l" and not role(s.name).hidden]
+    for rate in scene.calculated("turning"):
+        yield from (with_other(rate, 2, name, name) for name in spans if name != rate.operands[2])
+
+
+# lengths stay in millimetres
+mistake("M06")(lambda scene: [Change("l", {}, {name: scene.paper.givens[name] * 1000.0 for name in lengths(scene)})])
+# one arm is left in millimetres
+mistake("M06")(lambda scene: (scaled(step, 1000.0, "arm") for step in scene.made_by("arm")))
+# a dyad is put together on the other side
+mistake("M11")(lambda scene: (mirrored(s, len(s.operands) - 1) for s in scene.made_by("arc", "arcs", "tangent")))
+
+
+# Scales and reading.
+
+
+def readings(scene: Scene) -> list[Step]:
+    """Return the readings of all plans that need its scale."""
+    steps = scene.made_by("read")
+    return [s for s in steps if not role(s.name).hidden and s.plan != POSITION and s.name not in scene.laid_off]
+
+
+def drawn_plans(scene: Scene) -> list[tuple[list[str], list[Step]]]:
+    """Return the plans that are read, those of one scale together, with their readings."""
+    by_scale: dict[float, list[str]] = {}
+    for plan in dict.fromkeys(step.plan for step in readings(scene)):
+        by_scale.setdefault(scene.mu(plan), []).append(plan)
+    return [(plans, [step for step in readings(scene) if step.plan in plans]) for plans in by_scale.values()]
+
+
+@mistake("M15", by_scale=True)
+def another_scale(scene: Scene) -> Iterator[Change]:
+    """The scale factor of velocities is taken for accelerations, or the other way round, or that of lengths."""
+    for plans, steps in drawn_plans(scene):
+        if role(plans[0]).kind != FORCES:
+            for other in ("velocity", "acceleration", POSITION):
+                if other in scene.paper.mus and other not in plans:
+                    yield all_scaled(plans[0], steps, scene.mu(other) / scene.mu(plans[0]), other)
+
+
+@mistake("M74", by_scale=True)
+def scale_of_another_group(scene: Scene) -> Iterator[Change]:
+    """The force plan of one group, or one segment of it, is read with the scale factor of another."""
+    groups = [(plans[0], steps) for plans, steps in drawn_plans(scene) if role(plans[0]).kind == FORCES]
+    for plan, steps in groups:
+        for other, _ in groups:
+            if other != plan:
+                factor = scene.mu(other) / scene.mu(plan)
+                yield all_scaled(plan, steps, factor, other)
+                yield from (scaled(step, factor, f"{other} alone") for step in steps)
+
+
+@mistake("M16", by_scale=True)
+def segments_without_scale(scene: Scene) -> Iterator[Change]:
+    """The segment of a normal part is ab^2 / AB in millimetres, which needs the crank's scale."""
+    if "acceleration" in scene.paper.mus and "velocity" in scene.paper.mus:
+        factor = scene.mu("acceleration") * scene.mu(POSITION) / scene.mu("velocity") ** 2
+        yield all_scaled("acceleration", scene.calculated("normal_part"), factor)
+
+
+@mistake("M17", by_scale=True)
+def millimetres_for_length(scene: Scene) -> Iterator[Change]:
+    """The drawn millimetres of a link stand in omega = v / l in the place of its length."""
+    for rate in ("omega", "epsilon"):
+        steps = [s for s in scene.calculated("turning") if role(s.name).kind == rate]
+        if steps:
+            yield all_scaled(steps[0].name, steps, scene.mu(POSITION), "all")
+            yield all_scaled(steps[0].name, steps, 1e-3, "mm")
+        if len(steps) > 1:
+            yield from (scaled(step, scene.mu(POSITION), "alone") for step in steps)
+
+
+@mistake("M20")
+def centimetres(scene: Scene) -> Iterator[Change]:
+    """Centimetres for millimetres, on a plan or in one reading."""
+    for factor in (10.0, 0.1):
+        yield from (all_scaled(plans[0], steps, factor, f"{factor}") for plans, steps in drawn_plans(scene))
+        yield from (scaled(step, factor, f"{factor} alone") for step in readings(scene))
+
+
+@mistake("M21")
+def relative_for_absolute(scene: Scene) -> Iterator[Change]:
+    """The segment ab is read for v_B, and pb for v_BA."""
+    by_tip: dict[str, list[Step]] = {}
+    for step in readings(scene):
+        if step.plan in ("velocity", "acceleration"):
+            by_tip.setdefault(step.operands[1], []).append(step)
+    for steps in by_tip.values():
+        absolute = next((s for s in steps if role(s.operands[0]).kind == POLE), None)
+        yield from (_exchanged(scene, absolute, step) for step in steps if absolute is not None and step != absolute)
+
+
+def _exchanged(scene: Scene, absolute: Step, relative: Step) -> Change:
+    """Exchange two readings, and let the rates that follow have their sizes; the senses show in the drawing."""
+    pair, steps, givens = (absolute, relative), dict[str, tuple[Step, ...]](), dict[str, float]()
+    for one, other in (pair, pair[::-1]):
+        steps[one.name] = (replace(one, operands=other.operands),)
+    for rate, reading in rates(scene, absolute.plan):
+        if reading in pair:
+            change = rate_from(scene, rate, reading.name)
+            steps |= change.steps
+            givens |= change.givens
+    return Change(relative.name, steps, givens, absolute.name)
+
+
+@mistake("M22")
+def another_position(scene: Scene) -> Iterator[Change]:
+    """One segment is copied from the plan of a neighbouring position."""
+    if not (name := angle_of_driver(scene)):
+        return
+    for how, shift in (("+30", TWELFTH), ("-30", -TWELFTH)):
+        angle = float(scene.paper.givens[name]) + shift
+        there = run(scene.program, {**scene.paper.givens, name: math.fmod(angle, 2.0 * math.pi)}).values
+        for step in readings(scene):
+            if step.plan in ("velocity", "acceleration") and there[step.name] == there[step.name]:
+                given = f"{constant(shift)}_{step.name}"
+                copied = Step("calc", step.name, (given,), "given")
+                yield Change(step.name, {step.name: (copied,)}, {given: there[step.name]}, how)
+
+
+# divided by the scale factor instead of multiplied
+mistake("M14", by_scale=True)(
+    lambda scene: (all_scaled(p[0], steps, scene.mu(p[0]) ** -2) for p, steps in drawn_plans(scene))
+)
+# the scale factor is rounded after the plan is drawn
+mistake("M18")(lambda scene: (all_scaled(p[0], steps, x, f"{x}") for p, steps in drawn_plans(scene) for x in ROUNDED))
+# the sheet was not printed at 100 per cent
+mistake("M19")(lambda scene: [all_scaled("", readings(scene), PRINTED)])
+# two digits of a number are transposed: that hangs on the number, and is found from the answers
+mistake("M123", by_scale=True)(lambda scene: ())
+
+
+def transposed(scene: Scene, name: str, written: float, meant: float) -> Broken:
+    """Return the construction in which a number was written for another one of the same digits, and gone on with."""
+    step = scene.steps.get(f"_{name}", scene.steps[name])  # what is laid off and read again is calculated before
+    change = scaled(step, abs(written / meant), f"{meant:.4g}")
+    return Broken("M123", scene.paper, replace(change, at=name))
+
+
+def other_orders(number: float) -> Iterator[float]:
+    """Go through the numbers of four digits in which two neighbouring digits of a number are exchanged."""
+    mantissa, _, power = f"{abs(number):.3e}".partition("e")
+    digits = mantissa.replace(".", "")
+    for i in range(len(digits) - 1):
+        if digits[i] != digits[i + 1]:
+            swapped = digits[:i] + digits[i + 1] + digits[i] + digits[i + 2 :]
+            yield float(f"{swapped[0]}.{swapped[1:]}e{power}")

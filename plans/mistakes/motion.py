@@ -1,0 +1,449 @@
+"""Velocity and acceleration plans: mistakes M23 to M56, M115, M116, M121 and M125."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ..board import Step
+from ..laws import define, dot
+from ..linkages.mechanism import positive
+from ..linkages.parts import normal_of
+from ..names import CORIOLIS, POINT, POLE, mark, pole, role, spelled
+from .rules import (
+    Change,
+    Chapter,
+    Scene,
+    aside,
+    constant,
+    instead,
+    length_of,
+    mirrored,
+    operand,
+    opposed,
+    scaled,
+    then,
+    times,
+    with_other,
+    with_sign,
+)
+
+MISTAKES = Chapter()
+mistake, each = MISTAKES.enter, MISTAKES.each
+# of a segment that may run any way: its whole size over the length, with the sense in which it turns
+define(turning_whole=lambda v, normal, length: abs(v) * ((dot(v, normal) >= 0.0) * 2.0 - 1.0) / length)
+VELOCITY, ACCELERATION = "velocity", "acceleration"
+SENSES = {constant(sense): sense for sense in (1.0, -1.0)}
+START = pole(ACCELERATION)
+
+
+def drive(scene: Scene, plan: str) -> tuple[Step, ...]:
+    """Return the step that lays off the vector of the driver's point, if any."""
+    return scene.made_by("lay", "back", plan=plan)[:1]
+
+
+@mistake("M24")
+def along_crank(scene: Scene) -> Iterator[Change]:
+    """The vector pa is drawn along the crank: away from its pivot, or towards it."""
+    for step in drive(scene, VELOCITY):
+        if link := scene.along(step.operands[1]):
+            along = operand(step, 1, link)
+            yield instead(along)
+            yield instead(along, "other way", verb="back")
+
+
+# Lines that meet.
+
+
+def lines(scene: Scene, plan: str) -> Iterator[tuple[Step, int, str]]:
+    """Go through the lines that meet on the plans of a kind: the step, the place and the name of the direction."""
+    return ((step, place, step.operands[place]) for step in scene.made_by("meet", plan=plan) for place in (1, 3))
+
+
+def along_links(scene: Scene, plan: str) -> Iterator[Change]:
+    """Draw the line of a relative vector along the link instead of normal to it.
+
+    Then the vector has no sense about the link: whoever goes on takes either.
+    """
+    for step, place, direction in lines(scene, plan):
+        along = scene.along(direction)
+        if along and not role(direction).across_guide:
+            yield from of_either_sense(scene, with_other(step, place, along, direction), direction)
+
+
+def slotted(scene: Scene, plan: str = VELOCITY, wanted: bool = True) -> list[Step]:
+    """Return the meetings of lines of slotted pairs, or all others.
+
+    There one line goes through the mark of the pair's pin, the other is normal to the link.
+    """
+    return [step for step in scene.made_by("meet", plan=plan) if _is_slotted(step) is wanted]
+
+
+def _is_slotted(step: Step) -> bool:
+    lines = [(role(start), role(u)) for start, u in zip(step.operands[0::2], step.operands[1::2], strict=True)]
+    pins = [start.of for start, u in lines if u.kind == "u" and start.kind == POINT]
+    normals = [u for _, u in lines if u.kind == "n" and not u.across_guide]
+    return bool(normals) and normals[0].about in pins
+
+
+def exchanged(scene: Scene, step: Step) -> Change:
+    """Draw each of two lines through the mark of the other."""
+    p, u, q, w = step.operands
+    return by_size(scene, instead(step, operands=(p, w, q, u)))
+
+
+def by_size(scene: Scene, change: Change, against: str = "") -> Change:
+    """Let the rates that follow from a mark be calculated from whole segments, whichever way these run now.
+
+    Those of links whose normal is `against` get the other sense.
+    """
+    steps = {**change.steps}
+    for rate, reading in rates(scene, role(change.at).plan):
+        if change.at in reading.operands:
+            whole = replace(rate, law="turning_whole")
+            other = rate.operands[1] == against
+            steps[rate.name] = then(whole, "opposite", aside(rate.name)) if other else (whole,)
+    return replace(change, steps=steps)
+
+
+def of_either_sense(scene: Scene, change: Change, normal: str) -> tuple[Change, Change]:
+    """Return both senses of the rate of the link with a normal, which does not show in the drawing."""
+    other = replace(by_size(scene, change, normal), how=f"against {normal}")
+    return replace(by_size(scene, change), how=f"with {normal}"), other
+
+
+@mistake("M27")
+def across_guide(scene: Scene) -> Iterator[Change]:
+    """The line of the guide is drawn normal to it."""
+    for step, place, direction in lines(scene, VELOCITY):
+        normal = normal_of(direction)
+        if role(direction).kind == "u" and normal in scene.steps:
+            yield with_other(step, place, normal, direction)
+
+
+@mistake("M33")
+def slide_and_rotation_exchanged(scene: Scene) -> Iterator[Change]:
+    """In a slotted pair the directions of sliding and of rotation are exchanged."""
+    for step in slotted(scene):
+        normal = next(u for u in step.operands[1::2] if role(u).kind == "n")
+        yield from of_either_sense(scene, exchanged(scene, step), normal)
+
+
+@mistake("M34")
+def over_cosine(scene: Scene) -> Iterator[Change]:
+    """The velocity is divided by the cosine instead of multiplied: the right angle stands at the wrong vertex."""
+    for step in slotted(scene):
+        place = 1 if role(step.operands[1]).kind == "u" else 3
+        start, pole = step.operands[place - 1], f"{step.plan}.p"
+        size, along, across = (f"_{kind}_at_{step.name}" for kind in ("size", "along", "across"))
+        new = (
+            Step("measure", size, (pole, start)),
+            Step("direction", along, (pole, start, size)),
+            Step("normal", across, (along,)),
+            operand(step, place, across),
+        )
+        yield Change(step.name, {step.name: new}, {})
+
+
+@mistake("M35")
+def points_not_distinguished(scene: Scene) -> Iterator[Change]:
+    """The point of the slotted link is taken for that of the slider."""
+    for step in slotted(scene):
+        start = step.operands[0 if role(step.operands[1]).kind == "u" else 2]
+        yield by_size(scene, Change(step.name, {step.name: (Step("same", step.name, (start,)),)}, {}))
+
+
+# Points of links.
+
+
+def other_end(scene: Scene, plan: str) -> Iterator[Change]:
+    """Count a point of a link from the other end of its segment."""
+    points = scene.made_by("divide", "similar", plan=plan)
+    return (instead(s, operands=(s.operands[1], s.operands[0], *s.operands[2:])) for s in points)
+
+
+def middle(scene: Scene, plan: str) -> Iterator[Change]:
+    """Put a point that divides a segment in its middle."""
+    half = constant(0.5)
+    for step in scene.made_by("divide", "similar", plan=plan):
+        if step.verb == "divide" or not scene.values[step.operands[3]]:
+            middle = Step("divide", step.name, (*step.operands[:2], half, "one"))
+            yield Change(step.name, {step.name: (middle,)}, {half: 0.5})
+
+
+def other_side(scene: Scene, plan: str) -> Iterator[Change]:
+    """Draw a similar figure on the other side: against the order of the letters."""
+    return (mirrored(step, 3) for step in scene.made_by("similar", plan=plan))
+
+
+@mistake("M36")
+def same_side(scene: Scene) -> Iterator[Change]:
+    """A point on the other side of the shaft is put on the side of the pin."""
+    for step in scene.made_by("divide", plan=VELOCITY):
+        part = positive(step.operands[2])
+        if part != step.operands[2]:
+            yield with_other(step, 2, part)
+    for step in scene.made_by("similar", plan=VELOCITY):
+        if role(step.operands[0]).kind == POLE and scene.values[step.operands[2]] < 0.0:
+            yield mirrored(step, 2)
+
+
+@mistake("M55")
+def point_wrong(scene: Scene) -> Iterator[Change]:
+    """A point of a link counted from the other end, put in the middle, or on the other side, on the plan."""
+    for how, found in (("end", other_end), ("middle", middle), ("mirrored", other_side)):
+        yield from (replace(change, how=how) for change in found(scene, ACCELERATION))
+
+
+# Rates of links.
+
+
+def rates(scene: Scene, plan: str) -> Iterator[tuple[Step, Step]]:
+    """Go through the rates that follow from a reading on a plan, with the reading."""
+    for step in scene.calculated("turning"):
+        reading = scene.steps.get(step.operands[0])
+        if reading is not None and reading.verb == "read" and plan in (reading.plan, reading.plan.kind):
+            yield step, reading
+
+
+def absolute_reading(scene: Scene, relative: Step) -> Step | None:
+    """Return the reading of the absolute vector that ends where a relative one does."""
+    start = f"{relative.plan}.p"
+    wanted = (start, relative.operands[1])
+    found = (s for s in scene.made_by("read", plan=relative.plan) if s.operands == wanted)
+    return None if relative.operands[0] == start else next(found, None)
+
+
+def rate_from(scene: Scene, rate: Step, vector: str, how: str = "") -> Change:
+    """Calculate an angular velocity or acceleration from the size of another vector."""
+    size = length_of(vector)
+    over = Step("calc", aside(rate.name), (size[-1].name, rate.operands[2]), "rate_over")
+    return with_sign(rate, (*size, over), scene.values[rate.name], how)
+
+
+@mistake("M28")
+def rate_from_absolute(scene: Scene) -> Iterator[Change]:
+    """The angular velocity is calculated from the absolute velocity."""
+    for step, reading in rates(scene, VELOCITY):
+        absolute = absolute_reading(scene, reading)
+        if absolute is not None:
+            yield rate_from(scene, step, absolute.name)
+        elif f"V_{scene.pin}" in scene.steps:
+            yield rate_from(scene, step, f"V_{scene.pin}", "of the driver")
+
+
+@mistake("M43")
+def rate_from_full(scene: Scene) -> Iterator[Change]:
+    """The angular acceleration is calculated from the full relative acceleration."""
+    for step, reading in rates(scene, ACCELERATION):
+        full = role(reading.name).whole
+        if full != reading.name and full in scene.steps:
+            yield rate_from(scene, step, full)
+
+
+@mistake("M44")
+def rate_from_absolute_acceleration(scene: Scene) -> Iterator[Change]:
+    """The angular acceleration is calculated from the absolute acceleration."""
+    for step, reading in rates(scene, ACCELERATION):
+        absolute = absolute_reading(scene, reading)
+        if absolute is not None and absolute.name != role(reading.name).whole:
+            yield rate_from(scene, step, absolute.name)
+
+
+# pa is drawn against the rotation
+mistake("M23")(lambda scene: (instead(step, verb="back") for step in drive(scene, VELOCITY)))
+# the relative vector is drawn along the link
+mistake("M25")(lambda scene: along_links(scene, VELOCITY))
+mistake("M42")(lambda scene: along_links(scene, ACCELERATION))
+# each of two lines is drawn through the mark of the other
+mistake("M26")(lambda scene: (exchanged(scene, step) for step in slotted(scene, VELOCITY, False)))
+mistake("M121")(lambda scene: (exchanged(scene, step) for step in slotted(scene, ACCELERATION, False)))
+# the sense of a rate is wrong: the vector stands at the wrong end of the link
+mistake("M29")(lambda scene: (opposed(step) for step, _ in rates(scene, VELOCITY)))
+mistake("M45")(lambda scene: (opposed(step) for step, _ in rates(scene, ACCELERATION)))
+# a point of a link is counted from the other end of ab, always put in the middle, its triangle is mirrored
+mistake("M30")(lambda scene: other_end(scene, VELOCITY))
+mistake("M31")(lambda scene: middle(scene, VELOCITY))
+mistake("M32")(lambda scene: other_side(scene, VELOCITY))
+
+
+# Normal parts of accelerations.
+
+
+def normals(scene: Scene, *kinds: str) -> Iterator[Step]:
+    """Go through the steps that lay off normal parts of links of groups of some kinds.
+
+    That is `slotted` for the link of a slotted pair, `rocker` for one on a fixed pivot after another of its group,
+    else `link`.
+    """
+    partner = False
+    for step in scene.made_by("back", plan=ACCELERATION):
+        if step not in drive(scene, ACCELERATION):
+            rocker = "rocker" if partner and step.operands[0] == START else "link"
+            if ("slotted" if role(role(step.name).of).links else rocker) in kinds:
+                yield step
+            partner = True
+
+
+def _forgotten(step: Step) -> Change:
+    return with_other(step, 2, "zero", "none")
+
+
+@mistake("M54")
+def normal_of_slotted_link(scene: Scene) -> Iterator[Change]:
+    """The normal part of the slotted link is forgotten, or drawn away from its pivot."""
+    for step in normals(scene, "slotted"):
+        yield _forgotten(step)
+        yield instead(step, "away", verb="lay")
+
+
+def normal_laws(scene: Scene) -> Iterator[tuple[Step, Step]]:
+    """Go through the calculations of normal parts, with the readings of their velocities."""
+    for step in scene.calculated("normal_part"):
+        reading = scene.steps.get(step.operands[0])
+        if reading is not None and reading.verb == "read":
+            yield step, reading
+
+
+@mistake("M40")
+def normal_from_another(scene: Scene) -> Iterator[Change]:
+    """The normal part is calculated from the absolute velocity, or from the angular velocity of the crank."""
+    for step, reading in normal_laws(scene):
+        for other in scene.made_by("read", plan=reading.plan):
+            start, end = other.operands
+            if end == reading.operands[1] and start != reading.operands[0]:
+                yield with_other(step, 0, other.name, "v" if role(start).kind == POLE else other.name)
+        if "omega_1" in scene.steps:
+            yield instead(operand(step, 0, "omega_1"), "omega_1", law="centripetal")
+
+
+@mistake("M41")
+def square_lost(scene: Scene) -> Iterator[Change]:
+    """The normal part is v / l, or omega l^2: a square is lost, or is in the wrong place."""
+    for step, reading in normal_laws(scene):
+        size = length_of(reading.name)
+        for how, law in (("v/l", "rate_over"), ("omega l^2", "circular_speed")):
+            last = replace(step, operands=(size[-1].name, step.operands[1]), law=law)
+            yield Change(step.name, {step.name: (*size, last)}, {}, how)
+
+
+def normal_sizes(scene: Scene) -> Iterator[tuple[Step, tuple[Step, ...]]]:
+    """Go through normal parts: the step, steps that find the size of omega, the last one makes it.
+
+    Parts of links of groups are calculated from the relative velocity, omega being its size over the length.
+    """
+    for step, reading in normal_laws(scene):
+        size = length_of(reading.name)
+        yield step, (*size, Step("calc", f"_omega_of_{step.name}", (size[-1].name, step.operands[1]), "rate_over"))
+    for step in scene.calculated("centripetal"):
+        sense = constant(math.copysign(1.0, scene.values[step.operands[0]]))
+        yield step, (Step("calc", f"_omega_of_{step.name}", (sense, step.operands[0]), "along"),)
+
+
+def _normal_by(scene: Scene, law: str, length: str = "") -> Iterator[Change]:
+    """Calculate normal parts from omega and the length, or another number, by another law."""
+    for step, omega in normal_sizes(scene):
+        product = Step("calc", step.name, (omega[-1].name, length or step.operands[1]), law)
+        yield Change(step.name, {step.name: (*omega, product)}, SENSES)
+
+
+@mistake("M125")
+def parts_exchanged(scene: Scene) -> Iterator[Change]:
+    """The normal part is written for the tangential one, and the other way round; the rate follows."""
+    laid = [scene.steps.get(role(step.operands[2]).shown) for step in normals(scene, "link", "rocker", "slotted")]
+    by_end = {normal.operands[1]: normal for normal in laid if normal is not None and normal.verb == "read"}
+    for rate, tangential in rates(scene, ACCELERATION):
+        normal = by_end.get(tangential.operands[0])
+        if normal is not None:
+            found = rate_from(scene, rate, tangential.name)
+            both = replace(tangential, operands=normal.operands), replace(normal, operands=tangential.operands)
+            yield Change(tangential.name, {normal.name: (), tangential.name: both, **found.steps}, found.givens)
+
+
+@mistake("M46")
+def crank_tangential_lost(scene: Scene) -> Iterator[Change]:
+    """The tangential part of the crank pin is lost though the crank speeds up."""
+    for step in scene.calculated("circular_acceleration"):
+        laid = (s for s in scene.made_by("lay", plan=ACCELERATION) if step.name in s.operands)
+        yield from (with_other(s, 2, "zero") for s in list(laid)[:1])
+
+
+# the acceleration of the crank pin is drawn away from the pivot
+mistake("M37")(lambda scene: (instead(s, verb="lay") for s in drive(scene, ACCELERATION) if s.verb == "back"))
+# the normal part is drawn from A to B; it is forgotten, that of the rocker too
+mistake("M38")(lambda scene: (instead(step, verb="lay") for step in normals(scene, "link", "rocker")))
+mistake("M39")(lambda scene: map(_forgotten, normals(scene, "link")))
+mistake("M47")(lambda scene: map(_forgotten, normals(scene, "rocker")))
+# the normal part is omega l; it is omega^2
+mistake("M115")(lambda scene: _normal_by(scene, "circular_speed"))
+mistake("M116")(lambda scene: _normal_by(scene, "centripetal", constant(1.0)))
+
+
+# The acceleration of Coriolis, and what is read.
+
+
+@mistake("M51")
+def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
+    """The acceleration of Coriolis with the angular velocity of the crank, or with the velocity of its pin."""
+    for step in scene.calculated("coriolis"):
+        if "omega_1" in scene.steps and step.operands[0] != "omega_1":
+            yield with_other(step, 0, "omega_1", "omega_1")
+            driver, own = scene.values["omega_1"], scene.values[step.operands[0]]
+            if driver * own < 0.0:
+                yield scaled(step, -driver / own, "omega_1, own sense")
+        pin, slide = abs(scene.values.get(f"V_{scene.pin}", 0.0)), abs(scene.values[step.operands[1]])
+        if pin and slide:
+            yield scaled(step, pin / slide, "v")
+
+
+@mistake("M52")
+def coriolis_along_guide(scene: Scene) -> Iterator[Change]:
+    """The acceleration of Coriolis is drawn along the guide."""
+    for step in scene.calculated("coriolis"):
+        twice = f"_twice_{step.name}"
+        for how, factor in (("with", 2.0), ("against", -2.0)):
+            double = Step("calc", twice, (constant(factor), step.operands[0]), "along")
+            along = Step("calc", step.name, (twice, step.operands[1]), "along")
+            yield Change(step.name, {step.name: (double, along)}, {constant(factor): factor}, how)
+
+
+@mistake("M53")
+def coriolis_without_rotation(scene: Scene) -> Iterator[Change]:
+    """An acceleration of Coriolis is added where the guide does not turn."""
+    for step, place, direction in lines(scene, ACCELERATION):
+        speed = f"V_{role(step.name).of}"
+        own = next((u for u in step.operands[1::2] if role(u).kind == "n" and not role(u).across_guide), None)
+        rate = next((s.name for s, _ in rates(scene, VELOCITY) if s.operands[1] == own), None)
+        still = role(direction).kind == "u" and step.operands[place - 1] == START
+        if still and rate is not None and speed in scene.steps:
+            for omega in dict.fromkeys((rate, "omega_1" if "omega_1" in scene.steps else rate)):
+                yield _with_coriolis(step, place, omega, speed)
+
+
+def _with_coriolis(step: Step, place: int, omega: str, speed: str) -> Change:
+    vector, end = f"_k_at_{step.name}", mark(ACCELERATION, role(step.name).of, CORIOLIS)
+    new = (
+        Step("calc", vector, (omega, speed), "coriolis"),
+        Step("chain", end, (step.operands[place - 1], vector)),
+        operand(step, place - 1, end),
+    )
+    return Change(step.name, {step.name: new}, {}, omega)
+
+
+@mistake("M56", by_scale=True)
+def read_from_velocity_plan(scene: Scene) -> Iterator[Change]:
+    """An acceleration is read from the letter of the velocity plan."""
+    for step in scene.made_by("read", plan=ACCELERATION):
+        read = role(step.name)
+        speed = spelled("V", read.of, read.about, read.part)
+        if step.plan == ACCELERATION and speed in scene.steps and step.name not in scene.laid_off:
+            factor = scene.mu(ACCELERATION) / scene.mu(VELOCITY)
+            made = times(Step("calc", step.name, (speed,), "given"), factor)
+            yield Change(step.name, {step.name: made}, {constant(factor): factor})
+
+
+# the acceleration of Coriolis is forgotten, turned against the rotation, has no factor two
+each("M48", "coriolis", lambda step: instead(step, operands=("zero", step.operands[1]), law="along"))
+each("M49", "coriolis", opposed)
+each("M50", "coriolis", lambda step: scaled(step, 0.5))
